@@ -132,7 +132,7 @@ class Animation:
     def _animation(self) -> tuple[Figure, animation.FuncAnimation]:
         figure, ax = pyplot.subplots(figsize=(5.0, 3.6), layout="constrained", dpi=80)
         update = _scene(ax, _scene_data(self._run, *self._span, self._count))
-        # Laid out once and not for every picture.
+        # The layout is computed once and not for every picture.
         figure.canvas.draw()
         figure.set_layout_engine("none")
         return figure, animation.FuncAnimation(figure, update, frames=self._count, interval=1000 / self._fps)
@@ -146,7 +146,7 @@ def _scene_data(run: BaseRun, start: float, stop: float, count: int) -> dict[str
     path, times = run.at(times_of(run, start, stop, 12)), np.linspace(start, stop, count)
     frames = run.at(times)
     t, cables, v_n = (run.impacts[name] for name in ("t", "cable", "v_n"))
-    # A snap takes no time; it is shown for as long as an eye needs.
+    # A snap has no duration; it is shown long enough to be seen.
     flash = 0.03 * (stop - start)
     taut = []
     for cable in range(1, len(anchors) + 1):

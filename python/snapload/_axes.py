@@ -75,7 +75,7 @@ def _cell(value: Any, count: bool) -> str:
         return ""
     if isinstance(value, bool):
         return str(value).lower()
-    # A column of whole numbers in which some are missing is one of floats in pandas.
+    # pandas stores a column of whole numbers as floats if some are missing.
     return str(int(value)) if count and isinstance(value, float) and value.is_integer() else str(value)
 
 

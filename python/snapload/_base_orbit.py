@@ -34,7 +34,7 @@ Start: TypeAlias = Mapping[str, float] | ArrayLike
 Wanted: TypeAlias = tuple[int | None, list[int] | None, float]
 
 
-#: So many events of an orbit are shown in a line.
+#: The number of events of an orbit that are shown in a line.
 _SHOWN = 8
 
 
@@ -292,7 +292,7 @@ def wanted(periods: int | None, symbol: Iterable[int | str] | None, phase: float
     struck = []
     words = symbol.split(",") if isinstance(symbol, str) else symbol
     for word in words:
-        # As an orbit tells its own: what sticks and lets go follows from what snaps.
+        # In the form of an orbit's own symbol: which cables stick and release follows from the snaps.
         if isinstance(word, str) and word.strip().split(" ")[0] in ("stick", "release", "none", ""):
             continue
         cable = int(word) if isinstance(word, str) and word.strip().isdigit() else word

@@ -25,7 +25,7 @@ if TYPE_CHECKING:
 else:
     xarray = Later("xarray")
 
-#: What bars of progress count to, where the work has several stages.
+#: The total of a progress bar, if the work has several stages.
 _WHOLE = 1000
 
 

@@ -28,10 +28,10 @@ _ENDS = {
 }
 _OTHER_LIMIT = "#5D3A9B"
 
-#: The colours of attractors, in their order; more of them begin anew.
+#: The colours of attractors, in their order; they repeat if there are more attractors.
 _ATTRACTORS = ("#9AD0F3", ORANGE, GREEN, "#CC79A7", "#F0E442", BLUE)
 
-#: Of what is no part of the window, and of motions without a period.
+#: The colours of cells outside the window, and of motions without a period.
 _NOTHING, _APERIODIC = "white", "#BBBBBB"
 
 
@@ -133,7 +133,7 @@ def draw_erosion(eroded: xarray.Dataset, ax: Axes | None) -> Axes:
     ax.fill_between(values, eroded["low"], eroded["high"], color=BLUE, alpha=0.25, linewidth=0)
     ax.plot(values, eroded["gim"], color=BLUE, linewidth=1.4, marker="o", markersize=3, label="part (GIM)")
     if (eroded["undecided"] > 0).any():
-        # The knee leaves out the cells that are not decided.
+        # The knee is computed without the undecided cells.
         of_decided: dict[str, Any] = {"color": BLUE, "linestyle": ":", "linewidth": 1.1, "label": "of decided cells"}
         ax.plot(values, eroded["decided_fraction"], **of_decided)
     ax.set_ylim(bottom=0)

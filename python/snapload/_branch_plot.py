@@ -45,7 +45,7 @@ def draw_branch(branch: Branch, y: str, ax: Axes | None, style: dict[str, Any]) 
         raise ValueError(f"y = {y!r} is not allowed; allowed: {', '.join(map(repr, known))}")
     ax, points, events = new_axes(ax, 0.95), branch.points, branch.events
     words = points.stability.where(points.admissible, "not a motion").values
-    # Events stand among the points, as what a branch is changes there.
+    # Events are among the points, as the stability of a branch changes there.
     order = np.argsort(np.concatenate([points.arclength.values, events["arclength"]]), kind="stable")
     values = np.concatenate([points[branch.along].values, events["value"]])[order]
     heights = np.concatenate([points[y].values, events[y]])[order]
@@ -58,7 +58,7 @@ def draw_branch(branch: Branch, y: str, ax: Axes | None, style: dict[str, Any]) 
             named[place] = named[min(place + 1, len(named) - 1)] or named[place - 1]
             symbols[place] = symbols[nearest]
     kinds = named
-    # Where an event passes the section the velocity there jumps.
+    # The velocity at the section jumps where an event passes it.
     jumps = y in ("vx", "vy", "vtheta")
     cuts = [k for k in range(1, len(values)) if kinds[k] != kinds[k - 1] or (jumps and symbols[k] != symbols[k - 1])]
     only, seen = style.pop("label", None), set()

@@ -11,13 +11,13 @@ from ._plan import Plan
 if TYPE_CHECKING:
     from distributed import Client
 
-#: So many chunks there are for each thread, so that none waits long for the last one.
+#: The number of chunks for each thread, so that no thread waits long for the last chunk.
 _CHUNKS_A_THREAD = 16
 #: The least and the most rows of a chunk.
 _LEAST, _MOST = 16, 4096
-#: So many chunks wait at each thread while one is computed.
+#: The number of chunks that wait at each thread while one is computed.
 _QUEUED = 2
-#: So many workers may die of one chunk.
+#: The number of workers that may die in computing one chunk.
 _DEATHS = 10
 
 
@@ -35,7 +35,7 @@ def sweep_on(
     """Has the workers compute what is missing, keeps each chunk as it comes, and completes the file."""
     import distributed
 
-    # It has no types of its own.
+    # Dask has no type annotations.
     dask: Any = client
     waiting: Any = cast(Any, distributed).as_completed()
 

@@ -22,7 +22,7 @@ ABOUT = {
     "scales": "L half the distance of the anchors, m the mass of the body, F its net buoyancy, T = sqrt(m L / F)",
 }
 
-#: So many rows make a chunk where nothing is said of its size.
+#: The number of rows of a chunk, if its size is not given.
 _CHUNK = 1 << 18
 
 #: Pictures of xarray are labelled by long name and unit, in lines of so many letters. A second line lies outside the
@@ -87,7 +87,7 @@ def dataset(
     if chunks is None:
         return opened.load()
     if chunks == "auto" and sizes:
-        # Dask itself can not tell how much words take. Whole rows along the first dimension are read at once.
+        # Dask can not estimate the size of text. Whole rows along the first dimension are read at once.
         chunks = {next(iter(axes)): max(1, _CHUNK // math.prod(sizes[1:]))}
     return opened.chunk(chunks)
 

@@ -27,7 +27,7 @@ class Geometry:
     body: float | Point
     #: How far the body may turn, if that ends a run.
     rotation_limit: float | None
-    #: Places that are shown whether the body comes there or not.
+    #: Points that are shown even if the body does not reach them.
     rest: tuple[Point, ...] = ()
 
     @classmethod

@@ -294,7 +294,7 @@ def _dataset(answer: dict[str, Any]) -> xarray.Dataset:
     matrix = ("influenced_dof", "radiating_dof")
     wave = ("wave_direction", "omega", "influenced_dof")
     excitation = answer["excitation"]
-    # A row or a column of pitch takes a length along.
+    # A row or a column of pitch is multiplied by a length.
     mass, damping, force, motion = (
         {"units": units, "units_of_pitch": pitch}
         for units, pitch in [("kg", "kg m, kg m2"), ("N s m-1", "N s, N m s"), ("N m-1", "N"), ("m m-1", "rad m-1")]

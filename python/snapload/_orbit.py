@@ -18,7 +18,7 @@ if TYPE_CHECKING:
 else:
     _case = Later("snapload._case")
 
-#: Snaps that accumulate are followed down to this velocity, as the orbit itself is.
+#: Accumulating snaps are followed down to this velocity, as in the orbit itself.
 _V_STICK = 1e-7
 
 

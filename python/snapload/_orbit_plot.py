@@ -73,7 +73,7 @@ def draw_orbit(orbit: BaseOrbit, x: str, y: str, ax: Axes | None, style: dict[st
         ax.plot(leg[x], leg[y], **{"label": None if name in seen else name, **look, **style})
         seen.add(name)
         if before is not None:
-            # What a snap changes at once.
+            # Quantities that jump at a snap.
             ax.plot(*([before[q], leg[q][0]] for q in (x, y)), color="black", linewidth=0.6, linestyle=":")
         before = leg[-1]
     snaps = [row for row in orbit.events if row["kind"] == "snap"]

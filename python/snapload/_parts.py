@@ -11,7 +11,7 @@ from ._check import number
 #: A point or vector of the plane.
 Pair: TypeAlias = tuple[float, float]
 
-#: No number of a system is larger. Far from 1 rounding is judged too well.
+#: The largest number of a system. Far from 1 the effect of rounding would be underestimated.
 LARGEST = 1e6
 
 

@@ -36,7 +36,7 @@ class Plan:
         """The study of the engine."""
         case = self.case._engine
         if self.table is not None:
-            # It is read as long as the study goes on.
+            # The file is read while the study runs.
             room = tempfile.mkdtemp(prefix="snapload-")
             finalize(self, rmtree, room, ignore_errors=True)
             name, contents, called = self.table

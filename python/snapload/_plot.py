@@ -19,13 +19,13 @@ if TYPE_CHECKING:
 
 BLUE, VERMILION, GREEN, ORANGE = "#0072B2", "#D55E00", "#009E73", "#E69F00"
 
-#: What lies past the horizon of trust, and nothing else.
+#: The colour of motion past the horizon of trust, and of nothing else.
 GREY = "#999999"
 
-#: What is drawn to compare with.
+#: The colour of objects drawn for comparison.
 REFERENCE: dict[str, Any] = {"color": "black", "linewidth": 0.7, "linestyle": ":", "zorder": 1}
 
-#: Of the cables, in their order; a mooring of more begins anew.
+#: The colours of the cables, in their order; they repeat if there are more cables.
 _CABLES = ((BLUE, "x"), (VERMILION, "o"), (GREEN, "^"), (ORANGE, "s"), ("#56B4E9", "d"), ("#CC79A7", "v"))
 
 #: Colour and width of the path in each mode.
@@ -37,7 +37,7 @@ _COLUMN, _PAGE = 3.5, 7.2
 #: Samples of a whole curve, and of each flight in it. A parabola that is drawn in so many pieces is off by less than a
 #: thousandth of its height.
 _SAMPLES, _OF_FLIGHT = 2000, 32
-#: A flight that takes less than this part of the curve is less than a dot wide.
+#: A flight shorter than this part of the curve is less than a dot wide.
 _DOT = 1 / 4000
 
 
@@ -86,7 +86,7 @@ def times_of(run: BaseRun, start: float, stop: float, of_flight: int = _OF_FLIGH
     spans = np.diff(corners)
     even = np.ceil(_SAMPLES * spans / max(run.end.t, 1e-300)).astype(int)
     pieces = np.where(spans > _DOT * (stop - start), np.maximum(even, of_flight), 1)
-    # Every flight in as many even pieces as it has.
+    # Every flight is divided evenly into its number of pieces.
     first = np.repeat(np.cumsum(pieces) - pieces, pieces)
     parts = (np.arange(pieces.sum()) - first) / np.repeat(pieces, pieces)
     times = np.repeat(corners[:-1], pieces) + parts * np.repeat(spans, pieces)
@@ -105,7 +105,7 @@ def _stretches(run: BaseRun) -> list[tuple[str, float, float, bool]]:
 
 def _trajectory(run: BaseRun, ax: Axes, style: dict[str, Any]) -> None:
     geometry = run._geometry()
-    # A label that is given is that of the whole path.
+    # A given label is for the whole path.
     only = style.pop("label", None)
     seen: set[str] = set()
     first, last = run.at(0.0), run.at(run.end.t)
@@ -125,7 +125,7 @@ def _trajectory(run: BaseRun, ax: Axes, style: dict[str, Any]) -> None:
     apart = float(np.hypot(first.x - last.x, first.y - last.y)) > 0.06 * half
     for place, name in ((first, "start"), (last, "end")) if apart else ((first, "start, end"),):
         ax.annotate(name, (float(place.x), float(place.y)), (4, 3), textcoords="offset points", fontsize="small")
-    # Where a cable is taut with the body upright.
+    # The positions at which a cable is taut with the body upright.
     middle = (max(xs) + min(xs)) / 2
     x = np.linspace(middle - 1.1 * half, middle + 1.1 * half, 400)
     for (across, up), (_, _, r) in zip(geometry.centres(), geometry.cables, strict=True):
@@ -147,7 +147,7 @@ def _over_time(run: BaseRun, ax: Axes, of: str, label: str | None, look: dict[st
     label = look.pop("label", label)
     for place, (_, start, stop, doubtful) in enumerate(_stretches(run)):
         times = times_of(run, start, stop)
-        # At the end of a stretch the next one has begun.
+        # At its end instant a stretch already has the state of the next one.
         times[-1] = np.nextafter(stop, start) if stop < run.end.t else stop
         colour = {"color": GREY} if doubtful else {}
         ax.plot(times, run.at(times)[of], **{"label": label if place == 0 else None, **look, **colour})
@@ -186,7 +186,7 @@ def _tensions(run: BaseRun, ax: Axes, style: dict[str, Any]) -> None:
         _over_time(run, ax, f"T{number}", f"cable {number}", look)
     ax.set_ylim(bottom=0)
     if not any(run.modes["mode"] != "slack"):
-        # Impulses have no height here, and without them nothing is left to show.
+        # Impulses are not drawn here, and without them the panel would be empty.
         words = "no cable stays taut:\nonly impulses"
         ax.text(0.5, 0.5, words, transform=ax.transAxes, ha="center", fontsize="small")
     else:

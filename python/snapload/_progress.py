@@ -14,7 +14,7 @@ def bar(what: str, whole: int, shown: bool, begun: int = 0) -> Iterator[Callable
         yield None
         return
     with warnings.catch_warnings():
-        # Where a notebook has no widgets the bar is one of text, and that is fine.
+        # In a notebook without widgets a bar of text is acceptable.
         warnings.simplefilter("ignore")
         from tqdm.auto import tqdm
     # Without `disable` there would be a bar in log files, too.

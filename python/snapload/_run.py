@@ -143,6 +143,6 @@ class Run(BaseRun):
 
 def _restore(case: Case, options: Options | None, told: dict[str, Any]) -> Run:
     run = Run(case, options, None)
-    # Where these are kept once they are known.
+    # These are stored here once they are computed.
     run.__dict__.update(told)
     return run

@@ -244,7 +244,7 @@ class Scales:
             return variable
         brought = variable.copy(data=variable.data * self.factor(scale))
         brought.attrs = {key: word for key, word in variable.attrs.items() if key != "scale"}
-        # Long names end in the scale that the number is in.
+        # Long names end in the scale of the number.
         name = str(brought.attrs.get("long_name", "")).removesuffix(f", in {scale}")
         brought.attrs |= {"units": unit_of(scale), "long_name": name}
         return brought

@@ -137,7 +137,7 @@ def sweep(
 
                         sweep_on(client, asked_for, store, tell)
             finally:
-                # Whoever looks at a traceback does not hold the file.
+                # A traceback must not keep the file open.
                 store.close()
         return open_study(path, chunks=chunks)
 

@@ -131,7 +131,7 @@ class System(LimitBounds):
         put(self, v_stick=within("v_stick", self.v_stick, 0.0))
         if self.body.inertia is None:
             self._check_point()
-        # That tells whether the start is legal.
+        # This checks whether the start is legal.
         _ = self._begun
 
     def _check_point(self) -> None:

@@ -17,7 +17,7 @@ if TYPE_CHECKING:
 else:
     pandas = Later("pandas")
 
-#: So many rows are shown.
+#: The number of rows that are shown.
 _SHOWN = 10
 
 

@@ -1,4 +1,4 @@
-//! A run proved, and held against its proof.
+//! Proofs of runs, and runs compared with their proofs.
 
 use crate::errors::of_work;
 use crate::interrupt::interruptible;

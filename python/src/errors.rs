@@ -1,4 +1,4 @@
-//! Errors of the library as Python's, with the same words.
+//! Errors of the library as Python exceptions, with the same messages.
 
 use pyo3::PyErr;
 use pyo3::exceptions::{PyKeyboardInterrupt, PyOSError, PyRuntimeError, PyValueError};

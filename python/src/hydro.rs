@@ -1,4 +1,5 @@
-//! Coefficients of floating bodies: an xarray dataset or a file in, the answers of `snapload hydro` out.
+//! Coefficients of floating bodies: from an xarray dataset or a file to the results of `snapload
+//! hydro`.
 
 use crate::errors::of_program;
 use pyo3::exceptions::PyValueError;

@@ -1,4 +1,4 @@
-//! Long work without Python's lock, which Ctrl-C ends.
+//! Runs long work without Python's lock, so that Ctrl-C can end it.
 
 use crate::errors::of_program;
 use crate::pool::{leave, pool};
@@ -10,12 +10,12 @@ use std::sync::mpsc::{Receiver, RecvTimeoutError, channel};
 use std::sync::{Arc, Mutex, PoisonError};
 use std::time::{Duration, Instant};
 
-/// So often it is looked whether there was a signal, and the progress is told.
+/// The interval at which signals are checked and progress is reported.
 const LOOK_EVERY: Duration = Duration::from_millis(50);
-/// So long work that was told to end may take to do so; it is left to end by itself after that.
+/// The time that cancelled work may take to end; after that it is left to end by itself.
 const GRACE: Duration = Duration::from_millis(500);
 
-/// What the thread of some work and that of Python tell each other.
+/// The messages between the thread of some work and that of Python.
 #[derive(Default)]
 pub(crate) struct Watch {
     done: AtomicU64,
@@ -23,7 +23,7 @@ pub(crate) struct Watch {
 }
 
 impl Watch {
-    /// What long work calls.
+    /// Long work calls this to report its progress, and to learn whether to continue.
     pub(crate) fn go_on(&self, progress: Progress) -> ControlFlow<()> {
         self.done.fetch_max(progress.done as u64, Ordering::Relaxed);
         match self.stop.load(Ordering::Relaxed) {
@@ -33,8 +33,8 @@ impl Watch {
     }
 }
 
-/// Does some work in the pool of this process, without Python's lock, while this thread looks for
-/// signals and tells `progress` how much is done.
+/// Runs some work in the pool of this process, without Python's lock, while this thread checks for
+/// signals and reports the progress to `progress`.
 pub(crate) fn interruptible<T: Send + 'static>(
     py: Python<'_>,
     progress: Option<&Bound<'_, PyAny>>,
@@ -43,7 +43,7 @@ pub(crate) fn interruptible<T: Send + 'static>(
     let watch = Arc::new(Watch::default());
     let (theirs, (send, results)) = (Arc::clone(&watch), channel());
     pool(py)?.spawn(move || {
-        // Nobody may be waiting any more.
+        // The receiver may be gone.
         let _ = send.send(work(&theirs));
     });
     let results = Mutex::new(results);
@@ -57,8 +57,8 @@ pub(crate) fn interruptible<T: Send + 'static>(
     outcome
 }
 
-/// Does work that takes one thread on this one, without Python's lock. The work has to ask now and
-/// then whether to go on; it is looked for signals then.
+/// Runs work of a single thread on this one, without Python's lock. The work has to ask regularly
+/// whether to continue; signals are checked then.
 pub(crate) fn on_this_thread<T: Send>(
     py: Python<'_>,
     work: impl FnOnce(OnProgress) -> T + Send,
@@ -86,7 +86,7 @@ pub(crate) fn on_this_thread<T: Send>(
     }
 }
 
-/// Waits for the result, for so long, without Python's lock.
+/// Waits for the result, up to a time limit, without Python's lock.
 fn receive<T: Send>(
     py: Python<'_>,
     results: &Mutex<Receiver<T>>,

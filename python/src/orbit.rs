@@ -199,7 +199,7 @@ pub(crate) fn orbit_of_system(
     let family = Moored::new(
         turns,
         move |_| (parts.clone(), rules),
-        // No rule enters the derivatives.
+        // The derivatives do not depend on the rules.
         move |_| (jets.clone(), Rules::until(Jet::constant(rules.t_end))),
     );
     check_start_of_system(&family, &start).map_err(of_case)?;

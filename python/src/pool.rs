@@ -1,8 +1,7 @@
-//! The threads that work is shared out to: one pool for each process.
+//! The thread pool of each process.
 //!
-//! A process that was forked has none of the threads of the one that it came from, and would wait
-//! for them for ever. So a pool is known by the process that it was made in, and a new one is made
-//! where that is another.
+//! A forked process has no threads of its parent, and would wait for them forever. So the pool is
+//! stored with the process that made it, and another process makes a new one.
 
 use crate::errors::of_program;
 use pyo3::prelude::*;
@@ -10,10 +9,10 @@ use rayon::{ThreadPool, ThreadPoolBuilder};
 use std::process;
 use std::sync::{Arc, Mutex, PoisonError};
 
-/// The pool, and the process that it was made in.
+/// The pool, and the process that made it.
 ///
-/// It is locked by those alone who hold Python's lock, and for no longer. Python forks holding its
-/// own lock, so nobody holds this one then.
+/// It is locked only while Python's lock is held. As Python forks while it holds its own lock, no
+/// thread holds this one at a fork.
 static POOL: Mutex<Option<(u32, Arc<ThreadPool>)>> = Mutex::new(None);
 
 /// The pool of this process.
@@ -26,9 +25,10 @@ pub(crate) fn pool(_py: Python<'_>) -> PyResult<Arc<ThreadPool>> {
             Ok(pool)
         }
         other => {
-            // To end a pool means to wait for its threads, which are none here.
+            // Dropping a pool waits for its threads, which do not exist in this process.
             std::mem::forget(other);
-            // Work that panics lets go of what its answer was to come by, and is told of so.
+            // The receiver of a result learns of a panic by the closed channel, so that no other
+            // handler is needed.
             let pool = ThreadPoolBuilder::new().panic_handler(|_| {}).build();
             let pool = Arc::new(pool.map_err(of_program)?);
             *known = Some((here, Arc::clone(&pool)));
@@ -37,7 +37,7 @@ pub(crate) fn pool(_py: Python<'_>) -> PyResult<Arc<ThreadPool>> {
     }
 }
 
-/// Leaves the pool to the work that goes on in it; whoever comes next has a new one.
+/// Leaves the pool to the work that still runs in it; the next work gets a new pool.
 pub(crate) fn leave(_py: Python<'_>) {
     let mut known = POOL.lock().unwrap_or_else(PoisonError::into_inner);
     std::mem::forget(known.take());

@@ -1,4 +1,4 @@
-//! Questions about one case: all that the report knows, through one function.
+//! Questions about one case: one function for all questions of the report crate.
 
 use crate::case::{Case, checked};
 use crate::errors::{of_program, of_work};

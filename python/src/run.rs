@@ -1,4 +1,4 @@
-//! A run, and what is known of it.
+//! A run, and its trust.
 
 use crate::case::Case;
 use crate::errors::{of_case, of_program, of_work};
@@ -294,8 +294,8 @@ pub(crate) fn run(
 ) -> PyResult<Run> {
     let uncertainty = read_uncertainty(&case.case, uncertainty, tolerance)?;
     let begun = Arc::clone(&case.case);
-    // The run itself takes one thread, and is over before another one has begun. Neighbours take
-    // all.
+    // The run itself takes one thread, and would be over before others had started. Neighbours take
+    // all threads.
     let alone = on_this_thread(py, |on_progress| {
         Trusted::run_alone(&begun, uncertainty, on_progress)
     })?

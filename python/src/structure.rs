@@ -24,7 +24,8 @@ pub(crate) struct Structure {
 impl Structure {
     fn of(name: &str, mut entries: Entries, changes: &[String]) -> Result<Self, CaseError> {
         changes.iter().try_for_each(|change| entries.set(change))?;
-        // A text has no folder of its own; its files are found from where Python runs.
+        // A text has no directory of its own; the files that it names are relative to the working
+        // directory.
         let here = Path::new("");
         let structure = snapload_structure::Structure::from_entries_beside(&entries, here);
         let structure = structure.map_err(|error| match error.place {

@@ -341,7 +341,7 @@ pub(crate) fn merge(py: Python<'_>, parts: Vec<PathBuf>, out: PathBuf) -> PyResu
     joined.map_err(of_study)
 }
 
-/// So many values are computed between two looks for signals.
+/// The number of values between two checks for signals.
 const VALUES: u64 = 1 << 12;
 
 /// Evenly spaced values, each the double nearest to the decimal that one would write.

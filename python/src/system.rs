@@ -1,4 +1,4 @@
-//! Systems of one's own: body, cables and forces, from the objects of Python.
+//! User-defined systems: body, cables and forces, from Python objects.
 
 use crate::errors::{of_case, of_program, of_study, of_work};
 use crate::interrupt::{interruptible, on_this_thread};
@@ -269,7 +269,7 @@ pub(crate) fn sweep_systems<'py>(
     };
     for column in shown(trust) {
         match column.name {
-            // There may be more of them than columns.
+            // There may be more cables than columns of the schema.
             "impacts_1" => (0..cables).for_each(|cable| {
                 let counts = runs
                     .iter()

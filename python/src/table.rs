@@ -1,5 +1,5 @@
-//! Tables, handed over by the Arrow C data interface: pandas, Polars and PyArrow read the very
-//! memory.
+//! Tables, shared by the Arrow C data interface: pandas, Polars and PyArrow read the same memory
+//! without a copy.
 
 use crate::errors::of_program;
 use arrow_array::builder::{Int64Builder, ListBuilder};
@@ -53,7 +53,7 @@ impl Table {
         py: Python<'py>,
         requested_schema: Option<&Bound<'py, PyAny>>,
     ) -> PyResult<Bound<'py, PyCapsule>> {
-        // Another schema is a wish; the protocol lets a producer answer with its own.
+        // A requested schema is only a preference; the protocol allows a producer to use its own.
         let _ = requested_schema;
         let reader = RecordBatchIterator::new([Ok(self.batch.clone())], self.schema.clone());
         let stream = FFI_ArrowArrayStream::new(Box::new(reader));

@@ -1,4 +1,4 @@
-//! The case that a theorem is about: decimals, each an exact rational number.
+//! The case that a theorem is about: its values are decimals, each an exact rational number.
 
 use crate::arithmetic::decimal::Decimal;
 use snapload::{Limit, Parameters};
@@ -9,14 +9,14 @@ pub const NUMBERS: [&str; 15] = [
     "v_stick",
 ];
 
-/// The limits that a proof knows.
+/// The limits of the motion that a proof can deal with.
 const PROVABLE: [Limit; 2] = [Limit::Rotation, Limit::UpperBound];
 
-/// A case of decimals.
+/// A case whose values are decimals.
 #[derive(Clone, Debug)]
 pub struct ExactCase {
     numbers: [Decimal; NUMBERS.len()],
-    /// The inertia where it is given; else that of the size.
+    /// The inertia if it is given; otherwise it follows from the size.
     pub(crate) inertia: Option<Decimal>,
     /// Whether the body is a point mass.
     pub(crate) is_point: bool,
@@ -26,7 +26,7 @@ pub struct ExactCase {
 }
 
 impl ExactCase {
-    /// A case out of its decimals, in the order of [`NUMBERS`].
+    /// A case from its decimals, in the order of [`NUMBERS`].
     ///
     /// # Errors
     /// What the model does not allow, in words.
@@ -49,11 +49,11 @@ impl ExactCase {
         Ok(case)
     }
 
-    /// The case of values that came as doubles: of each the shortest decimal that gives it, or what
-    /// `typed` knows to have been written for it.
+    /// The case of parameters that are doubles: for each the decimal that `typed` says was written
+    /// for it, or else the shortest decimal that is read back as the same double.
     ///
     /// # Errors
-    /// What the model does not allow, or a proof does not know, in words.
+    /// What the model does not allow or a proof can not deal with, in words.
     pub fn of(
         parameters: &Parameters,
         mut typed: impl FnMut(&str) -> Option<Decimal>,
@@ -75,7 +75,8 @@ impl ExactCase {
             numbers.push(decimal(key, value.unwrap_or(0.0))?);
         }
         let natural = snapload::natural_inertia(parameters.a, parameters.b);
-        // A decimal that was typed is that number, also where the double next to it is that of the size.
+        // An inertia that was typed counts as given even if it rounds to the same double as the
+        // inertia of the size.
         let inertia = match (parameters.inertia, typed("inertia")) {
             (Some(_), Some(written)) => Some(written),
             (Some(inertia), None) if Some(inertia) != natural => {
@@ -94,13 +95,14 @@ impl ExactCase {
         )
     }
 
-    /// The decimal of a key; zero for what is no key.
+    /// The decimal of a key; zero for an unknown key.
     pub fn number(&self, key: &str) -> Decimal {
         let at = NUMBERS.iter().position(|name| *name == key);
         at.map_or_else(|| Decimal::integer(0), |k| self.numbers[k].clone())
     }
 
-    /// The same where nothing but a limit ends a run: the motion is that of the model itself.
+    /// The same case without the rules that end a run for another reason than a limit, so that the
+    /// motion is that of the model alone.
     pub(crate) fn without_end(&self) -> Self {
         Self {
             stop_when_settled: false,
@@ -162,8 +164,8 @@ impl ExactCase {
         }
     }
 
-    /// The moment of inertia times three, exactly; nothing for a point mass. A circle is a thin
-    /// ring, I = a², a rectangle is solid, I = (a² + b²)/3.
+    /// The moment of inertia times three, exactly; none for a point mass. A circle is a thin ring,
+    /// I = a², a rectangle is solid, I = (a² + b²)/3.
     pub(crate) fn inertia_times_three(&self) -> Option<Decimal> {
         let (a, b) = (self.number("a"), self.number("b"));
         let three = Decimal::integer(3);

@@ -1,6 +1,6 @@
-//! From a certificate to a verdict. Of the certificate the case is taken, and nothing else: the
-//! proof is made anew from the start, finds every impact by itself, and is then compared with what
-//! is claimed. The bits are where it begins.
+//! From a certificate to a verdict. Only the case is taken from the certificate: the proof is made
+//! anew from the start, finds every impact by itself, and is then compared with the claims. The
+//! certificate's bit count is only the precision with which the checker begins.
 
 use crate::arithmetic::ball::Ball;
 use crate::arithmetic::decimal::fixed;
@@ -12,41 +12,41 @@ use crate::verdict::{Trouble, with_more_bits};
 use crate::writer::PLACES;
 use std::ops::ControlFlow;
 
-/// The bits that a certificate may name.
+/// The bit counts that a certificate may state.
 const BITS: std::ops::RangeInclusive<u64> = 64..=3000;
 
-/// What a checker finds.
+/// The verdict of a check.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Verdict {
-    /// Every obligation and every number.
+    /// Every obligation is proved and every number is right.
     Proved {
         /// How many impacts.
         impacts: usize,
         /// How the run ends.
         reason: Reason,
-        /// When, as the certificate has it.
+        /// The time of the end, as the certificate states it.
         t: String,
-        /// Bits that it took.
+        /// The bits with which the proof succeeded.
         bits: usize,
     },
-    /// All impacts of a certificate that says of itself that it comes to no end.
+    /// All impacts are proved, of a certificate that states that the run's end is undecided.
     ProvedInPart {
         /// How many impacts.
         impacts: usize,
-        /// Bits that it took.
+        /// The bits with which the proof succeeded.
         bits: usize,
     },
     /// A number or an event is wrong.
     Refused(String),
-    /// Some obligation had no sign up to the limit of bits.
+    /// Some quantity's sign stayed undecided up to the largest number of bits.
     Undecided(String),
-    /// Not a certificate: shape, keys, decimals, a case that is not legal.
+    /// Not a certificate: its shape, its keys or its decimals are wrong, or the case is not legal.
     Malformed(String),
 }
 
 impl Verdict {
-    /// The exit status of a program that says so: 0 proved, 1 refused, 2 undecided (or proved in
-    /// part), 3 no certificate.
+    /// The exit status of a program that reports the verdict: 0 proved, 1 refused, 2 undecided (or
+    /// proved in part), 3 not a certificate.
     pub fn status(&self) -> u8 {
         match self {
             Self::Proved { .. } => 0,
@@ -166,7 +166,7 @@ fn compare(certificate: &Written, case: &ExactCase) -> Verdict {
     }
 }
 
-/// Whether what is proved next is what is claimed next.
+/// Compares the next proved event with the next claimed one.
 fn agrees(proved: &Proved, nth: usize, claim: Option<&Line>) -> Result<(), Trouble> {
     match (proved, claim) {
         (Proved::Impact(impact), Some(Line::Impact(cable, t, v_n))) => {

@@ -10,14 +10,14 @@ use std::marker::PhantomData;
 
 /// The format of certificates of slack flight.
 pub(crate) const FORMAT: &str = "snapload-certificate-1";
-/// The format of certificates that go on where a cable stays taut.
+/// The format of certificates that continue where a cable stays taut.
 pub(crate) const TAUT_FORMAT: &str = "snapload-certificate-2";
-/// The model that they speak of.
+/// The model that certificates refer to.
 pub(crate) const MODEL: &str = "snapload model 1";
-/// The end of a certificate that proves the beginning of a run.
+/// The reason at the end of a certificate that proves only the beginning of a run.
 pub(crate) const UNDECIDED: &str = "undecided";
 
-/// A certificate: all of it is claimed, and its case is what it claims it of.
+/// A certificate as it is written: the case, and what is claimed of its run.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct Written {
@@ -41,7 +41,7 @@ impl Written {
     }
 }
 
-/// One after the other what a run has.
+/// The events of a run in order.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 #[serde(untagged)]
 pub(crate) enum Line {
@@ -51,7 +51,7 @@ pub(crate) enum Line {
 }
 
 impl Line {
-    /// When it is, or ends.
+    /// The time of the event, or the end of the stretch.
     pub(crate) fn time(&self) -> &str {
         match self {
             Self::Impact(_, t, _) => t,
@@ -108,7 +108,8 @@ pub(crate) struct WrittenCase {
     body: String,
 }
 
-/// Something with keys. Without this a list of the values in the order of the keys would do as well.
+/// A struct given with its keys. Without this, serde would also accept a list of the values in the
+/// order of the keys.
 fn keyed<'de, D: Deserializer<'de>, T: Deserialize<'de>>(deserializer: D) -> Result<T, D::Error> {
     struct Keys<T>(PhantomData<T>);
     impl<'de, T: Deserialize<'de>> Visitor<'de> for Keys<T> {

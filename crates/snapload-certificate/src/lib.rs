@@ -2,9 +2,9 @@
 //!
 //! A certificate states of one case of decimals that its motion has exactly the impacts that are
 //! listed, of these cables, at these times, and ends as it says, every number to half a unit of the
-//! last digit that is printed. [`certify`] proves it before anything is written; [`check`] proves it
-//! again from the case alone and compares. No floating-point number, time step or tolerance is part
-//! of what is stated; the proofs use enclosures of many digits throughout.
+//! last digit that is printed. [`certify`] proves it before anything is written; [`check`] proves
+//! it again from the case alone and compares. The statement contains no floating-point number, time
+//! step or tolerance; the proofs use enclosures of many digits throughout.
 //!
 //! ```
 //! use snapload_certificate::{Ended, ExactCase, Verdict, certify, check};

@@ -9,7 +9,7 @@ use crate::verdict::Trouble;
 /// x, y, θ and their velocities.
 pub(crate) type State = [Ball; 6];
 
-/// The force at an instant: f_x, f_y − 1, and sine and cosine of its phase Ωt.
+/// The force at an instant: f_x, f_y − 1, and the sine and cosine of its phase Ωt.
 #[derive(Clone, Debug)]
 pub(crate) struct Force {
     pub(crate) x: Ball,
@@ -18,7 +18,7 @@ pub(crate) struct Force {
     pub(crate) cosine: Ball,
 }
 
-/// Sine and cosine of a rotation.
+/// The sine and cosine of a rotation.
 pub(crate) type Turn = (Ball, Ball);
 
 /// The end of a cable at the body.
@@ -39,7 +39,7 @@ pub(crate) struct Watched {
     pub(crate) rate: Ball,
 }
 
-/// Where the watched values of the body's tops begin in a list of them, behind the two gaps.
+/// The index of the first top in the list of watched values, after the two gaps.
 pub(crate) const FIRST_TOP: usize = 2;
 
 /// The numbers of a case at one precision.
@@ -66,12 +66,13 @@ pub(crate) struct Model {
     pub(crate) level: Ball,
     pub(crate) v_stick: Ball,
     pub(crate) t_end: Ball,
-    /// The highest point is a corner, one of the cables' ends; else y and this much more.
+    /// Whether the highest point is a corner, which is one of the cables' ends; otherwise it is at
+    /// y plus the next field.
     has_corners: bool,
 }
 
 impl Model {
-    /// A case in numbers of so many limbs.
+    /// The numbers of a case with `limbs` limbs.
     pub(crate) fn new(case: &ExactCase, limbs: usize) -> Result<Self, Trouble> {
         let number = |key: &str| case.number(key).ball(limbs);
         let (r, a) = (case.number("r"), case.number("a"));
@@ -116,7 +117,7 @@ impl Model {
     /// f_x = f_o cos Ωt, f_y = ν f_o sin Ωt, and the weight 1.
     pub(crate) fn force(&self, t: &Ball) -> Force {
         if self.is_steady {
-            // Ωt is zero, or does not matter as f_o is.
+            // The phase is not needed: Ωt is zero, or f_o is.
             return Force {
                 x: self.f_o.clone(),
                 y: Ball::integer(-1),
@@ -182,7 +183,7 @@ impl Model {
         list
     }
 
-    /// One of them.
+    /// One of the watched values.
     pub(crate) fn one_watched(&self, which: usize, state: &State) -> Watched {
         if which >= FIRST_TOP && !self.has_corners {
             return Watched {

@@ -1,4 +1,4 @@
-//! Periodic orbits as theorems: that there is one, where it is, and that no other one is near.
+//! Periodic orbits as theorems: that an orbit exists, where it is, and that no other one is near.
 //!
 //! Let P be the map from the section to the section a lap later. A lap of all states of a box X
 //! about a number ẑ is proved to have one sequence of snaps, each at a velocity above zero, with no
@@ -32,13 +32,13 @@ const LIMBS: usize = 4;
 const STEPS: usize = 12;
 /// A residual below 2^this needs no further step.
 const CLOSED: i64 = -130;
-/// Radii of the box, as powers of two: the first one that does is taken.
+/// Radii of the box, as powers of two: the first with which the proof succeeds is taken.
 const RADII: [i64; 6] = [-27, -34, -41, -50, -64, -80];
 /// Places after the point of states and times, and digits of velocities.
 const PLACES: i64 = 30;
 const DIGITS: i64 = 17;
 
-/// Where an orbit is supposed to be.
+/// An orbit known approximately, whose existence is to be proved.
 #[derive(Clone, Copy, Debug)]
 pub struct Supposed<'a> {
     /// The time of its section, in periods of the forcing.
@@ -51,34 +51,37 @@ pub struct Supposed<'a> {
     pub struck: &'a [usize],
 }
 
-/// An orbit that exists.
+/// An orbit that is proved to exist.
 #[derive(Clone, Debug)]
 pub struct ProvedOrbit {
-    /// The state at the section, each number the true one to half a unit of its last digit.
+    /// The state at the section; each number is within half a unit of its last digit of the true
+    /// one.
     pub state: [String; 6],
     /// Its snaps: the cable by index from 0, time and v_n, in the same way.
     pub snaps: Vec<(usize, String, String)>,
-    /// No other orbit with these snaps begins within this of it, in any component.
+    /// No other orbit with these snaps starts at a state that differs from this one's by less than
+    /// this in every component.
     pub alone_within: f64,
     /// Enclosures of the states at all sections of a lap, one a period of the forcing.
     sections: Vec<State>,
 }
 
 impl ProvedOrbit {
-    /// How far the numbers of a state may be off the true ones at most.
+    /// An upper bound on the difference of the numbers of a state from the true ones.
     pub fn error_of(&self, state: &[f64; 6]) -> f64 {
         let off = |(ball, number): (&Ball, &f64)| (ball - &Ball::double(*number)).upper();
         let errors = self.sections[0].iter().zip(state).map(off);
         above(errors.max().unwrap_or(Radius::ZERO))
     }
 
-    /// Whether it is certainly another orbit: its state at the section is none of the other's.
+    /// Whether it is certainly another orbit: its state at the section differs from all section
+    /// states of the other orbit.
     pub fn is_another_than(&self, other: &Self) -> bool {
         let apart = |theirs: &State| are_apart(&self.sections[0], theirs);
         other.sections.iter().all(apart)
     }
 
-    /// Whether it certainly repeats itself after no fewer periods of the forcing.
+    /// Whether it certainly does not repeat after fewer periods of the forcing.
     pub fn is_prime(&self) -> bool {
         let first = &self.sections[0];
         self.sections[1..]
@@ -87,10 +90,10 @@ impl ProvedOrbit {
     }
 }
 
-/// Proves that there is an orbit, in slack flight, next to where it is supposed to be.
+/// Proves that an orbit in slack flight exists near the supposed one.
 ///
 /// # Errors
-/// Why that is not proved, in words: it is not so, or could not be decided.
+/// Why that is not proved, in words: it is false, or could not be decided.
 pub fn prove_orbit(case: &ExactCase, supposed: &Supposed<'_>) -> Result<ProvedOrbit, String> {
     proved(case, supposed).map_err(|trouble| match trouble {
         Trouble::False(what) => what,
@@ -139,7 +142,7 @@ fn proved(case: &ExactCase, supposed: &Supposed<'_>) -> Result<ProvedOrbit, Trou
     })
 }
 
-/// A number ẑ with C and C f(ẑ).
+/// A state ẑ near the orbit, with C and C f(ẑ).
 struct Near {
     centre: State,
     inverse: Vec<Vec<Ball>>,
@@ -147,7 +150,7 @@ struct Near {
     size: Radius,
 }
 
-/// Newton's method from a guess. How good it is has no part in the proof, but for its last
+/// Newton's method from a guess. The proof does not depend on its accuracy, only on the last
 /// residual.
 fn refined(
     laps: &Laps,
@@ -176,7 +179,7 @@ fn refined(
     }
 }
 
-/// The largest box on which the map contracts: ẑ, how far from it the orbit is at most, and δ.
+/// The largest box on which the map contracts: ẑ, a bound on the orbit's distance from it, and δ.
 fn contracting(
     laps: &Laps,
     near: Near,
@@ -228,7 +231,7 @@ fn contraction(lap: &Lap, inverse: &[Vec<Ball>], moving: &[usize]) -> Radius {
     (0..moving.len()).map(row).max().unwrap_or(Radius::ZERO)
 }
 
-/// The box of a radius about a number, along what moves.
+/// The box of a radius about a state, in the components that move.
 fn about(centre: &State, radius: Radius, moving: &[usize]) -> State {
     let mut states = centre.clone();
     for &i in moving {
@@ -285,7 +288,7 @@ fn are_apart(a: &State, b: &State) -> bool {
     a.iter().zip(b).any(|(a, b)| a.is_below(b) || b.is_below(a))
 }
 
-/// A double above a bound, and one below.
+/// A double that is at least a bound, and one that is at most a bound.
 fn above(bound: Radius) -> f64 {
     bound.to_f64().next_up()
 }
@@ -326,8 +329,8 @@ mod tests {
         product
     }
 
-    /// Flights keep volumes and each snap multiplies them by e²: det M = e^(2N) for every body, in
-    /// all digits.
+    /// Flights preserve volume in the phase space and each snap multiplies it by e²: det M = e^(2N)
+    /// for every body, in all digits.
     #[test]
     fn the_derivative_of_a_lap_has_the_determinant_of_its_snaps() {
         let point = Parameters {

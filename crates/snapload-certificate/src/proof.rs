@@ -1,5 +1,5 @@
-//! The proof of a run, from nothing but its case: flights, impacts and motion with taut cables,
-//! one after the other.
+//! The proof of a run, from its case alone: flights, impacts and motion with taut cables, one after
+//! the other.
 
 use crate::arithmetic::ball::Ball;
 use crate::case::ExactCase;
@@ -15,14 +15,15 @@ use crate::verdict::Trouble;
 use snapload::Stop;
 use std::ops::ControlFlow;
 
-/// What a proof tells as it goes.
+/// Receives each proved event as the proof proceeds.
 pub(crate) type OnProved<'a> = dyn FnMut(Proved) -> ControlFlow<Trouble> + 'a;
 
-/// Proves a run with numbers of so many limbs; `on_proved` is shown all of it in order. Where a cable
-/// sticks and no rule stops the run, it ends as `sticks` unless `taut` asks for the motion from there.
+/// Proves a run with numbers of `limbs` limbs; `on_proved` receives each proved event in order.
+/// Where a cable sticks and no rule stops the run, it ends as `sticks` unless `taut` asks for the
+/// motion from there.
 ///
 /// # Errors
-/// What could not be decided, and when.
+/// What could not be decided, and at which time.
 pub(crate) fn prove(
     case: &ExactCase,
     limbs: usize,
@@ -72,8 +73,8 @@ pub(crate) fn prove(
     }
 }
 
-/// Where cables are taut: the states at the instant, before the laws of what brings that about, and
-/// how the others leave.
+/// The beginning of a motion with taut cables: the states at that instant, before the laws of the
+/// event that causes it, and how the other cables leave.
 struct Hanging {
     taut: Vec<usize>,
     instants: Instants,
@@ -95,7 +96,7 @@ impl From<Stick> for Hanging {
     }
 }
 
-/// How a run goes on that starts at rest with both cables closed, or its end.
+/// How a run continues that starts at rest with both cables closed, or its end.
 fn resting(run: &Run<'_>, taut: bool) -> Result<ControlFlow<Box<ProvedEnd>, Hanging>, Trouble> {
     let instants = run.start();
     let (state, t) = hull_of(&instants);
@@ -117,7 +118,7 @@ fn resting(run: &Run<'_>, taut: bool) -> Result<ControlFlow<Box<ProvedEnd>, Hang
     }))
 }
 
-/// The motion from where a cable sticks to where all fly again, or to the end of the run.
+/// The motion from where a cable sticks until no cable is taut, or to the end of the run.
 fn hang(
     run: &mut Run<'_>,
     mut now: Hanging,
@@ -170,7 +171,7 @@ fn hang(
     Ok(None)
 }
 
-/// An impact, and how the motion goes on, or its end.
+/// An impact, and how the motion continues, or its end.
 type Snapped = (ProvedImpact, ControlFlow<Box<ProvedEnd>, Hanging>);
 
 /// The impact of a cable while the other one is taut.
@@ -209,7 +210,7 @@ fn snapped(
     Ok((impact, next))
 }
 
-/// What ends a stretch, as a certificate has it.
+/// The event that ends a stretch, in the words of a certificate.
 fn words(event: Event) -> String {
     match event {
         Event::Released(cable) => format!("tension {}", cable + 1),

@@ -4,7 +4,7 @@ use crate::arithmetic::ball::Ball;
 use crate::model::State;
 use snapload::Stop;
 
-/// An impact that exists, and comes next.
+/// An impact that is proved to exist and to be the next event.
 #[derive(Clone, Debug)]
 pub(crate) struct ProvedImpact {
     /// By index from 0.
@@ -20,7 +20,7 @@ pub(crate) struct ProvedStretch {
     pub(crate) taut: Vec<usize>,
     pub(crate) from: Ball,
     pub(crate) until: Ball,
-    /// What ends it, in the words of a certificate.
+    /// The event that ends it, in the words of a certificate.
     pub(crate) event: String,
 }
 
@@ -31,17 +31,17 @@ impl ProvedStretch {
     }
 }
 
-/// What a run has one after the other.
+/// The events of a run in order.
 #[derive(Clone, Debug)]
 pub(crate) enum Proved {
     Impact(ProvedImpact),
     Stretch(ProvedStretch),
-    /// A step of taut motion to this time, of a stretch that goes on.
+    /// A step of taut motion to this time, within a stretch that continues.
     Step(Ball),
 }
 
 impl Proved {
-    /// When it is, or ends.
+    /// The time of the event, or the end of the stretch.
     pub(crate) fn time(&self) -> &Ball {
         match self {
             Self::Impact(impact) => &impact.t,
@@ -56,7 +56,7 @@ impl Proved {
 pub enum Reason {
     /// A stop rule.
     Stop(Stop),
-    /// A cable sticks, which is no stop: the motion goes on taut.
+    /// A cable sticks. This is not a stop rule: the motion continues with a taut cable.
     Sticks,
 }
 
@@ -69,7 +69,7 @@ impl Reason {
         }
     }
 
-    /// The reason of a name.
+    /// The reason that has a name.
     pub(crate) fn named(name: &str) -> Option<Self> {
         let mut all = Stop::ALL.into_iter().map(Self::Stop).chain([Self::Sticks]);
         all.find(|reason| reason.name() == name)

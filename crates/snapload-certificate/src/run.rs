@@ -1,4 +1,4 @@
-//! Slack flight from impact to impact, with a set of states that holds the true one.
+//! Slack flight from impact to impact, for a set of states that contains the true one.
 
 mod start;
 
@@ -21,10 +21,11 @@ use snapload::Stop;
 
 /// A cable that sticks below this height settles the run.
 const SETTLING_HEIGHT: &str = "0.05";
-/// So many slow snaps in a row may bring two cables to rest together.
+/// After this many slow snaps in a row the two cables may come to rest together.
 const SLOW_IN_A_ROW: usize = 5;
 
-/// A run in progress: the flight after an impact, continued to a number T next to its time.
+/// A run in progress: the flight after an impact, continued to a number T next to the impact's
+/// time.
 pub(crate) struct Run<'a> {
     pub(crate) case: &'a ExactCase,
     pub(crate) fine: &'a Model,
@@ -33,7 +34,7 @@ pub(crate) struct Run<'a> {
     pub(crate) t: Ball,
     /// The states of the flight at T.
     set: Set<6>,
-    /// The flight begins within ± this of T.
+    /// The flight begins at some time within T ± this.
     slack: Radius,
     /// The cables that are closed where it begins.
     zeros: Zeros,
@@ -42,25 +43,25 @@ pub(crate) struct Run<'a> {
     pub(crate) slow: Vec<usize>,
 }
 
-/// A cable that sticks, and the states at the instant, just before the impact.
+/// A cable that sticks, and the states at that instant, just before the impact.
 pub(crate) struct Stick {
     pub(crate) cable: usize,
     pub(crate) instants: Instants,
 }
 
-/// What an impact comes to.
+/// The result of an impact.
 pub(crate) struct Struck {
     pub(crate) impact: ProvedImpact,
-    /// The end of the run, if it ends there or where a cable that sticks ends it.
+    /// The end of the run, if it ends at this impact or with the cable that sticks here.
     pub(crate) end: Option<ProvedEnd>,
     /// A cable that sticks where no rule stops the run.
     pub(crate) stick: Option<Stick>,
-    /// Of the states of the flight after it at the new T by those of the flight before at the old
-    /// one.
+    /// The Jacobian of the state after the impact, at the new T, by the state before it, at the old
+    /// T.
     pub(crate) jacobian: Matrix,
 }
 
-/// What comes first along a flight.
+/// The first event along a flight.
 pub(crate) enum Next {
     Impact(Root),
     End(Box<ProvedEnd>),
@@ -69,20 +70,20 @@ pub(crate) enum Next {
 /// Where a watched value crosses zero.
 pub(crate) struct Root {
     pub(crate) which: usize,
-    /// Of the centre's flight, from T on.
+    /// The time, since T, at which the centre's flight crosses.
     centre: Ball,
-    /// Of the flights of all states.
+    /// An enclosure of the times, since T, at which the flights of all states cross.
     pub(crate) whole: Ball,
 }
 
 impl<'a> Run<'a> {
-    /// The flight of all states.
+    /// The flight that starts from the enclosure of all states.
     pub(crate) fn flight(&self, model: &'a Model) -> Flight<'a> {
         let hull = self.set.hull().map(|ball| ball.with_limbs(model.limbs));
         Flight::new(model, self.t.clone(), hull)
     }
 
-    /// What comes first.
+    /// Finds the first event.
     pub(crate) fn fly(&self) -> Result<Next, Trouble> {
         let flight = self.flight(self.coarse);
         let last = self.last()?;
@@ -113,7 +114,7 @@ impl<'a> Run<'a> {
         self.end_at(&end).map(Box::new).map(Next::End)
     }
 
-    /// The end of time, or the rotation limit if that is sooner, from T on.
+    /// The time from T to the end of time, or to the rotation limit if that is sooner.
     fn last(&self) -> Result<(Ball, Stop), Trouble> {
         let model = self.fine;
         let time = &model.t_end - &self.t;
@@ -122,7 +123,7 @@ impl<'a> Run<'a> {
         let half_pi = model.functions.half_pi();
         let far = spin * &time;
         if (theta + &far).abs().is_below(half_pi) && theta.abs().is_below(half_pi) {
-            // θ is linear: it stays below the limit to the end of time.
+            // θ is linear in time and below the limit at both ends, so that it is below in between.
             return Ok((time, Stop::EndTime));
         }
         let bound = if spin.is_negative() {
@@ -140,7 +141,7 @@ impl<'a> Run<'a> {
         ))
     }
 
-    /// The end of the run along a flight, at a time from T on.
+    /// The end of the run along a flight, at a time since T.
     fn end_at(&self, (tau, stop): &(Ball, Stop)) -> Result<ProvedEnd, Trouble> {
         if !self.is_under_way(tau) {
             return Err(Trouble::undecided("an end and an impact at one instant"));
@@ -153,11 +154,11 @@ impl<'a> Run<'a> {
         })
     }
 
-    /// The crossing with all digits.
+    /// The time of the crossing with all digits.
     ///
     /// Within the piece every state's value crosses zero once, at t*. For a number τ of the piece
-    /// t* = τ − f(τ)/ḟ(ξ), with ξ between τ and t*, so that ḟ(ξ) is within the slope of the piece,
-    /// and, once t* is known to be within a ball with τ, within the slope over that.
+    /// t* = τ − f(τ)/ḟ(ξ), with ξ between τ and t*, so that ḟ(ξ) is within the slope of the piece;
+    /// once a ball is known that contains τ and t*, ḟ(ξ) is within the slope over that ball.
     fn root(&self, flight: &Flight<'_>, crossing: &Crossing) -> Result<Root, Trouble> {
         let which = crossing.which;
         let tau = self.newton(flight, crossing);
@@ -183,8 +184,8 @@ impl<'a> Run<'a> {
         })
     }
 
-    /// A number next to where the centre's flight crosses; by bisection where Newton's method leaves
-    /// the piece. It has no part in the proof.
+    /// A number next to the crossing of the centre's flight; by bisection where Newton's method
+    /// leaves the piece. The proof does not depend on its accuracy.
     fn newton(&self, flight: &Flight<'_>, crossing: &Crossing) -> Ball {
         let which = crossing.which;
         let (mut low, mut high) = (crossing.from.clone(), crossing.to.clone());
@@ -260,8 +261,8 @@ impl<'a> Run<'a> {
         })
     }
 
-    /// The states at an impact, each at its own instant: with δq(τ) = δq + τ δv at a fixed time, the
-    /// instant moves by δt = −G·δq(τ)/v_n, and the state by its rate times that.
+    /// The states at an impact, each at its own instant: at a fixed time τ, δq(τ) = δq + τ δv; the
+    /// instant moves by δt = −G·δq(τ)/v_n, and the state by its rate times δt.
     fn instants(&self, root: &Root, impact: &Impact) -> Result<Instants, Trouble> {
         let centre = Flight::new(self.fine, self.t.clone(), self.set.centre().clone());
         let (struck, _) = centre.at(&root.centre);
@@ -293,7 +294,7 @@ impl<'a> Run<'a> {
         self.set.mapped(&image, &jacobian)
     }
 
-    /// Flies on from where all cables have become slack; `zeros` are closed then.
+    /// Continues with the flight from where all cables have become slack; `zeros` are closed then.
     pub(crate) fn take_off(
         &mut self,
         instants: &Instants,
@@ -306,7 +307,8 @@ impl<'a> Run<'a> {
         Ok(())
     }
 
-    /// A state after a short time along its flight: q + v δ + a δ²/2 with some force of the flight.
+    /// The state after a short time δ along its flight: q + v δ + a δ²/2, with a an enclosure of
+    /// the force.
     fn shifted(&self, state: State, shift: &Ball) -> State {
         let any = |size: &Ball| Ball::within(size.upper());
         let push = [
@@ -325,8 +327,8 @@ impl<'a> Run<'a> {
         ]
     }
 
-    /// The set at a number next to the impact's time, of the flight after it, and the Jacobian of
-    /// the map there.
+    /// The set of states of the flight after the impact, at a number next to the impact's time, and
+    /// the Jacobian of the map to there.
     fn carry(
         &self,
         root: &Root,
@@ -351,7 +353,7 @@ impl<'a> Run<'a> {
         Ok(((self.set.mapped(&image, &jacobian)?, next, slack), jacobian))
     }
 
-    /// What the rules make of an impact (docs/model.md, sections 6 and 7).
+    /// The reason for which an impact ends the flight, if any (docs/model.md, sections 6 and 7).
     fn rules(
         &mut self,
         cable: usize,
@@ -363,7 +365,8 @@ impl<'a> Run<'a> {
         let sticks = (slow || self.case.number("e").is_zero())
             && self.sign(&impact.pull(state, force), "the tension")?;
         if !sticks && self.is_in_turns() {
-            // Its rest of normal velocity is taken away without a tension.
+            // The model takes the remaining normal velocity away although the cable has no tension,
+            // which is not proved here.
             return Err(Trouble::beyond(format!(
                 "how a cable leaves that snaps slowly in turn with the other, at impact {}",
                 self.impacts
@@ -374,7 +377,7 @@ impl<'a> Run<'a> {
         Ok(stop.or(sticks.then_some(Reason::Sticks)))
     }
 
-    /// Whether a ball is above zero, which is told of the latest impact.
+    /// Whether a ball is positive; an undecided sign is reported for the latest impact.
     fn sign(&self, ball: &Ball, what: &str) -> Result<bool, Trouble> {
         match (ball.is_negative(), ball.is_positive()) {
             (true, _) => Ok(false),
@@ -388,7 +391,8 @@ impl<'a> Run<'a> {
         }
     }
 
-    /// Whether a snap is slower than `v_stick`; it is put to the row of slow ones, or ends it.
+    /// Whether a snap is slower than `v_stick`; it then extends the row of slow snaps, and else
+    /// ends it.
     pub(crate) fn is_slow(&mut self, v_n: &Ball, cable: usize) -> Result<bool, Trouble> {
         let fast = self.sign(&(v_n - &self.coarse.v_stick), "v_n against v_stick")?;
         if fast {
@@ -399,13 +403,14 @@ impl<'a> Run<'a> {
         Ok(!fast)
     }
 
-    /// Whether the latest snaps are a row of slow ones with both cables among them.
+    /// Whether the latest snaps are a row of slow ones that includes both cables.
     pub(crate) fn is_in_turns(&self) -> bool {
         let both = self.slow.contains(&0) && self.slow.contains(&1);
         both && self.slow.len() >= SLOW_IN_A_ROW
     }
 
-    /// The rules that are looked at at impacts, at a height, with so many cables taut from now on.
+    /// The stop rules that apply at impacts, at the height `y`, with `taut` cables taut from now
+    /// on.
     pub(crate) fn stop_at_impact(
         &self,
         y: &Ball,
@@ -428,7 +433,7 @@ impl<'a> Run<'a> {
     }
 }
 
-/// A number a little above all of a ball.
+/// A number a little above all numbers of a ball.
 fn number_above(ball: &Ball) -> Ball {
     let beyond = ball.radius().scaled(1).plus(ball.upper().scaled(-40));
     (&ball.centre() + &Ball::bound(beyond)).centre()

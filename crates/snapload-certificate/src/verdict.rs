@@ -3,25 +3,25 @@
 /// Why a proof does not go on.
 #[derive(Clone, Debug)]
 pub(crate) enum Trouble {
-    /// Something has no sign with so many bits.
+    /// A quantity's sign stays undecided with this number of bits.
     Undecided {
-        /// What, in words.
+        /// The quantity, in words.
         what: String,
-        /// Next to when.
+        /// The approximate time.
         t: Option<f64>,
         /// Whether more bits may decide it.
         more_bits: bool,
     },
-    /// The model has no such motion, or what is claimed of it is false.
+    /// The model has no such motion, or a claim about it is false.
     False(String),
-    /// All that was asked for is proved, and more than that is not wanted.
+    /// All that was asked for is proved, and the proof is stopped.
     Enough,
-    /// Whoever waits for it has had enough.
+    /// The caller cancelled the work.
     Cancelled,
 }
 
 impl Trouble {
-    /// Something has no sign, at a time yet to be told.
+    /// A quantity's sign is undecided; the time is added later.
     pub(crate) fn undecided(what: impl Into<String>) -> Self {
         Self::Undecided {
             what: what.into(),
@@ -30,7 +30,7 @@ impl Trouble {
         }
     }
 
-    /// Something that this program has no proof of, with any bits.
+    /// This program has no proof of it, with any number of bits.
     pub(crate) fn beyond(what: impl Into<String>) -> Self {
         Self::Undecided {
             what: what.into(),
@@ -39,7 +39,7 @@ impl Trouble {
         }
     }
 
-    /// The same with the time, where it is not known yet.
+    /// The same with the time, if it has none yet.
     pub(crate) fn at(self, time: f64) -> Self {
         match self {
             Self::Undecided { what, t, more_bits } => Self::Undecided {
@@ -52,11 +52,12 @@ impl Trouble {
     }
 }
 
-/// So many limbs of 64 bits does a proof begin with, and so many has it at most: 2944 bits.
+/// A proof begins with this many limbs of 64 bits, and has at most `MOST_LIMBS`, which is 2944
+/// bits.
 pub(crate) const FIRST_LIMBS: usize = 4;
 pub(crate) const MOST_LIMBS: usize = 46;
 
-/// Tries with more and more bits, each time a third more, while something stays undecided.
+/// Tries with more and more bits, each time a third more, as long as something stays undecided.
 pub(crate) fn with_more_bits<T>(
     first: usize,
     mut attempt: impl FnMut(usize) -> Result<T, Trouble>,

@@ -1,4 +1,4 @@
-//! From a case to a certificate: only what was proved is written.
+//! From a case to a certificate: only proved statements are written.
 
 use crate::arithmetic::ball::Ball;
 use crate::arithmetic::decimal::{fixed, significant};
@@ -17,18 +17,18 @@ pub(crate) const PLACES: i64 = 25;
 /// Significant digits of normal velocities.
 const DIGITS: i64 = 17;
 
-/// What became of a proof.
+/// The result of a proof.
 #[derive(Clone, Debug)]
 pub struct Certification {
     /// How many impacts were proved.
     pub impacts: usize,
     /// How many stretches with a taut cable.
     pub stretches: usize,
-    /// When the last thing that was proved happened: the end, or the last impact.
+    /// The time of the last proved event: the end, or the last impact.
     pub t: String,
     /// How the run ends, or what could not be decided.
     pub end: Ended,
-    /// Bits of the numbers that it took.
+    /// The bits of the numbers in the proof.
     pub bits: usize,
     written: Written,
 }
@@ -47,7 +47,8 @@ pub enum Ended {
     },
 }
 
-/// An impact as a certificate has it; each number is the true one to half a unit of its last digit.
+/// An impact as a certificate states it; each number is within half a unit of its last digit of the
+/// true one.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PrintedImpact<'a> {
     /// By index from 0.
@@ -71,9 +72,10 @@ impl Certification {
         })
     }
 
-    /// The certificate as compact JSON. That of a proof that came to no end says so as its reason.
+    /// The certificate as compact JSON. If the end of the run is not proved, it states that as its
+    /// reason.
     pub fn text(&self) -> String {
-        // Strings, whole numbers and flags can always be written.
+        // Writing strings, whole numbers and flags can not fail.
         serde_json::to_string(self).unwrap_or_default()
     }
 }
@@ -85,27 +87,27 @@ impl Serialize for Certification {
     }
 }
 
-/// The proof was given up by whoever watched it.
+/// The caller cancelled the proof.
 #[derive(Clone, Copy, Debug)]
 pub struct Cancelled;
 
-/// What is to be written of impacts and taut stretches.
+/// The impacts and taut stretches that are to be written.
 type Lines = Vec<Line>;
 /// The reason, time and state of an end as they are to be written.
 type PrintedEnd = (Reason, String, [String; 6]);
 
-/// Proves the run of a case; `on_progress` is told the time of each impact and of each step of taut
-/// motion, and may end the work. Where a cable stays taut and no rule stops the run, the proof ends as
-/// `sticks`, or goes on if `taut`.
+/// Proves the run of a case; `on_progress` receives the time of each impact and of each step of
+/// taut motion, and may end the work. Where a cable stays taut and no rule stops the run, the proof
+/// ends as `sticks`, or continues if `taut`.
 ///
 /// # Errors
-/// A case without a motion, in words; or [`Cancelled`].
+/// In words, why a case has no motion; or [`Cancelled`].
 pub fn certify(
     case: &ExactCase,
     taut: bool,
     on_progress: &mut dyn FnMut(f64) -> ControlFlow<()>,
 ) -> Result<Result<Certification, String>, Cancelled> {
-    // Of all attempts the longest.
+    // The longest of all attempts.
     let (mut best, mut bits) = (Lines::new(), 0);
     let found = with_more_bits(FIRST_LIMBS, |limbs| {
         let mut impacts = Lines::new();
@@ -159,7 +161,7 @@ pub fn certify(
     }))
 }
 
-/// One proof with numbers of so many limbs, and what of it can be printed.
+/// One proof with numbers of `limbs` limbs, of which everything is kept that can be printed.
 fn attempt(
     case: &ExactCase,
     limbs: usize,

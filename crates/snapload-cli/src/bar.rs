@@ -1,24 +1,24 @@
-//! The one bar of progress, on standard error and on a terminal only.
+//! The progress bar, on standard error and only on a terminal.
 use indicatif::{ProgressBar, ProgressStyle};
 use snapload::analysis::Progress;
 use std::ops::ControlFlow;
 use std::sync::Mutex;
 use std::time::{Duration, Instant};
 
-/// So much time passes without a bar.
+/// The time that passes before a bar is shown.
 const PATIENCE: Duration = Duration::from_secs(2);
-/// How much has come of how much, in per cent.
+/// The form of a bar in per cent.
 const PARTS: &str = "{msg} {bar:40} {percent} %, {eta} left";
-/// The same in numbers, with the pace.
+/// The form of a bar in numbers, with the rate.
 const COUNTS: &str = "{msg} {bar:30} {human_pos} of {human_len}, {per_sec:0}, {eta} left";
 
-/// Shows how far work has come; goes away when it is dropped.
+/// Shows the progress of work; it disappears when it is dropped.
 pub(crate) struct Bar {
     counts: bool,
     stage: Mutex<Stage>,
 }
 
-/// What is being done, since when, and the bar that shows it.
+/// The work that is being done, its beginning, and the bar that shows it.
 struct Stage {
     doing: String,
     part: f64,
@@ -27,7 +27,7 @@ struct Stage {
 }
 
 impl Bar {
-    /// For whatever may take longer than two seconds.
+    /// A bar for work that may take longer than two seconds.
     pub(crate) fn new() -> Self {
         Self {
             counts: false,
@@ -35,7 +35,7 @@ impl Bar {
         }
     }
 
-    /// For many cases, which are counted and shown from the beginning.
+    /// A bar for many cases, which are counted and shown from the beginning.
     pub(crate) fn counting() -> Self {
         Self {
             counts: true,
@@ -43,9 +43,9 @@ impl Bar {
         }
     }
 
-    /// What long work calls; it always goes on.
+    /// The callback for long work; it always lets the work continue.
     pub(crate) fn show(&self, progress: Progress) -> ControlFlow<()> {
-        // Whoever comes while another thread is at it leaves it to that one.
+        // If another thread is updating the bar, this update is skipped.
         if let Ok(mut stage) = self.stage.try_lock() {
             let part = progress.done / progress.of;
             if stage.doing != progress.doing && part <= stage.part {

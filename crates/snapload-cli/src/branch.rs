@@ -133,7 +133,7 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
     print(&text)
 }
 
-/// The branch after going over at period doublings, and these.
+/// The branch after switching at period doublings, and these.
 fn switched(
     family: &Moored,
     mut branch: Branch,
@@ -171,7 +171,7 @@ fn along(args: &Args, parameters: &Parameters) -> Result<(&'static str, f64, Alo
     Ok(found)
 }
 
-/// Which period doubling; none says the nearest.
+/// The number of a period doubling; none for the nearest.
 fn switch(text: &str) -> Result<Option<usize>, Failure> {
     let (kind, number) = match text.split_once(':') {
         Some((kind, number)) => (kind, Some(number)),
@@ -188,7 +188,7 @@ fn switch(text: &str) -> Result<Option<usize>, Failure> {
     }
 }
 
-/// The kinds that are told; none says all.
+/// The kinds of events that are listed; none for all.
 fn kinds(text: &str) -> Result<Vec<&'static str>, Failure> {
     if text == "all" {
         return Ok(Vec::new());
@@ -222,7 +222,7 @@ fn columns(key: &'static str, branch: &Branch) -> Vec<(&'static str, Values)> {
     columns
 }
 
-/// How the sorts of orbits are called.
+/// The names of the sorts of orbits.
 const OF_BRANCHES: [&str; 4] = ["stable", "neutral", "unstable", "no body has it"];
 
 /// The branch in the order of its arclength, special points among the others.
@@ -248,7 +248,7 @@ fn layers(key: &str, branch: &Branch, plot: &PlotFile) -> Vec<Layer> {
     let mut all: Vec<_> = points.chain(events).collect();
     all.sort_by(|a, b| a.0.total_cmp(&b.0));
     let all: Vec<Drawn> = all.into_iter().map(|(_, drawn)| drawn).collect();
-    // Where an event passes the section the velocity there jumps.
+    // The velocity at the section jumps where an event passes it.
     let jumps = plot
         .axes
         .iter()

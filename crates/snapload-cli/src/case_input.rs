@@ -5,7 +5,7 @@ use std::fs::File;
 use std::io::{ErrorKind, Read};
 use std::path::{Path, PathBuf};
 
-/// The largest case file: a case has some twenty lines, and `/dev/zero` never ends.
+/// The size of the largest case file: a case has some twenty lines, while `/dev/zero` is endless.
 const LARGEST_FILE: u64 = 1 << 20;
 
 /// Which case, as given on the command line.
@@ -22,7 +22,7 @@ pub(crate) struct CaseArgs {
     set: Vec<String>,
 }
 
-/// A case with the name to show for it.
+/// A case with its name for messages.
 pub(crate) struct Input {
     /// Code or file name.
     pub(crate) name: String,
@@ -33,7 +33,7 @@ pub(crate) struct Input {
 }
 
 impl Input {
-    /// The same case with one key changed; what follows from it, such as the inertia, follows anew.
+    /// The same case with one key changed; derived values, such as the inertia, are computed again.
     pub(crate) fn with(&self, key: &'static str, value: Value) -> Result<Parameters, CaseError> {
         Parameters::from_entries(self.entries.values("case").chain([(key, value)]))
     }
@@ -45,14 +45,14 @@ impl CaseArgs {
         self.file.as_deref()
     }
 
-    /// What is changed after it.
+    /// The changes by `--set`.
     #[cfg(feature = "explore")]
     pub(crate) fn changes(&self) -> &[String] {
         &self.set
     }
 
     /// Reads the keys that `schema` describes: of the built-in case or the file, then of `--set`.
-    /// Returns them with the name to show for them.
+    /// Returns them with the case's name for messages.
     pub(crate) fn entries(&self, schema: &'static Schema) -> Result<(String, Entries), Failure> {
         let (name, mut entries) = match (&self.file, &self.case) {
             (Some(path), _) => (path.display().to_string(), read_file(schema, path)?),
@@ -94,7 +94,7 @@ impl CaseArgs {
     }
 }
 
-/// Gives the keys of a built-in case, as far as they are not given yet.
+/// Adds the keys of a built-in case that are not given yet.
 pub(crate) fn begin_with(entries: &mut Entries, code: &str) -> Result<(), CaseError> {
     let case = named_case(code);
     let case = case.map_err(|error| error.with_hint("snapload cases lists them all"))?;
@@ -126,7 +126,7 @@ pub(crate) fn read_text(path: &Path) -> Result<String, Failure> {
     )
 }
 
-/// The text of a file of no more bytes than `largest`, or `too_large`.
+/// The text of a file of at most `largest` bytes; otherwise the error `too_large`.
 pub(crate) fn read_up_to(path: &Path, largest: u64, too_large: &str) -> Result<String, Failure> {
     let shown = path.display();
     let bad = |what: &str| Failure::BadInput(format!("{shown}: {what}"));
@@ -163,7 +163,7 @@ mod tests {
     use proptest::prelude::*;
     use snapload::{CASE, Entries};
 
-    /// Anything is read, or refused as bad input in words.
+    /// Any text is either read, or refused as bad input with a message.
     fn refused_in_words<T>(result: Result<T, Failure>) -> Result<(), TestCaseError> {
         match result {
             Ok(_) => Ok(()),

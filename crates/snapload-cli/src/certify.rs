@@ -35,7 +35,8 @@ Examples:
 Exit status: 0 proved to the end or, without --taut, to where a cable sticks; 1 not proved so far (nothing is
 written then without --partial), 2 bad input. With --check: 0 proved, 1 refused, 2 undecided or proved in part, 3 no certificate.";
 
-/// The largest certificate: ten million impacts have less than a hundred bytes each.
+/// The size of the largest certificate: each of ten million impacts takes less than a hundred
+/// bytes.
 const LARGEST: u64 = 1 << 30;
 
 /// Which case, and where the certificate goes; or which certificate to check.
@@ -89,7 +90,7 @@ fn run_certify(args: &Args) -> Result<(), Failure> {
     if !is_proved && !args.partial {
         return Err(Failure::Failed(words));
     }
-    // Both files appear whole, and together.
+    // Both files appear complete, and together.
     out.stage(&mut stage, &proof)?;
     json.stage(&mut stage, &proof)?;
     let files = stage.commit()?;
@@ -110,13 +111,12 @@ fn run_certify(args: &Args) -> Result<(), Failure> {
     }
 }
 
-/// The case as decimals: what was typed stays as typed, of all keys that have their values from
-/// there.
+/// The case as decimals: keys whose values were typed keep their decimals.
 pub(crate) fn exact(parameters: &Parameters, entries: &Entries) -> Result<ExactCase, Failure> {
     exact_but(parameters, entries, "")
 }
 
-/// The same where one key has another value than was typed.
+/// The same if one key has another value than was typed.
 pub(crate) fn exact_but(
     parameters: &Parameters,
     entries: &Entries,
@@ -157,7 +157,7 @@ fn in_words(proof: &Certification, seconds: f64) -> String {
     }
 }
 
-/// A verdict for the next program.
+/// A verdict in the form of its JSON.
 #[derive(Serialize)]
 struct Row<'a> {
     verdict: &'a str,

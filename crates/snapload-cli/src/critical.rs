@@ -129,7 +129,7 @@ fn over(
         Value::Number(value) => Ok((value, input.with(key, value.into())?)),
         value => Err(CaseError::value(key, value, "a number")),
     };
-    // All are checked before the first is run.
+    // All cases are checked before the first one is run.
     let cases = (0..axis.count()).map(case).collect::<Result<Vec<_>, _>>();
     let cases = cases.map_err(Failure::bad_input)?;
     let all = cases.len() as f64;
@@ -143,7 +143,7 @@ fn over(
     Ok(Answer::Many { over: key, points })
 }
 
-/// What is found, in the shape of its JSON.
+/// The answer, in the form of its JSON.
 #[derive(Serialize)]
 #[serde(untagged)]
 enum Answer {
@@ -159,7 +159,7 @@ enum Answer {
     },
 }
 
-/// At one value of the other key.
+/// The result at one value of the other key.
 #[derive(Serialize)]
 struct Point {
     value: f64,

@@ -152,7 +152,7 @@ fn found(
     Ok((event, curve))
 }
 
-/// What is followed, and which of them.
+/// The kind that is followed, and the number of the point.
 fn follow(text: &str) -> Result<(Kind, Option<usize>), Failure> {
     let (word, number) = match text.split_once(':') {
         Some((word, number)) => (word, Some(number)),
@@ -198,7 +198,7 @@ fn across(args: &Args, parameters: &Parameters) -> Result<([&'static str; 2], Ac
     Ok(snapload_orbits::across(parameters, keys, args.step, most)?)
 }
 
-/// What of a point is a number beside what of its orbit is.
+/// The numeric columns of a point besides those of its orbit.
 const COEFFICIENTS: [&str; 3] = ["coefficient", "normal_acceleration", "sqrt_coefficient"];
 
 fn of_point(column: &str, keys: [&str; 2], point: &CurvePoint) -> f64 {
@@ -230,7 +230,7 @@ fn columns(keys: [&'static str; 2], curve: &Curve) -> Vec<(&'static str, Values)
     columns
 }
 
-/// How the sorts of points are called.
+/// The names of the sorts of points.
 const OF_CURVES: [&str; 4] = [
     "of a stable orbit",
     "of a neutral orbit",

@@ -11,7 +11,7 @@ use std::fmt::Write as _;
 use std::path::PathBuf;
 
 const EXAMPLES: &str = include_str!("../help/decay.txt").trim_ascii_end();
-/// Swings that are printed.
+/// The number of swings that are printed.
 const SHOWN: usize = 8;
 
 /// Which file, from where, for how long.
@@ -120,7 +120,7 @@ fn words(called: &str, swings: &[Swing], freedom: usize, comes_back: bool) -> St
         return told(called, "it does not swing");
     }
     let unit = ["m", "m", "rad"][freedom];
-    // A swing begins at every turning point; those of one side are told.
+    // A swing begins at every turning point; those of one side are printed.
     let side = || swings.iter().step_by(2);
     let few = match side().count() > SHOWN {
         true => format!("the first {SHOWN} "),

@@ -68,7 +68,7 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
         after_second: "the page is no longer served",
     });
     print(&format!("{address}\n"))?;
-    // What follows is for a person; whoever reads the address may have closed this.
+    // A program that reads the address may have closed the output by now.
     say("Ctrl-C ends it");
     if !args.no_browser && open::that_detached(&address).is_err() {
         say("no browser could be opened; open the address above in one");
@@ -78,7 +78,7 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
         .map_err(|error| Failure::Failed(format!("the page can not be served: {}", plain(&error))))
 }
 
-/// The case of the thesis's model to begin with.
+/// The first case of the thesis's model.
 fn start(case: &CaseArgs) -> Result<Start, Failure> {
     let input = case.read()?;
     let name = match input.name.as_str() {
@@ -91,7 +91,7 @@ fn start(case: &CaseArgs) -> Result<Start, Failure> {
     })
 }
 
-/// The structure to begin with, if the file is the case of one.
+/// The first structure, if the file is the case of one.
 fn opened(case: &CaseArgs) -> Result<Option<Opened>, Failure> {
     let Some(path) = case.file() else {
         return Ok(None);
@@ -110,8 +110,8 @@ fn opened(case: &CaseArgs) -> Result<Option<Opened>, Failure> {
     }))
 }
 
-/// Links hold the port, so that it is the same every time where nobody says otherwise; a second page
-/// beside the first has another.
+/// Links contain the port, so that it is the same every time unless another is asked for; a second
+/// page at the same time has another.
 fn bind(port: Option<u16>, start: &Start) -> Result<Server, Failure> {
     match port {
         Some(port) => Server::bind(port, start.clone()).map_err(|error| no_port(port, &error)),

@@ -1,4 +1,4 @@
-//! How a command fails, what it says then, and with which exit status.
+//! How a command fails: its message and its exit status.
 use crate::standard_output::standard_output;
 use snapload::CaseError;
 use snapload::analysis::{Cancelled, Unfinished};
@@ -8,28 +8,28 @@ use std::fmt::Display;
 use std::io::{self, ErrorKind, StdoutLock, Write};
 use std::path::Path;
 
-/// Why a command did not do what it was asked.
+/// Why a command did not succeed.
 #[derive(Debug)]
 pub(crate) enum Failure {
-    /// The request can not be met as it is: exit status 2.
+    /// The request is not possible: exit status 2.
     BadInput(String),
-    /// Something broke on the way: exit status 1.
+    /// Something failed during the work: exit status 1.
     Failed(String),
-    /// It was asked to stop, and did: exit status 130.
+    /// It was interrupted, and stopped: exit status 130.
     Interrupted(String),
-    /// Whoever read our output has read enough; no failure at all.
+    /// The reader of our output closed the pipe, which is not a failure.
     ReaderLeft,
-    /// An answer that is told by the exit status, and was printed.
+    /// The exit status is the answer, which was also printed.
     Answered(u8),
 }
 
 impl Failure {
-    /// A request that can not be met.
+    /// A request that is not possible.
     pub(crate) fn bad_input(message: impl Display) -> Self {
         Self::BadInput(message.to_string())
     }
 
-    /// The same with words on where it is, or on what it is about, before its own.
+    /// The same with its place or subject before the message.
     pub(crate) fn with_prefix(self, prefix: &str) -> Self {
         let before = |words: String| format!("{prefix}: {words}");
         match self {
@@ -49,7 +49,7 @@ impl Failure {
         }
     }
 
-    /// A place given for output where nothing can be written.
+    /// A path for output to which nothing can be written.
     pub(crate) fn no_place(path: &Path, error: &io::Error) -> Self {
         Self::BadInput(format!(
             "can not write to {}: {}",
@@ -91,7 +91,7 @@ impl From<StudyError> for Failure {
     }
 }
 
-/// Says what went wrong on standard error, and chooses the exit status.
+/// Prints the error on standard error, and chooses the exit status.
 pub(crate) fn exit_status(result: Result<(), Failure>) -> u8 {
     let (kind, message, status) = match result {
         Ok(()) | Err(Failure::ReaderLeft) => return 0,
@@ -100,7 +100,7 @@ pub(crate) fn exit_status(result: Result<(), Failure>) -> u8 {
         Err(Failure::Failed(message)) => ("error", message, 1),
         Err(Failure::Interrupted(message)) => ("interrupted", message, 130),
     };
-    // Standard error may be closed too; the status still tells.
+    // Standard error may be closed too; the exit status is still returned.
     let _ = writeln!(io::stderr(), "{kind}: {message}");
     status
 }

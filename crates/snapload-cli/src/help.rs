@@ -1,9 +1,8 @@
-//! Help that flows: what stands behind the options is broken where the terminal ends, and nowhere
-//! else.
+//! Help texts that are wrapped at the width of the terminal and not at fixed places.
 
 use clap::Command;
 
-/// The same command and all its verbs with paragraphs of one line each, which clap breaks.
+/// The same command and all its subcommands with each paragraph in one line, which clap wraps.
 pub(crate) fn flowing(command: Command) -> Command {
     let text = command.get_after_help().map(ToString::to_string);
     let command = match text {
@@ -13,7 +12,7 @@ pub(crate) fn flowing(command: Command) -> Command {
     command.mut_subcommands(flowing)
 }
 
-/// Joins the lines of each paragraph. Those that are indented, such as commands, stand as they are.
+/// Joins the lines of each paragraph. Indented lines, such as commands, are kept as they are.
 fn paragraphs(text: &str) -> String {
     let is_prose = |line: &str| !line.is_empty() && !line.starts_with(' ');
     let mut joined = String::new();
@@ -41,7 +40,7 @@ mod tests {
         assert_eq!(paragraphs(text), flowing);
     }
 
-    /// A longer line would be broken by clap, and a command broken so can not be copied.
+    /// clap would break a longer line, and a command that is broken can not be copied.
     #[test]
     fn examples_fit_into_100_columns() {
         let mut commands: Vec<Command> = vec![crate::Cli::command()];

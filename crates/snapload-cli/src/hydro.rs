@@ -132,7 +132,7 @@ impl Args {
                 covered,
             }
         };
-        // Between the file's frequencies there may be a narrow resonance.
+        // There may be a narrow resonance between the file's frequencies.
         Ok(floating.fine.iter().map(row).collect())
     }
 }

@@ -1,5 +1,5 @@
-//! What the verbs for coefficients of floating bodies have in common: the file, and what it does
-//! not say.
+//! The common options of the commands for coefficients of floating bodies: the file, and values
+//! that it lacks.
 use crate::case_input::read_text;
 use crate::failure::Failure;
 use crate::whole::whole;

@@ -1,14 +1,14 @@
-//! Ctrl-C, or a request to end: leave no scratch files, exit status 130.
+//! Ctrl-C, or a termination signal: removes temporary files, exit status 130.
 use std::io::Write;
 use std::path::PathBuf;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Mutex, MutexGuard, OnceLock, PoisonError};
 
-/// Directories to take away if the program is interrupted: scratch ones with all they hold, and
-/// new output directories, which are taken away only if empty.
+/// Directories to remove if the program is interrupted: temporary ones with their contents, and new
+/// output directories, which are removed only if empty.
 #[derive(Default)]
 pub(crate) struct Leftovers {
-    /// Scratch directories.
+    /// Temporary directories.
     pub(crate) scratch: Vec<PathBuf>,
     /// New directories, outermost first.
     pub(crate) new: Vec<PathBuf>,
@@ -19,14 +19,14 @@ static LEFTOVERS: Mutex<Leftovers> = Mutex::new(Leftovers {
     new: Vec::new(),
 });
 
-/// What is to be taken away. While this is held an interruption waits, so files that belong
-/// together can be put in their places together.
+/// The directories to remove. While this lock is held an interruption waits, so that files that
+/// belong together can be renamed together.
 pub(crate) fn leftovers() -> MutexGuard<'static, Leftovers> {
     LEFTOVERS.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
 impl Leftovers {
-    /// Takes it all away, as far as the system lets us.
+    /// Removes all of them, as far as the system allows.
     pub(crate) fn clear(&mut self) {
         for directory in self.scratch.drain(..) {
             let _ = std::fs::remove_dir_all(directory);
@@ -37,11 +37,11 @@ impl Leftovers {
     }
 }
 
-/// Work that ends by itself soon after it is asked to.
+/// Work that stops by itself soon after it is asked to.
 pub(crate) struct Graceful {
-    /// What the first interruption does.
+    /// The action at the first interruption.
     pub(crate) on_first: Box<dyn Fn() + Send + Sync>,
-    /// What the second one says, which ends the program at once.
+    /// The message at the second one, which ends the program at once.
     pub(crate) after_second: &'static str,
 }
 
@@ -49,13 +49,14 @@ static GRACEFUL: OnceLock<Graceful> = OnceLock::new();
 /// Whether it was asked to stop.
 static ASKED: AtomicBool = AtomicBool::new(false);
 
-/// From here on the first interruption only asks to stop; the second ends the program at once.
+/// From now on the first interruption only asks the work to stop; the second ends the program at
+/// once.
 pub(crate) fn end_gracefully(graceful: Graceful) {
-    // There is one verb in a program, and one work that it does.
+    // A program runs one command, and so only one such work.
     let _ = GRACEFUL.set(graceful);
 }
 
-/// Says something on standard error, which may be closed.
+/// Prints a message on standard error, which may be closed.
 pub(crate) fn say(words: &str) {
     let _ = writeln!(std::io::stderr(), "{words}");
 }
@@ -65,7 +66,7 @@ pub(crate) fn asked() -> bool {
     ASKED.load(Ordering::Relaxed)
 }
 
-/// Installs the handler; where that is not possible the system's own answer to Ctrl-C remains.
+/// Installs the handler; if that is not possible the system's default for Ctrl-C remains.
 pub(crate) fn install() {
     let _ = ctrlc::set_handler(|| {
         let graceful = GRACEFUL.get();

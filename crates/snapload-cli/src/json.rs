@@ -1,4 +1,4 @@
-//! Where `--json` writes to, and how.
+//! The output of `--json`.
 use crate::failure::Failure;
 use crate::stage::{Room, Stage};
 use crate::standard_output::standard_output;
@@ -17,7 +17,7 @@ pub(crate) struct JsonArgs {
 }
 
 impl JsonArgs {
-    /// Opens the place.
+    /// Opens the place of the output.
     pub(crate) fn open(&self, stage: &mut Stage) -> Result<Json, Failure> {
         Json::open(stage, self.json.as_deref())
     }
@@ -34,7 +34,7 @@ pub(crate) enum Json {
 }
 
 impl Json {
-    /// Opens the place, so that a bad one is known before anything is computed.
+    /// Opens the place, so that an error is known before anything is computed.
     pub(crate) fn open(stage: &mut Stage, path: Option<&Path>) -> Result<Self, Failure> {
         let Some(path) = path else {
             return Ok(Self::None);
@@ -47,8 +47,8 @@ impl Json {
         Ok(Self::File(room, path.to_owned()))
     }
 
-    /// Puts the value where it was asked for, together with all else that is staged. Returns the
-    /// files written, or none where standard output belongs to the value.
+    /// Writes the value to its place, together with all other staged files. Returns the files
+    /// written, or none if the value is printed to standard output.
     pub(crate) fn write(
         self,
         mut stage: Stage,
@@ -59,7 +59,7 @@ impl Json {
         Ok((!self.print(value)?).then_some(written))
     }
 
-    /// Stages the value where it is to become a file.
+    /// Stages the value if it is to be a file.
     pub(crate) fn stage(&self, stage: &mut Stage, value: &impl Serialize) -> Result<(), Failure> {
         match self {
             Self::File(room, path) => {
@@ -69,7 +69,7 @@ impl Json {
         }
     }
 
-    /// Prints the value if standard output belongs to it, and says whether it does.
+    /// Prints the value if it goes to standard output, and returns whether it does.
     pub(crate) fn print(&self, value: &impl Serialize) -> Result<bool, Failure> {
         if !matches!(self, Self::Stdout) {
             return Ok(false);
@@ -85,7 +85,7 @@ impl Json {
     }
 }
 
-/// Whether two paths lead to one file, which need not be there yet.
+/// Whether two paths refer to the same file, which may not exist yet.
 #[cfg(feature = "structure")]
 pub(crate) fn is_same_file(one: &Path, other: &Path) -> bool {
     let new = |path: &Path| Some(parent_of(path).canonicalize().ok()?.join(path.file_name()?));
@@ -93,15 +93,15 @@ pub(crate) fn is_same_file(one: &Path, other: &Path) -> bool {
     place(one).is_some_and(|one| place(other) == Some(one))
 }
 
-/// Opens the directory in which a file is to be written, and creates it where it is absent.
+/// Opens the directory in which a file is to be written, and creates it if necessary.
 #[cfg(feature = "structure")]
 pub(crate) fn room_of(stage: &mut Stage, path: &Path) -> Result<Room, Failure> {
     refuse_directory(path)?;
     stage.create_and_open(&folder_for(path))
 }
 
-/// Where a file is staged: beside its place, so that it can be renamed into it; elsewhere for what
-/// is no plain file, such as a device or a pipe, which is written into.
+/// The directory in which a file is staged: that of the file, so that it can be renamed; another
+/// one for a device or a pipe, into which the contents are copied.
 pub(crate) fn folder_for(path: &Path) -> PathBuf {
     match path.exists() && !path.is_file() {
         true => std::env::temp_dir(),
@@ -109,7 +109,7 @@ pub(crate) fn folder_for(path: &Path) -> PathBuf {
     }
 }
 
-/// Says so where a file is to be written and a directory stands.
+/// An error if a file is to be written where there is a directory.
 pub(crate) fn refuse_directory(path: &Path) -> Result<(), Failure> {
     if path.is_dir() {
         let message = format!("can not write to {}: it is a directory", path.display());

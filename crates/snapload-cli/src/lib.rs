@@ -1,7 +1,7 @@
-//! The command line of snapload: reads a case, runs it, and writes down what happened.
+//! The command line of snapload: reads a case, runs it, and prints or writes the results.
 //!
-//! It is a library, so that the program `snapload` and the one that comes with the Python package are
-//! one: [`command`].
+//! It is a library, so that the program `snapload` and the one in the Python package are the same:
+//! [`command`].
 
 #[cfg(feature = "structure")]
 mod assess;
@@ -150,11 +150,11 @@ enum Verb {
     Completions(completions::Args),
 }
 
-/// The words of the command line after the name of the program.
+/// The arguments of the command line after the name of the program.
 static WORDS: OnceLock<Vec<OsString>> = OnceLock::new();
 
-/// Does what a command line asks for, whose first word is the name of the program, and gives the
-/// exit status. It is the work of a whole process: it answers Ctrl-C, and may end the process itself.
+/// Executes a command line, whose first word is the name of the program, and returns the exit
+/// status. It acts for the whole process: it handles Ctrl-C, and may end the process itself.
 pub fn command(line: impl IntoIterator<Item = OsString>) -> u8 {
     interrupt::install();
     let line: Vec<OsString> = line.into_iter().collect();
@@ -202,8 +202,8 @@ pub fn command(line: impl IntoIterator<Item = OsString>) -> u8 {
     failure::exit_status(result)
 }
 
-/// Ends with what is wrong with the command line. A value that is not allowed is told as that of a
-/// key is; who writes a key as an option is told how keys are set.
+/// Ends with the error of the command line. A value that is not allowed is reported like that of a
+/// key; if a key is used as an option, the message says how keys are set.
 fn refuse(mut error: clap::Error) -> ! {
     if error.kind() == ErrorKind::ValueValidation
         && let Some(message) = whole::refusal(&error)

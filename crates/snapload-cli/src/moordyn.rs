@@ -110,7 +110,7 @@ fn write(args: &Write) -> Result<(), Failure> {
     }
 }
 
-/// Puts a text into a file, whole or not at all, and says where.
+/// Writes a text to a file, completely or not at all, and returns a message with its path.
 fn put(path: &Path, text: &str) -> Result<String, Failure> {
     let mut stage = Stage::default();
     let room = room_of(&mut stage, path)?;

@@ -94,7 +94,7 @@ pub(crate) struct NearArgs {
 }
 
 impl NearArgs {
-    /// The start, if there is one, and what is looked for.
+    /// The start, if there is one, and the wanted orbit.
     pub(crate) fn read(&self, parameters: &Parameters) -> Result<(Option<Point>, Wanted), Failure> {
         let wanted = Wanted {
             periods: self.periods,
@@ -185,7 +185,7 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
     }
 }
 
-/// So many orbits are told one by one.
+/// The most orbits that are listed one by one.
 const TOLD: usize = 12;
 
 fn in_words(args: &Args, found: &Found, start: Option<Point>) -> String {
@@ -228,7 +228,7 @@ fn in_words(args: &Args, found: &Found, start: Option<Point>) -> String {
     text
 }
 
-/// A start out of `x=..,y=..`.
+/// A start from `x=..,y=..`.
 fn start_at(text: &str, parameters: &Parameters) -> Result<Point, Failure> {
     let mut z = start_of(parameters);
     for part in text.split(',') {
@@ -260,7 +260,7 @@ fn start_at(text: &str, parameters: &Parameters) -> Result<Point, Failure> {
     Ok(z)
 }
 
-/// Cables out of `2,1`.
+/// Cables from `2,1`.
 fn cables(text: &str) -> Result<Vec<usize>, Failure> {
     let cable = |part: &str| match part.trim() {
         "1" => Some(0),

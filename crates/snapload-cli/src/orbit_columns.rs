@@ -4,7 +4,7 @@ use snapload::analysis::START_KEYS;
 use snapload_orbits::Orbit;
 use snapload_study::Values;
 
-/// What of an orbit is a number, by its column.
+/// The numeric columns of an orbit.
 pub(crate) const OF_ORBITS: [&str; 11] = [
     "arclength",
     "x",
@@ -34,7 +34,7 @@ pub(crate) fn of_orbit(column: &str, keys: [&str; 2], orbit: &Orbit, arclength: 
     }
 }
 
-/// What of orbits is a word or a flag.
+/// The columns of orbits that are words or flags.
 pub(crate) fn words_of(orbits: &[&Orbit]) -> Vec<(&'static str, Values)> {
     let orbits = || orbits.iter();
     let symbols = orbits().map(|orbit| Some(orbit.lap.sequence.symbol().join(" ").into()));

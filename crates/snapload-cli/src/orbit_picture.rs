@@ -25,15 +25,15 @@ pub(crate) struct PlotArgs {
 pub(crate) struct PlotFile {
     room: Room,
     path: PathBuf,
-    /// The columns to the right and upwards.
+    /// The columns on the horizontal and the vertical axis.
     pub(crate) axes: [String; 2],
-    /// The phase of the forcing from which on a period is drawn, where one is.
+    /// The phase of the forcing at which the drawn period begins, if one is drawn.
     pub(crate) phase_from: f64,
 }
 
 impl PlotArgs {
-    /// Opens the place, and checks the columns, so that a bad one is known before anything is
-    /// computed; none where no picture is wanted.
+    /// Opens the place, and checks the columns, so that errors are known before anything is
+    /// computed; none if no picture is wanted.
     pub(crate) fn open(
         &self,
         stage: &mut Stage,
@@ -78,7 +78,7 @@ fn no_columns(shown: &str, known: &[&str]) -> Failure {
 }
 
 impl PlotFile {
-    /// Where a number of a column is drawn: a phase within the period that is shown.
+    /// The position of a column's value: a phase is moved into the drawn period.
     pub(crate) fn placed(&self, column: &str, value: f64) -> f64 {
         match column {
             "phase" => value - (value - self.phase_from).floor(),
@@ -86,7 +86,7 @@ impl PlotFile {
         }
     }
 
-    /// A phase is shown over the whole period, and a little more, so that no marker is cut.
+    /// The range of a phase is the whole period and a little more, so that no marker is cut off.
     fn range(&self, column: &str) -> Range {
         const MORE: f64 = 0.015;
         match column {
@@ -126,7 +126,7 @@ impl PlotFile {
     }
 }
 
-/// What stands along an axis.
+/// The label of an axis.
 fn label(column: &str) -> String {
     match column {
         "v_n" => "*v*ₙ (L/T)".to_owned(),
@@ -140,17 +140,17 @@ fn label(column: &str) -> String {
     }
 }
 
-/// An orbit on a branch, as it is drawn.
+/// An orbit of a branch, for drawing.
 pub(crate) struct Drawn<'a> {
-    /// Where.
+    /// Its position.
     pub(crate) at: Point,
     pub(crate) orbit: &'a Orbit,
     pub(crate) stability: Stability,
-    /// The special point that it is, if it is one.
+    /// The event, if it is a special point.
     pub(crate) event: Option<&'a BranchEvent>,
 }
 
-/// How orbits of each sort are drawn: stable, neutral, unstable ones, and those that no body has.
+/// The strokes of each sort of orbits: stable, neutral, unstable and inadmissible ones.
 const SORTS: [Stroke; 4] = [
     Stroke::new(Colour::BLACK, 1.3, Dash::Solid),
     Stroke::new(Colour::GREEN, 1.0, Dash::Solid),
@@ -168,13 +168,13 @@ fn sort(drawn: &Drawn) -> usize {
 }
 
 /// A branch as a line, which is broken where `jumps` and changes with the sort of orbit, and its
-/// special points by name.
+/// special points with names.
 pub(crate) fn branch_layers(all: &[Drawn], jumps: bool, words: [&str; 4]) -> Vec<Layer> {
     let mut pieces: [Vec<Vec<Point>>; 4] = Default::default();
     let mut last = None;
     for pair in all.windows(2) {
         let [from, to] = [&pair[0], &pair[1]];
-        // A special point lies on the border of two sorts.
+        // A special point is at the border of two sorts.
         let regular = [to, from].into_iter().find(|drawn| drawn.event.is_none());
         let other = regular.map_or(last.unwrap_or(3), sort);
         let symbols = [from, to].map(|drawn| drawn.orbit.lap.sequence.symbol());

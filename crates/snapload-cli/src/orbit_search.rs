@@ -28,32 +28,32 @@ pub(crate) struct Many<'a> {
 
 #[derive(Serialize)]
 struct OneOfMany {
-    /// That of the key that is varied.
+    /// The value of the key that is varied.
     #[serde(skip_serializing_if = "Option::is_none")]
     value: Option<f64>,
     #[serde(flatten)]
     orbit: OrbitRow,
 }
 
-/// What is looked for, and of which case, as given on the command line.
+/// The search and its case, as given on the command line.
 pub(crate) struct Search<'a> {
     pub(crate) parameters: &'a Parameters,
     pub(crate) entries: &'a Entries,
     pub(crate) wanted: &'a Wanted,
     /// A key, and its values.
     pub(crate) along: Option<(&'static str, Vec<f64>)>,
-    /// Whether what is found is proved.
+    /// Whether the orbits found are proved.
     pub(crate) prove: bool,
 }
 
-/// One case, and the same in decimals where orbits are proved.
+/// One case, and the same in decimals if orbits are proved.
 pub(crate) struct OneCase {
     parameters: Parameters,
     value: Option<f64>,
     exact: Option<ExactCase>,
 }
 
-/// What was found.
+/// The orbits found.
 pub(crate) struct Found {
     vary: Option<&'static str>,
     /// The value of that key of each orbit.
@@ -91,7 +91,7 @@ impl Search<'_> {
         values.iter().map(case).collect()
     }
 
-    /// The orbit near a start, or the one that the motion of the case comes to.
+    /// The orbit near a start, or the one that the motion of the case approaches.
     pub(crate) fn one(&self, case: &OneCase, start: Option<Point>) -> Result<Found, Failure> {
         let bar = Bar::new();
         let on_progress = |progress: Progress| bar.show(progress);
@@ -142,8 +142,8 @@ impl Found {
         }
     }
 
-    /// Adds the orbits of a case, and proves them where that is asked for. Orbits of different
-    /// cases are different ones.
+    /// Adds the orbits of a case, and proves them if that is asked for. Orbits of different cases
+    /// count as different.
     fn add(
         &mut self,
         case: &OneCase,
@@ -178,7 +178,7 @@ impl Found {
     }
 }
 
-/// The columns of a table with a row an orbit.
+/// The columns of a table with one row for each orbit.
 pub(crate) fn columns(found: &Found) -> Vec<(&'static str, Values)> {
     let orbits = &found.orbits;
     let number = |column: &'static str| {

@@ -1,4 +1,4 @@
-//! The pictures of a run, as the files they become.
+//! The pictures of a run, as files.
 use crate::failure::Failure;
 use snapload_figures::{FigureError, PNG_SCALE, RunPlot, RunPlots};
 use snapload_report::Trusted;

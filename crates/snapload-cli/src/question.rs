@@ -1,4 +1,4 @@
-//! The verbs that each ask one question about one case: all that the report knows.
+//! The commands that each ask one question about one case: all questions of the report crate.
 use crate::bar::Bar;
 use crate::case_input::CaseArgs;
 use crate::failure::{Failure, print};
@@ -55,7 +55,7 @@ impl FromArgMatches for Args {
     }
 }
 
-/// The verb of a question.
+/// The subcommand of a question.
 fn verb(question: &'static Question) -> Command {
     let command = CaseArgs::augment_args(Command::new(question.name));
     let command = command.args(question.options.iter().map(option));
@@ -64,7 +64,7 @@ fn verb(question: &'static Question) -> Command {
         .after_help(question.help)
 }
 
-/// An option as its row describes it.
+/// An option from its description.
 fn option(key: &'static Key) -> Arg {
     let mut help: String = key.meaning.to_owned();
     if let Some(first) = help.get_mut(..1) {
@@ -96,7 +96,7 @@ fn given(key: &Key, matches: &ArgMatches) -> Option<Value> {
     }
 }
 
-/// Asks it.
+/// Asks the question.
 pub(crate) fn run(args: Args) -> Result<(), Failure> {
     let Args {
         question,
@@ -125,7 +125,7 @@ pub(crate) fn run(args: Args) -> Result<(), Failure> {
     Ok(())
 }
 
-/// An error that names an option, with the option as it is written on a command line.
+/// An error that names an option, with the option in the notation of the command line.
 fn as_written(question: &Question, mut error: CaseError) -> CaseError {
     if question.option(&error.key).is_ok() {
         error.key = format!("--{}", error.key.replace('_', "-"));

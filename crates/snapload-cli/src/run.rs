@@ -67,7 +67,7 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
         ));
     }
     let input = args.case.read()?;
-    // A run may end before its time is up, but how soon only the run could tell.
+    // A run may end early, but when is not known before it is run.
     let longest = input.case.parameters().t_end;
     args.sample
         .map(|dt| sampling(dt, longest, "; or a lower t_end"))
@@ -109,7 +109,7 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
     }
 }
 
-/// The run, and its neighbours where it takes them, under a bar.
+/// The run, and its neighbours if needed, with a progress bar.
 fn trusted(args: &Args, case: &Case) -> Result<Trusted, Failure> {
     let uncertainty = args.uncertainty.read(case)?;
     let (bar, seed) = (Bar::new(), args.uncertainty.seed());
@@ -118,7 +118,7 @@ fn trusted(args: &Args, case: &Case) -> Result<Trusted, Failure> {
         .map_err(|error| Failure::from(error).with_prefix("--uncertainty"))
 }
 
-/// The proof beside the run, if it is asked for.
+/// The proof of the run, if it is asked for.
 fn certified(args: &Args, input: &Input, trusted: &Trusted) -> Result<Option<Certified>, Failure> {
     if !args.certify {
         return Ok(None);
@@ -135,7 +135,7 @@ fn certified(args: &Args, input: &Input, trusted: &Trusted) -> Result<Option<Cer
     Ok(Some(Certified::new(proof, &trusted.run)))
 }
 
-/// A time step, as clap reads it.
+/// A time step, parsed for clap.
 fn step(text: &str) -> Result<f64, &'static str> {
     match text.parse::<f64>() {
         Ok(dt) if dt > 0.0 && dt.is_finite() => Ok(dt),
@@ -143,7 +143,7 @@ fn step(text: &str) -> Result<f64, &'static str> {
     }
 }
 
-/// The times of a run up to `end`; `instead` is what else would do.
+/// The times of a run up to `end`; `instead` is advice for the error message.
 fn sampling(dt: f64, end: f64, instead: &str) -> Result<Sampling, Failure> {
     Sampling::every(dt, end).map_err(|allowed| {
         Failure::BadInput(format!(
@@ -152,7 +152,7 @@ fn sampling(dt: f64, end: f64, instead: &str) -> Result<Sampling, Failure> {
     })
 }
 
-/// The places of the output, opened before the run so that a bad one is known at once.
+/// The places of the output, opened before the run so that an error is known at once.
 struct Outputs {
     stage: Stage,
     directory: Option<(Room, PathBuf)>,

@@ -69,7 +69,7 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
     answers.finish(&result.to_json(&name), result.summary(&name))
 }
 
-/// A row a record.
+/// One row for each record.
 fn table(seas: &Seas, out: &mut dyn io::Write) -> io::Result<()> {
     let mut table = csv::Writer::from_writer(out);
     table.write_record([

@@ -143,7 +143,7 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
     print(&text)
 }
 
-/// The impacts, where they were asked for.
+/// The impacts, if they were asked for.
 fn kept(section: &Section) -> Result<Option<&[ImpactPoint]>, Failure> {
     match &section.impacts {
         Some(kept) if kept.left_out > 0 => Err(Failure::BadInput(format!(
@@ -154,7 +154,7 @@ fn kept(section: &Section) -> Result<Option<&[ImpactPoint]>, Failure> {
     }
 }
 
-/// What of an impact is a number, by its column.
+/// The numeric columns of an impact.
 const OF_IMPACTS: [&str; 13] = [
     "t",
     "phase",
@@ -199,11 +199,11 @@ fn impact_columns(impacts: &[ImpactPoint]) -> Vec<(&'static str, Values)> {
     columns
 }
 
-/// A phase this far from all impacts cuts no marker.
+/// At a phase this far from all impacts no marker is cut off.
 const CLEAR: f64 = 0.03;
 
-/// From which phase on a period is drawn: from 0, or if impacts are near from the tenth that is farthest
-/// from all of them, so that a group of impacts is not torn apart.
+/// The phase at which the drawn period begins: 0, or if impacts are near that, the multiple of a
+/// tenth that is farthest from all of them, so that a group of impacts is not divided.
 fn phase_from(impacts: &[ImpactPoint]) -> f64 {
     let clear = |tenths: &i32| {
         let off = |impact: &ImpactPoint| impact.phase - f64::from(*tenths) / 10.0;

@@ -1,26 +1,26 @@
-//! Files that appear whole or not at all: written in a scratch directory on the same file system,
-//! then renamed into their places.
+//! Files that appear complete or not at all: they are written in a temporary directory on the same
+//! file system, then renamed.
 use crate::failure::Failure;
 use crate::interrupt::leftovers;
 use std::fs::{self, File, OpenOptions};
 use std::io::{self, BufWriter, ErrorKind, Write};
 use std::path::{Path, PathBuf};
 
-/// Scratch directories and the files in them that are to be put in their places.
+/// Temporary directories with the files in them, which are to be renamed to their places.
 #[derive(Default)]
 pub(crate) struct Stage {
     scratch: Vec<PathBuf>,
     files: Vec<(PathBuf, PathBuf)>,
 }
 
-/// A directory in which output will be put.
+/// A directory in which output will be placed.
 #[derive(Clone, Copy)]
 pub(crate) struct Room(usize);
 
 impl Stage {
     /// Opens an existing directory for output.
     pub(crate) fn open(&mut self, directory: &Path) -> Result<Room, Failure> {
-        // Held throughout, so that an interruption finds the directory on the list.
+        // Locked throughout, so that an interruption finds the directory in the list.
         let mut leftovers = leftovers();
         let scratch = tempfile::Builder::new()
             .prefix(".snapload-")
@@ -32,13 +32,13 @@ impl Stage {
         Ok(Room(self.scratch.len() - 1))
     }
 
-    /// Opens a directory for output and creates it, with those above it, where it is absent.
+    /// Opens a directory for output and creates it, with its parents, if necessary.
     pub(crate) fn create_and_open(&mut self, directory: &Path) -> Result<Room, Failure> {
         for ancestor in missing(directory) {
             let mut leftovers = leftovers();
             match fs::create_dir(&ancestor) {
                 Ok(()) => leftovers.new.push(ancestor),
-                // `results/../other` asks for the same directory twice.
+                // `results/../other` creates the same directory twice.
                 Err(error) if error.kind() == ErrorKind::AlreadyExists => {}
                 Err(error) => return Err(Failure::no_place(directory, &error)),
             }
@@ -50,7 +50,7 @@ impl Stage {
         self.open(directory)
     }
 
-    /// Writes one file of a room, to be put at `target` later.
+    /// Writes one file for a directory, to be moved to `target` later.
     pub(crate) fn write(
         &mut self,
         room: Room,
@@ -68,8 +68,7 @@ impl Stage {
         Ok(())
     }
 
-    /// The same for a writer that wants to know the scratch file's name, and brings it to the disk
-    /// itself.
+    /// The same for a writer that needs the temporary file's name, and syncs it to the disk itself.
     pub(crate) fn place(
         &mut self,
         room: Room,
@@ -82,7 +81,7 @@ impl Stage {
         Ok(())
     }
 
-    /// Puts every file in its place and says where they are.
+    /// Moves every file to its place and returns their paths.
     pub(crate) fn commit(mut self) -> Result<Vec<PathBuf>, Failure> {
         let mut leftovers = leftovers();
         let mut placed = Vec::new();
@@ -96,18 +95,19 @@ impl Stage {
 }
 
 impl Drop for Stage {
-    /// Takes away the scratch and, unless something was put into them, the new directories.
+    /// Removes the temporary directories and, unless files were placed in them, the new
+    /// directories.
     fn drop(&mut self) {
         leftovers().clear();
     }
 }
 
-/// Puts a file in its place. A link is followed, so that what it points to is replaced and not the
-/// link; into what is no plain file, such as a device or a pipe, it is written, and so it is into a
-/// file on another disk, where nothing can be renamed to.
+/// Moves a file to its place. A link is followed, so that its target is replaced and not the link;
+/// the contents are copied into a device or a pipe, and into a file on another disk, to which
+/// nothing can be renamed.
 fn put(scratch: &Path, target: &Path) -> io::Result<()> {
     let target = match target.is_symlink() {
-        // Where nothing stands behind a link yet.
+        // A link whose target does not exist yet.
         true => target.canonicalize().or_else(|_| {
             let folder = target.parent().unwrap_or(Path::new(""));
             target.read_link().map(|behind| folder.join(behind))

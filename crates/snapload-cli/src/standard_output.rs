@@ -1,7 +1,8 @@
 //! Standard output, and whether it was open when the program began.
 //!
-//! Before `main` Rust opens /dev/null in the place of a standard stream that is closed, so that no file
-//! takes its number by chance. From then on nothing tells it from one that was sent to /dev/null on
+//! Before `main`, Rust opens /dev/null in place of a standard stream that is closed, so that no
+//! other file gets its number. After that it can not be distinguished from one that was redirected
+//! to /dev/null on purpose, and output to it is lost without an error. So it is checked earlier.
 //! purpose, and what is written to it is lost without a word. So it is looked at earlier.
 #![cfg_attr(
     target_os = "linux",
@@ -19,9 +20,9 @@ extern "C" fn look() {
     CLOSED.store(flags.is_err(), Ordering::Relaxed);
 }
 
-// SAFETY: what stands in this section is called once, on one thread, before `main`, as a function
-// of C without arguments that it needs or a result; `look` is one, and uses nothing that Rust only
-// sets up later: one call of the system and one atomic.
+// SAFETY: a function in this section is called once, on one thread, before `main`, as a C function
+// without arguments that it needs or a result; `look` is such a function, and uses nothing that
+// Rust initialises later: one system call and one atomic.
 #[cfg(target_os = "linux")]
 #[used]
 #[unsafe(link_section = ".init_array")]

@@ -1,4 +1,4 @@
-//! What the verbs for structures have in common: which case, and where the answers go.
+//! The common options of the commands for structures: which case, and the places of the answers.
 use crate::case_input::read_text;
 use crate::failure::{Failure, print};
 use crate::json::{Json, JsonArgs, is_same_file, room_of};
@@ -52,7 +52,7 @@ impl StructureArgs {
         })
     }
 
-    /// The command that reads it again.
+    /// The command line that reads it again.
     pub(crate) fn command(&self, verb: &str) -> String {
         let file = self.file.as_deref().map(|path| path.display().to_string());
         let mut command = format!("snapload {verb} {}", file.unwrap_or_default());
@@ -63,7 +63,7 @@ impl StructureArgs {
     }
 }
 
-/// What a file gives, changed as `--set` says, with the name of its case.
+/// The keys of a file, changed by `--set`, with the name of its case.
 pub(crate) fn entries_of(
     path: &Path,
     text: &str,
@@ -75,7 +75,7 @@ pub(crate) fn entries_of(
     Ok((name, entries))
 }
 
-/// The structure of what a file gives.
+/// The structure from the keys of a file.
 pub(crate) fn structure_of(
     path: &Path,
     name: &str,
@@ -84,7 +84,7 @@ pub(crate) fn structure_of(
     let folder = path.parent().unwrap_or(Path::new(""));
     Structure::from_entries_beside(entries, folder).map_err(|error| {
         let located = entries.locate(error);
-        // A key that is left out has no line; the file it is missing from is known.
+        // A key that is left out has no line, but the file is known.
         match located.place {
             Some(_) => located,
             None => located.at(name),
@@ -92,7 +92,7 @@ pub(crate) fn structure_of(
     })
 }
 
-/// The ending of a file that is asked for, one of those allowed.
+/// The ending of an output file, which has to be one of those allowed.
 pub(crate) fn ending(path: &Path, allowed: &[&'static str]) -> Result<&'static str, Failure> {
     let given = path.extension().and_then(|ending| ending.to_str());
     let known = allowed.iter().find(|ending| given == Some(**ending));
@@ -105,7 +105,7 @@ pub(crate) fn ending(path: &Path, allowed: &[&'static str]) -> Result<&'static s
     })
 }
 
-/// Where the answers of a verb go: a file, JSON, standard output.
+/// The places of a command's answers: a file, JSON, standard output.
 pub(crate) struct Answers {
     stage: Stage,
     json: Json,
@@ -113,7 +113,7 @@ pub(crate) struct Answers {
 }
 
 impl Answers {
-    /// Opens the places, so that a bad one is known before anything is computed.
+    /// Opens the places, so that an error is known before anything is computed.
     pub(crate) fn open(json: &JsonArgs, out: Option<&Path>) -> Result<Self, Failure> {
         let mut stage = Stage::default();
         let json = json.open(&mut stage)?;
@@ -142,7 +142,7 @@ impl Answers {
         }
     }
 
-    /// Puts all files in their places, and prints a summary and where they are.
+    /// Moves all files to their places, and prints a summary with their paths.
     pub(crate) fn finish(self, json: &impl Serialize, mut text: String) -> Result<(), Failure> {
         let Some(written) = self.json.write(self.stage, json)? else {
             return Ok(());

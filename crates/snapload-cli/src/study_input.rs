@@ -13,7 +13,7 @@ use snapload_study::{Axis, List, Plan, RANDOM, Side, Study};
 use std::borrow::Cow;
 use std::path::{Path, PathBuf};
 
-/// What a study file says beside the keys of a case.
+/// The keys of a study file besides those of a case.
 #[rustfmt::skip] // one row a key
 const STUDY_KEYS: &[Key] = &[
     Key::new("case", "", Kind::Text, Derived("the standard case"), "built-in case to begin with"),
@@ -24,7 +24,7 @@ const STUDY_KEYS: &[Key] = &[
     Key::new("trust", "", Kind::Flag, Flag(true), "whether every run says how far it can be trusted"),
 ];
 
-/// A study file: the keys of a case, what a study says beside them, and what varies.
+/// A study file: the keys of a case, those of the study itself, and what varies.
 static STUDY: Schema = Schema {
     tables: &[
         CASE_KEYS,
@@ -125,12 +125,12 @@ impl Asked {
         })
     }
 
-    /// The command line has the last word.
+    /// Options of the command line replace those of the file.
     fn changed_by(mut self, args: &StudyArgs) -> Result<Self, Failure> {
         for text in &args.vary {
             let (key, varied) = of_text(text)?;
             match self.vary.iter_mut().find(|(known, _)| *known == key) {
-                // A second --vary of a key is a slip, which the plan reports; the file's is
+                // A second --vary of a key is an error, which the plan reports; the file's is
                 // replaced.
                 Some(known) if args.vary.iter().filter(|t| key_of(t) == key).count() == 1 => {
                     known.1 = varied;
@@ -180,7 +180,7 @@ impl Asked {
     }
 }
 
-/// The axes of a study that a file describes; none if it is no grid.
+/// The axes of a study from its description; none if it is not a grid.
 pub(crate) fn axes_of(description: &str) -> Option<Vec<Axis>> {
     let entries = Entries::parse(&STUDY, "", description).ok()?;
     let says = |key: &str| entries.table("study", 0).given(key).is_some();
@@ -223,7 +223,7 @@ fn of_text(text: &str) -> Result<(String, Varied), Failure> {
     ))
 }
 
-/// Says of `f_o=0,3` that it is two values, which it may be meant to be.
+/// Warns that `f_o=0,3` is two values, which may not be meant.
 fn warn_of_comma(key: &str, values: &str) {
     let digits = |text: &str| !text.is_empty() && text.bytes().all(|byte| byte.is_ascii_digit());
     let number = key_named(key).is_ok_and(|key| matches!(key.kind, Kind::Number { .. }));

@@ -47,7 +47,7 @@ impl PictureArgs {
         Ok(Some((path, picture)))
     }
 
-    /// Draws the picture of a finished file, if one is wanted, and says where it is.
+    /// Draws the picture of a complete file, if one is wanted, and returns its path.
     pub(crate) fn draw(&self, file: &Path) -> Result<Option<PathBuf>, Failure> {
         let Some(identity) = identity_of(file) else {
             return Ok(None);
@@ -80,7 +80,7 @@ fn is_there(path: &Path) -> bool {
     fs::symlink_metadata(path).is_ok()
 }
 
-/// A picture is no more written over than rows are.
+/// An existing picture is not overwritten, as rows are not.
 fn occupied(path: &Path) -> Failure {
     Failure::BadInput(format!(
         "--plot: {} is there already; choose another name, or remove it",

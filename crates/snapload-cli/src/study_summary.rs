@@ -1,10 +1,10 @@
-//! What there is in the file of a study, for a person.
+//! A summary of the file of a study.
 use crate::failure::{Failure, print};
 use snapload_study::{Axis, Plan, Side, StudyEnds, ends};
 use std::fmt::Write;
 use std::path::{Path, PathBuf};
 
-/// A file of rows that is complete.
+/// A complete file of rows.
 pub(crate) struct Summary<'a> {
     file: &'a Path,
     rows: u64,
@@ -25,13 +25,14 @@ impl<'a> Summary<'a> {
         })
     }
 
-    /// The same with words on what varied.
+    /// The same with a description of what varied.
     pub(crate) fn with(self, plan: &'a Plan) -> Self {
         let plan = Some(plan);
         Self { plan, ..self }
     }
 
-    /// Prints it. A whole study without a single run is bad input: the file is there, and says why.
+    /// Prints it. A whole study without a single run is bad input: the file exists, and contains
+    /// the reasons.
     pub(crate) fn tell(&self, whole: bool) -> Result<(), Failure> {
         print(&self.in_words())?;
         if !whole || self.tally.errors < self.rows {
@@ -86,8 +87,8 @@ impl<'a> Summary<'a> {
         text
     }
 
-    /// Where a row stands in the list that it comes from: lines as a text editor counts, and rows
-    /// of a table as whatever reads one.
+    /// The position of a row in its list: lines as a text editor counts them, or rows as a reader
+    /// of the table counts them.
     fn line(&self, row: u64) -> String {
         let Some(Plan::List(list)) = self.plan else {
             return String::new();

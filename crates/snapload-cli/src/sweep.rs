@@ -94,7 +94,7 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
         .tell(whole)
 }
 
-/// As many threads as asked for, up to a few for each that the machine runs at a time.
+/// Starts as many threads as asked for, up to a few for each that the machine runs at a time.
 fn start_threads(asked: u16) -> Result<(), Failure> {
     let (threads, fewer) = threads_for(asked.into());
     if let Some(why) = fewer {
@@ -105,7 +105,7 @@ fn start_threads(asked: u16) -> Result<(), Failure> {
     built.map_err(|error| Failure::Failed(format!("can not start {threads} threads: {error}")))
 }
 
-/// What broke, and that no more than a few seconds of work are lost.
+/// The error, and the remark that no more than a few seconds of work are lost.
 fn go_on(error: StudyError, rows: u64) -> Failure {
     match error {
         StudyError::Cancelled(Cancelled { done }) => Failure::Interrupted(format!(
@@ -135,7 +135,7 @@ fn resume_command() -> String {
     format!("{} {}", crate::Cli::command().get_name(), words.join(" "))
 }
 
-/// A word as a shell takes it.
+/// A word, quoted for a shell.
 fn quoted(word: &str) -> String {
     let plain = |c: char| c.is_ascii_alphanumeric() || "-_./=:,+@%".contains(c);
     if !word.is_empty() && word.chars().all(plain) {

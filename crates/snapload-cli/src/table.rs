@@ -1,4 +1,4 @@
-//! `--out` for tables: Parquet, or CSV where the name ends so.
+//! `--out` for tables: Parquet, or CSV if the name ends in .csv.
 use crate::failure::Failure;
 use crate::json::{folder_for, refuse_directory};
 use crate::stage::{Room, Stage};
@@ -11,7 +11,7 @@ use std::path::{Path, PathBuf};
 pub(crate) struct TableFile(Option<(Room, PathBuf)>);
 
 impl TableFile {
-    /// Opens it, so that a bad one is known before anything is computed.
+    /// Opens it, so that an error is known before anything is computed.
     pub(crate) fn open(stage: &mut Stage, path: Option<&Path>) -> Result<Self, Failure> {
         let Some(path) = path else {
             return Ok(Self(None));
@@ -85,7 +85,7 @@ pub(crate) fn names(values: impl IntoIterator<Item = Option<&'static str>>) -> V
     Values::Words(values.into_iter().map(word).collect())
 }
 
-/// A key and its values, as `KEY=first:last:n` says.
+/// A key and its values, from `KEY=first:last:n`.
 pub(crate) fn axis(option: &str, text: &str) -> Result<(&'static str, Vec<f64>), Failure> {
     let Some((key, range)) = text.split_once('=') else {
         return Err(Failure::BadInput(format!(

@@ -1,4 +1,4 @@
-//! What of a case is uncertain, as given on the command line.
+//! The uncertainties of a case, as given on the command line.
 use crate::failure::Failure;
 use crate::whole::whole;
 use snapload::Case;
@@ -50,7 +50,7 @@ impl UncertaintyArgs {
         Ok(uncertainty)
     }
 
-    /// Whether anything was said to be uncertain.
+    /// Whether any uncertainty was given.
     pub(crate) fn is_given(&self) -> bool {
         !self.uncertainty.is_empty()
     }
@@ -60,7 +60,7 @@ impl UncertaintyArgs {
     }
 }
 
-/// What one `--uncertainty` says: a key, or none for all start values, and a size.
+/// The meaning of one `--uncertainty`: a key, or none for all start values, and a size.
 fn parse(text: &str) -> Result<(Option<&str>, f64), Failure> {
     let (key, size) = match text.split_once('=') {
         Some((key, size)) => (Some(key.trim()), size),

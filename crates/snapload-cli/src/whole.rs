@@ -1,4 +1,4 @@
-//! Values of options: what is refused is told as what is wrong with a key is.
+//! Values of options, whose errors are reported like those of keys.
 
 use clap::builder::ValueParser;
 use clap::error::{ContextKind, ContextValue};
@@ -34,7 +34,7 @@ fn allowed(error: &CaseError) -> String {
     format!("allowed: {}", error.allowed)
 }
 
-/// Reads the value of an option that a row describes as a key.
+/// Reads the value of an option that is described as a key.
 pub(crate) fn described(key: &'static Key) -> ValueParser {
     ValueParser::from(move |text: &str| {
         let number = text.trim();
@@ -52,8 +52,8 @@ pub(crate) fn described(key: &'static Key) -> ValueParser {
     })
 }
 
-/// What is wrong with the value of an option, with its name, the value, and what is allowed; none
-/// where the parser does not say what is.
+/// The error of an option's value, with its name, the value, and what is allowed; none if the
+/// parser does not say what is allowed.
 pub(crate) fn refusal(error: &clap::Error) -> Option<String> {
     let text = |kind| match error.get(kind) {
         Some(ContextValue::String(text)) => Some(text.as_str()),
@@ -70,8 +70,8 @@ pub(crate) fn refusal(error: &clap::Error) -> Option<String> {
     Some(format!("{option} = {value} is not allowed; {allowed}"))
 }
 
-/// The same command, the options of which take negative numbers as values everywhere, if only to say
-/// that they are not allowed.
+/// The same command, all options of which accept negative numbers as values, if only to report that
+/// they are not allowed.
 pub(crate) fn with_negative_numbers(command: Command) -> Command {
     let option = |arg: Arg| match arg.is_positional() || !arg.get_action().takes_values() {
         true => arg,

@@ -1,4 +1,4 @@
-//! The paths of the server.
+//! The routes of the server.
 use crate::guard::{Names, guard};
 use crate::refusal::{LARGEST_BODY, Refusal};
 use crate::request::Body;
@@ -18,19 +18,20 @@ use std::sync::Arc;
 use tokio::sync::Semaphore;
 use tokio_stream::Stream;
 
-/// Runs at one time; others wait.
+/// Runs at one time; further ones wait.
 const WORKERS: usize = 4;
-/// Files at one time. They have workers of their own, so that a page whose files are written goes on.
+/// Files at one time. They have workers of their own, so that writing files does not delay the
+/// page.
 const WRITERS: usize = 2;
-/// Lines of maps at one time, each of which takes all processors: maps take turns.
+/// Lines of maps at one time. As each takes all processors, maps take turns.
 const MAPPERS: usize = 1;
 /// Proofs, questions and sections at one time.
 const PROVERS: usize = 2;
 
-/// What the answers are made from.
+/// The state that answers share.
 struct Shared {
     start: Start,
-    /// The structure that the program was begun with, if it was one.
+    /// The structure with which the program was started, if there was one.
     opened: Option<Opened>,
     latest: Latest,
     workers: Arc<Semaphore>,
@@ -39,7 +40,7 @@ struct Shared {
     provers: Arc<Semaphore>,
 }
 
-/// Which path is answered by what, on a server at this port that begins with this case.
+/// The handler of each path, on a server at this port whose first case is this one.
 pub(crate) fn router(start: Start, opened: Option<Opened>, port: u16) -> Router {
     let shared = Shared {
         start,
@@ -84,7 +85,7 @@ async fn wrong_method() -> Refusal {
     Refusal::new(StatusCode::METHOD_NOT_ALLOWED, message)
 }
 
-/// The page of what the program was begun with.
+/// The page of the case or structure with which the program was started.
 async fn answer_page(State(shared): State<Arc<Shared>>) -> Result<Response, Refusal> {
     page::named(match shared.opened {
         Some(_) => "structure.html",
@@ -96,7 +97,7 @@ async fn answer_schema(State(shared): State<Arc<Shared>>) -> impl IntoResponse {
     Json(schema(&shared.start))
 }
 
-/// The values of a case file, as far as they differ from the defaults.
+/// The values of a case file that differ from the defaults.
 async fn answer_case(
     Body(request): Body<case_file::Request>,
 ) -> Result<impl IntoResponse, Refusal> {
@@ -146,7 +147,7 @@ async fn answer_section(
     Ok(([(CONTENT_TYPE, "application/json")], answer))
 }
 
-/// It takes all processors, as a map does.
+/// A basin takes all processors, as a map does.
 async fn answer_basin(
     State(shared): State<Arc<Shared>>,
     Body(request): Body<basin::Request>,
@@ -164,7 +165,7 @@ async fn answer_map(
     Ok(line_by_line(lines))
 }
 
-/// An answer that comes in lines, each an object of JSON.
+/// An answer of several lines, each an object of JSON.
 fn line_by_line(
     lines: impl Stream<Item = Result<body::Bytes, Infallible>> + Send + 'static,
 ) -> Response {
@@ -177,8 +178,8 @@ fn json(bytes: Vec<u8>) -> Response {
     ([(CONTENT_TYPE, "application/json")], bytes).into_response()
 }
 
-/// What comes of some work as an answer by itself, or where its progress is asked for as the last
-/// line of that.
+/// The result of some work as an answer of its own, or, if its progress is asked for, as the last
+/// line of an answer.
 async fn progress_or(
     whole: impl FnOnce(Vec<u8>) -> Response,
     progress: bool,
@@ -205,7 +206,7 @@ async fn answer_export(
     Ok(file_named(&name, kind, bytes))
 }
 
-/// An answer that the browser keeps as a file.
+/// An answer that the browser saves as a file.
 fn file_named(name: &str, kind: &str, bytes: Vec<u8>) -> Response {
     let place = format!("attachment; filename=\"{name}\"");
     let headers = [(CONTENT_TYPE, kind), (CONTENT_DISPOSITION, place.as_str())];
@@ -216,7 +217,7 @@ async fn answer_structure(State(shared): State<Arc<Shared>>) -> impl IntoRespons
     Json(structure::schema(shared.opened.as_ref()))
 }
 
-/// What the case file of a structure gives that was opened on the page.
+/// The values of a structure's case file that was opened on the page.
 async fn answer_structure_file(
     Body(file): Body<structure::CaseFile>,
 ) -> Result<impl IntoResponse, Refusal> {

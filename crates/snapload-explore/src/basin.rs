@@ -13,7 +13,7 @@ use snapload_orbits::{
 };
 use std::time::Duration;
 
-/// What it may take.
+/// Its time budget.
 const BUDGET: Duration = Duration::from_secs(20);
 
 #[derive(Deserialize)]
@@ -26,7 +26,7 @@ pub(crate) struct Request {
     /// The third key and its values.
     #[serde(default)]
     over: Option<AxisGiven>,
-    /// Whether to tell how far it has come, line by line.
+    /// Whether to report the progress, line by line.
     #[serde(default, rename = "told")]
     pub(crate) progress: bool,
 }
@@ -40,7 +40,7 @@ struct Picture {
     y: Vec<f64>,
     /// How each cell ends, x fastest; null where its start is not legal.
     ends: Vec<Option<&'static str>>,
-    /// Whether each reaches a limit, and whether its neighbours end alike.
+    /// For each cell whether it reaches a limit, and whether its neighbours end alike.
     escapes: Vec<bool>,
     decided: Vec<bool>,
 }
@@ -75,7 +75,7 @@ pub(crate) fn answer(request: Request, allowance: &Allowance) -> Result<Vec<u8>,
         }
         Some(over) => {
             // Neighbours of every cell would take ten times as long; the answer says that they were
-            // not looked at.
+            // not computed.
             let erosion = Erosion::of(&window, over.key, &over.values, false, &go_on);
             let erosion = erosion.map_err(|why| unfinished(why, BUDGET, "snapload erosion"))?;
             serde_json::to_vec(&Eroded {

@@ -1,4 +1,4 @@
-//! `/api/case`: what a case file is, and the values that it gives.
+//! `/api/case`: the kind of a case file, and its values.
 use crate::refusal::Refusal;
 use crate::schema::differing;
 use serde::{Deserialize, Serialize};
@@ -9,7 +9,7 @@ use snapload_structure::is_structure;
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct Request {
-    /// What errors call it.
+    /// Its name in errors.
     name: String,
     text: String,
 }
@@ -18,12 +18,12 @@ pub(crate) struct Request {
 pub(crate) struct Answer {
     /// Whether it is the case of a structure, which has a page of its own.
     structure: bool,
-    /// The keys in which it differs from the standard case. Whether they can be run is asked with
+    /// The keys in which it differs from the standard case. Whether they can be run is checked with
     /// the run.
     values: Map<String, JsonValue>,
 }
 
-/// What a case file is, and gives.
+/// The kind and the values of a case file.
 pub(crate) fn answer(request: &Request) -> Result<Answer, Refusal> {
     if is_structure(&request.text) {
         return Ok(Answer {

@@ -12,13 +12,13 @@ use snapload_report::{
 };
 use std::time::Duration;
 
-/// What the neighbours of a run may take.
+/// The time budget of a run's neighbours.
 const BUDGET: Duration = Duration::from_secs(20);
-/// A table of more impacts than this is for the command line.
+/// The most impacts in a table; larger tables are left to the command line.
 const MOST_WRITTEN: usize = 100_000;
-/// The same for a picture: a path that scribbles all over the plane takes minutes to draw.
+/// The same for a picture: a path that covers the whole plane takes minutes to draw.
 const MOST_DRAWN: usize = 10_000;
-/// The neighbours that the command draws unless it is told otherwise.
+/// The seed that the command uses for neighbours by default.
 const SEED: u64 = 1;
 
 /// A file that can be asked for.
@@ -38,7 +38,7 @@ pub(crate) enum File {
 pub(crate) struct Request {
     #[serde(default)]
     values: request::Values,
-    /// As in `/api/run`; a file has neither.
+    /// Accepted as in `/api/run`; it has no effect on a file.
     #[serde(default, rename = "ghost")]
     _ghost: serde::de::IgnoredAny,
     #[serde(default, rename = "samples")]
@@ -63,7 +63,7 @@ impl File {
         }
     }
 
-    /// Its type, as browsers know it.
+    /// Its media type.
     pub(crate) fn content_type(self) -> &'static str {
         match self {
             Self::Case => "application/toml",
@@ -74,7 +74,7 @@ impl File {
         }
     }
 
-    /// What is in it, for the case of a request.
+    /// Its contents, for the case of a request.
     pub(crate) fn write(self, request: Request, allowance: &Allowance) -> Result<Vec<u8>, Refusal> {
         let case = request::case(request.values)?;
         if matches!(self, Self::Case) {
@@ -112,7 +112,7 @@ impl File {
         written.map_err(Refusal::failed)
     }
 
-    /// What tells of the time past the horizon, too: digits, and how neighbours end.
+    /// Adds the digits and the ends of neighbours, which describe the time past the horizon, too.
     fn fill_trusted(
         self,
         case: &Case,

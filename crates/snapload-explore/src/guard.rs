@@ -1,8 +1,8 @@
-//! Whom the server answers, and what it tells the browser about its answers.
+//! Which requests the server accepts, and the headers of its answers.
 //!
 //! A page of another site can make the browser send requests here. It can not read the answers,
-//! unless its own name was made to lead here (DNS rebinding): that is why the name that is asked
-//! for has to be ours.
+//! unless its own host name was made to resolve to this machine (DNS rebinding): that is why the
+//! host name of a request has to be ours.
 use crate::refusal::Refusal;
 use axum::extract::{Request, State};
 use axum::http::header::{
@@ -14,12 +14,12 @@ use axum::middleware::Next;
 use axum::response::{IntoResponse, Response};
 use std::sync::Arc;
 
-/// The page may load what the program serves, and nothing else.
+/// The page may load files of this server, and nothing else.
 const POLICY: &str = "default-src 'self'; img-src 'self' data: blob:; media-src 'self' blob:; \
     style-src 'self' 'unsafe-inline'; base-uri 'none'; form-action 'none'; frame-ancestors 'none'; \
     object-src 'none'";
 
-/// What every answer carries that does not say otherwise itself.
+/// The headers of every answer that does not set them itself.
 const HEADERS: [(HeaderName, &str); 5] = [
     (CONTENT_SECURITY_POLICY, POLICY),
     (X_CONTENT_TYPE_OPTIONS, "nosniff"),
@@ -31,14 +31,14 @@ const HEADERS: [(HeaderName, &str); 5] = [
     ),
 ];
 
-/// The names by which the server may be asked.
+/// The host names that the server accepts.
 pub(crate) struct Names {
     hosts: [String; 2],
     origins: [String; 2],
 }
 
 impl Names {
-    /// Of a server at this port.
+    /// The names of a server at this port.
     pub(crate) fn at(port: u16) -> Self {
         let hosts = ["127.0.0.1", "localhost"].map(|host| match port {
             80 => host.to_owned(),
@@ -49,7 +49,8 @@ impl Names {
     }
 
     fn refuse(&self, request: &Request) -> Option<Refusal> {
-        // Whether each value of a header, which may be given more than once, is one of our names.
+        // For each value of a header, which may be given more than once, whether it is one of our
+        // names.
         let among = |names: &[String; 2], header: &HeaderName| -> Vec<bool> {
             let given = request.headers().get_all(header).iter();
             given
@@ -71,7 +72,7 @@ impl Names {
     }
 }
 
-/// Refuses who is not our own page, and puts the headers on every answer.
+/// Refuses requests that are not from our own page, and adds the headers to every answer.
 pub(crate) async fn guard(
     State(names): State<Arc<Names>>,
     request: Request,

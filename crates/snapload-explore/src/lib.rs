@@ -1,15 +1,15 @@
 //! The page of `snapload explore`, and the server that computes for it.
 //!
-//! A browser on the same machine shows the page and asks over a few paths: `/api/schema` says which
-//! keys there are, `/api/case` reads a case file, `/api/run` runs a case, `/api/map` runs the cases
-//! of a map, `/api/proof` proves a run, `/api/export/NAME` gives the files that the command
-//! `snapload run --out` writes. `/api/structure` and the paths below it do the same for structures
-//! in metres and kilonewtons, in the words of `snapload assess`. All numbers are the library's;
-//! nothing is computed by the page.
+//! A browser on the same machine shows the page and requests a few paths: `/api/schema` lists the
+//! keys, `/api/case` reads a case file, `/api/run` runs a case, `/api/map` runs the cases of a map,
+//! `/api/proof` proves a run, `/api/export/NAME` gives the files that the command `snapload run
+//! --out` writes. `/api/structure` and the paths below it do the same for structures in metres and
+//! kilonewtons, with the texts of `snapload assess`. All numbers are computed by the library, none
+//! by the page.
 //!
-//! Nobody else is served: the server listens on the loopback address alone, answers only to its own
-//! name, which keeps out pages of other sites that have the browser ask for them, and bounds what
-//! one request may cost.
+//! No other machine is served: the server listens on the loopback address alone, answers only to
+//! its own host name, which excludes pages of other sites that make the browser send requests, and
+//! limits the cost of each request.
 
 mod api;
 mod basin;

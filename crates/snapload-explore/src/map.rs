@@ -1,4 +1,4 @@
-//! `/api/map`: what the cases of a map come to, told a few cells at a time.
+//! `/api/map`: the results of the cases of a map, sent a few cells at a time.
 use crate::order::coarse_first;
 use crate::refusal::Refusal;
 use crate::request::{Values, entries};
@@ -21,16 +21,16 @@ use tokio_stream::Stream;
 
 /// The most values of an axis.
 const MOST_VALUES: u64 = 200;
-/// A line is sent about so often.
+/// The approximate time between lines.
 const EVERY: Duration = Duration::from_millis(50);
-/// The cells of a line: at first, at least, at most. Where each takes its time, one sees them come one
-/// by one.
+/// The number of cells in a line: at first, at least, at most. Slow cells are sent one by one, so
+/// that each is seen as it comes.
 const CELLS: [usize; 3] = [16, 1, 2048];
-/// What one cell may take.
+/// The time budget of one cell.
 const BUDGET: Duration = Duration::from_secs(2);
-/// Runs that may go on for longer are run one by one, so that they can be ended.
+/// Runs whose end time is later are run one by one, so that they can be stopped.
 const LONG: f64 = 1000.0;
-/// The same for runs of more impacts than this.
+/// The same for runs with more impacts than this.
 const MANY: u64 = 20_000;
 
 #[derive(Deserialize)]
@@ -58,8 +58,8 @@ pub(crate) struct Axis {
 }
 
 impl AxisGiven {
-    /// The values are those of `snapload sweep --vary`, each the decimal number that one would
-    /// write.
+    /// The values are those of `snapload sweep --vary`, each the double nearest to the exact
+    /// decimal number.
     pub(crate) fn read(&self) -> Result<Axis, Refusal> {
         let key = key_named(&self.key)?;
         if !matches!(key.kind, Kind::Number { .. }) {
@@ -123,39 +123,39 @@ pub(crate) fn lines(
             allowance,
             send,
         };
-        // Where a line can not be sent nobody waits for the next.
+        // If a line can not be sent, the client is gone.
         let _ = drawing.draw().await;
     }))
 }
 
-/// The first line: what the cells stand at.
+/// The first line: the values of the axes.
 #[derive(Serialize)]
 struct Axes<'a> {
     x: &'a [f64],
     y: &'a [f64],
 }
 
-/// The last one.
+/// The last line.
 #[derive(Serialize)]
 struct Done {
     done: bool,
 }
 
-/// A map on its way to the page.
+/// A map that is being computed and sent.
 struct Drawing {
     map: Arc<Map>,
-    /// Whose turn it is to compute a line.
+    /// Limits the lines that are computed at a time.
     mappers: Arc<Semaphore>,
     allowance: Allowance,
     send: Sender<Bytes>,
 }
 
-/// Nobody takes the lines any more.
+/// The client no longer takes the lines.
 struct Abandoned;
 
 impl Drawing {
-    /// Sends the cells, coarse ones first. Each line waits for its turn, so that a map that takes
-    /// long does not hold up another.
+    /// Sends the cells, coarse ones first. Each line waits for its turn, so that a slow map does
+    /// not block another one.
     async fn draw(&self) -> Result<(), Abandoned> {
         let (x, y) = (&self.map.x.values, &self.map.y.values);
         self.send(&Axes { x, y }).await?;
@@ -188,7 +188,7 @@ impl Drawing {
     }
 }
 
-/// What is told of each cell, and what it can be coloured by.
+/// The values of each cell, by which it can be coloured.
 #[rustfmt::skip] // one row a column
 pub(crate) static COLUMNS: [Column; 12] = [
     Column::new("reason", "", "", Take::Word(|run| run.outcome.end.reason.name()), "how the run ends"),
@@ -207,7 +207,7 @@ pub(crate) static COLUMNS: [Column; 12] = [
         "whether neighbours end in the same way"),
 ];
 
-/// What some cells come to, as columns; null where there is nothing.
+/// The results of some cells, as columns; null where there is none.
 struct Cells {
     cells: Arc<[usize]>,
     runs: Vec<Result<Run, Refusal>>,
@@ -239,14 +239,14 @@ impl Serialize for Cells {
     }
 }
 
-/// What cases come to: side by side as far as that can not take long, else by themselves, where
-/// nothing is said of how certain it is.
+/// The results of cases: side by side if none can take long, and otherwise one by one, without
+/// their certainty.
 fn all_runs(
     cases: Vec<Result<Case, CaseError>>,
     allowance: &Allowance,
 ) -> Vec<Result<Run, Refusal>> {
     let short: Vec<Case> = cases.iter().flatten().filter_map(cut).collect();
-    // Where nobody waits any more there are none, and what follows ends at once, too.
+    // If the client is gone there are none, and the rest ends at once, too.
     let mut short = side_by_side(&short, allowance)
         .unwrap_or_default()
         .into_iter();
@@ -283,8 +283,8 @@ fn side_by_side(cases: &[Case], allowance: &Allowance) -> Result<Vec<Run>, Cance
     Ok(made?.into_vec().into_iter().map(run).collect())
 }
 
-/// Whether a run can not take long: a light body turns quickly, and its taut motion takes as many
-/// more steps (docs/limits.md).
+/// Whether a run can not take long: a light body turns quickly, and its taut motion takes
+/// correspondingly many steps (docs/limits.md).
 fn is_short(case: &Case) -> bool {
     let Parameters {
         t_end,
@@ -297,7 +297,7 @@ fn is_short(case: &Case) -> bool {
     t_end * quickness <= LONG
 }
 
-/// The case with so few impacts that it can not take long.
+/// The case limited to so few impacts that it can not take long.
 fn cut(case: &Case) -> Option<Case> {
     let parameters = *case.parameters();
     let cut = Parameters {
@@ -307,7 +307,7 @@ fn cut(case: &Case) -> Option<Case> {
     is_short(case).then(|| Case::new(cut).ok()).flatten()
 }
 
-/// Whether the cut case came to an end that is not the case's own.
+/// Whether the limited case ended where the case itself would not.
 fn was_cut(case: &Case, outcome: &Outcome) -> bool {
     outcome.end.reason == Stop::ImpactLimit && case.parameters().max_impacts > MANY
 }

@@ -3,7 +3,7 @@
 /// The distances between the cells of the passes.
 const PASSES: [usize; 4] = [8, 4, 2, 1];
 
-/// The indices of the cells, x fastest: every eighth row and column first, then what lies between.
+/// The indices of the cells, x fastest: every eighth row and column first, then those between.
 pub(crate) fn coarse_first(columns: usize, rows: usize) -> Vec<usize> {
     let mut order = Vec::with_capacity(columns * rows);
     for (pass, distance) in PASSES.into_iter().enumerate() {

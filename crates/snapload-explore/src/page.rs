@@ -1,4 +1,4 @@
-//! The files of the page: part of the program.
+//! The files of the page, which are embedded in the program.
 use crate::refusal::Refusal;
 use axum::http::header::{CACHE_CONTROL, CONTENT_TYPE};
 use axum::http::{HeaderValue, Uri};
@@ -8,7 +8,8 @@ use include_dir::{Dir, include_dir};
 static PAGE: Dir = include_dir!("$CARGO_MANIFEST_DIR/page");
 
 const ICON: &str = "icon.svg";
-/// Where a browser looks for the icon of what names none, such as a picture that is opened by itself.
+/// The path at which a browser requests an icon if a document names none, such as a picture that is
+/// opened by itself.
 const ICON_OF_OTHERS: &str = "favicon.ico";
 
 /// The file of a path.
@@ -23,14 +24,15 @@ pub(crate) fn named(name: &str) -> Result<Response, Refusal> {
     let file = PAGE.get_file(name).ok_or_else(Refusal::nothing_there)?;
     let mut answer = ([(CONTENT_TYPE, kind)], file.contents()).into_response();
     if name == ICON {
-        // A browser asks for it anew with each change of the address, of which a run makes many.
+        // Otherwise a browser requests it again with each change of the address, of which a run
+        // makes many.
         let an_hour = HeaderValue::from_static("max-age=3600");
         answer.headers_mut().insert(CACHE_CONTROL, an_hour);
     }
     Ok(answer)
 }
 
-/// What a browser is told that a file is, by the end of its name.
+/// The media type of a file, by the ending of its name.
 fn kind(name: &str) -> Option<&'static str> {
     match name.rsplit_once('.')?.1 {
         "css" => Some("text/css; charset=utf-8"),

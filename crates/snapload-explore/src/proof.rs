@@ -1,4 +1,4 @@
-//! `/api/proof`: what of a run is a theorem, in words, and its certificate.
+//! `/api/proof`: the proved part of a run, in words, and its certificate.
 use crate::refusal::Refusal;
 use crate::request::{Values, case};
 use crate::run::follow;
@@ -10,7 +10,7 @@ use snapload_certificate::{Cancelled, Ended, ExactCase, Reason, certify};
 use snapload_report::{Certified, proved_in_words, shell_line};
 use std::time::Duration;
 
-/// What a proof may take.
+/// The time budget of a proof.
 const BUDGET: Duration = Duration::from_secs(20);
 
 #[derive(Deserialize)]
@@ -24,21 +24,21 @@ pub(crate) struct Request {
 struct Answer {
     /// Whether the proof reaches the end of the run.
     proved: bool,
-    /// As far as it reaches.
+    /// The time up to which it is proved.
     t: String,
     impacts: usize,
-    /// The row of the table of impacts at which the run of doubles leaves it, if it does.
+    /// The row of the table of impacts from which the run of doubles differs, if it does.
     leaves: Option<usize>,
-    /// What is proved, how it ends, and where the run of doubles leaves it.
+    /// What is proved, the end of the run, and where the run of doubles differs.
     words: String,
-    /// The command that proves further, where there is one.
+    /// The command that continues the proof, if there is one.
     further: Option<String>,
-    /// The certificate, as the command writes it.
+    /// The certificate, as by the command.
     certificate: String,
 }
 
 /// The answer, as JSON. Only slack flight is proved here, which takes a moment; motion with a taut
-/// cable takes as long as it does, and is left to the command.
+/// cable takes longer, and is left to the command.
 pub(crate) fn answer(request: Request, allowance: &Allowance) -> Result<Vec<u8>, Refusal> {
     let case = case(request.values)?;
     let run = follow(&case, allowance)?.run;
@@ -64,7 +64,7 @@ pub(crate) fn answer(request: Request, allowance: &Allowance) -> Result<Vec<u8>,
             .filter(|_| !sticks)
             .map(|departure| departure.impact),
         words: match sticks {
-            // The run goes on, so that all there is to compare is what comes before.
+            // The run continues, so that only what comes before can be compared.
             true => proved_in_words(proof),
             false => certified.in_words(),
         },
@@ -74,7 +74,7 @@ pub(crate) fn answer(request: Request, allowance: &Allowance) -> Result<Vec<u8>,
     serde_json::to_vec(&answer).map_err(Refusal::failed)
 }
 
-/// The command that proves the run of a case, on where a cable stays taut.
+/// The command that proves the run of a case, also where a cable stays taut.
 fn proving(case: &Case) -> String {
     shell_line(case.parameters()) + " --certify"
 }

@@ -1,4 +1,5 @@
-//! `/api/question/NAME`: the answer to a question about one case, one of all that the report knows.
+//! `/api/question/NAME`: the answer to a question about one case, for all questions of the report
+//! crate.
 use crate::refusal::Refusal;
 use crate::request::{Values, case, options};
 use crate::section::unfinished;
@@ -7,7 +8,7 @@ use serde::Deserialize;
 use snapload_report::Question;
 use std::time::Duration;
 
-/// What it may take.
+/// Its time budget.
 const BUDGET: Duration = Duration::from_secs(20);
 
 #[derive(Deserialize)]
@@ -15,12 +16,12 @@ const BUDGET: Duration = Duration::from_secs(20);
 pub(crate) struct Request {
     #[serde(default)]
     values: Values,
-    /// By name; those that are left out have their defaults.
+    /// By name; options that are left out have their defaults.
     #[serde(default)]
     options: Values,
 }
 
-/// The answer, as JSON: `words` for a person, and `answer`, which is what the command writes.
+/// The answer, as JSON: `words` for people, and `answer`, which is the output of the command.
 pub(crate) fn answer(
     question: &Question,
     request: Request,

@@ -1,5 +1,4 @@
-//! Answers that say no: a status, the words that the command line would print, and the key that is
-//! to be changed.
+//! Error responses: a status, the message that the command line would print, and the key to change.
 use axum::Json;
 use axum::extract::rejection::JsonRejection;
 use axum::http::StatusCode;
@@ -11,19 +10,19 @@ use std::fmt::Display;
 /// The largest body of a request, in bytes: a case has some twenty values.
 pub(crate) const LARGEST_BODY: usize = 64 << 10;
 
-/// Why a request gets no answer.
+/// Why a request is refused.
 #[derive(Debug, Serialize)]
 pub(crate) struct Refusal {
     #[serde(skip)]
     status: StatusCode,
-    /// The key of the case, or the field of the request, that is to be changed; none where no
-    /// single one is.
+    /// The key of the case, or the field of the request, that has to be changed; none if there is
+    /// no single one.
     key: Option<String>,
     message: String,
 }
 
 impl Refusal {
-    /// With a status and what to say.
+    /// A refusal with a status and a message.
     pub(crate) fn new(status: StatusCode, message: impl Into<String>) -> Self {
         Self {
             status,
@@ -32,7 +31,7 @@ impl Refusal {
         }
     }
 
-    /// What it says.
+    /// The message.
     pub(crate) fn message(&self) -> &str {
         &self.message
     }
@@ -42,7 +41,7 @@ impl Refusal {
         serde_json::json!({ "key": self.key, "message": self.message })
     }
 
-    /// The same about a field of the request, whose name stands before the message.
+    /// The same for a field of the request, whose name is put before the message.
     pub(crate) fn of_field(self, field: &str) -> Self {
         Self {
             status: self.status,
@@ -51,24 +50,24 @@ impl Refusal {
         }
     }
 
-    /// A body that is not what this path takes.
+    /// A body that this path does not accept.
     pub(crate) fn malformed(error: impl Display) -> Self {
-        // What is wrong may be repeated in the message, and a body can be long.
+        // The message may repeat the wrong part, and a body can be long.
         let message: String = error.to_string().chars().take(300).collect();
         Self::new(StatusCode::BAD_REQUEST, format!("the request: {message}"))
     }
 
-    /// Values that can not be computed with.
+    /// Values that are not allowed.
     pub(crate) fn values(message: impl Into<String>) -> Self {
         Self::new(StatusCode::UNPROCESSABLE_ENTITY, message)
     }
 
-    /// A path where there is nothing.
+    /// A path that does not exist.
     pub(crate) fn nothing_there() -> Self {
         Self::new(StatusCode::NOT_FOUND, "there is nothing at this path")
     }
 
-    /// Work that ended without an answer, which would be a fault of the program.
+    /// Work that ended without an answer, which would be an error of the program.
     pub(crate) fn failed(error: impl Display) -> Self {
         let message = format!("the program failed: {error}");
         Self::new(StatusCode::INTERNAL_SERVER_ERROR, message)
@@ -77,7 +76,7 @@ impl Refusal {
 
 impl From<CaseError> for Refusal {
     fn from(error: CaseError) -> Self {
-        // What is changed on the page stands in a field.
+        // The page changes values in fields, not on a command line.
         let error = error.off_the_command_line();
         Self {
             key: Some(error.key.clone()),

@@ -1,4 +1,4 @@
-//! What a request says, checked.
+//! Reads and checks requests.
 use crate::refusal::Refusal;
 use axum::Json;
 use axum::extract::{FromRequest, Request};
@@ -22,7 +22,7 @@ impl<T: DeserializeOwned, S: Send + Sync> FromRequest<S> for Body<T> {
     type Rejection = Refusal;
 
     async fn from_request(request: Request, state: &S) -> Result<Self, Refusal> {
-        // An object first: a list would be taken for the fields in their order.
+        // Read as an object first: serde would accept a list as the fields in their order.
         let body = Json::<Values>::from_request(request, state);
         let body = tokio::time::timeout(BODY_WITHIN, body).await.map_err(|_| {
             let message = "the request did not arrive in time";
@@ -33,12 +33,12 @@ impl<T: DeserializeOwned, S: Send + Sync> FromRequest<S> for Body<T> {
     }
 }
 
-/// Keys and values, each of them legal by itself; `null` is a key left out.
+/// Keys and values, each of them legal by itself; a key that is `null` is left out.
 pub(crate) fn entries(values: Values) -> Result<Vec<(&'static str, Value)>, CaseError> {
     checked(values, key_named)
 }
 
-/// The same of the options of a question.
+/// The same for the options of a question.
 pub(crate) fn options(
     question: &Question,
     values: Values,
@@ -66,12 +66,12 @@ fn checked(
     Ok(entries)
 }
 
-/// The case of some values.
+/// The case with given values.
 pub(crate) fn case(values: Values) -> Result<Case, CaseError> {
     Case::new(Parameters::from_entries(entries(values)?)?)
 }
 
-/// A value of JSON, none of `null`; else what it is instead, in words.
+/// A value of JSON, none for `null`; as an error, what it is instead, in words.
 fn value(json: JsonValue) -> Result<Option<Value>, &'static str> {
     Ok(Some(match json {
         JsonValue::Null => return Ok(None),

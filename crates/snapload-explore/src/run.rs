@@ -1,4 +1,4 @@
-//! `/api/run`: a run, all that the page draws of it.
+//! `/api/run`: a run, with everything that the page draws.
 use crate::refusal::Refusal;
 use crate::request::{Values, case};
 use crate::work::Allowance;
@@ -17,15 +17,15 @@ use snapload_report::{
 };
 use std::time::{Duration, Instant};
 
-/// What a run may take, its trust included, and the same again its neighbour.
+/// The time budget of a run with its trust, and again of its neighbour.
 const BUDGET: Duration = Duration::from_secs(2);
-/// A page can not show more impacts than this, nor more intervals.
+/// The most impacts, and the most intervals, that a page shows.
 const MOST_SHOWN: usize = 10_000;
-/// How many times the motion is told at, beside its impacts.
+/// The allowed numbers of times at which the motion is sent, besides its impacts.
 const SAMPLES: std::ops::RangeInclusive<u32> = 2..=20_000;
-/// The neighbour's distance at the start is no larger than this.
+/// The largest distance of the neighbour at the start.
 const FARTHEST: f64 = 0.1;
-/// Two runs have parted where x, y or θ differ by more than this.
+/// Two runs have separated if x, y or θ differ by more than this.
 const PARTED: f64 = 1e-3;
 
 #[derive(Deserialize)]
@@ -37,7 +37,7 @@ pub(crate) struct Request {
     ghost: Option<f64>,
     #[serde(default)]
     samples: Option<u32>,
-    /// A part of time that has as many samples of its own.
+    /// A time window that has the same number of samples of its own.
     #[serde(default)]
     window: Option<[f64; 2]>,
 }
@@ -125,7 +125,7 @@ struct Answer<'a> {
     geometry: Geometry,
     end: EndInWords,
     norms: NormsRow,
-    /// How many digits of each are known, in words.
+    /// The number of known digits of each norm, in words.
     norms_known: &'a NormsKnown,
     horizon: HorizonInWords,
     modes: Modes,
@@ -145,7 +145,7 @@ struct Cut {
     shown: usize,
 }
 
-/// What there is to draw, at rest.
+/// The body and cables to draw, at rest.
 #[derive(Serialize)]
 struct Geometry {
     body: BodyGeometry,
@@ -250,17 +250,17 @@ impl Modes {
     }
 }
 
-/// The impacts as columns, under the names of `impacts.csv`: those that the page shows.
+/// The impacts that the page shows as columns, under the names of `impacts.csv`.
 struct Impacts<'a> {
     shown: &'a [Impact],
-    /// Told as far as the horizon.
+    /// Up to the horizon.
     digits: &'a [f64],
 }
 
 impl Serialize for Impacts<'_> {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
         let mut map = serializer.serialize_map(None)?;
-        // Where the body is does not change in an impact.
+        // An impact does not change the body's position.
         for column in IMPACTS
             .iter()
             .take_while(|column| column.name != "before_vx")
@@ -279,7 +279,7 @@ impl Serialize for Impacts<'_> {
 struct Columns([Vec<f64>; 10]);
 
 impl Columns {
-    /// At the times asked for, and just before and just after each impact.
+    /// The motion at the times asked for, and just before and just after each impact.
     fn of(run: &Trajectory, impacts: &[Impact], sampling: Times) -> Self {
         let mut columns = Self(Default::default());
         let mut playback = Playback::new(run);
@@ -315,7 +315,7 @@ impl Serialize for Columns {
     }
 }
 
-/// The times that a motion is told at.
+/// The times at which a motion is sent.
 #[derive(Clone, Copy)]
 struct Times {
     samples: u32,
@@ -323,7 +323,7 @@ struct Times {
 }
 
 impl Times {
-    /// Evenly spaced from the start to the end, and closer within the window.
+    /// Evenly spaced from the start to the end, and more densely within the window.
     fn of(self, run: &Trajectory) -> Vec<f64> {
         let end = run.end().t;
         let mut times: Vec<f64> = self.evenly(0.0, end).collect();
@@ -344,10 +344,10 @@ impl Times {
     }
 }
 
-/// The same run from a start that differs a little.
+/// The same run from a slightly different start.
 #[derive(Serialize)]
 struct Ghost {
-    /// The key that differs, and by how much.
+    /// The key that differs, and the difference.
     key: &'static str,
     by: f64,
     motion: Columns,
@@ -394,7 +394,7 @@ fn neighbour(case: &Case, by: f64) -> Result<(&'static str, f64, Case), CaseErro
         .or_else(|_| at("y", by))
 }
 
-/// When two runs have come apart, while both last.
+/// When two runs have separated, while both last.
 fn parting(run: &Trajectory, other: &Trajectory, sampling: Times) -> Option<f64> {
     let (mut one, mut two) = (Playback::new(run), Playback::new(other));
     let apart = |p: &State, q: &State| {

@@ -1,4 +1,4 @@
-//! `/api/schema`: which keys there are, and the cases to start from.
+//! `/api/schema`: the keys, and the cases to start from.
 use crate::map::COLUMNS;
 use serde_json::{Map, Value as JsonValue, json};
 use snapload::analysis::{Certainty, Counter, Made, on_all_threads, unwatched};
@@ -8,7 +8,7 @@ use snapload::{
 use snapload_report::{QUESTIONS, Question, ValueRow};
 use std::sync::LazyLock;
 
-/// The case of the thesis's model that the page begins with.
+/// The first case of the thesis's model on the page.
 #[derive(Clone, Debug)]
 pub struct Start {
     /// Its code, or the name of its file.
@@ -17,7 +17,7 @@ pub struct Start {
     pub parameters: Parameters,
 }
 
-/// All there is to say.
+/// The whole schema.
 pub(crate) fn schema(start: &Start) -> JsonValue {
     let cases = named_cases().enumerate().map(|(k, case)| {
         let (values, happens) = (differing(&case.parameters), HAPPENS.get(k));
@@ -39,9 +39,10 @@ pub(crate) fn schema(start: &Start) -> JsonValue {
     })
 }
 
-/// What happens in the built-in cases, in their order; they are run when a page first asks.
+/// A description of each built-in case's run, in their order; they are run when a page first asks
+/// for it.
 static HAPPENS: LazyLock<Vec<String>> = LazyLock::new(|| {
-    // All of them are legal; were one not, none would have words.
+    // All of them are legal; if one were not, there would be no descriptions.
     let cases: Result<Vec<Case>, _> = named_cases()
         .map(|case| Case::new(case.parameters))
         .collect();
@@ -55,7 +56,7 @@ static HAPPENS: LazyLock<Vec<String>> = LazyLock::new(|| {
     told.iter().map(what_happens).collect()
 });
 
-/// What happens in a run, in a few words; what rounding may decide is said with "about".
+/// A description of a run in a few words; numbers that depend on rounding are preceded by "about".
 fn what_happens((outcome, certainty): &(Outcome, Certainty)) -> String {
     let (t, snaps) = (outcome.end.t, outcome.snaps());
     let (about, past) = match certainty.decides_the_end() {
@@ -97,7 +98,7 @@ pub(crate) fn kind(key: &Key) -> JsonValue {
     }
 }
 
-/// A question about one case, and what it is asked with.
+/// A question about one case, with its options.
 fn question(question: &Question) -> JsonValue {
     let options = question.options.iter().map(|key| {
         json!({
@@ -131,7 +132,7 @@ fn key(key: &Key) -> JsonValue {
             DefaultValue::Derived(words) => words,
             _ => "",
         },
-        // The one key whose default is a formula in other keys.
+        // The only key whose default is a formula in other keys.
         "derived": key.name == "inertia",
         "usual": key.usual.map(|[low, high]| json!({ "low": low, "high": high })),
     })

@@ -1,4 +1,4 @@
-//! `/api/section`: where a motion stands once a period of its forcing, in the long run.
+//! `/api/section`: the state of a long motion once per period of its forcing.
 use crate::refusal::Refusal;
 use crate::request::{Values, case};
 use crate::work::Allowance;
@@ -7,9 +7,9 @@ use snapload::analysis::Unfinished;
 use snapload_orbits::{Section, SectionRow, section_in_words, stretch};
 use std::time::Duration;
 
-/// What it may take.
+/// Its time budget.
 const BUDGET: Duration = Duration::from_secs(20);
-/// Periods that are followed, and points that are kept, if nothing else is said; and at most.
+/// The default numbers of periods and of points kept; and the largest numbers.
 const PERIODS: u64 = 800;
 const KEEP: u64 = 400;
 const MOST: u64 = 20_000;
@@ -49,7 +49,7 @@ pub(crate) fn answer(request: Request, allowance: &Allowance) -> Result<Vec<u8>,
     serde_json::to_vec(&answer).map_err(Refusal::failed)
 }
 
-/// Why there is no answer within some time.
+/// The refusal of work that did not end within its time.
 pub(crate) fn unfinished(why: Unfinished, time: Duration, command: &str) -> Refusal {
     match why {
         Unfinished::Case(error) => error.into(),

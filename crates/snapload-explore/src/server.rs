@@ -1,4 +1,4 @@
-//! The server: a socket on the loopback address, and the connections to it.
+//! The server: a socket on the loopback address, and its connections.
 use crate::api::router;
 use crate::schema::Start;
 use crate::structure::Opened;
@@ -14,18 +14,19 @@ use tokio::net::TcpStream;
 use tokio::sync::{Notify, Semaphore};
 use tokio_io_timeout::TimeoutStream;
 
-/// Connections open at one time; a browser has six. Others wait until one is closed.
+/// The most connections open at one time; a browser has six. Further ones wait until one is closed.
 const MOST_CONNECTIONS: usize = 64;
-/// How long the head of a request may take to arrive, and a connection may be idle.
+/// How long the header of a request may take to arrive, and a connection may be idle.
 const HEAD_WITHIN: Duration = Duration::from_secs(10);
 /// How long the client may take to accept a part of an answer.
 const WRITE_WITHIN: Duration = Duration::from_secs(30);
-/// The largest head of a request.
+/// The largest header of a request.
 const LARGEST_HEAD: usize = 32 << 10;
-/// How long to wait where the system can not accept a connection, such as for want of file handles.
+/// The waiting time if the system can not accept a connection, for example for lack of file
+/// handles.
 const RETRY_AFTER: Duration = Duration::from_millis(50);
 
-/// A server that has its port, and serves once it is told to.
+/// A server that has its port, and is ready to serve.
 pub struct Server {
     listener: TcpListener,
     port: u16,
@@ -34,23 +35,23 @@ pub struct Server {
     stop: Stop,
 }
 
-/// Ends a server from any thread.
+/// Stops a server from any thread.
 #[derive(Clone, Default)]
 pub struct Stop(Arc<Notify>);
 
 impl Stop {
-    /// Ends it: the connections are closed, and work that is under way is dropped.
+    /// Stops it: the connections are closed, and work in progress is dropped.
     pub fn now(&self) {
         self.0.notify_one();
     }
 }
 
 impl Server {
-    /// Takes a port of the loopback address, any free one for 0, to serve the page that begins with
-    /// this case.
+    /// Binds to a port of the loopback address, any free one for 0, to serve the page whose first
+    /// case is this one.
     ///
     /// # Errors
-    /// Where the port is taken or not ours to take.
+    /// If the port is taken or not permitted.
     pub fn bind(port: u16, start: Start) -> io::Result<Self> {
         let listener = TcpListener::bind((Ipv4Addr::LOCALHOST, port))?;
         listener.set_nonblocking(true)?;
@@ -63,19 +64,19 @@ impl Server {
         })
     }
 
-    /// The same with the page of a structure in front.
+    /// The same with the page of a structure as its first page.
     #[must_use]
     pub fn opening(self, structure: Opened) -> Self {
         let opened = Some(structure);
         Self { opened, ..self }
     }
 
-    /// Where the page is.
+    /// The address of the page.
     pub fn address(&self) -> String {
         format!("http://127.0.0.1:{}/", self.port)
     }
 
-    /// What ends it.
+    /// A handle that stops it.
     pub fn stop(&self) -> Stop {
         self.stop.clone()
     }
@@ -83,7 +84,7 @@ impl Server {
     /// Serves until it is stopped.
     ///
     /// # Errors
-    /// Where the system gives no threads or takes the socket away.
+    /// If the system gives no threads or closes the socket.
     pub fn serve(self) -> io::Result<()> {
         let mut runtime = tokio::runtime::Builder::new_multi_thread();
         let runtime = runtime
@@ -123,7 +124,7 @@ impl Server {
 
 /// Answers the requests of one connection.
 async fn serve_connection(stream: TcpStream, router: Router) {
-    // A line of a map goes out as soon as it is there.
+    // Each line of a map is sent without delay.
     let _ = stream.set_nodelay(true);
     let mut stream = TimeoutStream::new(stream);
     stream.set_write_timeout(Some(WRITE_WITHIN));
@@ -135,6 +136,6 @@ async fn serve_connection(stream: TcpStream, router: Router) {
             TokioIo::new(Box::pin(stream)),
             TowerToHyperService::new(router),
         );
-    // However it ends, it ends this connection only.
+    // An error ends this connection only.
     let _ = served.await;
 }

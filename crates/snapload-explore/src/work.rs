@@ -1,4 +1,4 @@
-//! Work that ends when its time is up, or when nobody waits for its answer any more.
+//! Work that ends when its time is up, or when the client no longer waits for its answer.
 use crate::refusal::Refusal;
 use axum::body::Bytes;
 use serde_json::{Value as JsonValue, json};
@@ -15,10 +15,11 @@ use tokio::sync::{Semaphore, watch};
 use tokio_stream::wrappers::ReceiverStream;
 use tokio_stream::{Stream, StreamExt};
 
-/// How far work has come is told no more often than this.
+/// The least time between two progress reports.
 const EVERY: Duration = Duration::from_millis(100);
 
-/// Who waits for an answer holds this; dropping it, as a closed connection does, ends the work.
+/// Held by the handler that waits for an answer; dropping it, as a closed connection does, ends the
+/// work.
 pub(crate) struct Waiting(Arc<AtomicBool>);
 
 impl Drop for Waiting {
@@ -27,16 +28,16 @@ impl Drop for Waiting {
     }
 }
 
-/// How long work may go on: as long as somebody waits for it, and perhaps no longer than some time.
+/// How long work may continue: as long as a client waits for it, and possibly up to some time.
 #[derive(Clone)]
 pub(crate) struct Allowance {
     abandoned: Arc<AtomicBool>,
     until: Option<Instant>,
-    /// Where it leaves how far it has come, for whoever looks.
+    /// Where its progress is published.
     progress: Option<watch::Sender<Come>>,
 }
 
-/// How far some work has come.
+/// The progress of some work.
 #[derive(Clone, Default, PartialEq)]
 struct Come {
     /// What is being done.
@@ -45,7 +46,7 @@ struct Come {
 }
 
 impl Allowance {
-    /// Without a limit of time.
+    /// An allowance without a time limit.
     pub(crate) fn new() -> (Waiting, Self) {
         let abandoned = Arc::new(AtomicBool::new(false));
         let allowance = Self {
@@ -56,13 +57,13 @@ impl Allowance {
         (Waiting(abandoned), allowance)
     }
 
-    /// The same, with a place to leave how far it has come.
+    /// The same, with a channel for the progress.
     fn with_progress(self, progress: watch::Sender<Come>) -> Self {
         let progress = Some(progress);
         Self { progress, ..self }
     }
 
-    /// The same, for so long from now on, and no longer than it was allowed before.
+    /// The same, limited to `time` from now on, and no longer than before.
     pub(crate) fn within(&self, time: Duration) -> Self {
         let until = Instant::now() + time;
         Self {
@@ -71,15 +72,15 @@ impl Allowance {
         }
     }
 
-    /// Whether nobody waits any more.
+    /// Whether no client waits any more.
     pub(crate) fn is_abandoned(&self) -> bool {
         self.abandoned.load(Ordering::Relaxed)
     }
 
-    /// What long work asks.
+    /// The callback of long work.
     pub(crate) fn go_on(&self, progress: Progress) -> ControlFlow<()> {
         if let Some(come) = &self.progress {
-            // What is no number, as nothing of nothing, is cast to nought.
+            // NaN, as from 0/0, is cast to 0.
             let percent = ((100.0 * progress.done / progress.of) as u8).min(100);
             come.send_if_modified(|come| {
                 let more = come.percent != percent || come.doing != progress.doing;
@@ -99,7 +100,7 @@ impl Allowance {
     }
 }
 
-/// Does some work on a thread where it may take its time, once one of `workers` is free.
+/// Does some work on a thread that may block, once one of `workers` is free.
 pub(crate) async fn compute<T: Send + 'static>(
     workers: &Arc<Semaphore>,
     work: impl FnOnce(&Allowance) -> Result<T, Refusal> + Send + 'static,
@@ -108,7 +109,7 @@ pub(crate) async fn compute<T: Send + 'static>(
     on_a_worker(Arc::clone(workers), allowance, work).await
 }
 
-/// The same for work that may be abandoned already when its turn comes; it is not begun then.
+/// The same for work that may already be abandoned when its turn comes; then it is not begun.
 pub(crate) async fn on_a_worker<T: Send + 'static>(
     workers: Arc<Semaphore>,
     allowance: Allowance,
@@ -119,7 +120,7 @@ pub(crate) async fn on_a_worker<T: Send + 'static>(
         return Err(Refusal::failed("nobody waits for the answer"));
     }
     let work = move || {
-        // Held until the work ends, which may be after it was told to.
+        // Held until the work ends, which may be after it was cancelled.
         let _worker = worker;
         work(&allowance)
     };
@@ -128,7 +129,7 @@ pub(crate) async fn on_a_worker<T: Send + 'static>(
         .map_err(Refusal::failed)?
 }
 
-/// The lines that a task sends. Dropping them ends the work that the task has its allowance for.
+/// The lines that a task sends. Dropping the stream ends the work of the task's allowance.
 pub(crate) fn lines_of<T, F>(task: T) -> impl Stream<Item = Result<Bytes, Infallible>> + use<T, F>
 where
     T: FnOnce(Allowance, Sender<Bytes>) -> F,
@@ -143,8 +144,8 @@ where
     })
 }
 
-/// As `compute`, in lines, each an object of JSON: how far the work has come, and in the end the
-/// text that comes of it, as `answer`, or why there is none, as `error`.
+/// As `compute`, in lines, each an object of JSON: the progress, and at the end the resulting text
+/// as `answer`, or why there is none as `error`.
 pub(crate) fn compute_in_lines<W>(
     workers: &Arc<Semaphore>,
     work: W,
@@ -156,7 +157,7 @@ where
     lines_of(async move |allowance: Allowance, send| {
         let (progress, come) = watch::channel(Come::default());
         let work = on_a_worker(workers, allowance.with_progress(progress), work);
-        // Where a line can not be sent nobody waits for the next.
+        // If a line can not be sent, the client is gone.
         let _ = send_progress(work, come, send).await;
     })
 }

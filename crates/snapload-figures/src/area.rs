@@ -1,11 +1,11 @@
-//! The inside of one plot: from the data's units to places on paper.
+//! The inside of one plot: from the data's units to positions on paper.
 
 use crate::axis::Span;
 use crate::plot::{self, drawable};
 use crate::polyline::{clip, holds, thin};
 use kurbo::{Point, Rect};
 
-/// A rectangle of paper and the ranges of the two axes on it.
+/// A rectangle on paper and the ranges of the two axes on it.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Area {
     pub(crate) rect: Rect,
@@ -14,7 +14,7 @@ pub(crate) struct Area {
 }
 
 impl Area {
-    /// Where a point of the data is on paper.
+    /// The position of a point of the data on paper.
     pub(crate) fn to_page(self, [x, y]: plot::Point) -> Point {
         let along = |v: f64, (lo, hi): Span| (v - lo) / (hi - lo);
         Point::new(
@@ -23,7 +23,7 @@ impl Area {
         )
     }
 
-    /// A polyline on paper, cut to the frame and to its drawable points, and thinned.
+    /// A polyline on paper, clipped to the frame and to its drawable points, and thinned.
     pub(crate) fn line(self, points: &[plot::Point]) -> Vec<Vec<Point>> {
         let runs = points.split(|point| !drawable(point));
         let on_page = |run: &[plot::Point]| -> Vec<Point> {
@@ -33,7 +33,7 @@ impl Area {
         pieces.map(|piece| thin(&piece)).collect()
     }
 
-    /// Where a point is on paper, if it can be seen there.
+    /// The position of a point on paper, if it is inside the frame.
     pub(crate) fn seen(self, point: plot::Point) -> Option<Point> {
         let place = drawable(&point).then(|| self.to_page(point))?;
         holds(self.rect, place).then_some(place)

@@ -33,12 +33,12 @@ fn ordered(a: f64, b: f64) -> Option<Span> {
     drawable(&[a, b]).then(|| (a.min(b), a.max(b)))
 }
 
-/// Whether an interval is too short, for its place or at all, to put ticks on it.
+/// Whether an interval is too short, absolutely or relative to its values, for ticks.
 fn narrow((lo, hi): Span) -> bool {
     hi - lo <= 1e-10 * lo.abs().max(hi.abs()) || hi - lo < 1e-100
 }
 
-/// The interval of the data with a little air at its ends, which does not reach across zero.
+/// The interval of the data with a small margin at its ends, which does not extend across zero.
 fn with_air((lo, hi): Span) -> Span {
     if narrow((lo, hi)) {
         let middle = lo + (hi - lo) / 2.0;
@@ -54,17 +54,17 @@ fn with_air((lo, hi): Span) -> Span {
     (lowered(lo), -lowered(-hi))
 }
 
-/// The ticks on an axis and what is written at them.
+/// The ticks on an axis and their texts.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub(crate) struct Ticks {
-    /// Each tick's place and text.
+    /// Each tick's position and text.
     pub(crate) at: Vec<(f64, String)>,
     /// A power of ten that multiplies all the texts, such as "×10⁻¹²"; empty for one.
     pub(crate) factor: String,
 }
 
 impl Ticks {
-    /// What is written at them.
+    /// The texts.
     pub(crate) fn texts(&self) -> impl Iterator<Item = &str> {
         self.at.iter().map(|(_, text)| text.as_str())
     }
@@ -72,7 +72,7 @@ impl Ticks {
 
 /// Three to nine ticks on the interval.
 pub(crate) fn ticks(style: TickStyle, span: Span) -> Ticks {
-    // A multiple of π with many digits says less than a power of ten.
+    // A multiple of π with many digits is less readable than a power of ten.
     let few_turns = span.0.abs().max(span.1.abs()) < 1e4;
     if style == TickStyle::Angle && few_turns && span.1 - span.0 >= 3.0 * FRAC_PI_4 {
         angle_ticks(span)
@@ -81,7 +81,8 @@ pub(crate) fn ticks(style: TickStyle, span: Span) -> Ticks {
     }
 }
 
-/// Ticks at the largest step of 1, 2 or 5 times a power of ten that puts three on the interval.
+/// Ticks at the largest step of 1, 2 or 5 times a power of ten that gives three ticks on the
+/// interval.
 fn decimal_ticks((lo, hi): Span) -> Ticks {
     let (mantissa, exponent) = step_of((hi - lo) / 3.0);
     // Whole multiples of the step, so that a tick is exact and prints without 0.30000000000000004.

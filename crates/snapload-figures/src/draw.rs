@@ -1,4 +1,4 @@
-//! The page: panels one below the other, with their axes, legends and titles.
+//! The page: panels below each other, with their axes, legends and titles.
 
 use crate::area::Area;
 use crate::axis::{Span, Ticks, resolve, ticks, union};
@@ -14,12 +14,12 @@ use crate::text::{
 };
 use kurbo::{Point, Rect, Vec2};
 
-/// The white rim of the page, in points.
+/// The white margin of the page, in points.
 const RIM: f64 = 2.0;
-/// From one panel to the next.
+/// The distance between panels.
 const BETWEEN: f64 = 6.0;
 
-/// Draws plots one below the other, with one x axis for all.
+/// Draws plots below each other, with one x axis for all.
 ///
 /// `name` is the stem of the file's name. Panels in a stack show the union of their ranges of x
 /// and the x label of the last one.
@@ -69,7 +69,7 @@ pub fn draw(name: &str, page: Width, panels: &[Plot]) -> Result<Picture, FigureE
     Ok(Picture::new(name, svg, size))
 }
 
-/// The title of the document for those who do not see it.
+/// The title of the document for readers who can not see it.
 fn spoken_title(name: &str, panels: &[Plot]) -> String {
     let words = panels
         .iter()
@@ -94,7 +94,7 @@ fn lay_out(page: Width, panels: &[Plot]) -> Vec<Area> {
     let rect = inner_rect(page, panels, &areas);
     areas.iter_mut().for_each(|area| area.rect = rect);
     if panels.iter().any(|plot| plot.equal_scale) {
-        // Room must be left on the page for a caption.
+        // The page must have space for a caption.
         let tallest = match page {
             Width::Column => 1.1,
             Width::Page => 0.8,
@@ -118,8 +118,8 @@ fn lay_out(page: Width, panels: &[Plot]) -> Vec<Area> {
     areas
 }
 
-/// The ranges of a plot: those of its map, or those that its axes ask for. Without data they show
-/// the boundaries.
+/// The ranges of a plot: those of its map, or those of its axes. Without data they include the
+/// boundaries.
 fn ranges(plot: &Plot) -> Area {
     let mut shown: Vec<plot::Point> = plot.data().collect();
     if shown.is_empty() {
@@ -141,7 +141,7 @@ fn ranges(plot: &Plot) -> Area {
     }
 }
 
-/// The rectangle of a panel: the page less what is written beside it.
+/// The rectangle of a panel: the page without the texts beside it.
 fn inner_rect(page: Width, panels: &[Plot], areas: &[Area]) -> Rect {
     let (mut numbers, mut beside) = (0.0_f64, 0.0_f64);
     for (plot, area) in panels.iter().zip(areas) {
@@ -171,7 +171,7 @@ fn inner_rect(page: Width, panels: &[Plot], areas: &[Area]) -> Rect {
     Rect::new(left, 0.0, right, shape * (right - left))
 }
 
-/// The area with one of its ranges widened about its middle, so that the scales are equal.
+/// The area with one of its ranges widened symmetrically, so that the scales are equal.
 fn widened(Area { rect, x, y }: Area) -> Area {
     let unit = ((x.1 - x.0) / rect.width()).max((y.1 - y.0) / rect.height());
     let about = |(lo, hi): Span, length: f64| {
@@ -184,7 +184,7 @@ fn widened(Area { rect, x, y }: Area) -> Area {
 
 /// Draws a smaller plot into a part of a frame.
 fn draw_inset(sheet: &mut Sheet, frame: Rect, inset: &Inset) {
-    /// What is left free within its part.
+    /// The margin within its part.
     const AIR: f64 = 3.0;
     let Inset { plot, place } = inset;
     let [left, bottom, right, top] = *place;
@@ -195,7 +195,7 @@ fn draw_inset(sheet: &mut Sheet, frame: Rect, inset: &Inset) {
     let part = Rect::from_points(at(left, bottom), at(right, top));
     sheet.blank(part);
     let mut area = ranges(plot);
-    // Room for the numbers beside and below; those of the widened range may be longer.
+    // Space for the numbers beside and below; those of the widened range may be longer.
     for _ in 0..2 {
         let numbers = widest(ticks(plot.y.ticks, area.y).texts());
         let half = widest(ticks(plot.x.ticks, area.x).texts().last().into_iter()) / 2.0;
@@ -218,7 +218,8 @@ fn draw_inset(sheet: &mut Sheet, frame: Rect, inset: &Inset) {
     draw_x_axis(sheet, &unnamed, &area, true);
 }
 
-/// The title, from `top` down; like its neighbours it returns where it ends.
+/// Draws the title below `top`; this and the following functions return the position where they
+/// end.
 fn draw_title(sheet: &mut Sheet, plot: &Plot, area: &Area, top: f64) -> f64 {
     if plot.title.is_empty() {
         return top;
@@ -233,7 +234,7 @@ fn draw_title(sheet: &mut Sheet, plot: &Plot, area: &Area, top: f64) -> f64 {
     top + ROW + 1.5
 }
 
-/// The powers of ten of the y axis and of the colour bar.
+/// Draws the powers of ten of the y axis and of the colour bar.
 fn draw_factors(sheet: &mut Sheet, y: &Ticks, bar: Option<&Bar>, rect: Rect, top: f64) -> f64 {
     let of_bar = bar.map_or("", |bar| &bar.ticks.factor);
     for (factor, left) in [(y.factor.as_str(), rect.x0), (of_bar, rect.x1 + BESIDE)] {
@@ -256,7 +257,7 @@ fn draw_y_axis(sheet: &mut Sheet, label: &str, ticks: &Ticks, area: &Area) {
     sheet.text_upwards(label, middle, size);
 }
 
-/// Ticks and, for the lowest panel, numbers and label; returns where the page may end.
+/// Draws ticks and, for the lowest panel, numbers and label; returns where the page may end.
 fn draw_x_axis(sheet: &mut Sheet, axis: &Axis, area: &Area, numbered: bool) -> f64 {
     let bottom = area.rect.y1;
     let Ticks { at, factor } = ticks(axis.ticks, area.x);
@@ -265,7 +266,7 @@ fn draw_x_axis(sheet: &mut Sheet, axis: &Axis, area: &Area, numbered: bool) -> f
         .iter()
         .map(|(value, text)| (area.to_page([*value, area.y.0]).x, text));
     let places: Vec<(f64, &String)> = places.collect();
-    // Numbers that would touch one another stand at every second or third tick only.
+    // If numbers would touch one another, only every second or third tick has one.
     let apart = places
         .array_windows()
         .map(|[a, b]| b.0 - a.0)

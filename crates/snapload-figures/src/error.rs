@@ -1,4 +1,4 @@
-//! What can go wrong when a picture is made.
+//! The errors in making a picture.
 
 use std::fmt;
 
@@ -10,7 +10,7 @@ pub enum FigureError {
     NoPanel,
     /// A panel with equal scale on both axes cannot share its x axis with other panels.
     EqualScaleInStack,
-    /// The scale asked of a PNG is not positive, or asks for more than a hundred million pixels.
+    /// The scale of a PNG is not positive, or gives more than a hundred million pixels.
     Scale,
     /// The SVG could not be turned into pixels; the text is the reason that the rasteriser gave.
     Raster(String),

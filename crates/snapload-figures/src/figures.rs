@@ -6,7 +6,7 @@
 use crate::plot::{Axis, Colour, Dash, Layer, Mark, Plot, Point, Range, Shape, Stroke, TickStyle};
 use std::f64::consts::FRAC_PI_2;
 
-/// The names of the cables, and the lines that stand for them.
+/// The names of the cables, and their strokes.
 const CABLES: [(&str, Stroke); 2] = [
     ("cable 1", Stroke::new(Colour::BLUE, 0.9, Dash::Solid)),
     ("cable 2", Stroke::new(Colour::VERMILION, 0.9, Dash::Dashed)),
@@ -17,7 +17,7 @@ const CABLES: [(&str, Stroke); 2] = [
 pub struct Leg {
     /// How the body moves along it.
     pub mode: Mode,
-    /// The centre's places, `[x, y]`.
+    /// The centre's positions, `[x, y]`.
     pub points: Vec<Point>,
 }
 
@@ -34,8 +34,8 @@ pub enum Mode {
     Sliding,
 }
 
-/// How each mode is drawn, and its words. What lasts shortest is drawn last, on top. Rocking is
-/// solid: it goes over its own path, which would fill the gaps of a dashed line.
+/// The stroke and the text of each mode. Short modes are drawn last, on top. Rocking is solid: its
+/// path repeats itself, which would fill the gaps of a dashed line.
 const MODES: [(Mode, Stroke, &str); 4] = [
     (
         Mode::BeyondHorizon,

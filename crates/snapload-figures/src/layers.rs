@@ -9,10 +9,10 @@ use crate::svg::{ACROSS, Anchor, BOUNDARY, Sheet};
 use crate::text::{CAP_HEIGHT, NAME_GAP, SMALL, fitted};
 use kurbo::{Point, Vec2};
 
-/// The most markers drawn in one layer; more would cover the paper.
+/// The most markers drawn in one layer; more would cover the plot.
 const MOST_MARKERS: usize = 6_000;
 
-/// Draws all layers, then the frame, then what is written on top of both.
+/// Draws all layers, then the frame, then the texts on top of both.
 pub(crate) fn draw_layers(sheet: &mut Sheet, area: Area, plot: &Plot) {
     let mut ink = Ink::new(area.rect);
     // Backgrounds first, whatever their place in the list.
@@ -68,7 +68,7 @@ fn draw_layer(sheet: &mut Sheet, area: Area, layer: &Layer, marker: f64, ink: &m
     }
 }
 
-/// Half the size of a marker: many must not blot one another out, few must be seen.
+/// Half the size of a marker: many must not cover one another, few must be visible.
 pub(crate) fn marker_radius(count: usize) -> f64 {
     (2.2 * (60.0 / count.max(1) as f64).sqrt()).clamp(1.0, 2.2)
 }

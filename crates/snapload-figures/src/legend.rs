@@ -1,4 +1,4 @@
-//! The legend: rows of samples above the frame, where they can hide no data.
+//! The legend: rows of samples above the frame, where they do not cover data.
 
 use crate::area::Area;
 use crate::layers::marker_radius;
@@ -8,9 +8,9 @@ use crate::svg::{Anchor, Fill, Sheet};
 use crate::text::{CAP_HEIGHT, ROW, SMALL, fitted, width};
 use kurbo::{Point, Rect, Vec2};
 
-/// From a sample to its words, in points.
+/// The distance from a sample to its text, in points.
 const GAP: f64 = 3.0;
-/// From one entry to the next.
+/// The distance between entries.
 const BETWEEN: f64 = 10.0;
 
 /// How a layer looks.
@@ -32,7 +32,7 @@ impl Sample {
         }
     }
 
-    /// Draws it to the right of `at`, on the base line of its words.
+    /// Draws it to the right of `at`, on the base line of its text.
     fn draw(self, sheet: &mut Sheet, at: Point) {
         let width = self.width();
         let left = at - Vec2::new(0.0, 0.5 * CAP_HEIGHT * SMALL);
@@ -52,7 +52,7 @@ impl Sample {
     }
 }
 
-/// What stands in the legend for a layer of which something is seen.
+/// The entries of a layer of which something is visible.
 fn entries(layer: &Layer, area: &Area) -> Vec<(Sample, String)> {
     let (seen, sample, words) = match layer {
         Layer::Line(pieces, stroke, words) => {
@@ -83,7 +83,7 @@ pub(crate) struct Legend {
 }
 
 impl Legend {
-    /// Draws what is new in this panel from `top` down; returns where the rows end.
+    /// Draws the new entries of this panel below `top`; returns where the rows end.
     pub(crate) fn draw(&mut self, sheet: &mut Sheet, plot: &Plot, area: &Area, top: f64) -> f64 {
         let (left, right) = (area.rect.x0, area.rect.x1);
         let mut at = Point::new(left, top);
@@ -95,7 +95,7 @@ impl Legend {
             let words_at = sample.width() + GAP;
             let size = fitted(words, SMALL, right - left - words_at);
             let wide = words_at + width(words) * size;
-            // at.y is the end of the row; the first one is opened by its first entry.
+            // at.y is the base line of the current row; the first entry begins the first row.
             if at.y == top || at.x + wide > right {
                 at = Point::new(left, at.y + ROW);
             }

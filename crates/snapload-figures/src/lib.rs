@@ -1,10 +1,10 @@
-//! Pictures of motions on cables, as SVG and PNG, fit for print.
+//! Pictures of motions on cables, as SVG and PNG, in print quality.
 //!
-//! This crate knows axes, lines and letters, and no physics: it is handed points, or a finished run
-//! ([`RunPlots`]) that tells it where they are. Five functions ([`trajectory`], [`rotation`],
-//! [`snap_velocities`], [`tensions`], [`energy`]) turn them into a [`Plot`]; [`draw()`] puts one
-//! plot, or several over one another, on a [`Picture`] that gives itself as SVG and, from that very
-//! SVG, as PNG. A [`Map`] shows a number or a class over two axes.
+//! This crate draws axes, lines and letters, and computes no physics: its input is points, or a
+//! finished run ([`RunPlots`]) from which it takes them. Five functions ([`trajectory`],
+//! [`rotation`], [`snap_velocities`], [`tensions`], [`energy`]) turn them into a [`Plot`];
+//! [`draw()`] puts one plot, or several below each other, on a [`Picture`], which is written as SVG
+//! and, rendered from that SVG, as PNG. A [`Map`] shows a number or a class over two axes.
 //!
 //! ```
 //! use snapload_figures::{Plot, Width, draw, rotation};
@@ -18,21 +18,21 @@
 //! # Ok::<(), snapload_figures::FigureError>(())
 //! ```
 //!
-//! # What to rely on
+//! # Guarantees
 //!
 //! Letters measure 7 to 8 points on paper, unless a text is too long for its place; lines 0.5 to
-//! 1.3 points; colours are those of Okabe and Ito, and nothing is told by colour alone. The same
-//! points give the same bytes. Points that are not finite are skipped. Lines are thinned by less
-//! than 0.2 points on paper, so that a smooth line, or any line over time, of a hundred thousand
-//! points stays small; a line that truly scribbles all over the plane is kept as it is.
+//! 1.3 points; colours are those of Okabe and Ito, and nothing is distinguished by colour alone.
+//! The same points give the same bytes. Points that are not finite are skipped. Lines are thinned
+//! by less than 0.2 points on paper, so that the file of a smooth line, or of any line over time,
+//! of a hundred thousand points stays small; a line that covers the whole plane is kept as it is.
 //!
 //! # Why the SVG is written here
 //!
 //! The `plotters` crate was considered first. Its back ends take whole pixels (`BackendCoord` is a
-//! pair of `i32`), so a smooth path comes out in steps unless the whole page is scaled, and its SVG
-//! back end has nothing for dashes, for the halo that keeps a letter readable on a line, or for
-//! italics within a label. What these plots need of SVG is paths and text, which is one small file
-//! here; `resvg` does the hard part, the pixels.
+//! pair of `i32`), so a smooth path is drawn in steps unless the whole page is scaled, and its SVG
+//! back end does not support dashes, the halo that keeps a letter readable on a line, or italics
+//! within a label. These plots need only paths and text of SVG, which is one small file here;
+//! `resvg` does the difficult part, the pixels.
 
 mod area;
 mod axis;

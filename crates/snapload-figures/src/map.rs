@@ -10,12 +10,12 @@ use std::collections::BTreeMap;
 
 /// The width of the colour bar, in points.
 const BAR: f64 = 9.0;
-/// From the map to the bar.
+/// The distance from the map to the bar.
 pub(crate) const BESIDE: f64 = 8.0;
-/// How many shades a scale has: more are not told apart, and fewer keep a file small.
+/// The number of shades of a scale: more can not be distinguished, and fewer keep a file small.
 const LEVELS: usize = 64;
-/// Points of the scale viridis of matplotlib (CC0), evenly spaced: its lightness rises evenly, so
-/// it is read without red or green, and in grey print.
+/// Points of the scale viridis of matplotlib (CC0), evenly spaced: its lightness increases evenly,
+/// so that it can be read without distinguishing red and green, and in grey print.
 const VIRIDIS: [[u8; 3]; 10] = [
     [0x44, 0x01, 0x54],
     [0x48, 0x28, 0x78],
@@ -28,7 +28,7 @@ const VIRIDIS: [[u8; 3]; 10] = [
     [0xb5, 0xde, 0x2b],
     [0xfd, 0xe7, 0x25],
 ];
-/// The colours of classes, in an order in which neighbours differ in lightness, too.
+/// The colours of classes, in an order in which neighbours also differ in lightness.
 const CLASSES: [Colour; 6] = [
     Colour::BLUE,
     Colour::ORANGE,
@@ -60,7 +60,7 @@ fn level(value: f64, (low, high): Span) -> usize {
     ((part * LEVELS as f64) as usize).min(LEVELS - 1)
 }
 
-/// What stands for a cell.
+/// The fill of a cell.
 fn fill(cell: Cell, values: Span) -> Fill {
     match cell {
         Cell::Value(value) if value.is_finite() => shade(level(value, values)),
@@ -107,7 +107,7 @@ fn values_of(map: &Map) -> Option<Span> {
     Some(resolve(Range::Fixed(low, high), std::iter::once(low)))
 }
 
-/// One path for all the cells of a colour, and one for those in doubt on top.
+/// Draws one path for all the cells of a colour, and one for the doubtful ones on top.
 pub(crate) fn draw_cells(sheet: &mut Sheet, map: &Map, area: Area) {
     let values = values_of(map).unwrap_or_default();
     let colour = |k: usize| {
@@ -123,7 +123,7 @@ pub(crate) fn draw_cells(sheet: &mut Sheet, map: &Map, area: Area) {
     }
 }
 
-/// The cells of each fill, by their number; neighbours above one another are one rectangle.
+/// The cells of each fill, by index; vertical neighbours are joined to one rectangle.
 fn rects(map: &Map, area: Area, fill: impl Fn(usize) -> Option<Fill>) -> BTreeMap<Fill, Vec<Rect>> {
     let mut of_fill: BTreeMap<Fill, Vec<Rect>> = BTreeMap::new();
     let (across, up) = (edges(&map.x), edges(&map.y));
@@ -146,18 +146,18 @@ fn rects(map: &Map, area: Area, fill: impl Fn(usize) -> Option<Fill>) -> BTreeMa
     of_fill
 }
 
-/// Whether a cell, by its number, is in doubt; where there is nothing, there is no doubt.
+/// Whether a cell, by index, is doubtful; an empty cell is not.
 fn is_doubtful(map: &Map, k: usize) -> bool {
     let something = matches!(map.cells.get(k), Some(Cell::Value(_) | Cell::Class(_)));
     something && map.doubtful.get(k) == Some(&true)
 }
 
-/// Whether any cell is in doubt.
+/// Whether any cell is doubtful.
 pub(crate) fn has_doubts(map: &Map) -> bool {
     (0..map.cells.len()).any(|k| is_doubtful(map, k))
 }
 
-/// The classes that occur, what is no value, and what is in doubt, for the legend.
+/// The classes that occur, cells without a value, and doubtful ones, for the legend.
 pub(crate) fn samples(map: &Map) -> Vec<(Fill, String)> {
     let classes = map.classes.iter().enumerate();
     let classes = classes.map(|(index, name)| (Cell::Class(index), name.as_str()));
@@ -178,7 +178,7 @@ pub(crate) struct Bar<'a> {
 }
 
 impl<'a> Bar<'a> {
-    /// That of a map, if it has values.
+    /// The bar of a map, if it has values.
     pub(crate) fn of(map: &'a Map) -> Option<Self> {
         let values = values_of(map)?;
         let (label, ticks) = (map.value_label.as_str(), ticks(TickStyle::Decimal, values));
@@ -189,12 +189,13 @@ impl<'a> Bar<'a> {
         })
     }
 
-    /// From the map to what stands along the bar, and how wide that is.
+    /// The distance from the map to the label of the bar, which depends on the width of its
+    /// numbers.
     fn label_at(&self) -> f64 {
         BESIDE + BAR + TICK + TICK_GAP + widest(self.ticks.texts())
     }
 
-    /// The room that it needs to the right of the map.
+    /// The space that it needs to the right of the map.
     pub(crate) fn room(&self) -> f64 {
         let label = if self.label.is_empty() {
             0.0

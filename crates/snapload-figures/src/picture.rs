@@ -4,7 +4,7 @@ use crate::error::FigureError;
 use crate::text;
 use resvg::{tiny_skia, usvg};
 
-/// Pixels per point of a PNG with 300 dots per inch: what journals ask of a line drawing in a
+/// Pixels per point of a PNG with 300 dots per inch, which journals require for a line drawing in a
 /// raster format.
 pub const PNG_SCALE: f32 = 300.0 / 72.0;
 
@@ -14,14 +14,14 @@ const MOST_PIXELS: f64 = 1.0e8;
 /// A finished picture.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Picture {
-    /// What to call it: the stem of a file's name.
+    /// Its name: the stem of a file's name.
     pub name: String,
     svg: String,
     size_pt: (f64, f64),
 }
 
 impl Picture {
-    /// A picture of a document that measures so many points.
+    /// A picture from a document of this size in points.
     pub(crate) fn new(name: &str, svg: String, size_pt: (f64, f64)) -> Self {
         let name = name.to_string();
         Self { name, svg, size_pt }
@@ -37,8 +37,8 @@ impl Picture {
         self.size_pt
     }
 
-    /// The same picture as a PNG with `scale` pixels per point of paper (so 600 dots per inch are
-    /// a scale of 600/72). The file says how large it is on paper.
+    /// The same picture as a PNG with `scale` pixels per point on paper (so 600 dots per inch are a
+    /// scale of 600/72). The file contains its size on paper.
     ///
     /// # Errors
     ///

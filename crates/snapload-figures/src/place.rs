@@ -1,4 +1,4 @@
-//! Where words go inside a plot: beside what they name, where the least ink is.
+//! Places texts inside a plot: beside the object that they name, where the least is drawn.
 
 use crate::polyline::holds;
 use crate::svg::{Anchor, FRAME, Sheet};
@@ -7,27 +7,29 @@ use kurbo::{Point, Rect, Size, Vec2};
 
 /// The radius of a dot at a mark, in points.
 const DOT: f64 = 1.6;
-/// Dots closer than this on paper are one.
+/// Dots closer than this on paper coincide.
 const SAME_PLACE: f64 = 2.5 * DOT;
-/// The ink of a word or a dot, where a line counts one: lines may be crossed, words may not.
+/// The ink of a text or a dot, in units of that of a line: lines may be crossed, texts may not.
 const WORD: u32 = 50;
-/// How far words stay from each other.
+/// The distance between texts.
 const APART: f64 = 4.0;
-/// A letter farther than this from its dot has a line to it.
+/// A letter farther than this from its dot is connected to it by a line.
 const FAR: f64 = 10.0;
-/// What it costs a letter to stand a point farther away, where a crossed line costs one.
+/// The cost of each point of distance between a letter and its dot, in units of that of a crossed
+/// line.
 const AWAY: f64 = 0.4;
-/// A letter is taken for that of another dot, unless that is so many times as far away as its own.
+/// A letter may be mistaken for that of another dot, unless that is this many times as far away as
+/// its own.
 const NEARER: f64 = 2.0;
-/// What that costs.
+/// The cost of that.
 const TAKEN: f64 = 200.0;
-/// How far words stay from the frame, close to which an I looks like a tick.
+/// The distance of texts from the frame, near which an I looks like a tick.
 const RIM: f64 = 3.0;
-/// How many places along a boundary are tried for its name.
+/// The number of positions along a boundary that are tried for its name.
 const TRIES: usize = 60;
-/// From this distance on, nobody takes the name of one boundary for that of another.
+/// From this distance on, the name of one boundary is not mistaken for that of another.
 const UNMISTAKABLE: f64 = 40.0;
-/// The eight directions in which a word can stand beside a point, the best first.
+/// The eight directions in which a text can be placed beside a point, the best first.
 const DIRECTIONS: [Vec2; 8] = [
     Vec2::new(1.0, -0.6),
     Vec2::new(-1.0, -0.6),
@@ -39,7 +41,7 @@ const DIRECTIONS: [Vec2; 8] = [
     Vec2::new(0.0, 1.0),
 ];
 
-/// How much is drawn on each square point of a plot.
+/// The amount drawn on each square point of a plot.
 pub(crate) struct Ink {
     frame: Rect,
     columns: usize,
@@ -68,7 +70,7 @@ impl Ink {
     fn add(&mut self, points: impl Iterator<Item = Point>, amount: u32) {
         for point in points {
             if let Some(cell) = self.index(point).and_then(|at| self.cells.get_mut(at)) {
-                // A line that passes often is no worse to write on than one that passes once.
+                // Several passes of a line make a position no worse for a text than one.
                 *cell = amount.max(*cell);
             }
         }
@@ -79,7 +81,7 @@ impl Ink {
         holds(self.frame, at).then_some(row * self.columns + column)
     }
 
-    /// The ink under a rectangle, or nothing if it comes too close to the frame.
+    /// The ink under a rectangle; none if it is too close to the frame.
     fn under(&self, rect: Rect) -> Option<u32> {
         let ink = |at| self.index(at).and_then(|at| self.cells.get(at));
         let with_rim = rect.inflate(RIM, RIM);
@@ -87,8 +89,8 @@ impl Ink {
         inside.then(|| cells_of(rect).filter_map(ink).sum())
     }
 
-    /// Writes a word in the candidate with the least ink under it; of equal ones, in the first. Tells
-    /// where it stands.
+    /// Writes a text at the candidate with the least ink under it; of equal ones, at the first.
+    /// Returns its position.
     fn write(
         &mut self,
         sheet: &mut Sheet,
@@ -106,7 +108,7 @@ impl Ink {
     }
 }
 
-/// A point in each cell that a rectangle, and half a point around it, touches.
+/// One point in each cell that a rectangle, enlarged by half a point, touches.
 fn cells_of(rect: Rect) -> impl Iterator<Item = Point> {
     let corner = rect.origin() - Vec2::new(0.5, 0.5);
     let [columns, rows] = [rect.width(), rect.height()].map(|side| side.ceil() as u32 + 1);
@@ -125,7 +127,7 @@ fn along(pieces: &[Vec<Point>], step: f64) -> impl Iterator<Item = Point> {
     })
 }
 
-/// Boxes for a word beside a point, each with what it costs to stand so far away.
+/// Rectangles for a text beside a point, each with the cost of its distance.
 fn beside(at: Point, word: &str, gap: f64) -> impl Iterator<Item = (Rect, f64)> {
     let size = Size::new(width(word) * SMALL, CAP_HEIGHT * SMALL);
     let reach = size / 2.0 + Size::new(gap, gap);
@@ -140,7 +142,7 @@ fn nearest(rect: Rect, to: Point) -> Point {
     Point::new(to.x.clamp(rect.x0, rect.x1), to.y.clamp(rect.y0, rect.y1))
 }
 
-/// Draws dots, and their letters beside them; those of one place are joined.
+/// Draws dots, and their letters beside them; letters of coinciding dots are joined.
 pub(crate) fn place_letters(sheet: &mut Sheet, ink: &mut Ink, marks: &[(Point, &str)]) {
     let mut places: Vec<(Point, String)> = Vec::new();
     for &(at, letter) in marks {

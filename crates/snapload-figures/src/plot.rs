@@ -1,35 +1,35 @@
-//! What a plot is made of: two axes, layers of data, and a few words.
+//! The parts of a plot: two axes, layers of data, and a few texts.
 
 /// A point or a displacement, `[x, y]`, in the data's own units.
 pub type Point = [f64; 2];
 
 /// One plot. Write the fields that matter and leave the rest to `..Plot::default()`.
 ///
-/// In every text, letters between asterisks are set in italics: `"*t* (T)"`.
-/// An asterisk without its partner is printed as it stands.
+/// In every text, letters between asterisks are set in italics: `"*t* (T)"`. A single asterisk is
+/// printed as it is.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Plot {
     /// A small line above the plot, such as the code of a case; empty for none.
     pub title: String,
-    /// What the plot shows, in a sentence, for readers who cannot see it; not printed.
+    /// A description of the plot, in a sentence, for readers who cannot see it; not printed.
     pub description: String,
     /// The axis along the bottom.
     pub x: Axis,
     /// The axis along the left side.
     pub y: Axis,
-    /// Whether a unit of x is drawn as long as a unit of y. One of the two ranges, a fixed one too,
-    /// is then widened until the plot has a fair shape.
+    /// Whether the scales of x and y are equal. One of the two ranges, even a fixed one, is then
+    /// widened so that the plot has a suitable shape.
     pub equal_scale: bool,
     /// The data, drawn in this order. A point with a coordinate that is not finite, or beyond
     /// 1e100, is skipped, and a line is broken there.
     pub layers: Vec<Layer>,
-    /// Words in the middle of the plot, such as the reason why it is empty; empty for none.
+    /// A text in the middle of the plot, such as the reason why it is empty; empty for none.
     pub note: String,
-    /// A smaller plot within the frame, such as a part of it enlarged, or the whole of which it is a
-    /// part.
+    /// A smaller plot within the frame, such as an enlarged part of it, or the whole of which it is
+    /// a part.
     pub inset: Option<Box<Inset>>,
-    /// Markers are drawn as small as if there were at least so many of them: plots that are compared
-    /// have markers of one size.
+    /// The least number of markers that is assumed for their size, so that plots which are compared
+    /// have markers of the same size.
     pub markers: usize,
 }
 
@@ -37,9 +37,9 @@ pub struct Plot {
 /// labels and legend.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Inset {
-    /// What it shows.
+    /// Its contents.
     pub plot: Plot,
-    /// Where it stands, numbers and all: left, bottom, right and top side, in parts of the frame.
+    /// Its position including its numbers: left, bottom, right and top side, as parts of the frame.
     pub place: [f64; 4],
 }
 
@@ -48,26 +48,26 @@ pub struct Inset {
 pub struct Axis {
     /// Symbol and unit.
     pub label: String,
-    /// What part of the axis is shown.
+    /// The range that is shown.
     pub range: Range,
-    /// Where its ticks stand.
+    /// The positions of its ticks.
     pub ticks: TickStyle,
 }
 
-/// What part of an axis is shown.
+/// The range that an axis shows.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub enum Range {
-    /// All points of the lines and markers, with a little air that does not reach across zero.
+    /// All points of the lines and markers, with a small margin that does not extend across zero.
     /// Data that are constant to ten digits are shown as constant.
     #[default]
     Auto,
-    /// As [`Range::Auto`], and at least from the first number to the second.
+    /// As [`Range::Auto`], and including the interval from the first number to the second.
     AtLeast(f64, f64),
-    /// From the first number to the second and no more; what lies outside is cut off.
+    /// From the first number to the second; data outside are cut off.
     Fixed(f64, f64),
 }
 
-/// Where the ticks of an axis stand.
+/// The positions of the ticks of an axis.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum TickStyle {
     /// At 1, 2 or 5 times a power of ten.
@@ -78,23 +78,23 @@ pub enum TickStyle {
     Angle,
 }
 
-/// One layer of a plot. Its words stand in the legend, or where it says so; they may be empty.
+/// One layer of a plot. Its text is in the legend, or where the layer says; it may be empty.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Layer {
-    /// A line: its pieces, each a polyline, how they are drawn, and its words.
-    /// A piece of a single point is drawn as a dot.
+    /// A line: its pieces, each a polyline, its stroke, and its text. A piece of a single point is
+    /// drawn as a dot.
     Line(Vec<Vec<Point>>, Stroke, String),
-    /// A marker at each point, and their words. They shrink as they grow many, and of thousands
-    /// that cover one another some are left out.
+    /// A marker at each point, and their text. Large numbers of markers are drawn smaller, and of
+    /// thousands that cover one another some are left out.
     Markers(Vec<Point>, Shape, Colour, String),
-    /// The boundary of a region, dotted, and its name, written along it where there is room.
-    /// It enters an automatic range only where there are no data.
+    /// The boundary of a region, dotted, and its name, written along it where there is space. It is
+    /// included in an automatic range only if there are no data.
     Boundary(Vec<Point>, String),
-    /// A dashed line across the plot at a height, and its name, written at its right end.
-    /// It does not enter an automatic range.
+    /// A dashed line across the plot at a height, and its name, written at its right end. It is not
+    /// included in an automatic range.
     Horizontal(f64, String),
-    /// A light grey background from one x to another, which may be infinite, and its words.
-    /// It does not enter an automatic range.
+    /// A light grey background from one x to another, which may be infinite, and its text. It is
+    /// not included in an automatic range.
     Shade(f64, f64, String),
     /// Dots with letters beside them. Where dots coincide on paper the letters are joined: "S,G".
     Letters(Vec<Mark>),
@@ -105,13 +105,13 @@ pub enum Layer {
 /// A dot with a letter (or a short word) beside it.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Mark {
-    /// Where the dot is.
+    /// The position of the dot.
     pub at: Point,
-    /// What stands beside it.
+    /// The text beside it.
     pub letter: String,
 }
 
-/// A grid of cells. Its colours are told apart by colour-blind readers and in grey print.
+/// A grid of cells. Its colours can be distinguished by colour-blind readers and in grey print.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Map {
     /// The values of x, rising or falling, each in the middle of its cells.
@@ -120,30 +120,30 @@ pub struct Map {
     pub y: Vec<f64>,
     /// The cells: for the first x all of y, then for the next.
     pub cells: Vec<Cell>,
-    /// What the values are, written along the colour bar.
+    /// The label of the values, along the colour bar.
     pub value_label: String,
     /// The names of the classes.
     pub classes: Vec<String>,
-    /// Which cells are in doubt, in the order of the cells; these are hatched. Those that are left
-    /// out are not.
+    /// Which cells are doubtful, in the order of the cells; these are hatched. Cells for which the
+    /// list has no entry are not.
     pub doubtful: Vec<bool>,
 }
 
-/// What a cell of a [`Map`] holds.
+/// The contents of a cell of a [`Map`].
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub enum Cell {
-    /// A number; one that is not finite counts as nothing.
+    /// A number; one that is not finite counts as empty.
     Value(f64),
-    /// One of the classes, by its place in their list.
+    /// One of the classes, by its index in their list.
     Class(usize),
     /// Nothing.
     #[default]
     Empty,
-    /// What could not be computed; hatched.
+    /// A value that could not be computed; hatched.
     Fault,
 }
 
-/// How a line is drawn.
+/// The appearance of a line.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Stroke {
     /// Its colour.
@@ -176,8 +176,8 @@ pub enum Shape {
     Circle,
 }
 
-/// Red, green and blue. The named ones are those of Okabe and Ito, which colour-blind readers tell
-/// apart. Grey is left to what lies past the horizon of trust.
+/// Red, green and blue. The named ones are those of Okabe and Ito, which colour-blind readers can
+/// distinguish. Grey is reserved for what is past the horizon of trust.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Default)]
 pub struct Colour(pub [u8; 3]);
 
@@ -192,7 +192,7 @@ pub enum Width {
 }
 
 impl Axis {
-    /// With decimal ticks.
+    /// An axis with decimal ticks.
     pub fn new(label: impl Into<String>, range: Range) -> Self {
         let (label, ticks) = (label.into(), TickStyle::Decimal);
         Self {
@@ -243,7 +243,7 @@ impl Default for Stroke {
 #[allow(missing_docs)]
 impl Colour {
     pub const BLACK: Self = Self([0x00, 0x00, 0x00]);
-    /// What lies past the horizon of trust, and nothing else.
+    /// Reserved for what is past the horizon of trust.
     pub const GREY: Self = Self([0x99, 0x99, 0x99]);
     pub const ORANGE: Self = Self([0xe6, 0x9f, 0x00]);
     pub const SKY_BLUE: Self = Self([0x56, 0xb4, 0xe9]);
@@ -281,7 +281,7 @@ impl Plot {
     }
 }
 
-/// Whether a point can be placed on paper: beyond 1e100 the arithmetic of ranges would overflow.
+/// Whether a point can be placed on paper: beyond 1e100 the computation of ranges would overflow.
 pub(crate) fn drawable(point: &Point) -> bool {
     point.iter().all(|v| v.abs() < 1e100)
 }

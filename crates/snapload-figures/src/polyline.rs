@@ -1,20 +1,20 @@
-//! Polylines on paper: cut to the frame, and thinned where the eye cannot tell.
+//! Polylines on paper: clipped to the frame, and thinned where this is not visible.
 //!
 //! All lengths here are points on paper (1/72 inch).
 
 use kurbo::{Line, ParamCurveNearest, Point, Rect};
 use std::collections::HashSet;
 
-/// How far the simplification may stray; [`columns`] adds at most [`COLUMN`].
+/// The largest deviation of the simplification; [`columns`] adds at most [`COLUMN`].
 const TOLERANCE: f64 = 0.05;
 /// The width of the columns in which a long line over time keeps only its extremes.
 const COLUMN: f64 = 0.1;
-/// How many points a line has before its columns are looked at.
+/// The number of points from which on a line is reduced to its columns' extremes.
 const LONG: usize = 5_000;
-/// The simplification works on stretches of this length, which bounds its time.
+/// The simplification works on parts of this length, which limits its time.
 const STRETCH: usize = 1_000;
 
-/// Whether a point lies in a frame; one on the edge does, whatever the rounding of its place.
+/// Whether a point is in a frame; one on the edge is, whatever the rounding of its position.
 pub(crate) fn holds(frame: Rect, point: Point) -> bool {
     frame.inflate(1e-6, 1e-6).contains(point)
 }
@@ -59,7 +59,7 @@ fn clip_segment(from: Point, to: Point, frame: Rect) -> Option<(Point, Point)> {
         if holds(frame, end) {
             return end;
         }
-        // Clamped, because rounding is large where the ends are far outside.
+        // Clamped, because rounding is large if the ends are far outside.
         let at = from + part * d;
         Point::new(
             at.x.clamp(frame.x0, frame.x1),
@@ -69,7 +69,7 @@ fn clip_segment(from: Point, to: Point, frame: Rect) -> Option<(Point, Point)> {
     (enter <= leave).then(|| (end(from, enter), end(to, leave)))
 }
 
-/// A polyline that looks the same and has far fewer points.
+/// A polyline with the same appearance and far fewer points.
 pub(crate) fn thin(points: &[Point]) -> Vec<Point> {
     if points.len() > LONG && points.is_sorted_by(|a, b| a.x <= b.x) {
         simplify(&columns(points))
@@ -78,7 +78,7 @@ pub(crate) fn thin(points: &[Point]) -> Vec<Point> {
     }
 }
 
-/// Of a line over time, the first, lowest, highest and last point of each column.
+/// For a line over time, the first, lowest, highest and last point of each column.
 fn columns(points: &[Point]) -> Vec<Point> {
     let mut kept = Vec::new();
     for column in points.chunk_by(|a, b| (a.x / COLUMN).floor() == (b.x / COLUMN).floor()) {
@@ -93,7 +93,7 @@ fn columns(points: &[Point]) -> Vec<Point> {
     kept
 }
 
-/// The simplification of Douglas and Peucker (1973), stretch by stretch.
+/// The simplification of Douglas and Peucker (1973), part by part.
 fn simplify(points: &[Point]) -> Vec<Point> {
     if points.len() < 3 {
         return points.to_vec();
@@ -119,8 +119,8 @@ fn simplify(points: &[Point]) -> Vec<Point> {
     kept.map(|(point, _)| *point).collect()
 }
 
-/// At most `most` of the points: where there are more, those that fall into one cell of a grid,
-/// finer than a marker, are one.
+/// At most `most` of the points: if there are more, those within one cell of a grid, which is finer
+/// than a marker, are replaced by one.
 pub(crate) fn thin_markers(mut points: Vec<Point>, most: usize) -> Vec<Point> {
     let mut cell = COLUMN;
     while points.len() > most {

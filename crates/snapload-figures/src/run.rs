@@ -1,4 +1,4 @@
-//! The plots of a run: what of the motion goes into which.
+//! The plots of a run: which quantities of the motion are in each.
 
 use crate::draw::draw;
 use crate::error::FigureError;
@@ -7,11 +7,10 @@ use crate::picture::Picture;
 use crate::plot::{Axis, Inset, Mark, Plot, Point, Range, Width};
 use snapload::{ModeInterval, Motion, Playback, TautSet, Trajectory, Vector2};
 
-/// Longest step of time between two drawn points, where a run has no more than [`MOST_STEPS`] of
-/// them.
+/// Longest time step between two drawn points, if a run has at most [`MOST_STEPS`] of them.
 const STEP: f64 = 0.01;
 const MOST_STEPS: f64 = 20_000.0;
-/// Shorter pieces than this are of no use to the eye.
+/// Shorter pieces than this are not visible.
 const SHORTEST: f64 = 2e-3;
 
 /// The plots of a run.
@@ -39,7 +38,7 @@ impl RunPlot {
         Self::Energy,
     ];
 
-    /// Its name, as that of its file.
+    /// Its name, which is also that of its file.
     pub fn name(self) -> &'static str {
         match self {
             Self::Trajectory => "trajectory",
@@ -59,7 +58,7 @@ pub struct RunPlots<'a> {
     horizon: Option<f64>,
 }
 
-/// A stretch of motion between two events, at the times at which it is drawn: its last one is just
+/// A stretch of motion between two events, at the times at which it is drawn: the last one is just
 /// before the event at its end.
 #[derive(Clone, Debug)]
 struct Stretch {
@@ -68,7 +67,7 @@ struct Stretch {
 }
 
 impl<'a> RunPlots<'a> {
-    /// Of a run.
+    /// The plots of a run.
     pub fn new(run: &'a Trajectory) -> Self {
         let mut playback = Playback::new(run);
         let end = run.end().t;
@@ -80,7 +79,7 @@ impl<'a> RunPlots<'a> {
         let step = STEP.max(end / MOST_STEPS);
         let stretches = events.windows(2).map(|pair| {
             let (from, to) = (pair[0], pair[1]);
-            // A flight is a curve however long the run; the shortest ones are not seen as such.
+            // A flight is a curve however long the run; very short ones are not visible as curves.
             let curved = ((to - from) / SHORTEST).ceil().min(16.0);
             let pieces = ((to - from) / step).ceil().max(curved).max(1.0) as usize;
             let inner = (0..pieces).map(|k| from + (to - from) * k as f64 / pieces as f64);
@@ -98,7 +97,8 @@ impl<'a> RunPlots<'a> {
         }
     }
 
-    /// With what lies past a time, from which on the motion can not be trusted, drawn as such.
+    /// The same with the motion past a time, from which on it can not be trusted, drawn
+    /// differently.
     pub fn with_horizon(self, horizon: Option<f64>) -> Self {
         Self { horizon, ..self }
     }
@@ -126,8 +126,8 @@ impl<'a> RunPlots<'a> {
         }
     }
 
-    /// Snap velocities where there are snaps, with the whole run as an inset, if it goes on without any
-    /// for more than half of its time.
+    /// Snap velocities over the time with snaps, with the whole run as an inset, if it continues
+    /// without any for more than half of its time.
     fn windowed(&self, whole: Plot) -> Plot {
         let last = self.run.impacts().iter().rfind(|impact| impact.v_n > 0.0);
         match last.map(|impact| impact.t) {
@@ -146,7 +146,7 @@ impl<'a> RunPlots<'a> {
         }
     }
 
-    /// One of them on a page of its own.
+    /// One of the plots on a page of its own.
     ///
     /// # Errors
     /// Those of [`draw()`].
@@ -195,7 +195,7 @@ impl<'a> RunPlots<'a> {
     }
 
     /// The letters I start, S sliding starts, R rocking starts, G the other boundary is struck
-    /// while one cable is taut, E end; each where it happens first.
+    /// while one cable is taut, E end; each at its first occurrence.
     fn marks(&self) -> Vec<Mark> {
         let run = self.run;
         let starts = |taut: usize| {
@@ -230,8 +230,8 @@ fn place(motion: &Motion) -> Point {
     [motion.state.x, motion.state.y]
 }
 
-/// Where the centre is when a cable is taut with the body upright, from the lowest place of the
-/// region up to a little above the path.
+/// The positions of the centre at which a cable is taut with the body upright, from the lowest
+/// point of the region up to a little above the path.
 fn boundary(run: &Trajectory, cable: usize) -> Vec<Point> {
     const POINTS: u32 = 200;
     let Some(tether) = run.system().cables.get(cable) else {
@@ -239,7 +239,7 @@ fn boundary(run: &Trajectory, cable: usize) -> Vec<Point> {
     };
     let [anchor, fairlead] = [tether.anchor(), tether.fairlead()].map(Vector2::components);
     let centre = [anchor[0] - fairlead[0], anchor[1] - fairlead[1]];
-    // The arc on the far side of the anchor, which passes through x = y = 0.
+    // The arc on the side away from the anchor, which passes through x = y = 0.
     let outward = match centre[0] {
         x if x > 0.0 => -1.0,
         x if x < 0.0 => 1.0,

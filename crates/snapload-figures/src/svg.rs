@@ -1,4 +1,4 @@
-//! The SVG itself: a sheet of paper that takes lines, shapes and letters.
+//! The SVG document: a sheet of paper with lines, shapes and letters.
 //!
 //! All lengths are points on paper (1/72 inch), written with two decimals.
 
@@ -7,21 +7,21 @@ use crate::text;
 use kurbo::{Point, Rect};
 use std::fmt::{Arguments, Display, Formatter, Result, Write};
 
-/// The dots of boundaries.
+/// The stroke of boundaries.
 pub(crate) const BOUNDARY: Stroke = Stroke::new(Colour::BLACK, 0.6, Dash::Dotted);
-/// A dashed line across a plot.
+/// The stroke of a line across a plot.
 pub(crate) const ACROSS: Stroke = Stroke::new(Colour::BLACK, 0.4, Dash::Dashed);
-/// The frame of a plot and its ticks.
+/// The stroke of the frame of a plot and its ticks.
 pub(crate) const FRAME: Stroke = Stroke::new(Colour::BLACK, 0.5, Dash::Solid);
-/// The grey of a shaded background, what lies past the horizon of trust, and of nothing else.
+/// The grey of a shaded background, which is reserved for what is past the horizon of trust.
 const SHADE: &str = "#e6e6e6";
 /// The width of the line of a marker.
 const MARKER_LINE: f64 = 0.6;
-/// What keeps a text readable on top of lines.
+/// The attributes that keep a text readable on top of lines.
 const HALO: &str =
     r##" stroke="#fff" stroke-width="2" stroke-linejoin="round" paint-order="stroke""##;
 
-/// Which part of a text stands at its place.
+/// The part of a text that is at its position.
 #[derive(Debug, Clone, Copy)]
 pub(crate) enum Anchor {
     Start,
@@ -29,19 +29,19 @@ pub(crate) enum Anchor {
     End,
 }
 
-/// What fills a cell of a map.
+/// The fill of a cell of a map.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub(crate) enum Fill {
     Colour(Colour),
     /// White.
     Blank,
-    /// Grey lines, told from every colour in print, too.
+    /// Grey lines, which differ from every colour in print, too.
     Hatch,
-    /// Thin lines on top of a colour, black beside white, so that they are seen on every one.
+    /// Thin lines on top of a colour, black beside white, so that they are visible on every colour.
     Doubt,
 }
 
-/// What has been drawn so far.
+/// The elements drawn so far.
 #[derive(Debug, Default)]
 pub(crate) struct Sheet {
     body: String,
@@ -59,7 +59,7 @@ impl Sheet {
             Dash::Dashed => " stroke-dasharray=\"3.5 1.8\"",
             Dash::Dotted => " stroke-dasharray=\"0.9 1.4\"",
         };
-        // Round caps make a piece of one point a dot; they would fill the gaps between dashes.
+        // Round caps make a piece of one point a dot; but they would fill the gaps between dashes.
         let lone = pieces.iter().any(|piece| piece.len() == 1);
         let round = lone || stroke.dash == Dash::Solid;
         let cap = if round {
@@ -155,7 +155,7 @@ impl Sheet {
         let mut d = String::new();
         for rect in rects {
             let [left, top, right, bottom] = [rect.x0, rect.y0, rect.x1, rect.y1].map(number);
-            // Places and no lengths: what two share is rounded alike.
+            // Absolute coordinates: an edge that two rectangles share is rounded alike for both.
             d.push_str(&format!("M{left} {top}H{right}V{bottom}H{left}z"));
         }
         let paint = match fill {
@@ -226,7 +226,7 @@ impl Sheet {
     }
 }
 
-/// A colour as short as SVG can write it.
+/// A colour in its shortest SVG notation.
 fn hex(Colour([r, g, b]): Colour) -> String {
     if [r, g, b].iter().all(|part| part.is_multiple_of(0x11)) {
         format!("#{:x}{:x}{:x}", r % 16, g % 16, b % 16)
@@ -235,7 +235,7 @@ fn hex(Colour([r, g, b]): Colour) -> String {
     }
 }
 
-/// A polyline as path data: the first point, then steps, which are shorter to write.
+/// A polyline as path data: the first point, then relative steps, which are shorter to write.
 fn path(points: &[Point]) -> String {
     let Some((first, rest)) = points.split_first() else {
         return String::new();
@@ -258,7 +258,7 @@ fn path(points: &[Point]) -> String {
         }
         (x, y) = (to_x, to_y);
     }
-    // A piece of no length is a dot.
+    // A piece of zero length is a dot.
     if d.len() == start {
         d.push_str("0 0");
     }
@@ -276,7 +276,7 @@ fn marker(at: Point, shape: Shape, radius: f64) -> String {
     }
 }
 
-/// A number with two decimals, written as short as can be.
+/// A number with two decimals, in its shortest notation.
 #[derive(Clone, Copy, PartialEq)]
 struct Hundredths(i64);
 

@@ -2,11 +2,11 @@
 
 use ttf_parser::Face;
 
-/// DejaVu Sans, the letters that a figure may need.
+/// DejaVu Sans, with the letters that a figure may need.
 pub(crate) const UPRIGHT: &[u8] = include_bytes!("../assets/DejaVuSans-subset.ttf");
 /// DejaVu Sans Oblique, for symbols.
 pub(crate) const ITALIC: &[u8] = include_bytes!("../assets/DejaVuSans-Oblique-subset.ttf");
-/// The fonts that a reader of the SVG looks for, in this order.
+/// The font families of the SVG, in order of preference.
 pub(crate) const FAMILY: &str = "DejaVu Sans, Helvetica, Arial, sans-serif";
 /// The height of a capital letter or a digit, in units of the font size.
 pub(crate) const CAP_HEIGHT: f64 = 0.729;
@@ -20,13 +20,12 @@ pub(crate) const ROW: f64 = 10.0;
 
 /// The length of a tick.
 pub(crate) const TICK: f64 = 2.5;
-/// From a tick to its number.
+/// The distance from a tick to its number.
 pub(crate) const TICK_GAP: f64 = 2.0;
-/// From the right side of a plot to the names of the lines across it.
+/// The distance from the right side of a plot to the names of the lines across it.
 pub(crate) const NAME_GAP: f64 = 2.5;
 
-/// The parts of a text, and whether each is in italics. An asterisk without its partner is a
-/// letter.
+/// The parts of a text, and whether each is in italics. A single asterisk is a letter.
 fn runs(text: &str) -> impl Iterator<Item = (&str, bool)> {
     let paired = text.matches('*').count().is_multiple_of(2);
     let lone = text.rfind('*').filter(|_| !paired);
@@ -46,7 +45,7 @@ pub(crate) fn width(text: &str) -> f64 {
 }
 
 fn run_width(text: &str, italic: bool) -> f64 {
-    /// Of a letter that the font does not have.
+    /// The width of a letter that the font does not have.
     const UNKNOWN: f64 = 0.6;
     let Ok(font) = Face::parse(if italic { ITALIC } else { UPRIGHT }, 0) else {
         return UNKNOWN * text.len() as f64;
@@ -66,7 +65,7 @@ pub(crate) fn widest<'a>(texts: impl Iterator<Item = &'a str>) -> f64 {
     texts.map(|text| width(text) * SMALL).fold(0.0, f64::max)
 }
 
-/// The size at which a text fits the room, at most `size`.
+/// The size at which a text fits the space, at most `size`.
 pub(crate) fn fitted(text: &str, size: f64, room: f64) -> f64 {
     let wide = width(text) * size;
     if wide > room {

@@ -1,13 +1,14 @@
-//! Hydrodynamic coefficients of one floating body in the vertical plane: what the water does to it.
+//! Hydrodynamic coefficients of one floating body in the vertical plane: the forces of the water on
+//! it.
 
 use crate::error::HydroError;
 use crate::spline::Spline;
 use nalgebra::{Complex, Matrix3, Vector3};
 
-/// The freedoms in their order: x, z, and rotation from z to x about the reference point.
+/// The degrees of freedom in their order: x, z, and rotation from z to x about the reference point.
 pub const FREEDOMS: [&str; 3] = ["surge", "heave", "pitch"];
 
-/// The water that the coefficients were computed in.
+/// The water for which the coefficients were computed.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Water {
     /// ρ \[kg/m³\].
@@ -18,15 +19,15 @@ pub struct Water {
     pub depth_m: f64,
 }
 
-/// What the file says of the body's weight and buoyancy. Places are absolute, (x, z) with z = 0 in
-/// the still water.
+/// The body's weight and buoyancy by the file. Positions are absolute, (x, z) with z = 0 in the
+/// still water.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Hydrostatics {
-    /// C about the reference point, with m g z_G of a body that weighs what it displaces.
+    /// C about the reference point; it includes m g z_G of a body whose mass is the displaced mass.
     pub stiffness: Option<Matrix3<f64>>,
     /// ρV \[kg\].
     pub displaced_mass_kg: Option<f64>,
-    /// The centre of gravity that `stiffness` was made with \[m\].
+    /// The centre of gravity that `stiffness` assumes \[m\].
     pub centre_of_mass_m: Option<[f64; 2]>,
     /// The centre of buoyancy \[m\].
     pub centre_of_buoyancy_m: Option<[f64; 2]>,
@@ -99,8 +100,8 @@ impl Hydrodynamics {
         self.damping.iter().map(|b| b[(i, j)]).collect()
     }
 
-    /// A(ω) between the frequencies by cubic splines (not-a-knot), entry by entry; beyond them the
-    /// value at the nearest.
+    /// A(ω) interpolated between the frequencies by cubic splines (not-a-knot), entry by entry;
+    /// beyond them the value at the nearest.
     pub fn added_mass_curve(&self) -> MatrixCurve {
         MatrixCurve::new(&self.omega_rad_s, |i, j| self.added_mass_entry(i, j))
     }
@@ -126,7 +127,7 @@ impl Hydrodynamics {
         })
     }
 
-    /// The same without some of the frequencies, by their places. A(0), A(∞) and the rest are kept.
+    /// The same without some of the frequencies, given by index. A(0), A(∞) and the rest are kept.
     pub fn without(&self, places: &[usize]) -> Self {
         let mut kept = self.clone();
         for at in places
@@ -201,7 +202,7 @@ impl ExcitationCurve {
 }
 
 /// J with q̇_O = J q̇_O' for another reference point O' = O + (dx, dz): matrices M, A, B, K become
-/// Jᵀ(·)J and forces JᵀX. A wave force gets no other phase, for that is counted from x = 0.
+/// Jᵀ(·)J and forces JᵀX. The phase of a wave force does not change, as it refers to x = 0.
 ///
 /// ```text
 /// J = [[1, 0, −dz], [0, 1, dx], [0, 0, 1]]

@@ -1,33 +1,33 @@
-//! What can be wrong with hydrodynamic coefficients, or with what is asked of them.
+//! Errors in hydrodynamic coefficients, or in their use.
 
-/// Why coefficients can not be used. The words name what is wrong, where, and what to do.
+/// Why coefficients can not be used. The message says what is wrong, where, and how to correct it.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum HydroError {
-    /// The file is not what its name says, is cut off, or is damaged.
+    /// The file does not have the format that its name says, is truncated, or is damaged.
     #[error("can not be read: {0}")]
     Unreadable(String),
-    /// Something that has to be there is not.
+    /// Something required is missing.
     #[error("{what} is missing: {advice}")]
     Missing {
         /// The variable, freedom, wave direction or value.
         what: String,
-        /// What to do.
+        /// How to correct it.
         advice: String,
     },
-    /// It is there in another form than the format has it.
+    /// It is there, but not in the form that the format prescribes.
     #[error("{what}: {found}; {wanted}")]
     Layout {
         /// The variable.
         what: String,
         /// What was found.
         found: String,
-        /// What is wanted.
+        /// The expected form.
         wanted: String,
     },
-    /// A number that can not be.
+    /// A number that is not possible.
     #[error("{what} = {value}: {wanted}")]
     Value {
-        /// What has the value, and where.
+        /// The quantity, and where it is.
         what: String,
         /// The value.
         value: f64,
@@ -39,20 +39,20 @@ pub enum HydroError {
     Convention {
         /// The convention.
         what: &'static str,
-        /// What was found, what was expected, and what may have gone wrong.
+        /// What was found, what was expected, and the probable cause.
         words: String,
     },
-    /// The file and the case say different things.
+    /// The file and the case contradict each other.
     #[error("{what} is {file} in the file and {case} in the case; they have to agree")]
     Disagreement {
-        /// What they differ in.
+        /// The quantity in which they differ.
         what: &'static str,
         /// The file's value.
         file: f64,
         /// The case's value.
         case: f64,
     },
-    /// The numbers can not be worked with.
+    /// No result is possible with these numbers.
     #[error("{0}")]
     Impossible(String),
 }
@@ -93,10 +93,10 @@ impl HydroError {
     }
 }
 
-/// Something that a reader of the results should know, without which they could be misjudged.
+/// A warning without which a reader could misjudge the results.
 #[derive(Clone, Debug, PartialEq, serde::Serialize)]
 pub struct Warning {
-    /// What it is about, in a word or two.
+    /// Its subject, in a word or two.
     pub what: &'static str,
     /// What was found, and what it means.
     pub words: String,

@@ -1,10 +1,10 @@
-//! What the water does to a floating body: added mass, radiation damping and wave forces out of the
-//! files of panel codes, the memory of the waves that the body makes, and what follows without
-//! simulating anything: natural periods, response to waves, free decay, rest on lines.
+//! The forces of water on a floating body: added mass, radiation damping and wave forces from the
+//! files of panel codes, the memory of the waves that the body makes, and results that need no
+//! simulation: natural periods, response to waves, free decay, rest on lines.
 //!
 //! Coefficients are of surge, heave and pitch in the vertical plane x–z, in kg, m, N, s and rad. x
-//! goes to the right, z up from the still water; pitch turns z to x. How the one follows from the
-//! other, with sources, is told in `docs/hydrodynamics.md`.
+//! goes to the right, z up from the still water; pitch turns z to x. The derivations, with sources,
+//! are in `docs/hydrodynamics.md`.
 
 mod coefficients;
 mod error;

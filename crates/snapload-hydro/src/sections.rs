@@ -1,4 +1,4 @@
-//! Added mass of sections from textbook values, for bodies that have no file.
+//! Added mass of sections from textbook values, for bodies without a file.
 //!
 //! ```text
 //! ellipse     submerged          A11 = π T², A33 = π b², A55 = π (b² − T²)²/8, exact
@@ -10,9 +10,9 @@
 //! b is half the width, T half the height of a submerged section and the draft of a floating one;
 //! all per metre of length and for density 1. The square and the plate agree with J. N. Newman,
 //! *Marine Hydrodynamics* (1977), table 4.3, the ratios with DNV-RP-C205, appendix D. At ω → ∞ the
-//! surface of the water is one of no pressure: heave and pitch have half of the double body's added
-//! mass, surge has not. Ends reduce all of it, by 5 % and more where the body is shorter than ten
-//! widths.
+//! pressure on the water surface is zero: heave and pitch have half of the double body's added
+//! mass, surge has not. The ends of a body reduce all of it, by 5 % and more if the body is shorter
+//! than ten widths.
 
 use crate::error::HydroError;
 use crate::spline::Spline;
@@ -28,7 +28,7 @@ pub enum Shape {
     Rectangle,
 }
 
-/// Where the section is.
+/// The position of the section.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Place {
     /// Far below the surface, about its centre.
@@ -38,7 +38,7 @@ pub enum Place {
 }
 
 /// Rectangles that are wider than high: b/T, then A11/T², A33/b² and A55/b⁴ of the submerged one
-/// about its centre. A higher one is such a one turned by a quarter.
+/// about its centre. For one that is higher than wide, the axes are exchanged.
 const SUBMERGED: [[f64; 4]; 8] = [
     [1.0, 4.7537585, 4.7537585, 0.72457574],
     [1.25, 4.9273055, 4.5909944, 0.52899271],
@@ -107,8 +107,7 @@ pub fn added_mass_of_section(
 }
 
 /// A11 of the floating rectangle, the submerged one's A11, A33 and A55, and A15 of the floating
-/// one. Splines are laid over ln b/T, moments in powers of the diagonal, which has no kink at the
-/// square.
+/// one. Splines are over ln b/T, moments in powers of the diagonal, which is smooth at the square.
 fn rectangle(b: f64, t: f64) -> Result<(f64, [f64; 3], f64), HydroError> {
     let (ratio, widest) = (b / t, SUBMERGED[SUBMERGED.len() - 1][0]);
     if !(0.999_999 / widest..=1.000_001 * widest).contains(&ratio) {
@@ -119,7 +118,7 @@ fn rectangle(b: f64, t: f64) -> Result<(f64, [f64; 3], f64), HydroError> {
             wanted,
         ));
     }
-    // The diagonal over the longer side.
+    // The ratio of the diagonal to the longer side.
     let diagonal = |ratio: f64| {
         let slender = ratio.min(1.0 / ratio);
         (1.0 + slender * slender).sqrt()

@@ -1,7 +1,7 @@
 //! Cubic splines through given points.
 
-/// A cubic spline through points, with the third derivative continuous across the second and the
-/// last but one of them ("not-a-knot"): a cubic is given back exactly. Two points give a line,
+/// A cubic spline through points, with the third derivative continuous at the second and the last
+/// but one of them ("not-a-knot"), so that a cubic is reproduced exactly. Two points give a line,
 /// three a parabola.
 #[derive(Clone, Debug)]
 pub struct Spline {
@@ -12,7 +12,7 @@ pub struct Spline {
 }
 
 impl Spline {
-    /// Through points with rising x, of which there is at least one.
+    /// The spline through points with rising x, of which there is at least one.
     pub fn new(x: &[f64], y: &[f64]) -> Self {
         Self {
             x: x.to_vec(),
@@ -26,7 +26,7 @@ impl Spline {
         [self.x[0], self.x[self.x.len() - 1]]
     }
 
-    /// The value at x; outside of the points that of the nearest.
+    /// The value at x; outside of the points the value at the nearest.
     pub fn clamped(&self, x: f64) -> f64 {
         let [first, last] = self.ends();
         if self.x.len() == 1 {
@@ -51,7 +51,7 @@ impl Spline {
 /// m_0 = ((h_0 + h_1) m_1 − h_0 m_2)/h_1, and so at the other end
 /// ```
 ///
-/// with the outer two put into their neighbours' equations, and the rest by elimination.
+/// where the outer two are eliminated first, and the rest follow by elimination.
 /// Source: C. de Boor, *A Practical Guide to Splines* (1978), chapter IV.
 fn bends(x: &[f64], y: &[f64]) -> Vec<f64> {
     let n = x.len();
@@ -104,7 +104,7 @@ fn bends(x: &[f64], y: &[f64]) -> Vec<f64> {
 mod tests {
     use super::*;
 
-    /// A cubic comes back, on uneven points; two and three points give a line and a parabola.
+    /// A cubic is reproduced, on uneven points; two and three points give a line and a parabola.
     #[test]
     fn polynomials_come_back() {
         let x = [0.0, 0.3, 1.1, 1.5, 2.9, 3.0, 4.2];

@@ -1,9 +1,9 @@
-//! A floating body of one section along its length, for which no panel code was run.
+//! A floating body of one section along its length, without results of a panel code.
 //!
 //! Its added mass is that of the section at high frequency ([`added_mass_of_section`]) at all
-//! frequencies, it makes no waves, and the waves go on as if it were not there. Their force is that
-//! of long waves, about the middle O of the waterplane with the displaced volume V at the depth
-//! z_B:
+//! frequencies, it makes no waves, and the incident waves are not disturbed by it. Their force is
+//! that of long waves, about the middle O of the waterplane with the displaced volume V at the
+//! depth z_B:
 //!
 //! ```text
 //! F1 = (ρV + A11) u̇,    F3 = ρg S η + (ρV + A33) ẇ,    F5 = (ρV z_B + A15) u̇ − ρg I ∂η/∂x
@@ -11,7 +11,7 @@
 //!
 //! with the water's acceleration (u̇, ẇ) at the centre of buoyancy, the waterplane S = 2bℓ and its
 //! second moment I = (2b)³ℓ/12 (J. N. Newman, *Marine Hydrodynamics* (1977), sections 6.17 and
-//! 6.18). What ends take away from the added mass is not known.
+//! 6.18). The reduction of the added mass by the ends is not known.
 
 use crate::coefficients::{Excitation, Hydrodynamics, Hydrostatics, Water};
 use crate::error::{HydroError, Warning};
@@ -21,17 +21,17 @@ use crate::waves::{water_acceleration, wave_number};
 use nalgebra::{Complex, Matrix3, Vector3};
 use std::f64::consts::PI;
 
-/// The frequencies for which it is tabulated \[rad/s\], and how many: all waves and swings, so
-/// close that splines between them are off by less than 1e-6.
+/// The frequencies for which it is tabulated \[rad/s\], and their number: they cover all waves and
+/// oscillations, so densely that the error of splines between them is less than 1e-6.
 const RANGE_RAD_S: [f64; 2] = [0.02, 60.0];
 const FREQUENCIES: u32 = 400;
-/// Ends take 5 % and more of the added mass of a body that is shorter than so many widths.
+/// The ends reduce the added mass by 5 % and more if the body is shorter than this many widths.
 const LONG: f64 = 10.0;
 
 /// A floating body of one section.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SectionBody {
-    /// Its section: an ellipse lies in the water with its lower half.
+    /// Its section; of an ellipse the lower half is in the water.
     pub shape: Shape,
     /// Half of the width of its waterplane b \[m\].
     pub half_width_m: f64,
@@ -39,15 +39,15 @@ pub struct SectionBody {
     pub draft_m: f64,
     /// Length across the plane ℓ \[m\].
     pub length_m: f64,
-    /// Where the middle of its waterplane is \[m\].
+    /// The x of the middle of its waterplane \[m\].
     pub x_m: f64,
     /// Its centre of gravity \[m\].
     pub centre_of_gravity_m: [f64; 2],
 }
 
 impl SectionBody {
-    /// Area under water over the width times the draft, and the depth of its centroid over the
-    /// draft.
+    /// The area under water divided by width times draft, and the depth of its centroid divided by
+    /// the draft.
     fn fullness(&self) -> [f64; 2] {
         match self.shape {
             Shape::Rectangle => [1.0, 0.5],
@@ -65,7 +65,7 @@ impl SectionBody {
         }
     }
 
-    /// What the water does to it, as a panel code's file would tell.
+    /// Its coefficients, in the form in which a panel code's file is read.
     ///
     /// # Errors
     /// [`HydroError::Value`] if there are no textbook values for its proportions.
@@ -118,7 +118,7 @@ impl SectionBody {
         (2.0 * self.half_width_m).powi(3) * self.length_m / 12.0
     }
 
-    /// C33 = ρg S, C55 = ρg I + ρgV z_B − m g z_G of a body that weighs what it displaces.
+    /// C33 = ρg S, C55 = ρg I + ρgV z_B − m g z_G of a body whose mass is the displaced mass.
     fn hydrostatics(&self, water: &Water) -> Hydrostatics {
         let displaced = self.displaced_kg(water);
         let weight = water.density_kg_m3 * water.gravity_m_s2;
@@ -139,8 +139,8 @@ impl SectionBody {
     }
 
     /// X of a wave of unit amplitude: with e^{−iωt} and its crest over the body at t = 0 the
-    /// water's acceleration there is (−i a_x, −a_z), its slope i k; a wave to −x turns the signs of
-    /// both i.
+    /// water's acceleration there is (−i a_x, −a_z), its slope i k; for a wave to −x both i change
+    /// their signs.
     fn wave_force(
         &self,
         water: &Water,
@@ -163,7 +163,7 @@ impl SectionBody {
         )
     }
 
-    /// What to know of it.
+    /// The warnings about its limits.
     fn limits(&self) -> Vec<Warning> {
         let words = "textbook values of a section have no damping by the waves that the body makes: \
                      a resonance of heave or pitch is not to be believed without [float] damping, and \

@@ -1,4 +1,4 @@
-//! Linear (Airy) waves over a flat floor: dispersion, and how the water accelerates.
+//! Linear (Airy) waves over a flat floor: dispersion, and the water's acceleration.
 //!
 //! Source: R. G. Dean and R. A. Dalrymple, *Water Wave Mechanics for Engineers and Scientists*
 //! (1991), chapter 3.

@@ -1,4 +1,4 @@
-//! Basins of attraction: which attractor each start of a window comes to.
+//! Basins of attraction: the attractor that each start of a window leads to.
 
 use crate::basin::Window;
 use crate::hybrid::{Point, distance};
@@ -8,29 +8,29 @@ use crate::section::{Section, Stretch, start_of};
 use snapload::analysis::{Counter, OnProgress, Unfinished, in_parallel, unwatched};
 use snapload::{Case, Parameters, Stop};
 
-/// What became of a start in the long run.
+/// The long-term behaviour of a start.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Fate {
-    /// It is not legal.
+    /// The start is not legal.
     Illegal,
-    /// It reached a limit, and when.
+    /// It reached a limit, at this time.
     Stopped(Stop, f64),
-    /// It comes to an attractor, by its number.
+    /// It approaches an attractor, given by its number.
     Attracted(usize),
-    /// It goes on without a period that was found.
+    /// No period was found.
     Aperiodic,
 }
 
-/// A periodic attractor as it was met.
+/// A periodic attractor as it was found.
 #[derive(Clone, Debug)]
 pub struct Attractor {
     /// Its period in periods of the forcing.
     pub period: usize,
     /// A section point.
     pub z: Point,
-    /// The orbit, closed, where the window does not change it: where both keys are starts.
+    /// The orbit, closed by Newton's method, if both keys are start values, which do not change it.
     pub orbit: Option<Orbit>,
-    /// How many cells come to it.
+    /// The number of cells that lead to it.
     pub cells: usize,
 }
 
@@ -41,23 +41,23 @@ pub struct Attraction {
     pub window: Window,
     /// The cells, the second key varying fastest.
     pub fates: Vec<Fate>,
-    /// The attractors, those of most cells first.
+    /// The attractors, ordered by their number of cells, the largest first.
     pub attractors: Vec<Attractor>,
 }
 
 /// Section points nearer than this belong to one attractor.
 const SAME: f64 = 1e-4;
-/// Periods that are looked at after the transient: enough for eight laps of sixteen.
+/// Periods that are examined after the transient: enough for eight laps of sixteen periods.
 const LOOKED_AT: u64 = 136;
 
-/// What a run comes to, before it is known which attractors there are.
+/// The result of a run, before the attractors are numbered.
 enum Met {
     Fate(Fate),
     Periodic(Vec<Point>),
 }
 
 impl Attraction {
-    /// Follows every cell over `transient` periods, and looks at what it does then.
+    /// Follows every cell over `transient` periods, and determines its behaviour after that.
     ///
     /// # Errors
     /// As for [`crate::Basin::of`].
@@ -87,7 +87,7 @@ impl Attraction {
         Ok(Self::sorted(window, fates, attractors))
     }
 
-    /// Numbers the attractors by how many cells they have, and closes their orbits.
+    /// Numbers the attractors by their number of cells, and closes their orbits.
     fn sorted(
         window: Window,
         mut fates: Vec<Fate>,
@@ -147,7 +147,7 @@ fn met(parameters: &Parameters, stretch: &Stretch) -> Result<Met, Unfinished> {
     })
 }
 
-/// The number of an attractor, which is added where it is new.
+/// The number of an attractor, which is added if it is new.
 fn known(attractors: &mut Vec<(Attractor, Vec<Point>)>, points: Vec<Point>) -> usize {
     let first = points[0];
     let is_it = |(_, others): &(Attractor, Vec<Point>)| {

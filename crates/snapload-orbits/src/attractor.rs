@@ -1,4 +1,4 @@
-//! Orbits from long motions: of the attractor that a start leads to, and of many random starts.
+//! Orbits found from long motions: on the attractor of one start, or from many random starts.
 
 use crate::hybrid::{Family, Point, distance};
 use crate::in_words::{exponent_in_words, periods};
@@ -10,16 +10,16 @@ use crate::section::{LONGEST_PERIOD, Section, Stretch, period_of};
 use snapload::analysis::{Counter, OnProgress, Unfinished, on_all_threads};
 use snapload::{Case, Limit, Parameters};
 
-/// Periods that are left out before the attractor is looked at, and periods that are looked at.
+/// Periods that are left out as the transient, and periods that are examined after it.
 pub const TRANSIENT: u64 = 400;
 const LOOKED_AT: u64 = 600;
-/// How many periods that is together.
+/// The number of all these periods.
 pub const ATTRACTOR_PERIODS: u64 = TRANSIENT + LOOKED_AT;
 
-/// The orbit that the motion of a case comes to, if it is periodic.
+/// The orbit that the motion of a case approaches, if it is periodic.
 ///
 /// # Errors
-/// [`NoOrbit`] says what the motion does instead.
+/// [`NoOrbit`] describes what the motion does instead.
 pub fn of_attractor(
     parameters: &Parameters,
     wanted: &Wanted,
@@ -67,7 +67,7 @@ pub fn of_attractor(
     };
     let last = section.points.last().copied().unwrap_or(section.end.0);
     let family = Moored::case(*parameters, [None; 2]);
-    // Whoever asks for certain snaps may mean another orbit than that of the motion.
+    // If certain snaps are asked for, another orbit than that of the motion may be meant.
     let find = match wanted.struck {
         None => Orbit::come_to,
         Some(_) => Orbit::find,
@@ -80,21 +80,21 @@ const BATCH: usize = 16;
 /// Starts from which orbits are looked for.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Starts<'a> {
-    /// So many random ones.
+    /// The number of random starts.
     pub count: usize,
-    /// Which random ones.
+    /// The seed of the random starts.
     pub seed: u64,
-    /// These before them, such as the orbits of a case nearby.
+    /// Given starts, used before the random ones, such as the orbits of a case nearby.
     pub near: &'a [Point],
 }
 
-/// All orbits that Newton's method finds from given starts and from random ones in the box |x| ≤ w,
-/// −w ≤ y ≤ h, |v| ≤ 1, |θ| ≤ π/3, |θ̇| ≤ 2, with w half the cables' length, or less: those that a
-/// body has, each once, whichever of its periods it was met in, the most stable ones first. One
-/// that repeats itself after fewer periods than are wanted is left out.
+/// All admissible orbits that Newton's method finds from given starts and from random ones in the
+/// box |x| ≤ w, −w ≤ y ≤ h, |v| ≤ 1, |θ| ≤ π/3, |θ̇| ≤ 2, with w half the cables' length, or less.
+/// Each is listed once, whichever of its periods it was found in, the most stable ones first. An
+/// orbit that repeats itself after fewer periods than asked for is left out.
 ///
 /// # Errors
-/// [`Unfinished`] if the case can not be, or it is told to end.
+/// [`Unfinished`] if the case is not legal, or the work is cancelled.
 pub fn find_orbits(
     parameters: &Parameters,
     starts: &Starts,
@@ -180,7 +180,7 @@ fn uniform(state: &mut u64) -> f64 {
     ((z ^ (z >> 31)) >> 11) as f64 / (1_u64 << 53) as f64
 }
 
-/// Whether neighbours come back to an orbit.
+/// Whether neighbours of an orbit return to it.
 pub fn attracts(orbit: &Orbit) -> bool {
     matches!(
         orbit.stability(),

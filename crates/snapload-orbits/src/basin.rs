@@ -1,7 +1,7 @@
-//! Safe basins: which starts, or which values of any two keys, keep a body below its limits.
+//! Safe basins: the starts, or the values of any two keys, for which a body stays below its limits.
 //!
-//! J. M. T. Thompson, *Proc. R. Soc. A* 421 (1989) 195; M. S. Soliman & J. M. T. Thompson, *J. Sound
-//! Vib.* 135 (1989) 453; G. Rega & S. Lenci, *Nonlinear Anal.* 63 (2005) 902.
+//! J. M. T. Thompson, *Proc. R. Soc. A* 421 (1989) 195; M. S. Soliman & J. M. T. Thompson, *J.
+//! Sound Vib.* 135 (1989) 453; G. Rega & S. Lenci, *Nonlinear Anal.* 63 (2005) 902.
 
 use crate::distances::squared_distances;
 use snapload::analysis::{
@@ -13,7 +13,7 @@ use snapload::{Case, CaseError, Lanes, Outcome, Parameters, Stop, Value};
 /// Two keys and the values that they take: a grid of cells.
 #[derive(Clone, Debug)]
 pub struct Window {
-    /// What the other keys are.
+    /// The values of the other keys.
     pub base: Parameters,
     /// The keys.
     pub keys: [&'static str; 2],
@@ -21,45 +21,45 @@ pub struct Window {
     pub values: [Vec<f64>; 2],
 }
 
-/// What became of one cell.
+/// The result of one cell.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Cell {
-    /// How its run ended, and when; none where it is not legal.
+    /// How and when its run ended; none if it is not legal.
     pub end: Option<(Stop, f64)>,
     /// Whether its neighbours end alike.
     pub decided: bool,
-    /// Whether the horizon of trust lies past the end of its run.
+    /// Whether the run ends before its horizon of trust.
     pub trusted: bool,
 }
 
-/// A window with what became of its cells.
+/// A window with the results of its cells.
 #[derive(Clone, Debug)]
 pub struct Basin {
     /// The window.
     pub window: Window,
     /// The cells, the second key varying fastest.
     pub cells: Vec<Cell>,
-    /// Whether neighbours and horizons were looked at.
+    /// Whether neighbours and horizons were computed.
     pub looked_beside: bool,
-    /// How much of it is safe.
+    /// Measures of its safe part.
     pub measures: Measures,
 }
 
-/// How much of a window is safe.
+/// Measures of the safe part of a window.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Measures {
     /// Cells that are legal.
     pub legal: usize,
     /// Legal cells that reach no limit.
     pub safe: usize,
-    /// Legal cells some neighbours of which end otherwise.
+    /// Legal cells of which some neighbours end differently.
     pub undecided: usize,
-    /// Those of them that reach no limit.
+    /// Undecided cells that reach no limit.
     pub undecided_safe: usize,
-    /// Legal cells whose run has its horizon of trust before its end. Those among them that are
-    /// decided are so by more neighbours.
+    /// Legal cells whose run has its horizon of trust before its end. Those among them that count
+    /// as decided were compared with more neighbours.
     pub past_horizon: usize,
-    /// Safe cells as a part of the legal ones: the global integrity measure.
+    /// The part of the legal cells that is safe: the global integrity measure.
     pub gim: f64,
     /// Wilson's interval of 95 % about it.
     pub interval: [f64; 2],
@@ -73,9 +73,9 @@ pub struct Measures {
     pub iim: Option<f64>,
 }
 
-/// Neighbours are so far away, along either key and both.
+/// The distance of neighbours, along either key and along both.
 const BESIDE: f64 = 1e-8;
-/// Where rounding may decide a run, there are more of them, nearer and nearer.
+/// Where rounding may decide a run, neighbours at all of these distances are used.
 const NEARER: [f64; 3] = [BESIDE, 1e-10, 1e-12];
 const NEIGHBOURS: [[f64; 2]; 8] = [
     [1.0, 0.0],
@@ -90,12 +90,12 @@ const NEIGHBOURS: [[f64; 2]; 8] = [
 const STARTS: [&str; 6] = ["x", "y", "theta", "vx", "vy", "vtheta"];
 const VELOCITIES: [&str; 3] = ["vx", "vy", "vtheta"];
 
-/// More cells than this are a slip of the keyboard.
+/// A window with more cells than this is refused as a typing error.
 const MOST_CELLS: usize = 100_000_000;
-/// Values are evenly spaced if none is off by more than this part of a step.
+/// Values count as evenly spaced if each differs from even spacing by at most this part of a step.
 const UNEVEN: f64 = 1e-6;
 
-/// Whether values are evenly spaced, as far as they are written in decimals.
+/// Whether values are evenly spaced, up to the rounding of their decimals.
 fn are_even(values: &[f64]) -> bool {
     let [first, .., last] = values else {
         return true;
@@ -117,7 +117,7 @@ impl Window {
         ]
     }
 
-    /// How many cells there are.
+    /// The number of cells.
     pub fn count(&self) -> usize {
         self.values[0].len() * self.values[1].len()
     }
@@ -130,7 +130,7 @@ impl Window {
         })
     }
 
-    /// The values of all keys at two values of the two; what follows from them follows anew.
+    /// The parameters at two values of the two keys; derived values are computed again.
     pub fn parameters(&self, at: [f64; 2]) -> Parameters {
         let [first, second] = self.keys;
         self.base.over(|name, value| match name {
@@ -200,13 +200,13 @@ impl Window {
 }
 
 impl Basin {
-    /// Runs every cell; with `trust` also its neighbours, and looks at rounding.
+    /// Runs every cell; with `trust` also its neighbours, and determines the horizons of trust.
     ///
     /// # Errors
-    /// [`Unfinished`] where a key or a value can not be, or it is told to end.
+    /// [`Unfinished`] if a key or a value is not allowed, or the work is cancelled.
     pub fn of(window: Window, trust: bool, on_progress: OnProgress) -> Result<Self, Unfinished> {
         window.check()?;
-        // Both stages are shares of one work, in runs as far as they are known beforehand.
+        // Progress is reported over both stages together, in runs, as far as their number is known.
         let count = window.count() as f64;
         let beside = if trust {
             count * NEIGHBOURS.len() as f64
@@ -233,7 +233,7 @@ impl Basin {
         })
     }
 
-    /// How many cells ended in each way.
+    /// The number of cells that ended in each way.
     pub fn by_outcome(&self) -> Vec<(Stop, usize)> {
         let count = |stop: Stop| {
             let of = |cell: &&Cell| cell.end.is_some_and(|(end, _)| end == stop);
@@ -259,7 +259,7 @@ fn centres(window: &Window, trust: bool, on_progress: OnProgress) -> Result<Vec<
     Ok(made.into_vec())
 }
 
-/// Runs the legal ones of some cases side by side.
+/// Runs the legal cases among some numbered ones side by side.
 fn run(
     numbers: &mut dyn Iterator<Item = usize>,
     case: impl Fn(usize) -> Option<Case>,
@@ -271,7 +271,7 @@ fn run(
         let case = case(k);
         legal.push(case.is_some());
         if case.is_none() {
-            // Whoever is told to end hears of it with the next legal one.
+            // Cancellation is noticed at the next legal start.
             let _ = counter.add(1);
         }
         case

@@ -1,4 +1,4 @@
-//! Branches: an orbit as a parameter changes, with everything that happens to it on the way.
+//! Branches: an orbit as a parameter changes, with the bifurcations and other events along it.
 
 use crate::branch_events::{BranchEvent, Kind, Test, located, tests_of};
 use crate::hybrid::{Family, Point};
@@ -16,16 +16,16 @@ pub struct Along {
     pub range: [f64; 2],
     /// The length of the first step, in the space of state, times and parameter.
     pub step: f64,
-    /// Points in either direction at most.
+    /// The most points in either direction.
     pub most: usize,
 }
 
 /// A point of a branch.
 #[derive(Clone, Debug)]
 pub struct BranchPoint {
-    /// The orbit, which a body may not have.
+    /// The orbit, which may be inadmissible.
     pub orbit: Orbit,
-    /// The length along the branch from the orbit that it was begun with.
+    /// The length along the branch from the orbit with which it was begun.
     pub arclength: f64,
 }
 
@@ -43,34 +43,35 @@ pub struct BranchEnd {
 pub struct Branch {
     /// Its points, from one end to the other.
     pub points: Vec<BranchPoint>,
-    /// What happens along it, in the same order.
+    /// The events along it, in the same order.
     pub events: Vec<BranchEvent>,
     /// Its two ends.
     pub ends: [BranchEnd; 2],
 }
 
-/// The longest and the shortest step, as parts of the first.
+/// The longest and the shortest step, in units of the first.
 const LONGER: f64 = 6.0;
 const SHORTER: f64 = 1e-7;
-/// The corrector's steps from which on a step is made shorter, and up to which longer.
+/// From the first number of the corrector's iterations on, the next step is made shorter; up to the
+/// second, longer.
 const MANY: usize = 5;
 const FEW: usize = 3;
-/// No event comes nearer to the next or farther from it by more than this in one step.
+/// The time between two events does not change by more than this in one step.
 const TIMES: f64 = 0.3;
-/// A cable that would have to be longer than this ends a branch.
+/// A gap of more than this, by which a cable would have to be longer, ends a branch.
 const DEEP: f64 = 0.02;
-/// A branch that comes back this near to where it began, in parts of its step, is closed.
+/// A branch that returns to its first point within this part of its step is closed.
 const BACK: f64 = 0.5;
-/// It has to have gone so many steps before.
+/// A closed branch is at least this many steps long.
 const FAR: f64 = 10.0;
-/// A value this near to the border of the range is on it, and is told as that.
+/// A value this close to the border of the range is set to the border.
 const ON_BORDER: f64 = 1e-13;
 
 impl Branch {
     /// The branch of an orbit in the first parameter, in both directions.
     ///
     /// # Errors
-    /// [`Cancelled`] if it is told to end.
+    /// [`Cancelled`] if the work is cancelled.
     pub fn of<F: Family>(
         family: &F,
         orbit: &Orbit,
@@ -115,11 +116,11 @@ impl Branch {
 }
 
 impl Branch {
-    /// Of the events of a kind the one that is nearest along the branch to the orbit that it was begun
-    /// with, or the one with a number, counted from 1 as they stand in the list.
+    /// Of the events of a kind, the one that is nearest along the branch to the orbit with which it
+    /// was begun, or the one with a given number, counted from 1 in their order.
     ///
     /// # Errors
-    /// [`NoOrbit`] says which ones there are.
+    /// [`NoOrbit`] lists the events that there are.
     pub fn event(&self, kind: Kind, number: Option<usize>) -> Result<&BranchEvent, NoOrbit> {
         let all: Vec<&BranchEvent> = self.events.iter().filter(|e| e.kind == kind).collect();
         let found = match number {
@@ -142,11 +143,12 @@ impl Branch {
         })
     }
 
-    /// The branch of twice the length that is born at a period doubling; none where its direction is
-    /// not found. Only one of its halves is followed, as the other is the same a lap later.
+    /// The branch of orbits of twice the length that begins at a period doubling; none if its
+    /// direction is not found. Only one of its halves is followed, as the other is the same, one
+    /// lap later.
     ///
     /// # Errors
-    /// [`Cancelled`] if it is told to end.
+    /// [`Cancelled`] if the work is cancelled.
     pub fn of_doubling<F: Family>(
         family: &F,
         event: &BranchEvent,
@@ -172,7 +174,7 @@ fn point(orbit: Orbit, arclength: f64) -> BranchPoint {
     BranchPoint { orbit, arclength }
 }
 
-/// One direction.
+/// The branch in one direction.
 struct Side {
     points: Vec<BranchPoint>,
     events: Vec<BranchEvent>,
@@ -215,7 +217,7 @@ fn joined(orbit: &Orbit, backward: Side, forward: Side) -> Branch {
     }
 }
 
-/// The next point of a branch, how far it is, and how many steps the corrector took.
+/// The next point of a branch, its distance, and the number of the corrector's iterations.
 struct Stepped {
     at: Unknowns,
     length: f64,
@@ -225,7 +227,7 @@ struct Stepped {
     is_last: bool,
 }
 
-/// Walks along branches.
+/// Follows branches.
 struct Walk<'a> {
     along: &'a Along,
     on_progress: OnProgress<'a>,
@@ -292,8 +294,8 @@ impl Walk<'_> {
         Ok(side)
     }
 
-    /// The next point, if the corrector finds one near enough: on the border of the range where the
-    /// step would pass it.
+    /// The next point, if the corrector finds one near enough; it is on the border of the range if
+    /// the step would pass that.
     fn stepped<F: Family>(
         &self,
         tracer: &Tracer<F>,
@@ -330,7 +332,7 @@ impl Walk<'_> {
         Some(there)
     }
 
-    /// The length of the next step, by how many steps the corrector took.
+    /// The length of the next step, from the number of the corrector's iterations.
     fn next_step(&self, step: f64, steps: usize) -> f64 {
         match steps {
             MANY.. => step * 0.6,
@@ -339,7 +341,7 @@ impl Walk<'_> {
         }
     }
 
-    /// Locates what happens between two points; why the branch ends there, if it does.
+    /// Locates the events between two points; returns why the branch ends there, if it does.
     fn take_events<F: Family>(
         &self,
         segment: &Segment<F>,
@@ -374,7 +376,7 @@ impl Walk<'_> {
         None
     }
 
-    /// Why a branch ends at a point that it has come to.
+    /// Why a branch ends at a point that it has reached.
     fn left(
         &self,
         found: &Orbit,
@@ -394,7 +396,7 @@ impl Walk<'_> {
     }
 }
 
-/// Counts the events anew where one has passed the section; the orbit then.
+/// Renumbers the events if one has passed the section; returns the orbit then.
 fn counted_anew<F: Family>(
     tracer: &mut Tracer<F>,
     here: &mut Unknowns,

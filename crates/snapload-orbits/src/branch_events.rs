@@ -1,4 +1,4 @@
-//! What happens along a branch: test functions, and where they are zero.
+//! Events along a branch: test functions, and their zeros.
 
 use crate::hybrid::{DURATION, Family, Hybrid, Jet, Point, constant};
 use crate::orbit::Orbit;
@@ -7,16 +7,16 @@ use crate::tracer::Segment;
 use nalgebra::DVector;
 use snapload::Limit;
 
-/// What happens at a point of a branch.
+/// The kind of an event along a branch.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Kind {
     /// The branch turns back in the parameter: μ = 1.
     Fold,
-    /// μ = −1: an orbit of twice the length is born.
+    /// μ = −1: a branch of orbits of twice the length begins.
     PeriodDoubling,
-    /// |μ| = 1 of a complex pair: a torus is born.
+    /// |μ| = 1 for a complex pair: a torus begins.
     NeimarkSacker,
-    /// A surface is touched at no speed.
+    /// A surface is touched with zero velocity.
     Graze,
     /// Two surfaces are struck at one instant.
     Corner,
@@ -57,35 +57,36 @@ impl Kind {
 /// An event of a branch.
 #[derive(Clone, Debug)]
 pub struct BranchEvent {
-    /// What it is.
+    /// Its kind.
     pub kind: Kind,
     /// The values of the two parameters.
     pub value: [f64; 2],
     /// The orbit there.
     pub orbit: Orbit,
-    /// The surface that it is about.
+    /// The surface concerned.
     pub surface: Option<usize>,
-    /// When in the lap.
+    /// The time within the lap.
     pub t: Option<f64>,
-    /// a = −g̈/2r at a graze: what bends the gap away.
+    /// a = −g̈/2r at a graze, with which the gap opens on either side.
     pub normal_acceleration: Option<f64>,
-    /// (1 + e) √(2a): the jump of the velocity along the normal for each root of the length h by which
-    /// the surface would be passed (A. B. Nordmark, *J. Sound Vib.* 145 (1991) 279).
+    /// (1 + e) √(2a): the jump of the normal velocity is this times the root of the depth h by
+    /// which the surface would be passed (A. B. Nordmark, *J. Sound Vib.* 145 (1991) 279).
     pub sqrt_coefficient: Option<f64>,
-    /// Whether a snap of the sequence grazes, and not a contact beside it.
+    /// Whether a snap of the sequence itself grazes, and not a contact in addition to it.
     pub is_own_snap: bool,
-    /// The length along the branch from the orbit that it was begun with.
+    /// The length along the branch from the orbit with which it was begun.
     pub arclength: f64,
-    /// The place between the points.
+    /// The position between the two points of the branch.
     pub(crate) sigma: f64,
 }
 
-/// A multiplier, a gap or a velocity this near to where it has to be is that of a special orbit.
+/// An orbit counts as special if a multiplier, a gap or a velocity is this close to its critical
+/// value.
 const THERE: f64 = 1e-6;
 
 impl BranchEvent {
-    /// An orbit that is itself special, as one that was told as an event of a branch before: the event
-    /// that it is.
+    /// The event at an orbit that is itself special, such as one that was found as an event of a
+    /// branch before.
     pub fn here(kind: Kind, orbit: &Orbit) -> Option<Self> {
         let values = &orbit.multipliers.values;
         let near = |extreme: &Extreme| extreme.value.abs() < THERE;
@@ -148,12 +149,13 @@ impl Test {
     }
 }
 
-/// A test function that is smaller than this is zero throughout, as on a family of neutral orbits.
+/// A test function smaller than this is taken as identically zero, as on a family of neutral
+/// orbits.
 const NOTHING: f64 = 1e-9;
-/// How far off a test function may be at a place that is to be its zero.
+/// The largest value of a test function that is accepted as a zero.
 const ZERO: f64 = 1e-6;
 
-/// The values of all test functions; NaN where there is none.
+/// The values of all test functions; NaN for those that do not exist.
 pub(crate) fn tests_of(orbit: &Orbit, tangent: &DVector<f64>) -> Vec<(Test, f64)> {
     Test::all()
         .map(|test| (test, value(test, orbit, tangent)))
@@ -202,8 +204,8 @@ fn pairs(multipliers: &[[f64; 2]]) -> f64 {
     product(factors.into_iter())
 }
 
-/// The event between two points at which a test function changes its sign; none where that is no zero
-/// of it, or not the event that is sought.
+/// The event between two points at which a test function changes its sign; none if that is not a
+/// zero of it, or not the event wanted.
 pub(crate) fn located<F: Family>(
     segment: &Segment<F>,
     test: Test,
@@ -238,7 +240,7 @@ pub(crate) fn located<F: Family>(
     };
     let grazes = extreme.filter(|_| kind == Kind::Graze);
     let bend = grazes.map(|extreme| normal_acceleration(segment, &orbit, &extreme));
-    // Told with its events counted from the section that they have passed, if they have.
+    // If events have passed the section, they are numbered from there.
     let (u, ..) = tracer.corrected(segment.from, tangent, sigma)?;
     let anew = tracer.renumbered(&u);
     let orbit = anew.map_or(orbit, |(moved, u, _)| {
@@ -289,7 +291,8 @@ fn raw(test: Test, orbit: &Orbit, tangent: &DVector<f64>) -> f64 {
     }
 }
 
-/// Whether the multipliers are those of the event: two real ones whose product is 1 are no torus.
+/// Whether the multipliers are those of the event: two real ones whose product is 1 are not a
+/// torus.
 fn is_meant(test: Test, orbit: &Orbit) -> bool {
     let multipliers = &orbit.multipliers.values;
     match test {

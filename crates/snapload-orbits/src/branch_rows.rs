@@ -1,4 +1,4 @@
-//! Branches in the shape of their JSON, and in words.
+//! Branches in the form of their JSON, and in words.
 
 use crate::branch::{Branch, BranchEnd, BranchPoint};
 use crate::branch_events::BranchEvent;
@@ -51,7 +51,8 @@ struct EndRow {
 }
 
 impl BranchRow {
-    /// Of a branch along a key, that was come to by events of others, the last of which it begins at.
+    /// A branch along a key, which was reached through events of others, the last of which is its
+    /// start.
     pub fn new(along: &'static str, branch: &Branch, from: &[BranchEvent]) -> Self {
         let end = |end: &BranchEnd| EndRow {
             at: end.at,
@@ -101,7 +102,7 @@ impl EventRow {
     }
 }
 
-/// A branch in a few lines.
+/// A summary of a branch in a few lines.
 pub fn branch_in_words(along: &str, branch: &Branch) -> String {
     let real = branch
         .points

@@ -1,18 +1,19 @@
-//! What holds along a curve of special orbits, as one equation beside those of the closed lap.
+//! The condition that special orbits along a curve satisfy, as one equation in addition to those of
+//! the closed lap.
 //!
-//! A matrix A that is singular at the special orbit is bordered, as in W. J. F. Govaerts, *Numerical
-//! Methods for Bifurcations of Dynamical Equilibria* (2000), ch. 3: in
+//! A matrix A that is singular at the special orbit is bordered, as in W. J. F. Govaerts,
+//! *Numerical Methods for Bifurcations of Dynamical Equilibria* (2000), ch. 3: in
 //!
 //! ```text
 //! [ A   b ] [ v ]   [ 0 ]
 //! [ cᵀ  0 ] [ g ] = [ 1 ]
 //! ```
 //!
-//! g is smooth and zero where A is singular. With the derivatives ∂F of the closed lap's equations by
-//! state z and times, A is ∂F at a fold; ∂F + 2 ∂z/∂z at a period doubling, where P δz = −δz has a
-//! solution in place of P δz = δz; and the second compound matrix of the monodromy matrix, whose
-//! eigenvalues are the products μ_i μ_j, less the unit matrix, where a pair is on the unit circle. The
-//! first two need no speed of a snap to divide by, so that they are smooth through grazes.
+//! g is smooth and zero where A is singular. With the derivatives ∂F of the closed lap's equations
+//! by state z and times, A is ∂F at a fold; ∂F + 2 ∂z/∂z at a period doubling, where P δz = −δz has
+//! a solution in place of P δz = δz; and the second compound matrix of the monodromy matrix, whose
+//! eigenvalues are the products μ_i μ_j, less the unit matrix, where a pair is on the unit circle.
+//! The first two do not divide by the speed of a snap, so that they are smooth through grazes.
 
 use crate::branch_events::{BranchEvent, Kind};
 use crate::hybrid::{DURATION, Family, Hybrid, Jet, Point, constant};
@@ -20,10 +21,10 @@ use crate::orbit::Orbit;
 use crate::tracer::{Tracer, Unknowns};
 use nalgebra::{DMatrix, DVector};
 
-/// What holds.
+/// The condition on the orbits of a curve.
 #[derive(Clone, Debug)]
 pub(crate) enum Condition {
-    /// A matrix is singular; with what borders it.
+    /// A matrix is singular; with its bordering vectors.
     Singular {
         of: Kind,
         left: DVector<f64>,
@@ -31,11 +32,11 @@ pub(crate) enum Condition {
     },
     /// A slack surface is touched between events.
     Touch(Contact),
-    /// An event's own snap has no speed.
+    /// The snap of an event has zero velocity.
     Speed { leg: usize },
 }
 
-/// Where a slack surface comes nearest.
+/// The closest approach of a slack surface.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Contact {
     surface: usize,
@@ -43,13 +44,13 @@ pub(crate) struct Contact {
     t: f64,
 }
 
-/// Steps of Newton's method towards the instant at which a surface comes nearest.
+/// Steps of Newton's method towards the time of a surface's closest approach.
 const MOST_STEPS: usize = 8;
-/// Difference quotients are taken over this.
+/// The step of difference quotients.
 const STEP: f64 = 3e-6;
 
 impl Condition {
-    /// That of an event; none where the event is none of a curve.
+    /// The condition that an event satisfies; none if its kind has no curve.
     pub(crate) fn of<F: Family>(
         tracer: &Tracer<F>,
         u: &Unknowns,
@@ -76,7 +77,7 @@ impl Condition {
         }
     }
 
-    /// The number that is zero.
+    /// The value that vanishes along the curve.
     pub(crate) fn value<F: Family>(&self, tracer: &Tracer<F>, u: &Unknowns) -> Option<f64> {
         match self {
             Self::Singular { of, left, right } => {
@@ -92,8 +93,8 @@ impl Condition {
         }
     }
 
-    /// Its derivatives by all unknowns and both parameters, by central differences: what is solved
-    /// for is as exact as the number itself.
+    /// Its derivatives by all unknowns and both parameters, by central differences: the solution is
+    /// as accurate as the value itself.
     pub(crate) fn slopes<F: Family>(
         &self,
         tracer: &Tracer<F>,
@@ -116,8 +117,8 @@ impl Condition {
             .then_some(slopes)
     }
 
-    /// The same at a point of the curve: bordered by what is singular there, or with the nearest
-    /// instant of now.
+    /// The condition updated at a point of the curve: bordered by the null vectors there, or with
+    /// the present time of closest approach.
     pub(crate) fn renewed<F: Family>(&self, tracer: &Tracer<F>, u: &Unknowns) -> Option<Self> {
         match self {
             Self::Singular { of, left, right } => {
@@ -138,7 +139,7 @@ impl Condition {
         }
     }
 
-    /// The same after the events were counted anew.
+    /// The condition after the events were renumbered.
     pub(crate) fn counted_anew<F: Family>(
         &self,
         tracer: &Tracer<F>,
@@ -159,7 +160,7 @@ impl Condition {
         }
     }
 
-    /// a = −g̈/2r where a surface is touched, be it between events or by a snap without speed.
+    /// a = −g̈/2r where a surface is touched, between events or by a snap of zero velocity.
     pub(crate) fn normal_acceleration<F: Family>(
         &self,
         tracer: &Tracer<F>,
@@ -177,7 +178,7 @@ impl Condition {
         Some(-rate(tracer, u, leg, surface, s))
     }
 
-    /// The event whose own snap has no speed.
+    /// The event whose snap has zero velocity.
     pub(crate) fn leg(&self) -> Option<usize> {
         match self {
             Self::Speed { leg } => Some(*leg),
@@ -185,7 +186,7 @@ impl Condition {
         }
     }
 
-    /// What orbits it makes.
+    /// The kind of special orbit.
     pub(crate) fn kind(&self) -> Kind {
         match self {
             Self::Singular { of, .. } => *of,
@@ -193,7 +194,7 @@ impl Condition {
         }
     }
 
-    /// Whether an orbit is what it should be: a pair that has become real is no torus any more.
+    /// Whether an orbit still satisfies it: a pair that has become real is no longer a torus.
     pub(crate) fn is_met(&self, orbit: &Orbit) -> bool {
         match self {
             Self::Singular { of, .. } if *of == Kind::NeimarkSacker => orbit
@@ -226,7 +227,7 @@ fn rate<F: Family>(
 }
 
 impl Contact {
-    /// The gap where the surface comes nearest, and when that is.
+    /// The gap at the closest approach of the surface, and its time.
     fn found<F: Family>(&self, tracer: &Tracer<F>, u: &Unknowns) -> Option<(f64, f64)> {
         let system = tracer.family.plain(u.at);
         let legs = tracer.lap(u.at).legs(&system, &u.z, &u.durations);
@@ -237,7 +238,7 @@ impl Contact {
             let speed = system.speed(self.surface, &there(s));
             let step = speed / rate(tracer, u, leg, self.surface, s);
             s -= step;
-            // The gap is off by the square of what the instant is.
+            // The error of the gap is of second order in that of the time.
             if step.abs() < 1e-9 {
                 return Some((system.gap(self.surface, &there(s)), leg.t + s));
             }
@@ -246,7 +247,7 @@ impl Contact {
     }
 }
 
-/// A singular matrix with what borders it: its null vectors.
+/// A singular matrix with its null vectors as borders.
 fn singular<F: Family>(of: Kind, tracer: &Tracer<F>, u: &Unknowns) -> Option<Condition> {
     let svd = matrix(of, tracer, u).try_svd(true, true, f64::EPSILON, 10_000)?;
     let last = svd.singular_values.imin();
@@ -277,7 +278,7 @@ fn matrix<F: Family>(of: Kind, tracer: &Tracer<F>, u: &Unknowns) -> DMatrix<f64>
     jacobian
 }
 
-/// The second compound matrix, of all minors of two rows and two columns.
+/// The second compound matrix: all minors of two rows and two columns.
 fn compound(matrix: &DMatrix<f64>) -> DMatrix<f64> {
     let n = matrix.nrows();
     let pairs: Vec<[usize; 2]> = (0..n)
@@ -314,7 +315,7 @@ mod tests {
     use super::{compound, solved};
     use nalgebra::{DMatrix, DVector};
 
-    /// The eigenvalues of the second compound matrix are the products of two.
+    /// The eigenvalues of the second compound matrix are the products of two eigenvalues.
     #[test]
     fn the_compound_matrix_has_the_products() {
         let (angle, size) = (0.7_f64, 0.9);

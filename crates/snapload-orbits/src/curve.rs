@@ -1,8 +1,9 @@
-//! Curves of special orbits in two parameters: folds, period doublings, Neimark-Sacker points, grazes.
+//! Curves of special orbits in two parameters: folds, period doublings, Neimark-Sacker points,
+//! grazes.
 //!
-//! The unknowns are the state at the section, the times from event to event, and both parameters; the
-//! equations those of the closed lap and one condition ([`crate::condition`]). A curve is followed by
-//! pseudo-arclength as a branch is.
+//! The unknowns are the state at the section, the times from event to event, and both parameters;
+//! the equations those of the closed lap and one condition ([`crate::condition`]). A curve is
+//! followed by pseudo-arclength as a branch is.
 
 use crate::branch_events::{BranchEvent, Kind};
 use crate::hybrid::Family;
@@ -21,23 +22,23 @@ pub struct Across {
     pub ranges: [[f64; 2]; 2],
     /// The length of the first step, in the space of state, times and parameters.
     pub step: f64,
-    /// Points in either direction at most.
+    /// The most points in either direction.
     pub most: usize,
 }
 
 /// A point of a curve.
 #[derive(Clone, Debug)]
 pub struct CurvePoint {
-    /// The special orbit, which a body may not have.
+    /// The special orbit, which may be inadmissible.
     pub orbit: Orbit,
-    /// What its other multipliers say, besides those that make it special: whether an orbit that is
-    /// stable comes to its end here.
+    /// The stability by its other multipliers, besides those that make it special: whether a stable
+    /// orbit loses its stability here.
     pub others: Stability,
-    /// The length along the curve from where it was begun.
+    /// The length along the curve from its first point.
     pub arclength: f64,
-    /// The coefficient of the normal form: of the square at a fold, of the cube at a period doubling,
-    /// where a positive one says that the orbits of twice the length are stable if all other
-    /// multipliers are.
+    /// The coefficient of the normal form: that of the square at a fold, and that of the cube at a
+    /// period doubling, where a positive one says that the orbits of twice the length are stable if
+    /// all other multipliers are.
     pub coefficient: Option<f64>,
     /// a = −g̈/2r at a graze.
     pub normal_acceleration: Option<f64>,
@@ -57,7 +58,7 @@ pub struct CurveEnd {
 /// A curve of special orbits.
 #[derive(Clone, Debug)]
 pub struct Curve {
-    /// What they are.
+    /// Their kind.
     pub kind: Kind,
     /// Its points, from one end to the other.
     pub points: Vec<CurvePoint>,
@@ -65,16 +66,17 @@ pub struct Curve {
     pub ends: [CurveEnd; 2],
 }
 
-/// The longest and the shortest step, as parts of the first.
+/// The longest and the shortest step, in units of the first.
 const LONGER: f64 = 6.0;
 const SHORTER: f64 = 1e-6;
-/// The corrector's steps from which on a step is made shorter, and up to which longer.
+/// From the first number of the corrector's iterations on, the next step is made shorter; up to the
+/// second, longer.
 const MANY: usize = 7;
 const FEW: usize = 4;
-/// A cable that would have to be longer than this ends a curve.
+/// A gap of more than this, by which a cable would have to be longer, ends a curve.
 const DEEP: f64 = 0.02;
-/// A curve that comes back this near to where it began, in parts of its step, is closed, if it has
-/// gone so many steps before.
+/// A curve that returns to its first point within the first of these parts of its step is closed,
+/// if it is at least as many steps long as the second says.
 const BACK: f64 = 0.5;
 const FAR: f64 = 10.0;
 
@@ -90,8 +92,8 @@ impl Curve {
     /// The curve through a special point of a branch in the first parameter.
     ///
     /// # Errors
-    /// [`Cancelled`] if it is told to end; [`NoOrbit`] within where the point is not of such a kind, or
-    /// no such orbit is found there.
+    /// [`Cancelled`] if the work is cancelled; within it [`NoOrbit`] if the point is not of such a
+    /// kind, or no such orbit is found there.
     pub fn of<F: Family>(
         family: &F,
         event: &BranchEvent,
@@ -143,7 +145,7 @@ impl Curve {
     }
 }
 
-/// One direction.
+/// The curve in one direction.
 struct Side {
     points: Vec<CurvePoint>,
     end: CurveEnd,
@@ -162,7 +164,8 @@ impl Side {
         }
     }
 
-    /// Ends on a border that is passed after so long a curve, in its last point if that was found.
+    /// Ends at a border that is passed at this arclength; its last point is on the border if that
+    /// was found.
     fn end_on<F: Family>(&mut self, border: Border<F>, arclength: f64) {
         self.end.because = BORDERS[border.number].to_owned();
         if let Some(last) = border.place {
@@ -173,7 +176,8 @@ impl Side {
     }
 }
 
-/// What the multipliers say besides the one nearest to 1 or to −1, or the pair nearest to the circle.
+/// The stability by the multipliers other than the one nearest to 1 or to −1, or than the pair
+/// nearest to the unit circle.
 fn others(kind: Kind, orbit: &Orbit) -> Stability {
     let mut left = orbit.multipliers.clone();
     let mut take = |off: &dyn Fn([f64; 2]) -> f64| {
@@ -217,8 +221,8 @@ fn point<F: Family>(rail: &Rail<F>, orbit: Orbit, arclength: f64) -> CurvePoint 
     }
 }
 
-/// What a curve ends at, as numbers that are negative beyond it: the four sides of the ranges, a
-/// corner, a snap without speed.
+/// The borders at which a curve ends, as numbers that are negative beyond them: the four sides of
+/// the ranges, a corner, a snap of zero velocity.
 const BORDERS: [&str; 6] = [
     "the end of the range",
     "the end of the range",
@@ -228,10 +232,10 @@ const BORDERS: [&str; 6] = [
     "graze: another snap of the sequence has no speed left, and would open its cable beyond it",
 ];
 
-/// A place this near to a border is on it.
+/// A point this close to a border counts as on it.
 const ON_BORDER: f64 = 1e-8;
 
-/// Walks along curves.
+/// Follows curves.
 struct Walk<'a> {
     across: &'a Across,
     on_progress: OnProgress<'a>,
@@ -296,7 +300,7 @@ impl Walk<'_> {
         Ok(side)
     }
 
-    /// The length of the next step, by how many of Newton's steps the one before took.
+    /// The length of the next step, from the number of Newton's iterations in the last one.
     fn next_length(&self, step: f64, steps: usize) -> f64 {
         match steps {
             MANY.. => step * 0.6,
@@ -305,7 +309,7 @@ impl Walk<'_> {
         }
     }
 
-    /// How far it is to each border.
+    /// The distance to each border.
     fn margins<F: Family>(&self, rail: &Rail<F>, orbit: &Orbit) -> [f64; 6] {
         let [[a, b], [c, d]] = self.across.ranges;
         let [x, y] = orbit.at;
@@ -347,14 +351,14 @@ impl Walk<'_> {
     }
 }
 
-/// A border that a curve passes, how far on, and its place there, if it was found.
+/// A border that a curve passes, the distance to it, and the point there, if it was found.
 struct Border<'a, F: Family> {
     number: usize,
     sigma: f64,
     place: Option<Rail<'a, F>>,
 }
 
-/// Why a curve ends at a point that it has come to.
+/// Why a curve ends at a point that it has reached.
 fn left<F: Family>(rail: &Rail<F>, orbit: &Orbit) -> Option<String> {
     if !rail.condition.is_met(orbit) {
         let because = "the pair of multipliers is real from here on: a resonance of 1:1 or 1:2";

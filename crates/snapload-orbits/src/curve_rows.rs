@@ -1,4 +1,4 @@
-//! Curves in the shape of their JSON, and in words.
+//! Curves in the form of their JSON, and in words.
 
 use crate::branch_events::BranchEvent;
 use crate::branch_rows::EventRow;
@@ -40,7 +40,7 @@ struct EndRow {
 }
 
 impl CurveRow {
-    /// Of a curve along two keys, through an event of a branch along the first.
+    /// A curve along two keys, through an event of a branch along the first.
     pub fn new(along: [&'static str; 2], curve: &Curve, from: &BranchEvent) -> Self {
         let end = |end: &CurveEnd| EndRow {
             at: end.at,
@@ -75,7 +75,7 @@ impl PointRow {
     }
 }
 
-/// A curve in a few lines.
+/// A summary of a curve in a few lines.
 pub fn curve_in_words(along: [&str; 2], curve: &Curve, from: &BranchEvent) -> String {
     let name = curve.kind.name().replace('_', " ");
     let [first, second] = along;

@@ -1,32 +1,33 @@
-//! Diagrams: the attractor followed along a key, each value begun where the last one ended.
+//! Diagrams: the attractor followed along a key, where each value starts from the last state of the
+//! one before.
 
 use crate::hybrid::Point;
 use crate::section::{Section, Stretch, period_of, start_of};
 use snapload::analysis::{OnProgress, Progress, Unfinished};
 use snapload::{Parameters, Stop};
 
-/// What there is at one value.
+/// The attractor at one value.
 #[derive(Clone, Debug)]
 pub struct At {
     /// The value of the key.
     pub value: f64,
-    /// The state that the motion began with.
+    /// The state from which the motion started.
     pub seed: Point,
-    /// Whether that was the case's own start, and not where the value before ended.
+    /// Whether that was the case's own start, and not the last state of the value before.
     pub restarted: bool,
-    /// The section points and what is told of them.
+    /// The section points, with facts about them.
     pub section: Section,
     /// The period in periods of the forcing, if the motion repeats itself.
     pub period: Option<usize>,
 }
 
 impl At {
-    /// Why the motion stopped, where it did.
+    /// Why the motion stopped, if it did.
     pub fn stop(&self) -> Option<Stop> {
         self.section.stop
     }
 
-    /// Snaps a period.
+    /// Snaps per period.
     pub fn snaps(&self) -> Option<f64> {
         let periods = self
             .section
@@ -38,11 +39,12 @@ impl At {
     }
 }
 
-/// Follows the attractor of a case along values of a key, in their order. Where a motion stops at a
-/// limit the next value begins with the case's own start again.
+/// Follows the attractor of a case along values of a key, in their order. If a motion stops at a
+/// limit the next value starts from the case's own start again.
 ///
 /// # Errors
-/// As for [`Section::of`], at the first value; a start that is not legal at a later one begins anew.
+/// As for [`Section::of`], at the first value; if a start is not legal at a later one, the case's
+/// own start is used.
 pub fn diagram(
     base: &Parameters,
     key: &str,

@@ -1,8 +1,8 @@
-//! How far the cells of a grid are from the nearest of some of them.
+//! The distances from the cells of a grid to the nearest marked one.
 
 /// The squares of the distances from each cell's centre to that of the nearest marked one; infinite
-/// where none is marked. Of P. F. Felzenszwalb & D. P. Huttenlocher, *Theory of Computing* 8 (2012)
-/// 415: along one axis, then along the other, the lower envelope of parabolas.
+/// if none is marked. After P. F. Felzenszwalb & D. P. Huttenlocher, *Theory of Computing* 8 (2012)
+/// 415: along one axis, then along the other, as the lower envelope of parabolas.
 pub(crate) fn squared_distances(
     marked: &[bool],
     [rows, columns]: [usize; 2],

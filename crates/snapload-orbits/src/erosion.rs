@@ -13,7 +13,7 @@ pub struct Erosion {
     pub points: Vec<(f64, Basin)>,
 }
 
-/// What of the first value's safe part is left at the knee.
+/// Fraction of the safe part at the first value that defines the knee.
 pub const KNEE: f64 = 0.9;
 
 impl Erosion {
@@ -55,29 +55,30 @@ impl Erosion {
         Ok(Self { key, points })
     }
 
-    /// Whether neighbours and horizons were looked at: without them no cell is known to be undecided.
+    /// Whether neighbours and horizons were computed: without them no cell counts as undecided.
     pub fn looked_beside(&self) -> bool {
         self.points.iter().all(|(_, basin)| basin.looked_beside)
     }
 
-    /// The last value up to which the safe part of the decided cells never falls below nine tenths of
-    /// what it is at the first value; none where it never does fall below.
+    /// The last value up to which the safe part of the decided cells does not fall below nine
+    /// tenths of that at the first value; none if it never falls below.
     ///
-    /// Cells that are not decided are left out, as how they end says nothing: where starts are
-    /// symmetric they are many, and all at one value. A value without decided cells is passed over.
-    /// Where neighbours were not looked at, all cells count as decided.
+    /// Undecided cells are left out, as their ends carry no information: for symmetric starts they
+    /// are many, and all at one value. A value without decided cells is skipped. If neighbours were
+    /// not computed, all cells count as decided.
     pub fn knee(&self) -> Option<f64> {
         self.knee_of(|m| decided_part(m).map(|part| [part; 2]))
     }
 
-    /// The values with decided cells, each with the safe part of these.
+    /// The values that have decided cells, each with the safe part of these.
     pub(crate) fn decided(&self) -> Vec<(f64, f64)> {
         let part = |(value, basin): &(f64, Basin)| Some((*value, decided_part(&basin.measures)?));
         self.points.iter().filter_map(part).collect()
     }
 
-    /// The least and the greatest value that the knee has, however the cells that are not decided
-    /// end, each none where there is none then; none at all where neighbours were not looked at.
+    /// The least and the greatest value that the knee can have, for all possible ends of the
+    /// undecided cells; each is none if there is no knee then. None at all if neighbours were not
+    /// computed.
     pub fn knee_between(&self) -> Option<[Option<f64>; 2]> {
         let part = |cells: usize, m: &Measures| cells as f64 / m.legal as f64;
         let low = |m: &Measures| part(m.safe - m.undecided_safe, m);
@@ -90,8 +91,8 @@ impl Erosion {
         })
     }
 
-    /// The knee, with the safe part of a window as the whole and as what is left of it, of the values
-    /// where there are such parts.
+    /// The knee, where `parts` gives the safe part that counts as the reference at the first value
+    /// and the one that is compared with it, for the values that have such parts.
     fn knee_of(&self, parts: impl Fn(&Measures) -> Option<[f64; 2]>) -> Option<f64> {
         let of = |(value, basin): &(f64, Basin)| parts(&basin.measures).map(|both| (*value, both));
         let mut points = self.points.iter().filter_map(of);
@@ -106,7 +107,7 @@ impl Erosion {
     }
 }
 
-/// The safe part of the decided cells, where there are some.
+/// The safe part of the decided cells, if there are any.
 pub(crate) fn decided_part(m: &Measures) -> Option<f64> {
     let part = (m.safe - m.undecided_safe) as f64 / (m.legal - m.undecided) as f64;
     (m.legal > m.undecided).then_some(part)
@@ -117,7 +118,8 @@ mod tests {
     use super::*;
     use snapload::Parameters;
 
-    /// Basins of a hundred legal cells, by how many are safe, undecided, and both.
+    /// Basins of a hundred legal cells, given the numbers of safe, of undecided, and of undecided
+    /// safe ones.
     fn eroded(looked_beside: bool, counts: &[[usize; 3]]) -> Erosion {
         let basin = |&[safe, undecided, undecided_safe]: &[usize; 3]| Basin {
             window: Window {

@@ -1,11 +1,11 @@
-//! Lyapunov exponents of long motions, with those that contact closes.
+//! Lyapunov exponents of long motions, with those that are −∞ because of contact.
 //!
 //! Six directions, four of a point mass, are carried along a motion and made orthogonal after each
 //! step (Benettin, Galgani, Giorgilli & Strelcyn, *Meccanica* 15 (1980) 9). A cable that stays taut
-//! leaves no deviation of its gap and of the gap's velocity. The linearised motion itself does not
-//! know that: off the taut cables a deviation that is a rounding drifts on with time, and would be told
-//! as a small exponent. So the directions are put back along the taut cables after each step, and those
-//! that have no place left there are closed: their exponent is −∞.
+//! allows no deviation of its gap and of the gap's velocity. The linearised motion itself does not
+//! include this: off the constraints a deviation that is only rounding would grow with time, and be
+//! reported as a small exponent. So the directions are projected onto the constraints after each
+//! step, and those of which nothing remains are closed: their exponent is −∞.
 
 use crate::hybrid::Family;
 use crate::moored::{Cables, Moored};
@@ -18,25 +18,25 @@ use snapload::{Parameters, StepMap, TautSet};
 pub(crate) struct Directions {
     system: Cables<Jet>,
     variables: &'static [usize],
-    /// At unit length; none in place of one that contact has closed.
+    /// Unit vectors; none in place of a direction that contact has closed.
     directions: Vec<Option<DVector<f64>>>,
-    /// ln of the factors by which they have grown; −∞ of one that is closed.
+    /// The logarithms of the factors by which they have grown; −∞ for a closed one.
     logs: Vec<f64>,
-    /// Whether what contact has closed counts from now on.
+    /// Whether directions that contact closes count as closed from now on.
     counts: bool,
 }
 
-/// A direction of which less than this part is not along the others has no place of its own: the rest
-/// is rounding.
+/// If less than this part of a direction is independent of the others, it is rounding, and the
+/// direction is closed.
 const ROUNDING: f64 = 1e-14;
-/// Standard errors come from so many batches, and from no fewer than the second number.
+/// Standard errors come from the first number of batches, and from at least the second.
 const BATCHES: usize = 20;
 const FEWEST: usize = 4;
-/// A trend that is so many times its standard error is none by chance.
+/// A trend of this many times its standard error is not taken as chance.
 const TREND: f64 = 3.0;
 
 impl Directions {
-    /// Those of the components, at the start of a motion of a case.
+    /// The unit vectors of the components, at the start of a motion of a case.
     pub(crate) fn new(parameters: &Parameters) -> Self {
         let family = Moored::case(*parameters, [None; 2]);
         let count = family.variables().len();
@@ -49,8 +49,8 @@ impl Directions {
         }
     }
 
-    /// From now on what contact closes stays closed. A cable that was taut in the beginning and is
-    /// not in the long run closes nothing of the long run.
+    /// From now on a direction that contact closes stays closed. A cable that was taut only in the
+    /// beginning closes no direction of the long motion.
     pub(crate) fn begin_to_count(&mut self) {
         self.counts = true;
     }
@@ -89,11 +89,11 @@ impl Directions {
         }
     }
 
-    /// Puts others in place of those that are closed.
+    /// Replaces the closed directions by others, so that all remain independent.
     fn fill(&mut self, mut taken: Vec<DVector<f64>>) {
         let count = self.variables.len();
         for direction in self.directions.iter_mut().filter(|d| d.is_none()) {
-            // The unit vector that is least along the others is not along them by much.
+            // The unit vector with the smallest component along the others is far enough from them.
             let left = |i: usize| 1.0 - taken.iter().map(|other| other[i] * other[i]).sum::<f64>();
             let least = (0..count).max_by(|i, j| left(*i).total_cmp(&left(*j)));
             let found = least.and_then(|i| orthogonal(unit(count, i), &taken, ROUNDING));
@@ -109,8 +109,8 @@ fn unit(count: usize, place: usize) -> DVector<f64> {
     unit
 }
 
-/// The exponents, the largest first, each with its standard error, from the logarithms at sections a
-/// period apart, of which the first comes so many periods after the motion has begun.
+/// The exponents, the largest first, each with its standard error, from the logarithms at sections
+/// a period apart, the first of which is `first` periods after the motion's start.
 pub(crate) fn exponents(logs: &[Vec<f64>], first: u64, period: f64) -> Vec<[f64; 2]> {
     let count = match logs {
         [_, _, ..] => logs[0].len(),
@@ -126,13 +126,13 @@ pub(crate) fn exponents(logs: &[Vec<f64>], first: u64, period: f64) -> Vec<[f64;
     found
 }
 
-/// The mean growth in a period, and its standard error from batches of periods, which is not a number
-/// where there are too few.
+/// The mean growth in a period, and its standard error from batches of periods, which is NaN if
+/// there are too few.
 ///
-/// Deviations that grow by a power of time and not by a factor a period, as those between motions of
-/// different pace, have an exponent of 0, but over n periods a mean that falls as 1/n: batches
-/// agree with each other, and not with the limit. So where growth falls or rises beyond the scatter of
-/// the batches, as 1/t, what that makes of the mean is a part of the error.
+/// Deviations that grow by a power of time instead of a factor per period, such as those between
+/// motions of different pace, have an exponent of 0, but over n periods a mean that falls as 1/n:
+/// batches agree with each other, and not with the limit. So if the growth rises or falls as 1/t by
+/// more than the scatter of the batches, the effect of this on the mean is included in the error.
 fn estimate(logs: &[f64], first: f64) -> [f64; 2] {
     let periods = logs.len() - 1;
     let rate = |from: usize, to: usize| (logs[to] - logs[from]) / (to - from) as f64;
@@ -173,7 +173,7 @@ fn estimate(logs: &[f64], first: f64) -> [f64; 2] {
 mod tests {
     use super::*;
 
-    /// A law of growth, looked at over 100 periods after 300.
+    /// The estimate for a given growth, over 100 periods after 300.
     fn of(growth: impl Fn(f64) -> f64) -> [f64; 2] {
         let logs: Vec<f64> = (300..=400).map(|t| growth(f64::from(t))).collect();
         estimate(&logs, 300.0)
@@ -196,7 +196,7 @@ mod tests {
 
     #[test]
     fn scatter_is_the_error_where_there_is_no_trend() {
-        // Equidistributed numbers, whose sums over five periods scatter.
+        // Equidistributed numbers, whose sums over five periods vary.
         let [mean, error] = of(|t| 0.1 * t + (t * 2_f64.sqrt()).fract());
         assert!(
             (mean - 0.1).abs() < 3.0 * error && error < 0.05,

@@ -1,8 +1,8 @@
 //! Hybrid systems: flows between events, events on surfaces, laws at events.
 //!
-//! Orbits, multipliers and branches are found for anything that can do what [`Hybrid`] asks for: a
-//! body on cables ([`crate::Moored`]), or an oscillator against a wall. It is asked for over plain
-//! doubles and over [`Jet`]s, whose derivatives by state, time and parameters make Newton's method
+//! Orbits, multipliers and branches are found for everything that implements [`Hybrid`]: a body on
+//! cables ([`crate::Moored`]), or an oscillator against a wall. It is used over plain doubles and
+//! over [`Jet`]s, whose derivatives by state, time and parameters are needed for Newton's method
 //! and the saltation matrices.
 
 use snapload::{Dual, Limit, PerCable, Real, Stop, TautSet};
@@ -10,19 +10,19 @@ use snapload::{Dual, Limit, PerCable, Real, Stop, TautSet};
 /// Six numbers: x, y, θ, ẋ, ẏ, θ̇, of which a system may use fewer.
 pub type Point<T = f64> = [T; 6];
 
-/// A number with its derivatives by the six components of the state at the start of a leg, by the time
-/// there, by the leg's duration, and by two parameters.
+/// A number with its derivatives by the six components of the state at the start of a leg, by the
+/// time there, by the leg's duration, and by two parameters.
 pub type Jet = Dual<f64, 10>;
 
-/// The place of the time among the derivatives of a [`Jet`].
+/// The index of the time among the derivatives of a [`Jet`].
 pub const TIME: usize = 6;
-/// That of the duration.
+/// The index of the duration.
 pub const DURATION: usize = 7;
-/// That of the first of two parameters.
+/// The index of the first of two parameters.
 pub const PARAMETER: usize = 8;
 
-/// A system that flows, meets surfaces, and jumps there. A surface that is held (a taut cable) is a
-/// constraint of the flow.
+/// A system with a flow, surfaces, and a jump at each surface. A surface that is held (a taut
+/// cable) is a constraint of the flow.
 pub trait Hybrid<T: Real> {
     /// All surfaces.
     fn surfaces(&self) -> TautSet;
@@ -30,8 +30,8 @@ pub trait Hybrid<T: Real> {
     /// The state a time `s`, of either sign, after `z` at time `t`, with `held` surfaces.
     fn flow(&self, held: TautSet, t: T, z: &Point<T>, s: T) -> Point<T>;
 
-    /// The same motion at any time from 0 to `s`, for whoever asks for many of them:
-    /// [`Hybrid::flow`] to rounding.
+    /// The same motion at any time from 0 to `s`, for many evaluations: equal to [`Hybrid::flow`]
+    /// up to rounding.
     fn path(&self, held: TautSet, t: T, z: &Point<T>, _s: T) -> impl Fn(T) -> Point<T> {
         let z = *z;
         move |s| self.flow(held, t, &z, s)
@@ -43,19 +43,18 @@ pub trait Hybrid<T: Real> {
     /// The velocity v_n at which it closes.
     fn speed(&self, surface: usize, z: &Point<T>) -> T;
 
-    /// The force by which a held surface holds; it lets go where this is zero.
+    /// The force by which a held surface holds; it is released where this is zero.
     fn tension(&self, surface: usize, held: TautSet, t: T, z: &Point<T>) -> T;
 
-    /// The law where `struck` surfaces are met and those of `pulling` take up impulses: the state
+    /// The law where `struck` surfaces are reached and those of `pulling` take impulses: the state
     /// after it, and the impulses.
     fn law(&self, struck: TautSet, pulling: TautSet, z: &Point<T>) -> (Point<T>, PerCable<T>);
 
-    /// Moved onto `closed` surfaces, and along `still` ones.
+    /// The state projected onto `closed` surfaces, with its velocity along `still` ones.
     fn placed(&self, closed: TautSet, still: TautSet, z: &Point<T>) -> Point<T>;
 }
 
-/// What limits the motion, as quantity − bound, in the order of [`Limit::ALL`]; −∞ where there is no
-/// such limit.
+/// For each limit quantity − bound, in the order of [`Limit::ALL`]; −∞ for a limit that is off.
 pub type Limits = [f64; Limit::ALL.len()];
 
 /// Hybrid systems with two parameters, forced periodically.
@@ -77,36 +76,36 @@ pub trait Family: Sync {
     /// The period of the forcing, with its derivatives by the parameters.
     fn forcing_period(&self, at: [f64; 2]) -> Jet;
 
-    /// How much volumes shrink in flight, per unit of time: the negative divergence; `None` where it
-    /// is not constant.
+    /// The rate at which volumes shrink in flight: the negative divergence; `None` if it is not
+    /// constant.
     fn contraction(&self, at: [f64; 2]) -> Option<f64>;
 
     /// The factor by which one snap multiplies volumes: e².
     fn snap_contraction(&self, at: [f64; 2]) -> f64;
 
-    /// The limits at a state; there are none if nothing is said.
+    /// The limits at a state; by default there are none.
     fn limits(&self, _system: &Self::Plain, _z: &Point) -> Limits {
         [f64::NEG_INFINITY; Limit::ALL.len()]
     }
 
-    /// A gap that is given as a length, in the measure in which it is told.
+    /// A gap that is given as a length, in the measure in which it is reported.
     fn told_gap(&self, _system: &Self::Plain, _surface: usize, length: f64) -> f64 {
         length
     }
 
-    /// The motion as it is, with its events detected, from `z` at time `t` to `t_end`. None where
-    /// the system has no other motion than the prescribed one of [`crate::scan()`].
+    /// The actual motion, with its events detected, from `z` at time `t` to `t_end`. None if the
+    /// system has only the prescribed motion of [`crate::scan()`].
     fn simulate(&self, at: [f64; 2], t: f64, z: &Point, t_end: f64) -> Option<Simulated>;
 }
 
-/// A motion as it was found by simulation, or why there is none.
+/// The result of a simulation, or why there is none.
 #[derive(Clone, Debug)]
 pub struct Simulated {
     /// Its events.
     pub lap: crate::sequence::Timed,
     /// Where it ended.
     pub end: Point,
-    /// Why and when it stopped before its time.
+    /// Why and when it stopped early.
     pub stop: Option<(Stop, f64)>,
     /// A start that is not legal, in words.
     pub illegal: Option<String>,
@@ -117,7 +116,7 @@ pub fn constant(value: f64) -> Jet {
     Jet::constant(value)
 }
 
-/// A state, by whose components derivatives are taken.
+/// A state with respect to whose components derivatives are taken.
 pub fn variable(z: &Point) -> Point<Jet> {
     std::array::from_fn(|i| Jet::variable(z[i], i))
 }

@@ -1,8 +1,8 @@
-//! The section at impacts: a point an impact, with the phase of the forcing.
+//! The section at impacts: one point for each impact, with the phase of the forcing.
 //!
-//! The stroboscopic section looks at a motion at one phase of the forcing, whatever it does then; this
-//! one where a cable is struck, whatever the phase is. For one bouncing coordinate the phase and the
-//! velocity after the impact tell all of the motion (P. J. Holmes, *J. Sound Vib.* 84 (1982) 173).
+//! The stroboscopic section records a motion at one phase of the forcing, this one at each impact,
+//! at whatever phase. For one bouncing coordinate the phase and the velocity after the impact
+//! determine the whole motion (P. J. Holmes, *J. Sound Vib.* 84 (1982) 173).
 
 use crate::hybrid::Point;
 use serde::Serialize;
@@ -13,7 +13,7 @@ use snapload::Step;
 pub struct ImpactPoint {
     /// When.
     pub t: f64,
-    /// t in periods of the forcing, without the whole ones: from 0 to below 1.
+    /// The fractional part of t in periods of the forcing: from 0 to below 1.
     pub phase: f64,
     /// The cable, from 1.
     pub cable: usize,
@@ -27,20 +27,21 @@ pub struct ImpactPoint {
     pub after: Point,
 }
 
-/// More impacts than this are not kept: they take some 300 MB.
+/// The most impacts that are kept, which take some 300 MB.
 pub const MOST_KEPT: usize = 2_000_000;
 
-/// Impacts as they are kept.
+/// The impacts that are kept.
 #[derive(Clone, Debug, Default)]
 pub struct Impacts {
     /// The impacts, in their order.
     pub points: Vec<ImpactPoint>,
-    /// How many came after the last that is kept.
+    /// The number of impacts after the last one kept.
     pub left_out: u64,
 }
 
 impl Impacts {
-    /// Keeps those at the end of a step; a taut cable that only passes an impulse on is not struck.
+    /// Keeps those at the end of a step, without impulses that a taut cable only takes with
+    /// another's.
     pub(crate) fn take(&mut self, step: &Step, period: f64) {
         for impact in step.impacts().filter(|impact| impact.v_n > 0.0) {
             if self.points.len() == MOST_KEPT {
@@ -60,7 +61,8 @@ impl Impacts {
     }
 }
 
-/// A time in periods without the whole ones. What rounds to a whole one is 0.
+/// The fractional part of a time in periods. A time that rounds to a whole number of periods gives
+/// 0.
 fn phase_of(t: f64, period: f64) -> f64 {
     let phase = (t / period).rem_euclid(1.0);
     if phase < 1.0 { phase } else { 0.0 }

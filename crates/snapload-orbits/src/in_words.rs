@@ -1,4 +1,4 @@
-//! The answers in a few lines, for a person.
+//! The answers as a few lines of text.
 
 use crate::attraction::Attraction;
 use crate::basin::{Basin, Window};
@@ -77,7 +77,7 @@ fn of_the_forcing(n: usize) -> String {
     format!("{} of the forcing", periods(n))
 }
 
-/// The events of a sequence: what the symbol says, in whole words.
+/// The events of a sequence in whole words, where the symbol abbreviates them.
 fn events_in_words(sequence: &Sequence) -> String {
     let event = |word: String| match word.split_once(' ') {
         None => format!("snap of cable {word}"),
@@ -90,8 +90,7 @@ fn events_in_words(sequence: &Sequence) -> String {
     }
 }
 
-/// An exponent with its standard error, which is rounded up, so that none is told as known better than
-/// it is.
+/// An exponent with its standard error, which is rounded up so that the accuracy is not overstated.
 pub(crate) fn exponent_in_words([mean, error]: [f64; 2]) -> String {
     let known = (error * 1e4).ceil().max(1.0) / 1e4;
     match (mean.is_finite(), error.is_finite()) {
@@ -113,8 +112,8 @@ fn exponents_in_words(exponents: &[[f64; 2]]) -> String {
     all.join(", ")
 }
 
-/// That a motion stopped before the first point of its section, where it did; the words go on after
-/// "the motion of this start".
+/// A message if a motion stopped before the first point of its section; it continues "the motion of
+/// this start".
 pub fn without_points_in_words(section: &Section) -> Option<String> {
     let stop = section.stop.filter(|_| section.points.is_empty())?;
     Some(format!(
@@ -288,13 +287,13 @@ pub fn erosion_in_words(erosion: &Erosion) -> String {
     text
 }
 
-/// A value of a grid with six digits at most, as a third between two of them has seventeen.
+/// A value of a grid with at most six digits, as a third between two values has seventeen.
 fn six_digits(value: f64) -> String {
     let rounded: f64 = format!("{value:.5e}").parse().unwrap_or(value);
     rounded.to_string()
 }
 
-/// Where the knee is and what it says, or why there is none.
+/// Where the knee is and what it means, or why there is none.
 fn knee_in_words(erosion: &Erosion) -> String {
     let key = erosion.key;
     if erosion

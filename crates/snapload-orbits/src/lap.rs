@@ -1,14 +1,14 @@
-//! The composed map: flow to an event, law, flow to the next, for a given sequence of events, and its
-//! derivatives.
+//! The composed map: flow to an event, law, flow to the next, for a given sequence of events, and
+//! its derivatives.
 //!
-//! The times from event to event are unknowns beside the state, so that neither an orbit's
-//! instability nor a snap at zero speed spoils Newton's method:
+//! The times from event to event are unknowns in addition to the state, so that neither an orbit's
+//! instability nor a snap of zero velocity is a problem for Newton's method:
 //!
 //! ```text
 //! F(z, s) = ( P(z, s) − z,  h_1, …, h_N ) = 0,      h_k the gap, or the tension, at event k
 //! ```
 //!
-//! Where the times follow from the state, δs_k = −(∂h_k δz + ∂_t h_k δt)/(∂_s h_k), the same
+//! If the times follow from the state, δs_k = −(∂h_k δz + ∂_t h_k δt)/(∂_s h_k), the same
 //! derivatives give the saltation matrices and their product, the monodromy matrix.
 
 use crate::hybrid::{
@@ -18,7 +18,7 @@ use crate::sequence::{Event, Happening, Sequence};
 use nalgebra::{DMatrix, DVector};
 use snapload::TautSet;
 
-/// A sequence of events of a system, and how long it lasts.
+/// A sequence of events of a system, with its duration.
 pub struct Lap<'a, F: Family> {
     /// The systems.
     pub family: &'a F,
@@ -28,7 +28,7 @@ pub struct Lap<'a, F: Family> {
     pub sequence: &'a Sequence,
     /// Time of the section, in periods of the forcing.
     pub phase: f64,
-    /// How many periods of the forcing it lasts.
+    /// Its duration in periods of the forcing.
     pub periods: u32,
 }
 
@@ -47,27 +47,27 @@ pub struct Leg {
     pub end: Point,
 }
 
-/// Two states at sections that are nearer than this are one.
+/// Two section states closer than this are the same.
 pub(crate) const SAME: f64 = 1e-8;
 
-/// Up to so many events all unknowns of a lap are solved for together.
+/// Up to this number of events all unknowns of a lap are solved for together.
 const MANY: usize = 64;
 
-/// Numbers of a jet, without its value.
+/// The derivatives of a jet, without its value.
 type Slopes = [f64; 10];
 
 /// One leg and the event at its end, linearised.
 struct Linear {
     /// Zero at the event, and its derivatives; none at the section.
     event: Option<(f64, Slopes)>,
-    /// The state after the event, and its derivatives by what stands at the leg's start.
+    /// The state after the event, and its derivatives by the variables at the leg's start.
     after: Point,
     slopes: [Slopes; 6],
 }
 
 /// A lap, linearised.
 pub struct Linearised {
-    /// ∂(the state at the section, on its surfaces)/∂(the state given).
+    /// ∂(the state at the section, projected onto its surfaces)/∂(the state given).
     placed: [[f64; 6]; 6],
     legs: Vec<Linear>,
     /// Derivatives of the lap's length by the two parameters, and of the time of the section.
@@ -82,7 +82,7 @@ impl<F: Family> Lap<'_, F> {
         (self.phase * period, f64::from(self.periods) * period)
     }
 
-    /// How long the last leg lasts, from the last event to the section.
+    /// The duration of the last leg, from the last event to the section.
     pub(crate) fn last_leg(&self, durations: &[f64]) -> f64 {
         let (begun, length) = self.times();
         begun + length - durations.iter().fold(begun, |t, s| t + s)
@@ -114,7 +114,7 @@ impl<F: Family> Lap<'_, F> {
         legs
     }
 
-    /// The state at the section after so many periods of the forcing, of its legs.
+    /// The state at the section after a number of periods of the forcing, from its legs.
     fn section(&self, system: &F::Plain, legs: &[Leg], periods: u32) -> Point {
         let (begun, length) = self.times();
         let t = begun + length / f64::from(self.periods) * f64::from(periods);
@@ -125,14 +125,14 @@ impl<F: Family> Lap<'_, F> {
         }
     }
 
-    /// The states at all of its sections, one a period of the forcing, of its legs.
+    /// The states at all of its sections, one for each period of the forcing, from its legs.
     pub fn sections(&self, system: &F::Plain, legs: &[Leg]) -> Vec<Point> {
         let section = |k| self.section(system, legs, k);
         (0..self.periods).map(section).collect()
     }
 
-    /// After how many periods it first comes back to within 1e-8 of where it began: fewer than it
-    /// has where it goes round a shorter orbit several times.
+    /// The number of periods after which it first returns to within 1e-8 of its start; it is
+    /// smaller than `periods` if the lap repeats a shorter orbit.
     pub fn smallest_periods(&self, system: &F::Plain, legs: &[Leg]) -> u32 {
         let is_back = |k: &u32| {
             self.periods.is_multiple_of(*k)
@@ -215,7 +215,8 @@ impl Linearised {
         self.legs.len() - 1
     }
 
-    /// F and its derivatives by the state's `variables`, the durations, and `parameters` of the two.
+    /// F and its derivatives by the state's `variables`, the durations, and `parameters` of the
+    /// two.
     pub fn equations(
         &self,
         z: &Point,
@@ -261,13 +262,13 @@ impl Linearised {
         (residual, jacobian)
     }
 
-    /// The largest residual of F, and Newton's step of the state's `variables` and the durations; no
-    /// step where the equations have none.
+    /// The largest residual of F, and Newton's step of the state's `variables` and the durations;
+    /// none if the equations are singular.
     ///
-    /// Up to `MANY` events all unknowns are solved for together, so that a snap at zero speed does no
-    /// harm. Sequences of more events are those in which snaps accumulate; there the durations are
-    /// eliminated one after the other, each by the event that ends it, as the work for all together
-    /// grows with the cube of their number.
+    /// Up to `MANY` events all unknowns are solved for together, so that a snap of zero velocity
+    /// does no harm. Longer sequences are those in which snaps accumulate; there the durations are
+    /// eliminated one after the other, each by the event that ends it, as the cost of solving all
+    /// together grows with the cube of their number.
     pub fn step(&self, z: &Point, variables: &[usize]) -> (f64, Option<DVector<f64>>) {
         if self.events() > MANY {
             return self.step_in_turn(z, variables);
@@ -278,7 +279,7 @@ impl Linearised {
         (size, step)
     }
 
-    /// The same with the durations eliminated: rows are over the state, and end with a constant.
+    /// The same with the durations eliminated: rows are over the state, with a constant at the end.
     pub fn step_in_turn(&self, z: &Point, variables: &[usize]) -> (f64, Option<DVector<f64>>) {
         let m = variables.len();
         let mut state = self.start(variables, m + 1);
@@ -319,7 +320,7 @@ impl Linearised {
         (largest, step)
     }
 
-    /// The monodromy matrix ∂P/∂z over the `variables`, the times being those of the events.
+    /// The monodromy matrix ∂P/∂z over the `variables`, with the times those of the events.
     pub fn monodromy(&self, variables: &[usize]) -> DMatrix<f64> {
         let m = variables.len();
         let mut state = self.start(variables, m);
@@ -349,7 +350,7 @@ impl Linearised {
     }
 }
 
-/// The derivatives of a number by the unknowns, from those by what stands at the leg's start.
+/// The derivatives of a number by the unknowns, from those by the variables at the leg's start.
 fn chained(
     slopes: &Slopes,
     state: &Rows,

@@ -1,8 +1,8 @@
 //! Nonlinear dynamics of bodies on cables: periodic orbits, branches, safe basins.
 //!
 //! A long motion of a body on cables may come to rest, repeat itself, or neither. This crate finds
-//! motions that repeat themselves by Newton's method on the sequence of their events, tells their
-//! Floquet multipliers, and whether a body has them at all: a sequence that closes need not be a
+//! periodic motions by Newton's method on the sequence of their events, and computes their Floquet
+//! multipliers, and whether a body can have them at all: a sequence that closes need not be a
 //! motion.
 //!
 //! ```

@@ -7,9 +7,9 @@ use snapload::{
 };
 use std::sync::Arc;
 
-/// Snaps slower than this come to rest: the state after an accumulation is off by its square.
+/// Snaps slower than this stick: the error of the state after an accumulation is of its square.
 const V_STICK: f64 = 1e-7;
-/// More events than this in a motion that is looked at are too many.
+/// The most events of a simulated motion.
 const MOST_IMPACTS: u64 = 20_000;
 
 /// A body on cables over some numbers.
@@ -97,8 +97,8 @@ fn jets_of(at: [f64; 2]) -> [Jet; 2] {
 }
 
 impl Moored {
-    /// Any system, with its first harmonic as the forcing whose period counts; `turns` says whether
-    /// the body is rigid.
+    /// Any system, whose first harmonic sets the period of the forcing; `turns` says whether the
+    /// body is rigid.
     pub fn new(
         turns: bool,
         doubles: impl Fn([f64; 2]) -> (System, Rules) + Send + Sync + 'static,
@@ -111,7 +111,8 @@ impl Moored {
         }
     }
 
-    /// The thesis's case, with the keys that may change; the stops by settling are off.
+    /// The thesis's case, with the keys that may change; settling and sliding do not stop its
+    /// motion.
     pub fn case(parameters: Parameters, keys: [Option<&'static str>; 2]) -> Self {
         let parameters = Parameters {
             stop_when_settled: false,
@@ -215,7 +216,7 @@ impl Family for Moored {
     }
 }
 
-/// Runs it, and keeps its events.
+/// Runs it, and records its events.
 fn simulate(system: System, rules: &Rules, t: f64, z: &Point, t_end: f64) -> Simulated {
     let rules = Rules {
         t_end,

@@ -1,8 +1,8 @@
 //! Orbits, branches and curves of bodies on cables, compiled here.
 //!
-//! Generic code is compiled with the settings of whoever calls it. These functions, which are not
-//! generic, are compiled with those of this crate, so that a program that leaves its own code
-//! unoptimised has them fast.
+//! Generic code is compiled with the settings of the crate that calls it. These functions are not
+//! generic and are compiled with the settings of this crate, so that they are fast in a program
+//! that leaves its own code unoptimised.
 
 use crate::branch::{Along, Branch};
 use crate::branch_events::BranchEvent;
@@ -15,9 +15,9 @@ use snapload::analysis::{Cancelled, OnProgress};
 /// One of many states of a lap.
 #[derive(Clone, Copy, Debug)]
 pub struct OnLap {
-    /// The number of its leg.
+    /// The index of its leg.
     pub leg: usize,
-    /// How many surfaces are held there.
+    /// The number of surfaces held there.
     pub held: usize,
     /// When.
     pub t: f64,
@@ -77,8 +77,8 @@ impl Moored {
         Curve::of(self, event, across, on_progress)
     }
 
-    /// States along an orbit as its sequence of events has it, whether a body has it or not: the lap
-    /// in about so many pieces, and each leg in at least `fewest`.
+    /// States along an orbit by its sequence of events, admissible or not: the lap in about
+    /// `pieces` pieces, and each leg in at least `fewest`.
     pub fn along_lap(&self, orbit: &Orbit, pieces: u32, fewest: usize) -> Vec<OnLap> {
         let system = self.plain(orbit.at);
         let (_, legs) = orbit.lap_of(self, &system);

@@ -1,8 +1,8 @@
-//! Floquet multipliers, with exact zeros where contact closes directions.
+//! Floquet multipliers, with exact zeros for directions that contact closes.
 //!
-//! A held surface leaves no deviation of its gap and of the gap's velocity: two multipliers are zero.
-//! They would come out of an eigenvalue problem as roundings, or as roots of roundings, so the orbit
-//! is cut where most surfaces are held, and the problem is solved in the directions that are left
+//! A held surface allows no deviation of its gap and of the gap's velocity: two multipliers are
+//! zero. An eigenvalue problem would give rounding errors, or roots of them, instead; so the orbit
+//! is cut where most surfaces are held, and the problem is solved in the remaining directions
 //! there.
 
 use crate::hybrid::{Family, Hybrid, Jet, Point, variable};
@@ -17,23 +17,23 @@ use snapload::TautSet;
 pub struct Multipliers {
     /// All of them, the largest first; exact zeros are 0.
     pub values: Vec<[f64; 2]>,
-    /// How many are zero because surfaces are held on a part of the lap.
+    /// How many are zero because surfaces are held during a part of the lap.
     pub zeros_from_contact: usize,
     /// The product of the others.
     pub product: f64,
 }
 
-/// What of a multiplier's modulus off 1 is rounding.
+/// A modulus this close to 1 counts as 1.
 const NEUTRAL: f64 = 1e-9;
 
-/// What multipliers say of an orbit.
+/// The stability of an orbit by its multipliers.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Stability {
     /// All multipliers are within the unit circle.
     Stable,
     /// One is outside.
     Unstable,
-    /// None is outside, but some are on it.
+    /// None is outside the unit circle, but some are on it.
     Neutral,
     /// All are zero: a neighbour is on the orbit after one lap.
     Superstable,
@@ -57,7 +57,7 @@ impl Multipliers {
         self.values.first().map_or(0.0, |[re, im]| re.hypot(*im))
     }
 
-    /// What they say.
+    /// The stability that they imply.
     pub fn stability(&self) -> Stability {
         match self.largest() {
             0.0 => Stability::Superstable,
@@ -68,7 +68,7 @@ impl Multipliers {
     }
 }
 
-/// Those of a closed lap, of which the legs are given.
+/// The multipliers of a closed lap, given its legs.
 pub fn multipliers<F: Family>(
     lap: &Lap<F>,
     closed: &Closed,
@@ -120,7 +120,7 @@ pub(crate) fn eigenvalues(matrix: DMatrix<f64>) -> Vec<[f64; 2]> {
         .collect()
 }
 
-/// The largest set of held surfaces, and the longest leg that has it.
+/// The largest set of held surfaces, and the longest leg with it.
 fn most_held(sequence: &Sequence, durations: &[f64], length: f64) -> (TautSet, usize) {
     let rest = length - durations.iter().sum::<f64>();
     let durations = durations.iter().copied().chain([rest]);
@@ -147,7 +147,7 @@ struct Cut {
 fn cut_within<F: Family>(lap: &Lap<F>, system: &F::Plain, legs: &[Leg], leg: usize) -> Cut {
     let (begun, length) = lap.times();
     let here = &legs[leg];
-    // The first and the last leg are one, cut by the section.
+    // The first and the last leg are joined, as the section cuts one leg.
     let half = here.s * 0.5;
     let z = system.flow(here.held, here.t, &here.start, half);
     let mut events = lap.sequence.events.clone();
@@ -173,12 +173,13 @@ fn cut_within<F: Family>(lap: &Lap<F>, system: &F::Plain, legs: &[Leg], leg: usi
     }
 }
 
-/// An orthonormal basis of the deviations that leave held surfaces closed.
+/// An orthonormal basis of the deviations that keep held surfaces closed.
 fn directions_left<F: Family>(lap: &Lap<F>, held: TautSet, z: &Point) -> DMatrix<f64> {
     let (system, variables) = (lap.family.jets(lap.at), lap.family.variables());
     let mut taken = closed_by(&system, variables, held, z);
     let constraints = taken.len();
-    // Unit vectors that are nearly spanned are left out; the rest of the space is filled with them.
+    // Unit vectors that are nearly spanned already are left out at first; then the basis is
+    // completed with them.
     for least in [0.2, 1e-6] {
         for i in 0..variables.len() {
             if taken.len() < variables.len() {
@@ -192,7 +193,7 @@ fn directions_left<F: Family>(lap: &Lap<F>, held: TautSet, z: &Point) -> DMatrix
     DMatrix::from_fn(variables.len(), left.len(), |i, j| left[j][i])
 }
 
-/// An orthonormal basis of the deviations that held surfaces close: across them, of gap and velocity.
+/// An orthonormal basis of the deviations that held surfaces do not allow: of gap and of velocity.
 pub(crate) fn closed_by<H: Hybrid<Jet>>(
     system: &H,
     variables: &[usize],
@@ -211,8 +212,8 @@ pub(crate) fn closed_by<H: Hybrid<Jet>>(
     taken
 }
 
-/// What of a vector is orthogonal to others, at unit length, and its length; none where that is hardly
-/// anything of the vector.
+/// The part of a vector that is orthogonal to others, as a unit vector, and its length; none if
+/// hardly anything of the vector is left.
 pub(crate) fn orthogonal(
     mut vector: DVector<f64>,
     others: &[DVector<f64>],

@@ -5,16 +5,16 @@ use crate::lap::Lap;
 use crate::sequence::Sequence;
 use nalgebra::DVector;
 
-/// Steps of Newton's method at most.
+/// The most steps of Newton's method.
 const MOST_STEPS: usize = 25;
-/// No component of the state moves by more than this in one step.
+/// The largest change of a component of the state in one step.
 const LONGEST: f64 = 0.15;
-/// No duration is longer than so many laps: Newton's method that asks for more is lost, and to follow a
-/// taut motion so far would take for ever.
+/// The longest duration in laps: a step of Newton's method that asks for more has diverged, and to
+/// follow a taut motion that far would take too long.
 const LAPS: f64 = 2.0;
-/// A step below this part of what it changes is rounding.
+/// A step below this part of what it changes is only rounding.
 const DONE: f64 = 4e-15;
-/// A residual below this closes the lap.
+/// A lap counts as closed if its residual is below this.
 const CLOSED: f64 = 1e-11;
 
 /// A point that closes the composed map.
@@ -24,11 +24,11 @@ pub struct Closed {
     pub z: Point,
     /// The time from event to event.
     pub durations: Vec<f64>,
-    /// The largest residual that is left.
+    /// The largest remaining residual.
     pub residual: f64,
 }
 
-/// Solves F(z, s) = 0 from a guess; none where the steps do not end.
+/// Solves F(z, s) = 0 from a guess; none if the iteration does not converge.
 pub fn close<F: Family>(lap: &Lap<F>, z: &Point, durations: &[f64]) -> Option<Closed> {
     let variables = lap.family.variables();
     let (mut z, mut durations) = (*z, durations.to_vec());
@@ -59,7 +59,7 @@ pub fn close<F: Family>(lap: &Lap<F>, z: &Point, durations: &[f64]) -> Option<Cl
         if durations.iter().any(|s| s.abs() > LAPS * length) {
             return best;
         }
-        // Near the solution steps shrink until they are rounding.
+        // Near the solution the steps decrease until they are only rounding.
         if best.is_some() && (moved < DONE || moved >= 0.5 * before) {
             break;
         }
@@ -78,7 +78,7 @@ pub(crate) fn add(z: &mut Point, durations: &mut [f64], variables: &[usize], ste
     }
 }
 
-/// One step z + (1 − M)⁻¹ (P z − z), no longer than [`LONGEST`], from a lap as it was simulated.
+/// One step z + (1 − M)⁻¹ (P z − z), no longer than [`LONGEST`], from a simulated lap.
 pub(crate) fn step_of_map<F: Family>(
     family: &F,
     at: [f64; 2],

@@ -1,8 +1,9 @@
-//! What an orbit does just beyond a fold or a period doubling: the coefficient of its normal form.
+//! The behaviour of an orbit just beyond a fold or a period doubling: the coefficient of its normal
+//! form.
 //!
-//! Y. A. Kuznetsov, *Elements of Applied Bifurcation Theory* (2004), sections 5.4.1 to 5.4.3: with q and
-//! p the eigenvectors of the monodromy matrix A and of Aᵀ, ⟨p, q⟩ = 1, and B, C the second and third
-//! derivatives of the composed map,
+//! Y. A. Kuznetsov, *Elements of Applied Bifurcation Theory* (2004), sections 5.4.1 to 5.4.3: with
+//! q and p the eigenvectors of the monodromy matrix A and of Aᵀ, ⟨p, q⟩ = 1, and B, C the second
+//! and third derivatives of the composed map,
 //!
 //! ```text
 //! fold                ξ → ξ + a ξ²,    a = ½ ⟨p, B(q, q)⟩
@@ -16,15 +17,15 @@ use crate::hybrid::{Family, Point};
 use crate::tracer::{Tracer, Unknowns};
 use nalgebra::{DMatrix, DVector};
 
-/// Difference quotients are taken over this: the first, and the second.
+/// The steps of the difference quotients, of first and of second order.
 const FIRST: f64 = 1e-5;
 const SECOND: f64 = 2e-4;
 /// Steps of Newton's method towards the times of the events from a neighbour.
 const MOST_STEPS: usize = 8;
-/// Times are known to this.
+/// The accuracy to which the times are found.
 const DONE: f64 = 1e-13;
 
-/// The coefficient; none for other kinds, and where neighbours do not have the same events.
+/// The coefficient; none for other kinds, and if neighbours do not have the same events.
 pub(crate) fn coefficient<F: Family>(tracer: &Tracer<F>, u: &Unknowns, kind: Kind) -> Option<f64> {
     let eigenvalue = match kind {
         Kind::Fold => 1.0,

@@ -1,4 +1,4 @@
-//! What the questions may be asked with, checked once for the command and for Python.
+//! Checks of the options of the questions, shared by the command and Python.
 
 use crate::branch::Along;
 use crate::curve::Across;
@@ -25,7 +25,7 @@ pub const BASIN_TRANSIENT: Key = Key::option("transient", Kind::Count(1, 10_000_
 /// A time of the section, in periods of the forcing.
 ///
 /// # Errors
-/// A [`CaseError`] if it is no part of a period.
+/// A [`CaseError`] if it is not a part of a period.
 pub fn checked_phase(phase: f64) -> Result<f64, CaseError> {
     if (0.0..1.0).contains(&phase) {
         return Ok(phase);
@@ -34,8 +34,8 @@ pub fn checked_phase(phase: f64) -> Result<f64, CaseError> {
     Err(CaseError::value("phase", phase, allowed))
 }
 
-/// Refuses a start near which no orbit can be: one that is no start of the case, unless it is
-/// beyond a cable by so little that it may have been meant to lie on it.
+/// Refuses a start near which there can be no orbit: one that is not legal, unless it is so little
+/// beyond a cable that it may have been meant to lie on it.
 ///
 /// # Errors
 /// The [`CaseError`] of a case that begins there.
@@ -59,7 +59,7 @@ pub fn check_start(parameters: &Parameters, start: &Point) -> Result<(), CaseErr
     }
 }
 
-/// The same for a system of one's own.
+/// The same for a system that is not a case.
 ///
 /// # Errors
 /// A [`CaseError`] that names the start.
@@ -73,7 +73,7 @@ pub fn check_start_of_system(family: &Moored, start: &Point) -> Result<(), CaseE
     Err(CaseError::value("start", start, allowed))
 }
 
-/// Whether a start is beyond no cable by more than a little, and beyond no limit.
+/// Whether a start is beyond any cable by at most a little, and beyond no limit.
 fn is_within_reach(family: &Moored, start: &Point) -> bool {
     let system = family.plain([0.0; 2]);
     let mut surfaces = system.surfaces().iter();
@@ -81,10 +81,10 @@ fn is_within_reach(family: &Moored, start: &Point) -> bool {
     surfaces.all(|surface| system.gap(surface, start) < NEAR) && limits.all(|beyond| beyond <= 0.0)
 }
 
-/// So many periods in all, of which the last ones are kept.
+/// A number of periods in all, of which the last `keep` are kept.
 ///
 /// # Errors
-/// A [`CaseError`] if more are to be kept than there are, or for the phase.
+/// A [`CaseError`] if more are to be kept than there are, or if the phase is not allowed.
 pub fn stretch(periods: u64, keep: u64, phase: f64) -> Result<Stretch, CaseError> {
     let Some(skip) = periods.checked_sub(keep) else {
         let allowed = format!("at most as many as there are in all, which is periods = {periods}");
@@ -102,8 +102,8 @@ pub fn stretch(periods: u64, keep: u64, phase: f64) -> Result<Stretch, CaseError
 /// The key along which a branch is followed, its value in the case, and how it is followed.
 ///
 /// # Errors
-/// A [`CaseError`] if it is no number of the body, the value of the case lies outside the range, or
-/// the step can not be.
+/// A [`CaseError`] if the key is no number of the body, if the value of the case is outside the
+/// range, or if the step is not allowed.
 pub fn along(
     parameters: &Parameters,
     key: &str,
@@ -118,11 +118,12 @@ pub fn along(
     Ok((key, value, Along { range, step, most }))
 }
 
-/// Two keys along which a curve is followed, each with its range, and how it is followed. Without a range a
-/// key goes from half to twice its value, or from -1 to 1 around 0, as far as it can.
+/// Two keys along which a curve is followed, each with its range, and how it is followed. A key
+/// without a range goes from half to twice its value, or from -1 to 1 around 0, within the values
+/// allowed.
 ///
 /// # Errors
-/// As for [`along`], and if both keys are one.
+/// As for [`along`], and if both keys are the same.
 pub fn across(
     parameters: &Parameters,
     keys: [(&str, Option<[f64; 2]>); 2],
@@ -162,7 +163,7 @@ fn usual_range(key: &str, value: f64) -> Result<[f64; 2], CaseError> {
     })
 }
 
-/// A key that orbits change with, and its value; `option` is where it was given.
+/// A key on which orbits depend, and its value; `option` is the option in which it was given.
 ///
 /// # Errors
 /// A [`CaseError`] if it is no such key.

@@ -18,8 +18,8 @@ pub struct Orbit {
     pub phase: f64,
     /// Its length, in periods of the forcing.
     pub periods: u32,
-    /// After how many of them it first repeats itself; fewer where it is a shorter orbit several
-    /// times.
+    /// The number of periods after which it first repeats itself; smaller than `periods` if it is a
+    /// repeated shorter orbit.
     pub smallest_periods: u32,
     /// Its length in time.
     pub length: f64,
@@ -27,25 +27,26 @@ pub struct Orbit {
     pub z: Point,
     /// Its events.
     pub lap: Timed,
-    /// When they are, and the impulses of what is struck.
+    /// The times of the events, and the impulses of struck surfaces.
     pub rows: Vec<EventRow>,
     /// Its multipliers.
     pub multipliers: Multipliers,
-    /// What it is like between events.
+    /// Its extremes between events.
     pub survey: Survey,
-    /// The largest gap between events, where one comes nearest, as it is told.
+    /// The largest gap between events, at a closest approach, in the measure in which it is
+    /// reported.
     pub largest_gap: Option<f64>,
-    /// How far the motion, simulated, is off after one lap; none where it stops before.
+    /// The error of the simulated motion after one lap; none if it stops before.
     pub return_error: Option<f64>,
-    /// Why no body has it; empty if one does.
+    /// Why no body can have it; empty if it is admissible.
     pub why_not: Vec<String>,
-    /// det M as the law of impact and the drag say, where one says so.
+    /// det M by the law of impact and the drag, if that is known in closed form.
     pub rule: Option<f64>,
-    /// What became of the attempt to prove it, where one was made.
+    /// The result of the attempt to prove it, if one was made.
     pub proof: Option<Proof>,
 }
 
-/// What became of the attempt to prove an orbit: it, or why it is not proved.
+/// The result of the attempt to prove an orbit: the proved orbit, or why it is not proved.
 pub type Proof = Result<ProvedOrbit, String>;
 
 /// One row of the events of an orbit.
@@ -57,18 +58,18 @@ pub struct EventRow {
     pub kind: &'static str,
     /// The surface, from 0.
     pub surface: usize,
-    /// The closing velocity; 0 where nothing is struck.
+    /// The closing velocity; 0 if nothing is struck.
     pub speed: f64,
     /// The impulse.
     pub impulse: f64,
 }
 
-/// What is looked for.
+/// The orbit that is searched for.
 #[derive(Clone, Debug, Default)]
 pub struct Wanted {
-    /// How many periods of the forcing; 1 where it is not said.
+    /// Its number of periods of the forcing; 1 if not given.
     pub periods: Option<u32>,
-    /// The surfaces struck, one after the other, from 0; any where it is not said.
+    /// The surfaces struck, one after the other, from 0; any if not given.
     pub struck: Option<Vec<usize>>,
     /// Time of the section, in periods of the forcing.
     pub phase: f64,
@@ -86,11 +87,11 @@ impl fmt::Display for NoOrbit {
 
 impl std::error::Error for NoOrbit {}
 
-/// Largest return error of a motion that has the orbit, for |μ| of 1.
+/// The largest return error of a simulated motion that counts as the orbit, if |μ| is 1.
 const RETURNS: f64 = 1e-9;
 
 impl Orbit {
-    /// Of a lap that is closed.
+    /// The orbit of a closed lap.
     pub fn of<F: Family>(lap: &Lap<F>, closed: &Closed) -> Self {
         let family = lap.family;
         let system = family.plain(lap.at);
@@ -137,12 +138,12 @@ impl Orbit {
         }
     }
 
-    /// The same orbit where its system is one of a family at these values of the parameters.
+    /// The same orbit as a member of a family at these values of the parameters.
     pub fn with_at(self, at: [f64; 2]) -> Self {
         Self { at, ..self }
     }
 
-    /// Its lap in a family of systems, one of which is its own, and the legs of that.
+    /// Its lap in a family that contains its system, and the legs of that.
     pub fn lap_of<'a, F: Family>(
         &'a self,
         family: &'a F,
@@ -159,25 +160,25 @@ impl Orbit {
         (lap, legs)
     }
 
-    /// Whether a body has it.
+    /// Whether a body can have it.
     pub fn is_admissible(&self) -> bool {
         self.why_not.is_empty()
     }
 
-    /// The same orbit at a graze, where rounding decides whether a run has the snap without speed: what
-    /// a body could have is told without the run.
+    /// The same orbit at a graze, where rounding decides whether a simulation has the snap of zero
+    /// velocity: its admissibility is decided without the simulation.
     pub(crate) fn at_graze(mut self) -> Self {
         self.why_not = self.survey.why_not(&self.lap.durations);
         self
     }
 
-    /// What its multipliers say.
+    /// The stability by its multipliers.
     pub fn stability(&self) -> Stability {
         self.multipliers.stability()
     }
 }
 
-/// Runs the motion for one lap: how far it is off then, and why it is not the lap, where it is not.
+/// Simulates one lap: returns its error at the end, and why it differs from the lap, if it does.
 fn run_once<F: Family>(
     lap: &Lap<F>,
     closed: &Closed,

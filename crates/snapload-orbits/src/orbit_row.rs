@@ -1,4 +1,4 @@
-//! An orbit in the shape of its JSON.
+//! An orbit in the form of its JSON.
 
 use crate::hybrid::Point;
 use crate::multipliers::Stability;
@@ -28,7 +28,7 @@ pub struct OrbitRow {
     proof: Option<ProofRow>,
 }
 
-/// What is proved, or why nothing is.
+/// The proved orbit, or why it is not proved.
 #[derive(Serialize)]
 #[serde(untagged)]
 enum ProofRow {
@@ -43,7 +43,7 @@ enum ProofRow {
     },
 }
 
-/// Decimals, each the true number to half a unit of its last digit.
+/// Decimals, each within half a unit of its last digit of the true number.
 #[derive(Serialize)]
 struct ProvedSnap {
     t: String,

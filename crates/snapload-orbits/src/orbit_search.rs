@@ -8,26 +8,26 @@ use crate::scan::scan;
 use crate::sequence::{Sequence, Timed, words};
 use snapload::TautSet;
 
-/// Laps that are simulated, at most, on the way from a start to an orbit.
+/// The most laps that are simulated on the way from a start to an orbit.
 const MOST_LAPS: usize = 40;
-/// A surface nearer than this, closing or opening more slowly than that, may be one that the orbit
-/// is held by.
+/// A surface that is closer than the first number, with a velocity below the second, may be held on
+/// the orbit.
 pub(crate) const NEAR: f64 = 5e-3;
 const SLOW: f64 = 5e-2;
-/// An orbit within this of where it was looked for is the one that was meant.
+/// An orbit within this distance of the start of the search counts as the one that was meant.
 const BESIDE: f64 = 0.02;
-/// An orbit that a motion has come to is nearer than this to where the motion was followed to. The
-/// motion repeats itself within 1e-8 there; where each lap leaves a part p of the way behind, the
+/// The largest distance between the last state of a motion and the orbit that it has approached.
+/// The motion repeats itself within 1e-8 there; if each lap reduces the distance by a part p, the
 /// orbit is 1e-8/p away, which is less than this for every p above 1e-5.
 const COME_TO: f64 = 1e-3;
 
 impl Orbit {
-    /// The orbit near `start`: by Newton's method on the map as it is simulated, from the start
-    /// itself and from where it is moved onto surfaces that it nearly touches, and, if that gives
-    /// none, on the map with these surfaces held.
+    /// The orbit near `start`: by Newton's method on the simulated map, from the start itself and
+    /// from its projection onto surfaces that it nearly touches, and, if that gives none, on the
+    /// map with these surfaces held.
     ///
     /// # Errors
-    /// [`NoOrbit`] says how far it came.
+    /// [`NoOrbit`] says how far the search came.
     pub fn find<F: Family>(
         family: &F,
         at: [f64; 2],
@@ -37,10 +37,10 @@ impl Orbit {
         Self::find_beside(family, at, start, wanted, BESIDE)
     }
 
-    /// The orbit that a motion has come to that was followed to `last`.
+    /// The orbit that a motion has approached, whose last state is `last`.
     ///
     /// # Errors
-    /// [`NoOrbit`], too, where what was found is another orbit.
+    /// [`NoOrbit`] also if the orbit found is another one.
     pub(crate) fn come_to<F: Family>(
         family: &F,
         at: [f64; 2],
@@ -59,8 +59,8 @@ impl Orbit {
         )))
     }
 
-    /// How far its section is from a start near which it was looked for, where it is so far that
-    /// another orbit may have been meant.
+    /// The distance of its section from the start of the search, if it is so large that another
+    /// orbit may have been meant.
     pub fn far_from(&self, start: &Point) -> Option<f64> {
         Some(distance(&self.z, start)).filter(|far| *far >= BESIDE)
     }
@@ -97,7 +97,7 @@ impl Orbit {
             let z = system.placed(*closed, *closed, start);
             found.extend(search.by_holding(*closed, &z));
         }
-        // What a body has, or what is beside the start, comes before the rest.
+        // Admissible orbits, and those close to the start, come first.
         let rank = |orbit: &Orbit| {
             let far = distance(&orbit.z, start);
             (is_far(orbit), !orbit.is_admissible(), far)
@@ -114,7 +114,8 @@ impl Orbit {
     }
 }
 
-/// The orbit that Newton's method comes to from a start that may be far off; only one that a body has.
+/// The orbit to which Newton's method converges from a start that may be far away; only an
+/// admissible one.
 pub(crate) fn from_afar<F: Family>(family: &F, start: &Point, wanted: &Wanted) -> Option<Orbit> {
     let search = Search {
         family,
@@ -154,7 +155,7 @@ impl<F: Family> Search<'_, F> {
         wanted.is_none_or(|struck| *struck == sequence.struck())
     }
 
-    /// Why a lap that closes is no answer: no body has it, or its snaps are not those asked for.
+    /// Why a closed lap is not accepted: it is inadmissible, or its snaps are not those asked for.
     fn why_refused(&self, orbit: &Orbit) -> String {
         let mut reasons = orbit.why_not.clone();
         let wanted = self.wanted.struck.as_ref();
@@ -172,7 +173,8 @@ impl<F: Family> Search<'_, F> {
         format!("a lap closes with the events {found}, but {but}")
     }
 
-    /// Simulates a lap, closes it with its events, and simulates again, until the events stay.
+    /// Simulates a lap, closes it with its events, and simulates again, until the events no longer
+    /// change.
     fn by_simulation(&self, start: &Point) -> Result<Orbit, NoOrbit> {
         let period = self.family.forcing_period(self.at).value;
         let t = self.wanted.phase * period;

@@ -1,7 +1,8 @@
 //! Orbits that are proved to exist.
 //!
-//! Everything else in this crate is computed in doubles. Here the orbit of a case of decimals is a
-//! theorem, by numbers of many digits with bounds on their errors: see [`prove_orbit`].
+//! Everything else in this crate is computed in doubles. Here the existence of an orbit, for a case
+//! whose values are decimals, is proved with numbers of many digits that have bounds on their
+//! errors: see [`prove_orbit`].
 
 use crate::orbit::{Orbit, Proof};
 use serde::Serialize;
@@ -9,18 +10,18 @@ use snapload::TautSet;
 use snapload::analysis::{Cancelled, Counter, OnProgress, in_parallel};
 use snapload_certificate::{ExactCase, ProvedOrbit, Supposed, prove_orbit};
 
-/// How many orbits are proved.
+/// The number of orbits that are proved.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
 pub struct Proofs {
-    /// Those that exist.
+    /// The number of orbits proved to exist.
     pub proved: usize,
-    /// Of these as many as are certainly not one and the same orbit.
+    /// The number of those that are certainly different from each other.
     pub distinct: usize,
 }
 
 impl Orbit {
-    /// The proof that there is an orbit of these snaps next to this one, for the case of decimals
-    /// that it is an orbit of.
+    /// Proves that there is an orbit with these snaps near this one, for the case of decimals to
+    /// which it belongs.
     pub fn prove(&self, case: &ExactCase) -> Proof {
         let held = self.lap.sequence.held().into_iter();
         let taut = held.fold(TautSet::SLACK, TautSet::union);

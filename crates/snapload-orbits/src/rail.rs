@@ -1,4 +1,4 @@
-//! One place on a curve of special orbits, and the way from it to the next.
+//! One point on a curve of special orbits, and the step from it to the next.
 
 use crate::branch_events::BranchEvent;
 use crate::condition::Condition;
@@ -7,18 +7,18 @@ use crate::orbit::Orbit;
 use crate::tracer::{Tracer, Unknowns, bordered};
 use nalgebra::{DMatrix, DVector};
 
-/// Steps of the corrector at most.
+/// The most steps of the corrector.
 const MOST_STEPS: usize = 12;
-/// A residual below this is a point of the curve.
+/// A point is on the curve if its residual is below this.
 const CLOSED: f64 = 1e-11;
-/// A step below this is rounding.
+/// A step below this is only rounding.
 const DONE: f64 = 1e-13;
-/// No event comes nearer to the next or farther from it by more than this in one step.
+/// The time between two events does not change by more than this in one step.
 const TIMES: f64 = 0.3;
-/// The cosine of the angle by which the direction turns in one step.
+/// The least cosine of the angle by which the direction may turn in one step.
 const TURN: f64 = 0.95;
 
-/// Where one is on a curve, and in which direction one goes.
+/// A point on a curve, and the direction in which it is followed.
 pub(crate) struct Rail<'a, F: Family> {
     pub(crate) tracer: Tracer<'a, F>,
     pub(crate) condition: Condition,
@@ -27,8 +27,9 @@ pub(crate) struct Rail<'a, F: Family> {
 }
 
 impl<'a, F: Family> Rail<'a, F> {
-    /// At an event of a branch, closed anew at the same value of the second parameter, in the
-    /// direction in which that grows; where it does not change, in that in which the first one grows.
+    /// The point at an event of a branch, closed again at the same value of the second parameter,
+    /// in the direction in which that increases; if it does not change, in that in which the first
+    /// one increases.
     pub(crate) fn begun(
         tracer: Tracer<'a, F>,
         start: Unknowns,
@@ -55,7 +56,7 @@ impl<'a, F: Family> Rail<'a, F> {
         Some(rail)
     }
 
-    /// The same place in the other direction.
+    /// The same point with the opposite direction.
     pub(crate) fn turned(&self) -> Self {
         Self {
             tangent: -&self.tangent,
@@ -77,7 +78,7 @@ impl<'a, F: Family> Rail<'a, F> {
         Orbit::of(&self.tracer.lap(self.here.at), &self.here.closed())
     }
 
-    /// All equations without that of the arclength, and their derivatives.
+    /// All equations except that of the arclength, and their derivatives.
     fn equations(&self, u: &Unknowns) -> Option<(DVector<f64>, DMatrix<f64>)> {
         let (residual, jacobian) = self.tracer.equations(u, 2);
         let value = self.condition.value(&self.tracer, u)?;
@@ -90,7 +91,7 @@ impl<'a, F: Family> Rail<'a, F> {
             .then(|| (residual, bordered(&jacobian, &slopes)))
     }
 
-    /// The direction of the curve on the side of `along`.
+    /// The direction of the curve that has a positive component along `along`.
     fn direction(&self, along: &DVector<f64>) -> Option<DVector<f64>> {
         let (_, jacobian) = self.equations(&self.here)?;
         let count = jacobian.ncols();
@@ -101,7 +102,7 @@ impl<'a, F: Family> Rail<'a, F> {
         (length.is_finite() && length > 0.0).then(|| tangent / length)
     }
 
-    /// The point of the curve a length `sigma` along the tangent, and how many steps it took.
+    /// The point of the curve a length `sigma` along the tangent, and the number of steps.
     fn corrected(&self, sigma: f64) -> Option<(Unknowns, usize)> {
         let variables = self.tracer.family.variables();
         let mut offset = &self.tangent * sigma;
@@ -127,7 +128,7 @@ impl<'a, F: Family> Rail<'a, F> {
         None
     }
 
-    /// The place a length `sigma` on.
+    /// The point a length `sigma` further along.
     pub(crate) fn moved(&self, sigma: f64) -> Option<Self> {
         self.advanced(sigma).map(|(next, _)| next)
     }
@@ -143,7 +144,7 @@ impl<'a, F: Family> Rail<'a, F> {
         Some((next, steps))
     }
 
-    /// The next place, if it is near enough, and the corrector's steps.
+    /// The next point, if it is near enough, and the corrector's steps.
     pub(crate) fn stepped(&self, step: f64) -> Option<(Self, usize)> {
         let (next, steps) = self.advanced(step)?;
         let times = self.here.durations.iter().zip(&next.here.durations);
@@ -153,7 +154,7 @@ impl<'a, F: Family> Rail<'a, F> {
         (most < TIMES && off <= 2.0 * step && turned > TURN).then_some((next, steps))
     }
 
-    /// Counts the events anew where one has passed the section, and says whether it has.
+    /// Renumbers the events if one has passed the section, and returns whether it has.
     pub(crate) fn counted_anew(&mut self) -> bool {
         let mut anew = false;
         while let Some((tracer, here, shift)) = self.tracer.renumbered(&self.here) {
@@ -176,7 +177,7 @@ impl<'a, F: Family> Rail<'a, F> {
         anew
     }
 
-    /// The parts of the direction that mean the same after events were counted anew: those of the
+    /// The parts of the direction that keep their meaning when events are renumbered: those of the
     /// times between events that stay neighbours, and of the parameters.
     fn along_after(&self, shift: isize) -> DVector<f64> {
         let m = self.tracer.family.variables().len();

@@ -1,4 +1,4 @@
-//! The answers in the shape of their JSON.
+//! The answers in the form of their JSON.
 
 use crate::attraction::{Attraction, Fate};
 use crate::basin::Basin;
@@ -28,9 +28,9 @@ pub struct SectionRow {
 
 #[derive(Serialize)]
 struct ExponentRow {
-    /// None is −∞.
+    /// None stands for −∞.
     value: Option<f64>,
-    /// Told as null where there are too few periods to know it.
+    /// Written as null if there are too few periods to estimate it.
     se: f64,
 }
 
@@ -185,8 +185,8 @@ impl BasinRow {
 pub struct ErosionRow {
     over: &'static str,
     knee: Option<f64>,
-    /// Where it lies however the cells that are not decided end; none where neighbours were not
-    /// looked at.
+    /// The range of the knee for all possible ends of the undecided cells; none if neighbours were
+    /// not computed.
     knee_between: Option<[Option<f64>; 2]>,
     points: Vec<ErosionPoint>,
 }
@@ -194,7 +194,7 @@ pub struct ErosionRow {
 #[derive(Serialize)]
 struct ErosionPoint {
     value: f64,
-    /// The safe part of the decided cells, which the knee is measured by; none without such cells.
+    /// The safe part of the decided cells, from which the knee is found; none without such cells.
     decided_fraction: Option<f64>,
     #[serde(flatten)]
     basin: BasinRow,

@@ -1,5 +1,5 @@
-//! A lap whose held surfaces stay held, whatever their tension: the guess at an orbit that no body
-//! may have.
+//! A lap whose held surfaces stay held, whatever their tension: the first guess at an orbit that
+//! may be inadmissible.
 
 use crate::hybrid::{Family, Hybrid, Point};
 use crate::lap::after;
@@ -7,13 +7,13 @@ use crate::sequence::{Event, Happening, Sequence, Timed};
 use crate::survey::root;
 use snapload::TautSet;
 
-/// Steps a period of the forcing.
+/// Steps per period of the forcing.
 const STEPS: usize = 400;
-/// More snaps than this in a lap are too many.
+/// The most snaps in a lap.
 const MOST_SNAPS: usize = 200;
 
-/// The motion from `z` at time `t` over `length`, with `held` surfaces from the beginning to the end,
-/// and every other one struck where it closes. None where there are too many snaps.
+/// The motion from `z` at time `t` over `length`, with `held` surfaces held throughout, and every
+/// other one struck where it closes. None if there are too many snaps.
 pub fn scan<F: Family>(
     family: &F,
     at: [f64; 2],

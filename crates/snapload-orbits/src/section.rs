@@ -6,28 +6,28 @@ use crate::impact_map::Impacts;
 use snapload::analysis::{Cancelled, OnProgress, Progress};
 use snapload::{CaseError, Held, Parameters, Simulation, State, Step, Stop, Tangent};
 
-/// What is kept of a long motion at t = (phase + k) T.
+/// The section points of a long motion, at t = (phase + k) T.
 #[derive(Clone, Debug)]
 pub struct Section {
     /// The state at each kept instant.
     pub points: Vec<Point>,
-    /// The number of the first of them: how many periods were left out.
+    /// The index k of the first of them, which is the number of periods left out.
     pub first: u64,
     /// Snaps in the kept periods.
     pub snaps: u64,
-    /// The same one by one, where they were asked for.
+    /// The impacts one by one, if they were asked for.
     pub impacts: Option<Impacts>,
     /// The Lyapunov exponents over the kept periods, the largest first, each with its standard
-    /// error, which is not a number where there are too few periods; empty where they were not asked
-    /// for. One that contact closes is −∞.
+    /// error, which is NaN if there are too few periods; empty if they were not asked for. For a
+    /// direction that contact closes it is −∞.
     pub exponents: Vec<[f64; 2]>,
-    /// The state where the motion ended, and when.
+    /// The state at the end of the motion, and its time.
     pub end: (Point, f64),
     /// The highest y and the largest |θ|.
     pub y_max: f64,
     /// The largest |θ|.
     pub theta_max: f64,
-    /// Why it stopped, where that was before its time.
+    /// Why it stopped, if it did so early.
     pub stop: Option<Stop>,
 }
 
@@ -46,18 +46,18 @@ pub struct Stretch {
     pub impacts: bool,
 }
 
-/// A motion that repeats itself is known by section points this near to each other, over so many
-/// laps.
+/// A motion counts as periodic if its section points agree to within this, over the number of laps
+/// that follows.
 const SAME: f64 = 1e-8;
 const LAPS: usize = 8;
 /// The longest period that is looked for.
 pub const LONGEST_PERIOD: usize = 64;
 
 impl Section {
-    /// Follows the motion of a case from its start; its stops by settling are off.
+    /// Follows the motion of a case from its start; settling and sliding do not stop it.
     ///
     /// # Errors
-    /// A [`CaseError`] if the start is not legal; [`Cancelled`] if it is told to end.
+    /// A [`CaseError`] if the start is not legal; [`Cancelled`] if the work is cancelled.
     pub fn of(
         parameters: &Parameters,
         stretch: &Stretch,
@@ -120,7 +120,7 @@ impl Section {
         Ok(follow.section)
     }
 
-    /// Its period in periods of the forcing, if it repeats itself; the shortest one.
+    /// Its shortest period in periods of the forcing, if it is periodic.
     pub fn period(&self) -> Option<usize> {
         let points = &self.points;
         let repeats = |n: &usize| {
@@ -130,13 +130,13 @@ impl Section {
         (1..=self.longest_period()).find(repeats)
     }
 
-    /// The longest period that it could be seen to have, with so many points.
+    /// The longest period that can be detected with this many points.
     pub fn longest_period(&self) -> usize {
         let laps = self.laps();
         (self.points.len() / (laps + 1)).min(LONGEST_PERIOD)
     }
 
-    /// How many laps have to come back.
+    /// The number of laps that have to agree.
     fn laps(&self) -> usize {
         LAPS.min((self.points.len() / 2).max(1))
     }
@@ -163,7 +163,7 @@ pub fn start_of(p: &Parameters) -> Point {
 /// A motion that is followed.
 struct Follow {
     held: Held,
-    /// What becomes of deviations, where exponents are computed.
+    /// The deviations, if exponents are computed.
     linearised: Option<(Tangent, Directions)>,
     /// The logarithms of the growth at the beginning of each kept period.
     logs: Vec<Vec<f64>>,

@@ -1,15 +1,15 @@
-//! Sequences of events: the symbol of an orbit.
+//! Sequences of events, which are the symbol of an orbit.
 
 use snapload::TautSet;
 
 /// What happens at an event.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Happening {
-    /// Surfaces are struck; those of `pulling` take up impulses.
+    /// Surfaces are struck; those of `pulling` take impulses.
     Snap {
         /// The ones that are struck.
         struck: TautSet,
-        /// They, and held ones that the impulse pulls on.
+        /// These, and held ones that the impulse loads.
         pulling: TautSet,
     },
     /// Held surfaces lose their tension.
@@ -45,12 +45,13 @@ pub struct Timed {
     pub speeds: Vec<f64>,
 }
 
-/// Snaps slower than this that lead to a stick are the end of an accumulation, in which their number
-/// means nothing.
+/// Snaps slower than this before a stick belong to an accumulation, whose number of snaps has no
+/// meaning.
 const ACCUMULATING: f64 = 0.01;
 
 impl Sequence {
-    /// The held surfaces of each leg: from the section to the first event, and so on, to the section.
+    /// The held surfaces of each leg: from the section to the first event, and so on, to the
+    /// section.
     pub fn held(&self) -> Vec<TautSet> {
         let after = self.events.iter().map(|event| event.after);
         std::iter::once(self.start).chain(after).collect()
@@ -72,7 +73,8 @@ impl Sequence {
         struck.collect()
     }
 
-    /// In words: `2` is a snap of cable 2, `stick 2` that it stays taut, `release 2` that it lets go.
+    /// In words: `2` is a snap of cable 2, `stick 2` that it stays taut, `release 2` that it lets
+    /// go.
     pub fn symbol(&self) -> Vec<String> {
         let mut words = Vec::new();
         for (event, before) in self.events.iter().zip(self.held()) {
@@ -95,7 +97,7 @@ impl Event {
         }
     }
 
-    /// Those that take up an impulse.
+    /// The surfaces that take an impulse.
     pub fn pulling(&self) -> TautSet {
         match self.happening {
             Happening::Snap { pulling, .. } => pulling,
@@ -137,7 +139,7 @@ impl Timed {
         }
     }
 
-    /// Whether the events are the same, the number of snaps in an accumulation apart.
+    /// Whether the events are the same, apart from the number of snaps in an accumulation.
     pub fn same_events(&self, other: &Self) -> bool {
         self.sequence == other.sequence
             || self.without_accumulations().symbol() == other.without_accumulations().symbol()

@@ -1,22 +1,24 @@
-//! What a lap is like between its events: whether a body could have it.
+//! The extremes of a lap between its events, which show whether it is admissible.
 //!
-//! A point that closes the composed map need not be a motion: a gap may be positive between events, a
-//! tension negative, a snap may open instead of close. All of these are looked for along the lap, at
-//! samples, and their extremes then refined.
+//! A point that closes the composed map need not be a motion: a gap may be positive between events,
+//! a tension negative, a snap may open instead of close. These quantities are sampled along the
+//! lap, and their extremes then refined.
 
 use crate::hybrid::{Family, Hybrid, Limits, Point};
 use crate::lap::{Lap, Leg};
 use snapload::{Limit, TautSet};
 
-/// Samples of a leg for each period of the forcing, at least so many a leg.
+/// Samples of a leg for each period of the forcing, without and with held surfaces, and the least
+/// number of samples of a leg.
 const SAMPLES: f64 = 160.0;
 const HELD_SAMPLES: f64 = 64.0;
 const FEWEST: f64 = 6.0;
-/// Halvings, and the like, by which an extreme is refined.
+/// The most iterations by which an extreme is refined.
 const REFINED: usize = 60;
-/// An extreme is known to the square of the part of a sample's width to which its place is.
+/// The accuracy of an extreme's position, as a part of a sample's width; its value is known to the
+/// square of that.
 const FLAT: f64 = 1e-5;
-/// A limit that stays farther off than this needs no refinement.
+/// A limit that is never closer than this needs no refinement.
 const FAR: f64 = 0.05;
 
 /// An extreme value along a lap.
@@ -24,7 +26,7 @@ const FAR: f64 = 0.05;
 pub struct Extreme {
     /// The value.
     pub value: f64,
-    /// The surface that it is of.
+    /// The surface to which it belongs.
     pub surface: usize,
     /// The leg, or the event at its end.
     pub leg: usize,
@@ -32,12 +34,12 @@ pub struct Extreme {
     pub t: f64,
 }
 
-/// What was found along a lap.
+/// The extremes along a lap.
 #[derive(Clone, Debug)]
 pub struct Survey {
-    /// The largest gap of a surface at an instant at which it comes nearest, between events, in length.
+    /// The largest gap of a surface at a closest approach between events, as a length.
     pub largest_gap: Option<Extreme>,
-    /// The largest gap of a surface while another one is struck.
+    /// The largest gap of a surface at an instant when another one is struck.
     pub corner_gap: Option<Extreme>,
     /// The least tension of held surfaces.
     pub least_tension: Option<Extreme>,
@@ -49,15 +51,15 @@ pub struct Survey {
     pub y_max: f64,
     /// The largest |θ|.
     pub theta_max: f64,
-    /// The limits where they are nearest, and when.
+    /// The limits at their closest, and the times.
     pub limits: Limits,
 }
 
-/// A gap, a tension or a velocity on the wrong side by less is rounding.
+/// A gap, a tension or a velocity of the wrong sign counts as zero below this.
 const ROUNDING: f64 = 1e-9;
 
 impl Survey {
-    /// Why no body can have the lap, whose events are so long after each other.
+    /// Why no body can have the lap, whose events follow each other by these durations.
     pub fn why_not(&self, durations: &[f64]) -> Vec<String> {
         let mut why = Vec::new();
         let cable = |surface: usize| surface + 1;
@@ -100,7 +102,7 @@ impl Survey {
     }
 }
 
-/// Looks along the legs of a lap.
+/// Finds the extremes along the legs of a lap.
 pub fn survey<F: Family>(lap: &Lap<F>, system: &F::Plain, legs: &[Leg]) -> Survey {
     let mut found = Survey {
         largest_gap: None,
@@ -166,7 +168,7 @@ fn most(kept: &mut Option<Extreme>, other: Extreme) {
     }
 }
 
-/// Looks along legs.
+/// Finds extremes along legs.
 struct Watch<'a, F: Family> {
     family: &'a F,
     system: &'a F::Plain,
@@ -226,7 +228,7 @@ impl<F: Family> Watch<'_, F> {
         }
     }
 
-    /// The instants at which slack surfaces come nearest: there v_n goes from positive to negative.
+    /// The times of closest approach of slack surfaces, where v_n goes from positive to negative.
     fn gaps(
         &self,
         k: usize,
@@ -245,7 +247,8 @@ impl<F: Family> Watch<'_, F> {
             .iter()
             .filter(|&s| !leg.held.contains(s))
         {
-            // One that has just been released leaves as the cube of time, with a v_n of roundings.
+            // A surface that has just been released opens as the cube of time, so that its v_n is
+            // only rounding at first.
             let first = usize::from(before.contains(surface));
             let speeds: Vec<f64> = samples
                 .iter()
@@ -304,7 +307,8 @@ impl Sampled<'_> {
     }
 }
 
-/// Where a function that has opposite signs at two places is zero: regula falsi after Illinois.
+/// The zero of a function between two places at which it has opposite signs: regula falsi
+/// (Illinois).
 pub(crate) fn root(of: &dyn Fn(f64) -> f64, mut a: (f64, f64), mut b: (f64, f64)) -> f64 {
     for _ in 0..REFINED {
         let mut middle = (a.0 * b.1 - b.0 * a.1) / (b.1 - a.1);
@@ -328,7 +332,7 @@ pub(crate) fn root(of: &dyn Fn(f64) -> f64, mut a: (f64, f64), mut b: (f64, f64)
     b.0
 }
 
-/// The largest value of a function of one hump between 0 and `width`, by golden sections.
+/// The largest value of a unimodal function between 0 and `width`, by golden section.
 fn golden(of: &dyn Fn(f64) -> f64, width: f64) -> (f64, f64) {
     const PART: f64 = 0.618_033_988_749_894_8;
     let (mut low, mut high) = (0.0, width);

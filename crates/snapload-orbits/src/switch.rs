@@ -1,14 +1,14 @@
-//! From a period doubling onto the branch of the orbits of twice the length.
+//! From a period doubling to the branch of orbits of twice the length.
 
 use crate::branch_events::BranchEvent;
 use crate::hybrid::Family;
 use crate::tracer::{Tracer, Unknowns};
 use nalgebra::DVector;
 
-/// The lap run twice, at a doubling, and the direction of the branch that is born there.
+/// The repeated lap at a doubling, and the direction of the branch that begins there.
 ///
-/// At the doubling the equations of the double lap have two directions: that of the orbit itself, and
-/// one in which the two laps move apart. The second one leaves the parameter as it is.
+/// At the doubling the equations of the double lap have two null directions: that of the orbit
+/// itself, and one along which the two laps differ. The second one does not change the parameter.
 pub(crate) fn doubled<'a, F: Family>(
     family: &'a F,
     event: &BranchEvent,

@@ -1,11 +1,11 @@
 //! Pseudo-arclength continuation of a closed lap in one parameter.
 //!
-//! H. B. Keller, in *Applications of Bifurcation Theory* (1977) 359. The unknowns are the state at the
-//! section, the time from event to event, and the parameter. As the times are unknowns, too, the
-//! closing velocity of a snap is a smooth function along a branch, through zero and beyond: a branch
-//! passes a graze of one of its snaps as any other point, and only a negative velocity says that no
-//! body has it any more (compare the velocity as unknown in M. Ghosh & D. J. W. Simpson,
-//! arXiv:2510.16218).
+//! H. B. Keller, in *Applications of Bifurcation Theory* (1977) 359. The unknowns are the state at
+//! the section, the time from event to event, and the parameter. As the times are unknowns, too,
+//! the closing velocity of a snap is a smooth function along a branch, through zero and beyond: a
+//! graze of one of its snaps is an ordinary point of a branch, and only the negative velocity
+//! beyond says that it is no longer admissible (compare the velocity as unknown in M. Ghosh & D. J.
+//! W. Simpson, arXiv:2510.16218).
 
 use crate::hybrid::{Family, Hybrid, Point};
 use crate::lap::Lap;
@@ -13,7 +13,7 @@ use crate::newton::{Closed, add};
 use crate::sequence::Sequence;
 use nalgebra::{DMatrix, DVector};
 
-/// A point of a branch before it is looked at.
+/// The unknowns at a point of a branch.
 #[derive(Clone, Debug)]
 pub(crate) struct Unknowns {
     pub(crate) z: Point,
@@ -40,14 +40,14 @@ impl<F: Family> Clone for Tracer<'_, F> {
     }
 }
 
-/// Steps of the corrector at most.
+/// The most steps of the corrector.
 const MOST_STEPS: usize = 12;
-/// A residual below this is a point of the branch.
+/// A point is on the branch if its residual is below this.
 const CLOSED: f64 = 1e-11;
-/// A step below this is rounding.
+/// A step below this is only rounding.
 const DONE: f64 = 1e-14;
-/// After a step below this the next one would be rounding, and the derivatives are those at the
-/// point as far as a direction needs them.
+/// After a step below this the next one would be only rounding, and the derivatives are accurate
+/// enough for the direction of the branch.
 const LAST: f64 = 1e-8;
 
 impl Unknowns {
@@ -92,7 +92,7 @@ impl<F: Family> Tracer<'_, F> {
         self.family.variables().len() + self.sequence.events.len()
     }
 
-    /// F and its derivatives, with those by so many parameters.
+    /// F and its derivatives, including those by `parameters` of the parameters.
     pub(crate) fn equations(
         &self,
         u: &Unknowns,
@@ -102,13 +102,13 @@ impl<F: Family> Tracer<'_, F> {
         linear.equations(&u.z, self.family.variables(), parameters)
     }
 
-    /// The direction of the branch at a point, on the side of the one before.
+    /// The direction of the branch at a point, with a positive component along the one before.
     pub(crate) fn tangent(&self, u: &Unknowns, before: &DVector<f64>) -> Option<DVector<f64>> {
         let (_, jacobian) = self.equations(u, 1);
         Self::tangent_of(&jacobian, before)
     }
 
-    /// The same by the derivatives there.
+    /// The same from given derivatives.
     fn tangent_of(jacobian: &DMatrix<f64>, before: &DVector<f64>) -> Option<DVector<f64>> {
         let count = jacobian.ncols();
         let bordered = bordered(jacobian, before);
@@ -119,7 +119,7 @@ impl<F: Family> Tracer<'_, F> {
         (length.is_finite() && length > 0.0).then(|| tangent / length)
     }
 
-    /// The first direction: that in which the parameter grows.
+    /// The first direction: the one in which the parameter increases.
     pub(crate) fn first_tangent(&self, u: &Unknowns) -> Option<DVector<f64>> {
         let count = self.size() + 1;
         let mut along = DVector::zeros(count);
@@ -127,8 +127,8 @@ impl<F: Family> Tracer<'_, F> {
         self.tangent(u, &along)
     }
 
-    /// The point of the branch a length `sigma` along `tangent` from `from`, how many steps it
-    /// took, and the direction of the branch there.
+    /// The point of the branch a length `sigma` along `tangent` from `from`, the number of steps,
+    /// and the direction of the branch there.
     pub(crate) fn corrected(
         &self,
         from: &Unknowns,
@@ -167,8 +167,8 @@ impl<F: Family> Tracer<'_, F> {
         None
     }
 
-    /// Where the first event has passed the section, or the last one the next section: the same
-    /// orbit with its events counted anew, and how its tangent's shared parts have moved.
+    /// The same orbit with its events renumbered, if the first event has passed the section, or the
+    /// last one the next section; and the shift of the events' numbers.
     pub(crate) fn renumbered(&self, u: &Unknowns) -> Option<(Self, Unknowns, isize)> {
         let lap = self.lap(u.at);
         let (begun, length) = lap.times();
@@ -183,7 +183,7 @@ impl<F: Family> Tracer<'_, F> {
         let mut moved = self.clone();
         let mut durations = u.durations.clone();
         let (z, shift) = if first.s < 0.0 {
-            // The first event comes at the end of the lap before.
+            // The first event is now the last one of the lap before.
             moved.sequence.events.rotate_left(1);
             moved.sequence.start = held[1];
             let leg = &legs[1];
@@ -197,7 +197,7 @@ impl<F: Family> Tracer<'_, F> {
             }
             (system.flow(leg.held, leg.t, &leg.start, begun - leg.t), -1)
         } else {
-            // The last event comes after the section.
+            // The last event is now the first one after the section.
             moved.sequence.events.rotate_right(1);
             moved.sequence.start = held[count - 1];
             let leg = &legs[count - 1];
@@ -218,8 +218,8 @@ impl<F: Family> Tracer<'_, F> {
         Some((moved, here, shift))
     }
 
-    /// The direction after a renumbering: the one that agrees with the old one in the parameter and in
-    /// the times that both have.
+    /// The direction after a renumbering: the one that agrees with the old one in the parameter and
+    /// in the times that both have in common.
     pub(crate) fn tangent_after(
         &self,
         u: &Unknowns,
@@ -241,7 +241,7 @@ impl<F: Family> Tracer<'_, F> {
     }
 }
 
-/// The way from one point of a branch to the next.
+/// The segment between one point of a branch and the next.
 pub(crate) struct Segment<'a, F: Family> {
     pub(crate) tracer: &'a Tracer<'a, F>,
     pub(crate) from: &'a Unknowns,

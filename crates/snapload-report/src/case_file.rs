@@ -1,8 +1,8 @@
-//! A case as one would write it down: as a file, as a command, as lines of Python.
+//! A case in its notations: as a file, as a command, as lines of Python.
 use snapload::{Parameters, Value};
 use std::fmt::Write;
 
-/// A case file that makes this case: what differs from the standard one, a key a line.
+/// A case file for this case: the keys that differ from the standard one, one in each line.
 pub fn case_file(parameters: &Parameters) -> String {
     let mut text =
         String::from("# A case of snapload; keys left out take their defaults (snapload keys).\n");

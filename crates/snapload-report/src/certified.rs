@@ -1,4 +1,4 @@
-//! A run beside its proof: what the proof says, and where the doubles of the run leave it.
+//! A run with its proof: what is proved, and where the run of doubles differs from it.
 use crate::digits::digits;
 use serde::Serialize;
 use snapload::analysis::{OnProgress, Progress, digits_within};
@@ -7,37 +7,37 @@ use snapload_certificate::{
     Cancelled, Certification, Ended, ExactCase, PrintedImpact, Reason, certify,
 };
 
-/// A proof, and a run of doubles held against it.
+/// A proof, and a run of doubles compared with it.
 pub struct Certified {
-    /// What is proved.
+    /// The proof.
     pub proof: Certification,
-    /// Of each impact of the run, how many digits of its time the proof confirms; none where no such
-    /// impact is proved, from the first one of another cable on, and for impulses that pass into a taut
-    /// cable.
+    /// For each impact of the run, the number of digits of its time that the proof confirms; none
+    /// if no such impact is proved, from the first one of another cable on, and for impulses that
+    /// pass into a taut cable.
     pub confirmed: Vec<Option<f64>>,
-    /// Where the run leaves what is proved, if it does.
+    /// Where the run differs from the proof, if it does.
     pub departure: Option<Departure>,
 }
 
-/// The first impact of a run that is not the proved one.
+/// The first impact of a run that differs from the proved one.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Departure {
-    /// By its row in the table of impacts, from 1; one more than there are where only the end is
-    /// another, or where impacts are missing.
+    /// Its row in the table of impacts, from 1; one more than there are if only the end differs, or
+    /// if impacts are missing.
     pub impact: usize,
-    /// What is another.
+    /// The difference.
     pub differs: Differs,
 }
 
-/// What of a run is not what is proved.
+/// How a run differs from its proof.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Differs {
     /// The cable of an impact.
     Cable,
-    /// Its time in the five digits of a summary.
+    /// Its time, in the five digits of a summary.
     Time,
-    /// Its normal velocity in five digits.
+    /// Its normal velocity, in five digits.
     Speed,
     /// The run has fewer impacts than are proved.
     Missing,
@@ -72,10 +72,10 @@ pub struct CertificateRow<'a> {
     departure: Option<Departure>,
 }
 
-/// Proves the run of a case to its end, on with taut cables where they stay so.
+/// Proves the run of a case to its end, also through motion with taut cables.
 ///
 /// # Errors
-/// A case without a motion, in words; or [`Cancelled`].
+/// In words, why a case has no motion; or [`Cancelled`].
 pub fn prove(
     case: &ExactCase,
     t_end: f64,
@@ -87,13 +87,13 @@ pub fn prove(
 }
 
 impl Certified {
-    /// A run held against its proof.
+    /// Compares a run with its proof.
     pub fn new(proof: Certification, run: &Trajectory) -> Self {
         let mut proved = proof.proved_impacts();
         let (mut departure, mut astray) = (None, false);
         let mut confirmed = Vec::new();
         for (number, impact) in (1..).zip(run.impacts()) {
-            // An impulse that passes into a taut cable is no impact.
+            // An impulse that passes into a taut cable is not an impact.
             if impact.v_n <= 0.0 {
                 confirmed.push(None);
                 continue;
@@ -130,7 +130,7 @@ impl Certified {
         }
     }
 
-    /// For JSON.
+    /// The row for JSON.
     pub fn row(&self) -> CertificateRow<'_> {
         let (reason, undecided) = match &self.proof.end {
             Ended::Proved(reason) => (Some(reason.name()), None),
@@ -147,7 +147,8 @@ impl Certified {
         }
     }
 
-    /// To how many digits the proof confirms when a run ends, if it is proved to end likewise.
+    /// The number of digits of the end's time that the proof confirms, if the proved end is of the
+    /// same kind.
     pub(crate) fn confirmed_end(&self, run: &Trajectory) -> Option<f64> {
         let end = run.end();
         let reason = ended(&self.proof)?;
@@ -155,7 +156,7 @@ impl Certified {
         (reason == Reason::Stop(end.reason)).then(|| confirmed_digits(end.t, exact))
     }
 
-    /// What is proved, and on a line of its own where the run leaves it.
+    /// What is proved, and on a line of its own where the run differs.
     pub fn in_words(&self) -> String {
         let proved = proved_in_words(&self.proof);
         match self.comparison() {
@@ -164,7 +165,7 @@ impl Certified {
         }
     }
 
-    /// Where the run leaves what is proved; none where there is nothing to compare.
+    /// Where the run differs from the proof; none if there is nothing to compare.
     pub fn comparison(&self) -> Option<String> {
         let to_the_end = ended(&self.proof).is_some();
         Some(match self.departure {
@@ -186,7 +187,7 @@ impl Certified {
     }
 }
 
-/// How much is proved, how it ends, or why no more is.
+/// How much is proved and how the run ends, or why the proof stopped.
 pub fn proved_in_words(proof: &Certification) -> String {
     let (count, t, bits) = (impacts(proof.impacts), &proof.t, proof.bits);
     match &proof.end {

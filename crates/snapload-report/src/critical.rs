@@ -5,20 +5,20 @@ use serde::Serialize;
 use snapload::analysis::{CriticalForce, ExceedanceCurve, Exceeding};
 use std::fmt::Write;
 
-/// The shape of one answer in JSON.
+/// The form of one answer in JSON.
 #[derive(Serialize)]
 pub struct CriticalRow {
     /// The smallest amplitude that exceeds; none if none does.
     pub f_cr: Option<f64>,
-    /// Which limit its run reaches.
+    /// The limit that its run reaches.
     pub reason: Option<&'static str>,
-    /// When.
+    /// The time at which it is reached.
     pub t: Option<f64>,
     exceeding: Vec<[f64; 2]>,
 }
 
 impl CriticalRow {
-    /// Of what was found.
+    /// The row of a result.
     pub fn new(found: CriticalForce) -> Self {
         let CriticalForce { first, exceeding } = found;
         Self {
@@ -29,7 +29,7 @@ impl CriticalRow {
         }
     }
 
-    /// The amplitudes that exceed, as one writes them.
+    /// The amplitudes that exceed, in words.
     pub fn exceeding(&self) -> String {
         let interval = |[from, to]: &[f64; 2]| match from == to {
             true => format!("{from}"),
@@ -40,7 +40,7 @@ impl CriticalRow {
     }
 }
 
-/// The probability of exceeding, in JSON: a curve with what it was computed from.
+/// The probability of exceeding, in JSON: a curve with the numbers from which it was computed.
 #[derive(Serialize)]
 pub struct Probability {
     members: u32,
@@ -82,7 +82,7 @@ impl Point {
 }
 
 impl Probability {
-    /// Of a curve for so many neighbours at each amplitude, drawn with this seed.
+    /// The row of a curve for `members` neighbours at each amplitude, drawn with this seed.
     pub fn new(curve: &ExceedanceCurve, members: u32, seed: u64) -> Self {
         Self {
             members,
@@ -96,7 +96,7 @@ impl Probability {
         }
     }
 
-    /// A line for every amplitude at which it is neither none nor all, or not for certain.
+    /// A line for every amplitude at which the share is neither none nor all, or is not certain.
     pub fn in_words(&self, text: &mut String) {
         let Passes { p05, p50, p95 } = self.passes;
         let from = |f_o: Option<f64>| match f_o {

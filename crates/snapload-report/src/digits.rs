@@ -1,4 +1,4 @@
-//! Numbers as a summary prints them.
+//! Numbers as they are printed in a summary.
 
 /// Five significant digits.
 pub(crate) fn digits(number: f64) -> String {

@@ -1,4 +1,4 @@
-//! A run with what rounding leaves of it: what is quick to know.
+//! A run with its horizon and known digits, which are quick to compute.
 use crate::NormsKnown;
 use crate::trusted::horizon_in_words;
 use snapload::analysis::{
@@ -6,15 +6,15 @@ use snapload::analysis::{
 };
 use snapload::{Case, Trajectory};
 
-/// A run whose values are exact, and how far it can be trusted.
+/// A run with exact values, and how far it can be trusted.
 pub struct Followed {
     /// The run.
     pub run: Trajectory,
-    /// Where trust ends; none if nowhere.
+    /// Where trust ends; none if the whole run can be trusted.
     pub horizon: Option<Horizon>,
-    /// Decimal digits that are expected to be right, impact by impact as far as the horizon.
+    /// Decimal digits that are expected to be right, for each impact up to the horizon.
     pub digits: Vec<f64>,
-    /// How many digits of each norm are.
+    /// The number of known digits of each norm.
     pub norms_known: NormsKnown,
 }
 
@@ -22,12 +22,12 @@ impl Followed {
     /// Runs a case.
     ///
     /// # Errors
-    /// [`Cancelled`] if it is to end before.
+    /// [`Cancelled`] if it is cancelled.
     pub fn run(case: &Case, on_progress: OnProgress) -> Result<Self, Cancelled> {
         let simulation = case.simulation();
         let mut monitor = TrustMonitor::of_exact_case(case, &simulation);
         let run = record(simulation, on_progress, |simulation, step| {
-            // Past it the run goes on by itself, three times as fast.
+            // Past the horizon the run continues alone, three times as fast.
             if monitor.horizon().is_none() {
                 monitor.follow(simulation, step);
             }

@@ -1,5 +1,5 @@
-//! What is said of a run, in words for a person and in JSON for a program: the same from the
-//! command line and from Python.
+//! Reports on a run, in words for people and in JSON for programs: the same on the command line and
+//! in Python.
 
 mod case_file;
 mod certified;

@@ -1,6 +1,6 @@
-//! Questions about one case. Each is said once, as a [`Question`]: its name, what it asks, its
-//! options and how it is answered. The command line makes a verb of it, Python a function and the
-//! server of the page a path, without a line of their own.
+//! Questions about one case. Each is defined once, as a [`Question`]: its name, what it asks, its
+//! options and how it is answered. The command line makes a subcommand of it, Python a function and
+//! the server of the page a path, without further code.
 use crate::case_in_words;
 use serde::Serialize;
 use serde_json::value::{RawValue, to_raw_value};
@@ -9,15 +9,15 @@ use snapload::{Case, CaseError, DefaultValue, FromValue, Heading, Key, Kind, Tab
 
 /// A question about one case.
 pub struct Question {
-    /// The name of its command, by which Python and the page ask it, too.
+    /// The name of its command, which Python and the page also use.
     pub name: &'static str,
     /// What it asks, in one line.
     pub asks: &'static str,
-    /// What else there is to know, and examples of the command.
+    /// Further explanations, and examples of the command.
     pub help: &'static str,
-    /// Its options; the symbol of each stands for its value in the help of the command.
+    /// Its options; the symbol of each is the name of its value in the help of the command.
     pub options: &'static [Key],
-    /// How it is answered.
+    /// The function that answers it.
     pub(crate) answer: fn(&Case, &Options, OnProgress) -> Result<Answer, Unfinished>,
 }
 
@@ -30,8 +30,8 @@ impl Question {
         Table::new(self.name, Heading::None, self.asks, self.options).key(name, name)
     }
 
-    /// Asks it of a case. An option that is left out has its default; of one given twice the last
-    /// value counts.
+    /// Asks it about a case. An option that is left out has its default; for one given twice the
+    /// last value counts.
     ///
     /// # Errors
     /// A [`CaseError`] if an option or the case does not allow an answer, and
@@ -56,14 +56,14 @@ impl Question {
     }
 }
 
-/// What a question is asked with, each value checked by the row of its option.
+/// The options of a question, each value checked by the description of its option.
 pub struct Options {
     keys: &'static [Key],
     given: Vec<(&'static str, Value)>,
 }
 
 impl Options {
-    /// The value of an option: the one that was given, or its default.
+    /// The value of an option: the given one, or its default.
     ///
     /// # Errors
     /// A [`CaseError`] if there is neither.
@@ -85,14 +85,14 @@ impl Options {
 /// The answer to a question.
 #[derive(Serialize)]
 pub struct Answer {
-    /// For a person, in lines that begin with a label.
+    /// For people, in lines that begin with a label.
     pub words: String,
-    /// For a program, as JSON.
+    /// For programs, as JSON.
     pub answer: Box<RawValue>,
 }
 
 impl Answer {
-    /// In words, and as a row for JSON.
+    /// An answer in words, and as a row for JSON.
     ///
     /// # Errors
     /// A [`CaseError`] if the row can not be written as JSON.
@@ -103,7 +103,7 @@ impl Answer {
         Ok(Self { words, answer })
     }
 
-    /// The same with the case that it is about in the first line of its words.
+    /// The same with the name of its case in the first line.
     #[must_use]
     pub fn about(mut self, name: &str, case: &Case) -> Self {
         let case = case_in_words(name, case.parameters());
@@ -112,7 +112,7 @@ impl Answer {
     }
 }
 
-/// The option that says what counts as known.
+/// The option with the tolerance of known results.
 pub const TOLERANCE: Key = Key::new(
     "tolerance",
     "1",

@@ -9,7 +9,7 @@ use snapload::{
 };
 use std::io::{self, Write};
 
-/// Everything there is to say about a run.
+/// The whole report on a run.
 #[derive(Serialize)]
 pub struct Report<'a> {
     case: CaseEcho<'a>,
@@ -26,7 +26,7 @@ pub struct Report<'a> {
 }
 
 impl<'a> Report<'a> {
-    /// The report of a run, with the motion sampled if asked for; the progress is that of writing
+    /// The report on a run, with the motion sampled if asked for; the progress is that of writing
     /// the motion.
     pub fn new(
         parameters: &'a Parameters,
@@ -53,7 +53,7 @@ impl<'a> Report<'a> {
         }
     }
 
-    /// The same with what is proved of the run.
+    /// The same with the proof of the run.
     pub fn with_certificate(self, certified: Option<&'a Certified>) -> Self {
         Self {
             certificate: certified.map(Certified::row),
@@ -62,7 +62,7 @@ impl<'a> Report<'a> {
     }
 }
 
-/// Writes something as one line of JSON.
+/// Writes a value as one line of JSON.
 ///
 /// # Errors
 /// Those of the writer.
@@ -71,7 +71,7 @@ pub fn write_json(value: &impl Serialize, out: &mut dyn Write) -> io::Result<()>
     writeln!(out)
 }
 
-/// Every key in effect, in the order of the schema.
+/// The value of every key, in the order of the schema.
 pub struct CaseEcho<'a>(pub &'a Parameters);
 
 impl Serialize for CaseEcho<'_> {
@@ -105,7 +105,7 @@ pub struct EndRow {
 }
 
 impl EndRow {
-    /// Of an end.
+    /// The row of an end.
     pub fn new(end: &End) -> Self {
         Self {
             reason: end.reason.name(),
@@ -115,7 +115,7 @@ impl EndRow {
     }
 }
 
-/// A list whose rows are shaped one at a time, while they are written.
+/// A list whose rows are made one at a time, while they are written.
 struct Rows<'a, T, R>(&'a [T], fn(&T) -> R);
 
 impl<T, R: Serialize> Serialize for Rows<'_, T, R> {
@@ -124,7 +124,7 @@ impl<T, R: Serialize> Serialize for Rows<'_, T, R> {
     }
 }
 
-/// The impacts with the digits that are known of each.
+/// The impacts with the known digits of each.
 struct ImpactRows<'a>(&'a Trusted);
 
 impl Serialize for ImpactRows<'_> {
@@ -192,7 +192,7 @@ pub struct NormsRow {
 }
 
 impl NormsRow {
-    /// Of a run's norms.
+    /// The row of a run's norms.
     pub fn new(norms: &Norms) -> Self {
         let Norms {
             rho1,
@@ -211,7 +211,7 @@ impl NormsRow {
     }
 }
 
-/// So many rows are written between two reports of the progress.
+/// The number of rows that are written between two progress reports.
 const ROWS: usize = 1024;
 
 struct MotionRows<'a> {

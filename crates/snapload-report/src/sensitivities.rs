@@ -1,4 +1,4 @@
-//! How the first impacts change with each key: the question, its words and its JSON.
+//! The derivatives of the first impacts by each key: the question, its words and its JSON.
 use crate::digits::digits;
 use crate::question::{Answer, Options, Question};
 use crate::summary::indented;
@@ -35,11 +35,11 @@ Examples:
     answer,
 };
 
-/// Its shape in JSON: a row an impact and key; none where the start, on the very edge of what is
-/// legal, has no neighbours.
+/// Its form in JSON: a row for each impact and key; none if the start, at the very edge of what is
+/// legal, is not legal over dual numbers.
 #[derive(Serialize)]
 struct Derivatives {
-    /// From where on the run is not certain, as far as its impacts are asked for.
+    /// The horizon of the run, up to the impacts that are asked for.
     horizon: HorizonRow,
     derivatives: Vec<Row>,
 }
@@ -55,14 +55,14 @@ struct Row {
     certain: bool,
 }
 
-/// How far the run is looked at.
+/// How far the run is followed.
 struct Looked {
     impacts: usize,
     horizon: Option<Horizon>,
 }
 
 impl Looked {
-    /// To so many impacts, or, past the first, to the horizon.
+    /// Follows it up to `count` impacts, or, past the first, up to the horizon.
     fn at(case: &Case, count: usize) -> Result<Self, Unfinished> {
         let mut simulation = case.simulation();
         let mut monitor = TrustMonitor::of_case(case, &Uncertainty::default())?;
@@ -158,7 +158,7 @@ mod tests {
         SENSITIVITIES.ask(&case, [("impacts", Value::from(impacts))], &unwatched)
     }
 
-    /// The standard case is known before impact 191: one near miss ends it.
+    /// The standard case is certain before impact 191, where a near miss ends trust.
     #[test]
     fn what_is_past_the_horizon_is_marked() -> Result<(), Unfinished> {
         let known = asked(Parameters::STANDARD, 190)?;

@@ -1,4 +1,4 @@
-//! A run in a few lines, for a person.
+//! A run in a few lines of text.
 use crate::digits::digits;
 use crate::{Certified, Trusted, outcome_in_words, trust_in_words};
 use serde::Serialize;
@@ -7,7 +7,7 @@ use snapload::{Mode, ModeInterval, Norms, Parameters, SETTLING_HEIGHT, Stop, Tra
 use std::fmt::Write;
 use std::path::PathBuf;
 
-/// More intervals than this are summed up only.
+/// If there are more intervals than this, only their sums are given.
 const FEW_MODES: usize = 6;
 
 /// The summary of a run of the case of this name, with its proof if there is one and the files that
@@ -30,8 +30,8 @@ pub fn summary(
         .collect()
 }
 
-/// The lines of a summary: a label, empty where the line goes on with what stands above it, and a
-/// text, which may have several lines itself.
+/// The lines of a summary: a label, empty if the line continues the one above, and a text, which
+/// may have several lines itself.
 pub fn summary_lines(
     name: &str,
     parameters: &Parameters,
@@ -61,7 +61,7 @@ pub fn summary_lines(
     let rho3 = norm("rho3", norms.rho3, &known.rho3);
     lines.push(("Norms", format!("{rho1}, {rho2}, {rho3}")));
     let mut reached = norm("y_max", norms.y_max, &known.y_max);
-    // A point mass does not turn.
+    // A point mass has no rotation.
     if !parameters.is_point() {
         let turned = digits(norms.theta_max);
         let _ = write!(reached, ", theta_max = {turned} rad ({})", known.theta_max);
@@ -76,12 +76,12 @@ pub fn summary_lines(
     lines
 }
 
-/// A text of several lines, of which the later ones stand below the first.
+/// A text of several lines, the later ones indented to align with the first.
 pub fn indented(text: &str) -> String {
     text.replace('\n', "\n          ")
 }
 
-/// The name of the case, and where it differs from the standard one.
+/// The name of the case, and how it differs from the standard one.
 pub fn case_in_words(name: &str, parameters: &Parameters) -> String {
     let differing: Vec<String> = parameters
         .entries()
@@ -102,7 +102,7 @@ pub fn case_in_words(name: &str, parameters: &Parameters) -> String {
     format!("{name}{join} {}", differing.join(", "))
 }
 
-/// A value as its author wrote it; one with many digits was computed, and is cut.
+/// A value as it was given; one with many digits was computed, and is rounded.
 fn rounded(value: &Value) -> String {
     let text = value.to_string();
     match value {
@@ -111,7 +111,7 @@ fn rounded(value: &Value) -> String {
     }
 }
 
-/// How many digits of each norm are known, in words.
+/// The number of known digits of each norm, in words.
 #[derive(Serialize)]
 pub struct NormsKnown {
     rho1: String,
@@ -122,7 +122,7 @@ pub struct NormsKnown {
 }
 
 impl NormsKnown {
-    /// Of norms with these errors.
+    /// The known digits of norms with these errors.
     pub fn of(norms: &Norms, errors: &NormErrors) -> Self {
         Self {
             rho1: known(norms.rho1, errors.rho1),
@@ -134,10 +134,10 @@ impl NormsKnown {
     }
 }
 
-/// What is said of a number of which nothing is known.
+/// The text for a number that is not known at all.
 const NOT_CERTAIN: &str = "not certain";
 
-/// What stands behind what the motion up to some time comes to, where that is past the horizon.
+/// The remark on results of the motion up to some time, if that is past the horizon.
 fn doubt_at(trusted: &Trusted, t: f64) -> &'static str {
     match trusted.horizon() {
         Some(horizon) if t >= horizon => " (not certain)",
@@ -145,8 +145,8 @@ fn doubt_at(trusted: &Trusted, t: f64) -> &'static str {
     }
 }
 
-/// How many decimal digits of a value are known, of its fraction where it is below 1; nothing where
-/// there is no error to tell it from.
+/// The number of known decimal digits of a value, of its fraction if it is below 1; empty if there
+/// is no error from which to compute it.
 fn known(value: f64, error: Option<f64>) -> String {
     let Some(error) = error.filter(|error| error.is_finite()) else {
         return NOT_CERTAIN.to_owned();
@@ -160,7 +160,7 @@ fn in_digits(digits: f64) -> String {
     format!("{digits} digit{plural}")
 }
 
-/// How a run ended, and how well it is known when: by its proof where there is one.
+/// How a run ended, and the accuracy of its time: by its proof if there is one.
 fn end_known(trusted: &Trusted, parameters: &Parameters, certified: Option<&Certified>) -> String {
     let (end, trust) = (trusted.run.end(), &trusted.trust);
     let words = end_in_words(&trusted.run, parameters);
@@ -177,7 +177,8 @@ fn end_known(trusted: &Trusted, parameters: &Parameters, certified: Option<&Cert
     words.replacen(&at, &format!("{at} ({known})"), 1)
 }
 
-/// What the limits of the thesis's case come to, which says more than what they are in general.
+/// The limits of the thesis's case in its own numbers, which is more specific than their general
+/// names.
 const LIMITS_HERE: [(Stop, &str); 2] = [
     (Stop::RotationLimit, "|theta| reached pi/2"),
     (
@@ -212,8 +213,9 @@ pub fn end_in_words(trajectory: &Trajectory, parameters: &Parameters) -> String 
     }
 }
 
-/// How many rows the table of impacts has, as horizons count them, and how many are certain where
-/// not all are: snaps of each cable, and impulses passed into a taut cable, which have v_n = 0.
+/// The number of rows of the table of impacts, as horizons count them, and the number of certain
+/// ones if not all are: snaps of each cable, and impulses passed into a taut cable, which have v_n
+/// = 0.
 fn impacts(trusted: &Trusted) -> String {
     let impacts = trusted.run.impacts();
     let mut of_cable = [0_usize; snapload::MAX_CABLES];
@@ -243,7 +245,7 @@ fn impacts(trusted: &Trusted) -> String {
     text
 }
 
-/// The hardest snap, and how many digits are known of it; of one past the horizon none are.
+/// The hardest snap, with its number of known digits; past the horizon none are known.
 fn hardest(trusted: &Trusted) -> Option<String> {
     let (impacts, errors) = (trusted.run.impacts(), &trusted.trust.errors);
     let rows = impacts.iter().zip(errors).zip(1..);
@@ -262,7 +264,7 @@ fn hardest(trusted: &Trusted) -> Option<String> {
     ))
 }
 
-/// How long each mode lasted in all.
+/// The total duration of each mode.
 fn modes(intervals: &[ModeInterval]) -> String {
     let sums = Mode::ALL.map(|mode| {
         let of_mode = intervals.iter().filter(|i| i.taut.mode() == mode);

@@ -5,7 +5,7 @@ use snapload::{Impact, Playback, Sampling, Trajectory};
 use snapload_study::{Column, Take};
 use std::io::{self, Write};
 
-/// An impact with the decimal digits that are expected to be right of it.
+/// An impact with the number of its decimal digits that are expected to be right.
 pub struct ImpactRow(pub Impact, pub f64);
 
 const fn number(
@@ -79,7 +79,7 @@ pub enum Cell {
 }
 
 impl Cell {
-    /// Of a column in a row.
+    /// The cell of a column in a row.
     pub fn new<R>(column: &Column<R>, row: &R) -> Self {
         match column.take {
             Take::Number(of) => Self::Number(of(row)),
@@ -90,7 +90,7 @@ impl Cell {
     }
 }
 
-/// `impacts.csv`: one row an impact and cable, with the digits that are known of each.
+/// `impacts.csv`: one row for each impact and cable, with the known digits of each.
 ///
 /// # Errors
 /// Those of the writer.
@@ -103,7 +103,7 @@ pub fn impacts(
     write(&names, impact_rows(run, digits), out)
 }
 
-/// `modes.csv`: one row an interval; the taut cables stand with blanks between them.
+/// `modes.csv`: one row for each interval; the taut cables are separated by blanks.
 ///
 /// # Errors
 /// Those of the writer.
@@ -116,7 +116,7 @@ pub fn modes(run: &Trajectory, out: &mut dyn Write) -> io::Result<()> {
     write(&MODES, rows, out)
 }
 
-/// `motion.csv`: one row a time.
+/// `motion.csv`: one row for each time.
 ///
 /// # Errors
 /// Those of the writer.
@@ -131,7 +131,7 @@ fn write<R: Serialize>(
     rows: impl Iterator<Item = R>,
     out: &mut dyn Write,
 ) -> io::Result<()> {
-    // The header is written here: csv would leave it out of a table without rows.
+    // The header is written here, as csv would leave it out for a table without rows.
     let mut table = csv::WriterBuilder::new()
         .has_headers(false)
         .from_writer(out);

@@ -1,11 +1,11 @@
-//! The shape of trust and outcome in JSON.
+//! The form of trust and outcome in JSON.
 use crate::Trusted;
 use serde::Serialize;
 use serde::ser::{SerializeMap, Serializer};
 use snapload::Stop;
 use snapload::analysis::{Horizon, NormErrors, START_KEYS, Sensitivity, Share, Trust, Uncertainty};
 
-/// Where trust ends, in JSON: nulls where it goes to the end of the run.
+/// Where trust ends, in JSON: nulls if the whole run can be trusted.
 #[derive(Serialize)]
 pub struct HorizonRow {
     t: Option<f64>,
@@ -14,7 +14,7 @@ pub struct HorizonRow {
 }
 
 impl HorizonRow {
-    /// Of a horizon; none where there is none.
+    /// The row of a horizon; without values if there is none.
     pub fn new(horizon: Option<Horizon>) -> Self {
         Self {
             t: horizon.map(|horizon| horizon.t),
@@ -39,7 +39,7 @@ pub struct TrustRow<'a> {
 }
 
 impl<'a> TrustRow<'a> {
-    /// Of a run.
+    /// The row of a run.
     pub fn new(trusted: &'a Trusted) -> Self {
         let Trust {
             horizon,
@@ -68,7 +68,7 @@ impl<'a> TrustRow<'a> {
     }
 }
 
-/// Errors of the norms; null where impacts past the horizon enter them.
+/// Errors of the norms; null if impacts past the horizon are included.
 #[derive(Serialize)]
 struct NormErrorRow {
     rho1: Option<f64>,
@@ -150,7 +150,7 @@ struct EnsembleRow {
     ends: Vec<ShareRow>,
 }
 
-/// The part of an ensemble that ends in one way, with its interval.
+/// The part of an ensemble that ends in one way, with its confidence interval.
 #[derive(Serialize)]
 pub struct ShareRow {
     reason: &'static str,
@@ -161,7 +161,7 @@ pub struct ShareRow {
 }
 
 impl OutcomeRow {
-    /// Of a run.
+    /// The row of a run.
     pub fn new(trusted: &Trusted) -> Self {
         Self {
             certain: trusted.trust.decides_the_end(),
@@ -175,7 +175,7 @@ impl OutcomeRow {
 }
 
 impl ShareRow {
-    /// Of a way to end, and those that do.
+    /// The row of a kind of end and its share.
     pub fn new((stop, share): (Stop, Share)) -> Self {
         let [low, high] = share.interval();
         Self {

@@ -1,32 +1,32 @@
-//! A run with what is known of it: how far it can be trusted, and how its neighbours end.
+//! A run with its trust, and the ends of its neighbours.
 use snapload::analysis::{
     DEFAULT_MEMBERS, Ensemble, EnsembleEnds, Horizon, HorizonCause, OnProgress, Sensitivity, Trust,
     Uncertainty, Unfinished, sensitivity, trusted_run,
 };
 use snapload::{Case, Trajectory};
 
-/// The impacts of which it is told how they depend on every key.
+/// The number of impacts whose derivatives by every key are given.
 const SENSITIVE_IMPACTS: usize = 3;
 
-/// A run with what is known of it.
+/// A run with its trust and the ends of its neighbours.
 pub struct Trusted {
     /// The run.
     pub run: Trajectory,
     /// How far it can be trusted.
     pub trust: Trust,
-    /// What was taken to be uncertain.
+    /// The uncertainties that were assumed.
     pub uncertainty: Uncertainty,
-    /// Which neighbours were drawn.
+    /// The seed of the neighbours.
     pub seed: u64,
-    /// How neighbours end; none where the run is certain, or none were asked for.
+    /// The ends of the neighbours; none if the run is certain, or none were asked for.
     pub tally: Option<EnsembleEnds>,
-    /// How the first impacts depend on every key.
+    /// The derivatives of the first impacts by every key.
     pub sensitivity: Vec<Sensitivity>,
 }
 
 impl Trusted {
-    /// Runs a case, and so many of its neighbours where it takes them; if no number is given, as many
-    /// as it takes to tell how they end, up to [`DEFAULT_MEMBERS`].
+    /// Runs a case, and `members` of its neighbours if its end is not certain; if no number is
+    /// given, as many as are needed to determine how they end, up to [`DEFAULT_MEMBERS`].
     ///
     /// # Errors
     /// A [`snapload::CaseError`] if a key that is uncertain can not be varied about this start, and
@@ -42,8 +42,8 @@ impl Trusted {
         run.completed(case, members, seed, on_progress)
     }
 
-    /// The run alone, and how far it can be trusted: without neighbours and sensitivities, which
-    /// take longer.
+    /// The run alone, and how far it can be trusted: without neighbours and derivatives, which take
+    /// longer.
     ///
     /// # Errors
     /// As for [`Trusted::run`].
@@ -63,8 +63,8 @@ impl Trusted {
         })
     }
 
-    /// With the sensitivities, and so many neighbours where it takes them: what [`Trusted::run`]
-    /// gives.
+    /// The result of [`Trusted::run`], completed with the derivatives and the neighbours if the end
+    /// is not certain.
     ///
     /// # Errors
     /// As for [`Trusted::run`].
@@ -92,7 +92,7 @@ impl Trusted {
         members != Some(0) && !self.trust.decides_the_end()
     }
 
-    /// Where trust ends, as pictures show it.
+    /// Where trust ends, for pictures.
     pub fn horizon(&self) -> Option<f64> {
         self.trust.horizon.map(|horizon| horizon.t)
     }
@@ -138,7 +138,7 @@ pub fn trust_in_words(trusted: &Trusted) -> String {
     )
 }
 
-/// The same of a run of so many impacts.
+/// The same for a run with this number of impacts.
 pub(crate) fn horizon_in_words(horizon: Option<Horizon>, tolerance: f64, impacts: usize) -> String {
     let known = format!("known to {tolerance:e}");
     let Some(Horizon { t, impact, cause }) = horizon else {
@@ -179,7 +179,7 @@ pub(crate) fn horizon_in_words(horizon: Option<Horizon>, tolerance: f64, impacts
     format!("{known}{place} up to t = {t:.4}\n{what}")
 }
 
-/// How many of them, in words.
+/// A number of neighbours, in words.
 pub fn neighbours(count: usize) -> String {
     let noun = if count == 1 {
         "neighbour"
@@ -189,7 +189,8 @@ pub fn neighbours(count: usize) -> String {
     format!("{} {noun}", thousands(count))
 }
 
-/// A part in per cent, rounded as told: to tenths near none and near all, else to whole ones.
+/// A part in per cent, rounded by the given function: to tenths near none and near all, otherwise
+/// to whole numbers.
 pub fn percent(part: f64, round: impl Fn(f64) -> f64) -> String {
     let percent = 100.0 * part;
     if (1.0..=99.0).contains(&percent) || percent == 0.0 || percent == 100.0 {

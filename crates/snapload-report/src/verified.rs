@@ -1,5 +1,5 @@
-//! The same run with many digits, to see where the ordinary one goes wrong: the question, its JSON
-//! and its words.
+//! The same run with many digits, which shows where the ordinary one goes wrong: the question, its
+//! JSON and its words.
 use crate::question::{Answer, Options, Question, TOLERANCE};
 use crate::summary::indented;
 use crate::{TrustRow, Trusted, trust_in_words};
@@ -44,15 +44,15 @@ fn answer(case: &Case, options: &Options, on_progress: OnProgress) -> Result<Ans
     Ok(Answer::new(verified.in_words(), &verified.row())?)
 }
 
-/// An ordinary run beside the same run with many digits.
+/// An ordinary run together with the same run in many digits.
 struct Verified {
     /// The ordinary run.
     trusted: Trusted,
-    /// What came of the other.
+    /// The comparison with the other.
     found: Verification,
 }
 
-/// Its shape in JSON.
+/// Its form in JSON.
 #[derive(Serialize)]
 struct VerifiedRow<'a> {
     digits: u32,
@@ -69,7 +69,7 @@ struct VerifiedRow<'a> {
     trust: TrustRow<'a>,
 }
 
-/// An impact with many digits: decimals as words, as a number of JSON is read as a double.
+/// An impact with many digits: decimals as text, as a JSON number would be read as a double.
 #[derive(Serialize)]
 struct ExactRow<'a> {
     t: &'a str,
@@ -97,7 +97,7 @@ struct Ordinary {
 }
 
 impl Verified {
-    /// Of what was found to a tolerance.
+    /// The result for a tolerance.
     fn new(found: Verification, tolerance: f64) -> Self {
         let trusted = Trusted {
             run: found.run.clone(),
@@ -113,7 +113,7 @@ impl Verified {
         Self { trusted, found }
     }
 
-    /// For JSON.
+    /// The row for JSON.
     fn row(&self) -> VerifiedRow<'_> {
         let Verification {
             digits,
@@ -146,7 +146,7 @@ impl Verified {
         }
     }
 
-    /// In a few lines.
+    /// The result in a few lines.
     fn in_words(&self) -> String {
         let found = &self.found;
         let mut text = String::new();

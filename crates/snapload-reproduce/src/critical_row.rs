@@ -1,4 +1,4 @@
-//! The rows of Table 6.2: what is published, what is proved of it, and what neighbours do.
+//! The rows of Table 6.2: what is published, what is proved, and the results of neighbours.
 
 use crate::proved::{self, Proved};
 use crate::reading::{Both, Reading, TABLE_6_2, first_exceeding, of_shape};
@@ -20,19 +20,19 @@ pub(crate) struct CriticalRow {
     pub(crate) published: f64,
     /// The computed ones, with all amplitudes that exceed, in doubles.
     pub(crate) computed: Both<CriticalForce>,
-    /// The first amplitude in doubles where nothing but the two limits ends a run.
+    /// The first amplitude that exceeds in doubles if only the two limits end a run.
     pub(crate) limits_alone: Option<(f64, Stop)>,
-    /// How many neighbours exceed, in the chapter's reading.
+    /// The numbers of exceeding neighbours, in the chapter's reading.
     pub(crate) probable: ExceedanceCurve,
-    /// What is proved of the amplitudes, in the chapter's reading.
+    /// The proofs for the amplitudes, in the chapter's reading.
     pub(crate) proved: Vec<(f64, Option<Proved>)>,
 }
 
-/// Neighbours of each run of Table 6.2, 1e-12 away at the most.
+/// The number of neighbours of each run of Table 6.2, which are 1e-12 away at most.
 pub(crate) const NEIGHBOURS: u32 = 100;
 
 impl CriticalRow {
-    /// Of all rows, in the order of the table.
+    /// All rows, in the order of the table.
     pub(crate) fn all() -> Result<Vec<Self>, Unfinished> {
         TABLE_6_2.into_iter().map(Self::new).collect()
     }
@@ -69,13 +69,13 @@ impl CriticalRow {
         })
     }
 
-    /// The body with all else as in the standard case.
+    /// The case of this body and cables, otherwise the standard case.
     pub(crate) fn parameters(&self) -> Parameters {
         of_shape(self.r, self.size)
     }
 
-    /// The first amplitude that exceeds the limits by a time, and what is proved of it and of all
-    /// below.
+    /// The first amplitude that exceeds the limits before a time, with its proof; all smaller ones
+    /// are proved not to.
     pub(crate) fn first_by(&self, t_end: f64) -> Option<(f64, &Proved)> {
         let proved = self
             .proved
@@ -86,27 +86,27 @@ impl CriticalRow {
         exceeding.next()
     }
 
-    /// The critical force of the chapter's reading, which is proved.
+    /// The proved critical force of the chapter's reading.
     pub(crate) fn first(&self) -> Option<(f64, &Proved)> {
         self.first_by(Parameters::STANDARD.t_end)
     }
 
-    /// What is proved of the published amplitude.
+    /// The proof for the published amplitude.
     pub(crate) fn at_published(&self) -> Option<&Proved> {
         let same = |f_o: f64| (f_o - self.published).abs() < 0.005;
         let found = self.proved.iter().find(|(f_o, _)| same(*f_o));
         found.and_then(|(_, proved)| proved.as_ref())
     }
 
-    /// How many of the neighbours exceed at an amplitude.
+    /// The number of neighbours that exceed at an amplitude.
     pub(crate) fn neighbours(&self, f_o: f64) -> usize {
         let same = |at: f64| (at - f_o).abs() < 0.005;
         let found = self.probable.points.iter().find(|point| same(point.f_o));
         found.map_or(0, |point| point.share.count)
     }
 
-    /// Whether the published value is the one that is proved and that of all neighbours, surely not,
-    /// or open: it differs, but neighbours at or below it disagree.
+    /// Whether the published value agrees with the proof and with all neighbours, certainly does
+    /// not, or is undecidable: it differs, but neighbours at or below it disagree.
     pub(crate) fn verdict(&self) -> Verdict {
         let all = NEIGHBOURS as usize;
         let below = || {

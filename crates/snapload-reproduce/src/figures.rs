@@ -14,7 +14,7 @@ use snapload_figures::{Layer, Picture, Plot, Point, Width, draw};
 use state::StateFigure;
 use std::collections::HashMap;
 
-/// What `data/figures.toml` holds.
+/// The contents of `data/figures.toml`.
 #[derive(Deserialize)]
 struct Lists {
     keys: HashMap<String, Key>,
@@ -22,12 +22,12 @@ struct Lists {
     row: Vec<Row<Listed>>,
 }
 
-/// Figures that the chapter compares, to be shown side by side.
+/// Figures that the chapter compares, which are shown side by side.
 #[derive(Clone, Debug, Deserialize)]
 pub(crate) struct Row<Figure> {
-    /// What they have in common.
+    /// Their common title.
     pub(crate) title: String,
-    /// How many stand side by side where there is room.
+    /// The number of figures side by side if there is room.
     pub(crate) columns: usize,
     pub(crate) figures: Vec<Figure>,
 }
@@ -39,7 +39,7 @@ struct Listed {
     shows: Shows,
 }
 
-/// What a figure shows.
+/// The contents of a figure.
 #[derive(Deserialize)]
 #[serde(rename_all = "lowercase")]
 enum Shows {
@@ -66,12 +66,12 @@ pub(crate) struct Figure {
     pub(crate) about: About,
 }
 
-/// What is said of a figure.
+/// The texts about a figure.
 #[derive(Clone, Debug)]
 pub(crate) struct About {
     /// What it shows, in our words.
     pub(crate) caption: String,
-    /// What its run comes to, each with its name.
+    /// The results of its run, each with its name.
     pub(crate) numbers: Vec<(&'static str, Number)>,
     /// The commands that compute it.
     pub(crate) sources: Vec<Source>,
@@ -80,15 +80,15 @@ pub(crate) struct About {
 /// A command that computes a figure, or a part of it.
 #[derive(Clone, Debug)]
 pub(crate) struct Source {
-    /// The part; empty for all of it.
+    /// The part; empty for the whole figure.
     pub(crate) part: &'static str,
     pub(crate) command: String,
-    /// Where in what it prints or writes the points stand.
+    /// Where the points are in the output of the command.
     pub(crate) place: String,
 }
 
 impl Source {
-    /// Of all of a figure.
+    /// One source for a whole figure.
     fn whole(command: String, place: &str) -> Vec<Self> {
         vec![Self {
             part: "",
@@ -103,7 +103,7 @@ pub(crate) fn figures(study: &Study) -> Result<Vec<Row<Figure>>, ReportError> {
     let lists: Lists = toml::from_str(include_str!("../data/figures.toml"))?;
     let row = |row: &Row<Listed>| {
         let axes = Axes::shared(study, row)?;
-        // What stands alone has the width of the page.
+        // A figure that has a row of its own has the width of the page.
         let page = if row.columns == 1 {
             Width::Page
         } else {
@@ -139,7 +139,7 @@ impl Listed {
             Shows::State(state) => state.draw(study)?,
             Shows::Example(example) => example.draw(study, &name)?,
         };
-        // For those who do not see it, each figure has a title of its own.
+        // Each figure has a title for readers who can not see it.
         plot.description = format!("Fig. {}. {}", self.number, about.caption);
         Ok(Figure {
             number: self.number.clone(),

@@ -1,8 +1,9 @@
 //! Chapter 6 of the 1999 thesis on snap loading of moored breakwaters, reproduced: its tables,
 //! figures and claims as one report.
 //!
-//! [`Study`] computes all runs, each once, in two readings: the chapter's own studies ended a run
-//! that begins to slide; the motion really slides on. [`Report`] makes files of it.
+//! [`Study`] computes all runs, each once, in two readings: in the chapter's own studies a run
+//! ended where it begins to slide; the actual motion continues to slide. [`Report`] writes the
+//! files.
 
 mod claims;
 mod critical_row;
@@ -23,7 +24,7 @@ pub use study::Study;
 
 use claims::Claim;
 
-/// Why the report could not be made: a fault of the program.
+/// Why the report could not be made: an error of the program.
 #[derive(Debug, thiserror::Error)]
 pub enum ReportError {
     /// A figure could not be drawn.
@@ -38,15 +39,15 @@ pub enum ReportError {
     /// The list of figures can not be read.
     #[error("the list of figures can not be read: {0}")]
     List(#[from] toml::de::Error),
-    /// The list of figures or the page asks for something that was not computed.
+    /// The list of figures or the page refers to something that was not computed.
     #[error("the report asks for {0}, which was not computed")]
     Missing(String),
-    /// Words and judge of a claim do not fit each other, or a run on which it rests is not there.
+    /// Texts and judge of a claim do not match, or a run on which it is based is missing.
     #[error("a claim can not be told: {0}")]
     Claim(String),
 }
 
-/// The report: its page, and the data beside it.
+/// The report: its page, and its data files.
 #[derive(Clone, Debug)]
 pub struct Report {
     /// The files, by their place below the report's directory.
@@ -54,10 +55,10 @@ pub struct Report {
 }
 
 impl Report {
-    /// Of a study.
+    /// The report of a study.
     ///
     /// # Errors
-    /// [`ReportError`] only for a fault of the program.
+    /// [`ReportError`] only for an error of the program.
     pub fn new(study: &Study) -> Result<Self, ReportError> {
         let rows = figures::figures(study)?;
         let mut claims = claims::claims(study)?;
@@ -81,8 +82,8 @@ impl Report {
     }
 }
 
-/// `claims.json`: id, section, claim, verdict and evidence, which ends with why we disagree where
-/// we do.
+/// `claims.json`: id, section, claim, verdict and evidence, which ends with our reasons where we
+/// disagree.
 fn claims_json(claims: &[Claim]) -> String {
     let row = |claim: &Claim| {
         let evidence = format!("{} {}", claim.evidence, claim.remark);

@@ -1,5 +1,5 @@
-//! The report as one page of HTML that needs nothing else: the words of `data/page.html`, and what
-//! was computed where these name it in braces.
+//! The report as one self-contained page of HTML: the text of `data/page.html`, with the computed
+//! values that it names in braces.
 
 mod rows;
 
@@ -14,7 +14,7 @@ use crate::study::{CaseRuns, Study};
 use crate::tables::END_TIMES;
 use maud::{Markup, PreEscaped, html};
 
-/// The symbols that plain text writes with an underscore, set as such.
+/// The symbols that plain text writes with an underscore, with their typeset form.
 const SYMBOLS: [(&str, &str); 8] = [
     ("|θ|_max", "|<i>θ</i>|<sub>max</sub>"),
     ("f_cr", "<i>f</i><sub>cr</sub>"),
@@ -33,7 +33,7 @@ const VERDICTS: [Verdict; 4] = [
     Verdict::NotDecidable,
 ];
 
-/// Plain text with its symbols set as such.
+/// Plain text with its symbols typeset.
 fn symbols(text: &str) -> Markup {
     let escaped = html! { (text) }.into_string();
     let set = |text: String, (plain, marked): &(&str, &str)| text.replace(plain, marked);
@@ -55,7 +55,7 @@ pub(crate) fn page(
     };
     let mut text = String::new();
     for line in include_str!("../data/page.html").lines().map(str::trim) {
-        // Between words a break of the line is a space, between tags it is nothing.
+        // A line break between words is a space, between tags it is nothing.
         let between_tags = text.ends_with('>') && line.starts_with(['<', '{']);
         if !text.is_empty() && !between_tags {
             text.push(' ');
@@ -71,7 +71,7 @@ pub(crate) fn page(
     Ok(text)
 }
 
-/// What the page is made of, and the commands that it mentioned so far.
+/// The data of the page, and the commands that it has mentioned so far.
 struct Page<'a> {
     study: &'a Study,
     figures: &'a [Row<Figure>],
@@ -81,7 +81,7 @@ struct Page<'a> {
 }
 
 impl Page<'_> {
-    /// What stands on the page under a name in braces.
+    /// The content for a name in braces.
     fn computed(&mut self, name: &str) -> Result<Markup, ReportError> {
         let found = self.word(name).or_else(|| self.block(name));
         found.ok_or_else(|| ReportError::Missing(format!("“{name}”")))
@@ -133,7 +133,7 @@ impl Page<'_> {
                 return Some(symbols(symbol));
             }
             words => {
-                // How many claims came to a verdict.
+                // The number of claims with a verdict.
                 let verdict = VERDICTS
                     .into_iter()
                     .find(|verdict| verdict.words() == words)?;
@@ -145,7 +145,7 @@ impl Page<'_> {
         Some(html! { (count) })
     }
 
-    /// After how many impacts the runs of Table 6.1 are no longer known in doubles.
+    /// The numbers of impacts after which the runs of Table 6.1 are past their horizons in doubles.
     fn horizons(&self) -> String {
         let cases = self.study.cases.iter();
         let horizons = cases.filter_map(|case| case.runs.chapter.first_unknown);
@@ -156,7 +156,7 @@ impl Page<'_> {
         }
     }
 
-    /// By how much the end of a run in doubles is off at the most, where it is proved.
+    /// The largest error of the end of a run in doubles, where it is proved.
     fn worst_end(&self) -> f64 {
         let cases = self.study.cases.iter();
         let off = cases.filter_map(|case| {
@@ -166,7 +166,7 @@ impl Page<'_> {
         off.fold(0.0, f64::max)
     }
 
-    /// How many runs have another number of impacts in doubles than is proved.
+    /// The number of runs whose number of impacts in doubles differs from the proved one.
     fn miscounted(&self) -> usize {
         let cases = self.study.cases.iter();
         let differs = |case: &&CaseRuns| {
@@ -179,7 +179,7 @@ impl Page<'_> {
         cases.filter(differs).count()
     }
 
-    /// A part of the page.
+    /// A block of the page.
     fn block(&mut self, name: &str) -> Option<Markup> {
         let (study, figures, claims) = (self.study, self.figures, self.claims);
         Some(match name {
@@ -238,7 +238,7 @@ impl Page<'_> {
         })
     }
 
-    /// The number of a command in the list at the end, which begins with the first mentioned.
+    /// The number of a command in the list at the end, which is in the order of mention.
     fn place(&mut self, command: &str) -> usize {
         let known = self.commands.iter().position(|text| text == command);
         1 + known.unwrap_or_else(|| {
@@ -247,7 +247,7 @@ impl Page<'_> {
         })
     }
 
-    /// A number as a link to the command that makes it again.
+    /// A number as a link to the command that reproduces it.
     fn link(&mut self, number: &Number) -> Markup {
         let Number { command, key, .. } = number;
         let place = self.place(command);
@@ -256,7 +256,7 @@ impl Page<'_> {
         }
     }
 
-    /// A reference such as \[12\], which paper shows too.
+    /// A reference such as \[12\], which is also visible on paper.
     fn cite(&mut self, command: &str) -> Markup {
         let place = self.place(command);
         html! { a.cite href={ "#command-" (place) } title=(command) { "[" (place) "]" } }
@@ -336,7 +336,7 @@ fn sections(claims: &[Claim]) -> impl Iterator<Item = (&str, &[Claim])> {
     sections.map(|claims| (claims[0].section, claims))
 }
 
-/// A command that is broken into lines between its words only, never after a hyphen.
+/// A command that may be broken at its spaces only, never after a hyphen.
 fn command(text: &str) -> Markup {
     html! {
         code.command {

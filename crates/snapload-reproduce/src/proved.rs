@@ -1,7 +1,7 @@
-//! What is proved of runs: computed once and kept with the program, each row with the command that
+//! Proved ends of runs: computed once and stored with the program, each row with the command that
 //! proves it again.
 //!
-//! `cargo run --release -p snapload-reproduce --example prove` makes the files in `data` anew.
+//! `cargo run --release -p snapload-reproduce --example prove` writes the files in `data` again.
 
 use crate::reading::{Reading, published};
 use snapload::analysis::{ForceScan, in_parallel};
@@ -15,7 +15,7 @@ use std::sync::LazyLock;
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(crate) struct Proved {
     pub(crate) reason: Stop,
-    /// When, as a decimal whose digits are all right.
+    /// The time of the end, as a decimal whose digits are all right.
     pub(crate) t: String,
     pub(crate) impacts: usize,
 }
@@ -28,7 +28,7 @@ static KEPT: LazyLock<HashMap<&str, Proved>> = LazyLock::new(|| {
     lines.filter_map(read).collect()
 });
 
-/// A line: the case, and what is proved of it.
+/// A line: the case, and its proved end.
 fn read(line: &str) -> Option<(&str, Proved)> {
     let (rest, impacts) = line.rsplit_once(',')?;
     let (rest, t) = rest.rsplit_once(',')?;
@@ -42,14 +42,14 @@ fn read(line: &str) -> Option<(&str, Proved)> {
     Some((case, proved))
 }
 
-/// The values of a case, as its line begins.
+/// The values of a case, which are the beginning of its line.
 fn case(parameters: &Parameters) -> String {
     let number = |key: &str| parameters.get(key).and_then(|value| value.number());
     let numbers = KEYS.map(|key| number(key).unwrap_or(f64::NAN).to_string());
     format!("{},{}", numbers.join(","), parameters.stop_when_sliding)
 }
 
-/// Whether a case has the standard value of every key that its line does not give.
+/// Whether a case has the standard value of every key that its line does not contain.
 fn is_told_by_its_line(parameters: &Parameters) -> bool {
     let Parameters {
         r,
@@ -76,14 +76,14 @@ fn is_told_by_its_line(parameters: &Parameters) -> bool {
 }
 
 impl Proved {
-    /// What is kept of a case; none where a cable stays taut before a stop rule ends the run, and none
-    /// of a case that differs from the standard one in a key that lines do not give.
+    /// The stored end of a case; none if a cable stays taut before a stop rule ends the run, and
+    /// none for a case that differs from the standard one in a key that lines do not contain.
     pub(crate) fn kept(parameters: &Parameters) -> Option<&'static Self> {
         let known = KEPT.get(case(parameters).as_str());
         known.filter(|_| is_told_by_its_line(parameters))
     }
 
-    /// The proof, made anew.
+    /// The proof, made again.
     pub(crate) fn anew(parameters: &Parameters) -> Option<Self> {
         let case = ExactCase::of(parameters, |_| None).ok()?;
         let proof = match certify(&case, false, &mut |_| ControlFlow::Continue(())) {
@@ -100,17 +100,17 @@ impl Proved {
         }
     }
 
-    /// When it ends, as the double next to it.
+    /// The time of the end, as the double next to it.
     pub(crate) fn time(&self) -> f64 {
         self.t.parse().unwrap_or(f64::NAN)
     }
 }
 
-/// The critical force of a body is looked for until it exceeds before this time.
+/// The scan for the critical force of a body continues until an amplitude exceeds before this time.
 pub(crate) const EARLY: f64 = 18.0;
 
-/// Of a row of Table 6.2 the amplitudes of which a proof is kept, in the chapter's reading: up to the
-/// published one, and to the first that exceeds early.
+/// The amplitudes of a row of Table 6.2 whose proofs are stored, in the chapter's reading: up to
+/// the published one, and to the first that exceeds early.
 pub(crate) fn amplitudes(
     parameters: &Parameters,
     proved: impl Fn(&Parameters) -> Option<Proved>,
@@ -138,7 +138,7 @@ fn under(f_o: f64) -> Parameters {
     })
 }
 
-/// What is proved of the standard case, in the chapter's reading, under each amplitude up to 1.
+/// The proved ends of the standard case, in the chapter's reading, under each amplitude up to 1.
 pub(crate) fn over_force() -> impl Iterator<Item = (f64, Option<&'static Proved>)> {
     let forces = ForceScan::default().amplitudes();
     forces.map(|f_o| (f_o, Proved::kept(&under(f_o))))
@@ -152,8 +152,8 @@ pub(crate) fn with_restitution(e: f64) -> Parameters {
     })
 }
 
-/// The restitutions of which the text tells when the body settles, and whether it exceeds: 0.95, 0.9
-/// … 0.5, and 1, 0.99 … 0.9.
+/// The restitutions for which the text says when the body settles, and whether it exceeds: 0.95,
+/// 0.9 … 0.5, and 1, 0.99 … 0.9.
 pub(crate) fn restitutions() -> [Vec<f64>; 2] {
     let hundredths = |k: i32| f64::from(k) / 100.0;
     [
@@ -162,18 +162,18 @@ pub(crate) fn restitutions() -> [Vec<f64>; 2] {
     ]
 }
 
-/// Further cases of which claims tell how they end, in the chapter's reading.
+/// Further cases whose ends occur in claims, in the chapter's reading.
 fn further() -> Vec<Parameters> {
     let forces = ForceScan::default().amplitudes().map(under);
     let restitutions = restitutions().concat().into_iter().map(with_restitution);
     forces.chain(restitutions).collect()
 }
 
-/// The file of proofs made anew: the cases of Table 6.1 in both readings, the amplitudes of
-/// Table 6.2, and further cases of which claims tell. This takes minutes.
+/// The file of proofs, made again: the cases of Table 6.1 in both readings, the amplitudes of Table
+/// 6.2, and further cases that occur in claims. This takes minutes.
 ///
 /// # Errors
-/// A case that is not legal, which would be a fault of the program.
+/// A case that is not legal, which would be an error of the program.
 pub fn proofs() -> Result<String, CaseError> {
     let line = |parameters: &Parameters, proved: &Proved| {
         let Proved { reason, t, impacts } = proved;
@@ -221,7 +221,7 @@ mod tests {
     use super::*;
     use snapload_verify::Run;
 
-    /// Some of the proofs that are kept come out the same again; and the run of 76 digits is theirs.
+    /// Some of the stored proofs give the same results again; and so does the run of 76 digits.
     #[test]
     fn what_is_kept_is_proved_again() -> Result<(), CaseError> {
         let rows = published();
@@ -230,7 +230,7 @@ mod tests {
             Reading::Chapter.apply(Parameters { f_o, ..parameters })
         };
         let standard = Reading::Chapter.apply(Parameters::STANDARD);
-        // The counterexample to the rotation limit, and an entry that two readings decide.
+        // The counterexample to the rotation limit, and an entry that depends on the reading.
         let e = with_restitution(0.65);
         for case in [
             standard,
@@ -253,13 +253,13 @@ mod tests {
     fn every_line_is_read_and_every_case_stands_once() {
         let lines = include_str!("../data/proved.csv").lines().count() - 1;
         assert!(lines > 500 && KEPT.len() == lines, "{lines} {}", KEPT.len());
-        // An altered case has no proof, an unknown end no line.
+        // A changed case has no proof, an unknown end no line.
         let altered = Parameters {
             f_o: 0.123,
             ..Parameters::STANDARD
         };
         assert_eq!(Proved::kept(&altered), None);
-        // Nor has one that is altered in a key of which the lines know nothing.
+        // Nor does a case that is changed in a key that lines do not contain.
         let standard = Parameters::STANDARD;
         assert!(Proved::kept(&standard).is_some());
         let inertia = Some(0.02);

@@ -3,12 +3,12 @@
 use snapload::analysis::{ForceScan, Unfinished};
 use snapload::{Case, CaseError, Outcome, Parameters, Stop, natural_inertia};
 
-/// How a run that begins to slide is read.
+/// How a run that begins to slide is treated.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub(crate) enum Reading {
-    /// As the chapter's own studies did: the run ends there (6.3.1).
+    /// As in the chapter's own studies: the run ends there (6.3.1).
     Chapter,
-    /// As it is: the motion slides on.
+    /// As the actual motion: it continues to slide.
     SlidingOn,
 }
 
@@ -24,7 +24,7 @@ impl Reading {
         }
     }
 
-    /// The parameters, read so.
+    /// The parameters for this reading.
     pub(crate) fn apply(self, parameters: Parameters) -> Parameters {
         Parameters {
             stop_when_sliding: self == Self::Chapter,
@@ -37,13 +37,13 @@ impl Reading {
         self.either("sliding ends the run (the chapter)", "sliding goes on")
     }
 
-    /// What to add to a command line.
+    /// The option on a command line.
     pub(crate) fn option(self) -> &'static str {
         self.either(" --set stop_when_sliding=true", "")
     }
 }
 
-/// One of each reading.
+/// A value for each reading.
 #[derive(Clone, Debug)]
 pub(crate) struct Both<T> {
     pub(crate) chapter: T,
@@ -125,7 +125,7 @@ pub(crate) fn up_to_exceeding(
     Ok(outcomes)
 }
 
-/// The first force amplitude of a scan that exceeds, with the reason; nothing beyond it is run.
+/// The first force amplitude of a scan that exceeds, with the reason; larger ones are not run.
 pub(crate) fn first_exceeding(
     parameters: &Parameters,
     scan: ForceScan,

@@ -25,12 +25,12 @@ pub(crate) struct Sentence {
     pub(crate) kind: Kind,
 }
 
-/// What a sentence is.
+/// The kind of a sentence.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) enum Kind {
-    /// It says what claims of these names check.
+    /// It makes the claims of these names.
     Claims(Vec<String>),
-    /// It sets a convention, tells what was done, or points to another place.
+    /// It sets a convention, reports what was done, or refers to another place.
     Definition,
     /// It can not be checked by computation, and why.
     NotCheckable(String),
@@ -50,7 +50,7 @@ impl From<[String; 2]> for Sentence {
 }
 
 impl Chapter {
-    /// The table that is kept, checked against the claims.
+    /// The stored table, checked against the claims.
     pub(crate) fn read(claims: &[Claim]) -> Result<Self, ReportError> {
         let sections: BTreeMap<String, Vec<Sentence>> =
             toml::from_str(include_str!("../claims/sentences.toml"))?;
@@ -65,8 +65,8 @@ impl Chapter {
         Ok(chapter)
     }
 
-    /// Whether every claim stems from a sentence, and every sentence that makes claims makes some that
-    /// are judged.
+    /// Checks that every claim stems from a sentence, and that the claims of every sentence are
+    /// judged.
     fn check(&self, ids: &[&str]) -> Result<(), ReportError> {
         let fault = |id: &str, what: &str| Err(ReportError::Claim(format!("claim {id}: {what}")));
         let told: Vec<&str> = self.claimed().collect();
@@ -91,7 +91,7 @@ impl Chapter {
         })
     }
 
-    /// How many sentences are of such a kind.
+    /// The number of sentences of a kind.
     pub(crate) fn count(&self, such: impl Fn(&Kind) -> bool) -> usize {
         self.sentences()
             .filter(|sentence| such(&sentence.kind))
@@ -113,7 +113,7 @@ mod tests {
         }
     }
 
-    /// How many sentences each section of the chapter has, counted in its text.
+    /// The number of sentences in each section of the chapter, counted in its text.
     const SENTENCES: [(&str, usize); 16] = [
         ("6.1", 5),
         ("6.2", 2),

@@ -1,26 +1,26 @@
-//! What makes a number of the report again: a command, and where in its JSON the number stands.
+//! The source of a number of the report: a command, and the number's place in its JSON.
 
 use crate::critical_row::{CriticalRow, NEIGHBOURS};
 use crate::study::Reading;
 
-/// What stands before a number that lies past the horizon of its run.
+/// The prefix of a number that is past the horizon of its run.
 pub(crate) const DOUBTFUL: &str = "~";
 
-/// A number (or a word) of the report, with what makes it again.
+/// A number (or a word) of the report, with its source.
 #[derive(Clone, Debug)]
 pub(crate) struct Number {
-    /// As the report shows it.
+    /// The text that the report shows.
     pub(crate) shown: String,
-    /// In full precision, as the tables beside the report have it.
+    /// The value in full precision, for the tables beside the report.
     pub(crate) exact: String,
     /// The command.
     pub(crate) command: String,
-    /// The place in the JSON that the command prints, in the language of jq.
+    /// The place in the command's JSON, as a jq expression.
     pub(crate) key: String,
 }
 
 impl Number {
-    /// A number, shown with so many decimals.
+    /// A number, shown with `places` decimals.
     pub(crate) fn new(value: f64, places: usize, command: &str, key: impl Into<String>) -> Self {
         Self {
             shown: decimals(value, places),
@@ -28,7 +28,7 @@ impl Number {
         }
     }
 
-    /// A decimal as words, shown with so many decimals.
+    /// A number given as a decimal text, shown with `places` decimals.
     pub(crate) fn decimal(text: &str, places: usize, command: &str, key: &str) -> Self {
         Self {
             shown: text
@@ -48,7 +48,7 @@ impl Number {
         }
     }
 
-    /// Marked as one that rounding decides.
+    /// The number marked as one that depends on rounding.
     pub(crate) fn doubtful(mut self) -> Self {
         self.shown.insert_str(0, DOUBTFUL);
         self
@@ -73,20 +73,20 @@ pub(crate) fn critical(row: &CriticalRow, reading: Reading) -> String {
     format!("{} --json -", scan(row, reading))
 }
 
-/// The command that proves how its run under one amplitude ends.
+/// The command that proves the end of its run under one amplitude.
 pub(crate) fn amplitude(row: &CriticalRow, f_o: f64) -> String {
     let scan = scan(row, Reading::Chapter);
     let set = scan.trim_start_matches("snapload critical");
     format!("snapload certify{set} --set f_o={f_o} --json -")
 }
 
-/// The command that prints how many of its neighbours exceed.
+/// The command that prints the number of its neighbours that exceed.
 pub(crate) fn probability(row: &CriticalRow) -> String {
     let scan = scan(row, Reading::Chapter);
     format!("{scan} --ensemble {NEIGHBOURS} --json -")
 }
 
-/// The command that looks for the critical force of a row.
+/// The command that scans for the critical force of a row.
 pub(crate) fn scan(row: &CriticalRow, reading: Reading) -> String {
     let ([a, b], r) = (row.size, row.r);
     format!(
@@ -98,7 +98,7 @@ pub(crate) fn scan(row: &CriticalRow, reading: Reading) -> String {
 /// The command that makes claims, tables and figures.
 pub(crate) const REPORT: &str = "snapload reproduce --out reproduction";
 
-/// A number with so many decimals and a true minus.
+/// A number with `places` decimals and a true minus sign.
 pub(crate) fn decimals(value: f64, places: usize) -> String {
     format!("{value:.places$}").replace('-', "−")
 }

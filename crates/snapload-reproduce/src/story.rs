@@ -1,34 +1,34 @@
-//! The two examples that slide and rock, told step by step from what is proved of them.
+//! The two examples that slide and rock, step by step from their proofs.
 
 use crate::source::Number;
 use snapload::CaseError;
 use snapload_certificate::{ExactCase, certify};
 use std::ops::ControlFlow;
 
-/// A stretch of motion with taut cables, as it is proved.
+/// A proved stretch of motion with taut cables.
 #[derive(Clone, Debug, PartialEq)]
 struct Stretch {
     /// The taut cables, by number: `1`, `2` or `1+2`.
     taut: String,
     from: String,
     until: String,
-    /// What ends it, in the words of a certificate.
+    /// The event that ends it, in the words of a certificate.
     event: String,
     /// The velocity of the snap that ends it, if one does.
     v_n: Option<f64>,
-    /// How many snaps and stretches are proved before it: its place in the certificate.
+    /// The number of snaps and stretches before it, which is its index in the certificate.
     place: usize,
-    /// How many snaps of these.
+    /// The number of snaps among these.
     snaps: usize,
 }
 
-/// Until when the examples are proved. What follows is one stretch of rocking.
+/// The end of the proofs of the examples. After it there is one stretch of rocking.
 const UNTIL: f64 = 12.0;
 /// The examples.
 const CASES: [&str; 2] = ["sliding-example", "rocking-example"];
-/// How the event of a stretch begins that a snap ends.
+/// The beginning of the event's name if a snap ends the stretch.
 const SNAP: &str = "impact";
-/// Shorter stretches are told together.
+/// Shorter stretches are described together.
 const SHORT: f64 = 0.02;
 
 /// The command that proves an example.
@@ -36,17 +36,17 @@ pub(crate) fn proof(case: &str) -> String {
     format!("snapload certify --taut --case {case} --set t_end={UNTIL} --json -")
 }
 
-/// The file of stretches made anew.
+/// The file of stretches, made again.
 ///
 /// # Errors
-/// A case that is not legal, or a proof that came to no end: faults of the program.
+/// A case that is not legal, or a proof that did not succeed, which would be errors of the program.
 pub fn stretches() -> Result<String, CaseError> {
     let proved = CASES.map(|code| proved(code, UNTIL));
     let lines: Vec<String> = proved.into_iter().collect::<Result<_, _>>()?;
     Ok(String::from("case,taut,from,until,event,v_n,place,snaps\n") + &lines.concat())
 }
 
-/// The stretches of an example up to a time, a line each.
+/// The stretches of an example up to a time, one in each line.
 fn proved(code: &str, until: f64) -> Result<String, CaseError> {
     let mut parameters = snapload::named_case(code)?.parameters;
     parameters.t_end = until;
@@ -66,7 +66,7 @@ fn proved(code: &str, until: f64) -> Result<String, CaseError> {
         let taut: Vec<String> = mode.iter().map(ToString::to_string).collect();
         let (taut, event) = (taut.join("+"), word("event"));
         let (from, until) = (word("from"), word("until"));
-        // A snap that ends a stretch is the line after it; its velocity stands third.
+        // The snap that ends a stretch is in the following line; its velocity is the third value.
         let snap = lines.get(place + 1).filter(|_| event.starts_with(SNAP));
         let v_n = snap.and_then(|snap| snap[2].as_str()).unwrap_or_default();
         text += &format!("{code},{taut},{from},{until},{event},{v_n},{place},{snaps}\n");
@@ -74,7 +74,7 @@ fn proved(code: &str, until: f64) -> Result<String, CaseError> {
     Ok(text)
 }
 
-/// The stretches of an example, as they are kept.
+/// The stored stretches of an example.
 fn kept(code: &str) -> Vec<Stretch> {
     let lines = include_str!("../data/stretches.csv").lines();
     lines
@@ -103,7 +103,7 @@ impl Stretch {
         time(&self.until) - time(&self.from)
     }
 
-    /// What it is and how it ends; `next` is the one after it.
+    /// A description of the stretch and its end; `next` is the one after it.
     fn told(&self, next: Option<&Self>) -> String {
         let lasts = self.lasts();
         let what = match self.taut.as_str() {
@@ -124,8 +124,8 @@ impl Stretch {
     }
 }
 
-/// The slides of an example, up to its rocking, as they are proved: how long each lasts, and the
-/// velocity of the snap of the other cable that ends it.
+/// The proved slides of an example, up to its rocking: the duration of each, and the velocity of
+/// the other cable's snap that ends it.
 pub(crate) fn slides(code: &str) -> Vec<(f64, Option<f64>)> {
     let slides = kept(code)
         .into_iter()
@@ -135,7 +135,7 @@ pub(crate) fn slides(code: &str) -> Vec<(f64, Option<f64>)> {
         .collect()
 }
 
-/// The steps of a story: when each begins, but for the first, and what happens.
+/// The steps of a story: when each begins, except the first, and what happens.
 pub(crate) fn story(code: &str) -> Vec<(Option<Number>, String)> {
     let (stretches, command) = (kept(code), proof(code));
     let begins = |k: usize| {
@@ -209,7 +209,7 @@ mod tests {
             let snaps = |stretch: &Stretch| stretch.event.starts_with(SNAP);
             let velocities = stretches.iter().filter(|s| snaps(s) != s.v_n.is_some());
             assert_eq!(velocities.count(), 0);
-            // In order, and none begins before the one before it ends.
+            // In order, and none begins before the previous one ends.
             let in_order = |pair: &[Stretch]| pair[0].until <= pair[1].from;
             assert!(stretches.windows(2).all(in_order));
         }

@@ -10,13 +10,13 @@ use snapload::analysis::{
 use snapload::{Case, CaseError, Outcome, Parameters, Trajectory, Value, named_case, table_6_1};
 use snapload_verify::Run;
 
-/// A built-in case, its runs, and what is proved of them.
+/// A built-in case, its runs, and their proofs.
 #[derive(Clone, Debug)]
 pub(crate) struct CaseRuns {
     pub(crate) code: &'static str,
     pub(crate) parameters: Parameters,
     pub(crate) runs: Both<Known>,
-    /// What is proved of its runs, where no cable stays taut before a stop rule ends them.
+    /// The proved ends of its runs, if no cable stays taut before a stop rule ends them.
     pub(crate) proved: Both<Option<&'static Proved>>,
     /// The run with many digits, in the chapter's reading.
     pub(crate) exact: Run,
@@ -26,9 +26,9 @@ pub(crate) struct CaseRuns {
 #[derive(Clone, Debug)]
 pub(crate) struct Known {
     pub(crate) run: Trajectory,
-    /// From when on it is not known, as `snapload run` tells it; none if it is to its end.
+    /// Its horizon, as in `snapload run`; none if it is known to its end.
     pub(crate) horizon: Option<f64>,
-    /// The number of the first impact past it.
+    /// The number of the first impact past the horizon.
     pub(crate) first_unknown: Option<usize>,
 }
 
@@ -43,13 +43,13 @@ impl Known {
         })
     }
 
-    /// Whether what happens at a time is known.
+    /// Whether a time is before the horizon.
     pub(crate) fn is_known_at(&self, t: f64) -> bool {
         self.horizon.is_none_or(|horizon| t < horizon)
     }
 }
 
-/// A point of a curve of critical force: the value of the key, and f_cr where there is one.
+/// A point of a curve of critical force: the value of the key, and f_cr if there is one.
 pub(crate) type CriticalPoint = (f64, Option<f64>);
 
 /// A curve of critical force over one key, `e` or `omega`.
@@ -70,16 +70,16 @@ pub(crate) struct NormCurve {
     pub(crate) points: Both<Vec<(f64, Outcome)>>,
 }
 
-/// The largest amplitude at which the curves of critical force are looked for.
+/// The largest amplitude in the scans for the curves of critical force.
 pub(crate) const LARGEST: f64 = 2.0;
 
-/// The values over which the curves of critical force are drawn: key, first, last, how many.
+/// The values over which the curves of critical force are drawn: key, first, last, number.
 const CURVES: [(&str, f64, f64, usize); 2] = [("e", 0.3, 1.0, 71), ("omega", 0.4, 2.4, 101)];
 
 /// The cable lengths of these curves.
 const LENGTHS: [f64; 2] = [1.5, 2.5];
 
-/// Everything that was computed.
+/// All computed results.
 #[derive(Clone, Debug)]
 pub struct Study {
     /// The cases of Table 6.1 in the order of first mention, and the printed variants.
@@ -100,7 +100,7 @@ impl Study {
     /// Computes everything.
     ///
     /// # Errors
-    /// [`Unfinished::Cancelled`]; a case that is not legal would be a fault of the program.
+    /// [`Unfinished::Cancelled`]; a case that is not legal would be an error of the program.
     pub fn compute(on_progress: OnProgress) -> Result<Self, Unfinished> {
         let tell = |doing: &str, part: f64| Progress::new(doing, part, 1.0).tell(on_progress);
         tell("the cases of Table 6.1", 0.0)?;
@@ -170,7 +170,7 @@ impl CaseRuns {
     }
 }
 
-/// The run with so many digits that its end is the one that is proved, if there is a proof.
+/// The run with enough digits that its end agrees with the proved one, if there is a proof.
 pub(crate) fn exact(parameters: &Parameters, proved: Option<&Proved>) -> Result<Run, CaseError> {
     let run = Run::of_76_digits(parameters)?;
     let Some(proved) = proved else {
@@ -201,7 +201,7 @@ fn curve(
     (key, first, last, count): (&'static str, f64, f64, usize),
 ) -> Result<CriticalCurve, Unfinished> {
     let point = |k: usize, reading: Reading| {
-        // Rounded to the decimals that one would write.
+        // Rounded to readable decimals.
         let value = first + (last - first) * k as f64 / (count - 1) as f64;
         let value = (value * 1000.0).round() / 1000.0;
         let mut parameters = standard(r);

@@ -1,4 +1,4 @@
-//! Tables 6.1 and 6.2: what each row comes to, and both as CSV.
+//! Tables 6.1 and 6.2: the results of each row, and both as CSV.
 
 use crate::critical_row::CriticalRow;
 use crate::proved::Proved;
@@ -17,7 +17,7 @@ pub(crate) const NORMS: [Norm; 5] = [
     ("theta_max", "|*θ*|", |norms| norms.theta_max),
 ];
 
-/// Where `snapload critical` tells all intervals that exceed.
+/// The place of all intervals that exceed in the JSON of `snapload critical`.
 pub(crate) const EXCEEDING: &str = ".exceeding";
 
 /// The rows of Table 6.1 in its order, then the variants that it prints under other codes: series,
@@ -34,12 +34,12 @@ pub(crate) fn rows_6_1() -> Vec<(&'static str, &'static str)> {
     table_6_1().chain(printed).collect()
 }
 
-/// The decimals of a time that is proved; all 25 stand in the table beside the report.
+/// The number of decimals shown for a proved time; all 25 are in the table beside the report.
 const PROVED_PLACES: usize = 10;
 
-/// What a run comes to: reason, end, number of impacts, and norms. They are proved, and those of many
-/// digits, where the run ends before a cable stays taut; else those of doubles, marked where they are
-/// past what is known.
+/// The results of a run: reason, end, number of impacts, and norms. They are proved, and from the
+/// run of many digits, if the run ends before a cable stays taut; otherwise they are those of
+/// doubles, marked if they are past the horizon.
 pub(crate) fn outcome(case: &CaseRuns, reading: Reading) -> Vec<Number> {
     match case.proved.of(reading) {
         Some(proved) => known(case, reading, proved),
@@ -49,7 +49,7 @@ pub(crate) fn outcome(case: &CaseRuns, reading: Reading) -> Vec<Number> {
 
 fn known(case: &CaseRuns, reading: Reading, proved: &Proved) -> Vec<Number> {
     let (command, norms) = (proof(case.code, reading), case.exact.norms());
-    // Snap velocities are the third of each line.
+    // Snap velocities are the third value of each line.
     let velocities = ".impacts | map(.[2] | tonumber)";
     let early = ".impacts | map(select((.[1] | tonumber) <= 10) | .[2] | tonumber)";
     let mut numbers = vec![
@@ -60,7 +60,8 @@ fn known(case: &CaseRuns, reading: Reading, proved: &Proved) -> Vec<Number> {
         Number::new(norms.rho2, 4, &command, format!("{early} | add")),
         Number::new(norms.rho3, 4, &command, format!("{velocities} | add")),
     ];
-    // What a certificate does not tell. Where doubles come to the same digits, their command does.
+    // Values that are not in a certificate. If doubles give the same digits, their command is
+    // shown.
     let doubles = case.runs.of(reading).run.norms();
     for (name, _, of) in &NORMS[3..] {
         let exact = Number::new(
@@ -83,7 +84,7 @@ fn known(case: &CaseRuns, reading: Reading, proved: &Proved) -> Vec<Number> {
 fn in_doubles(case: &CaseRuns, reading: Reading) -> Vec<Number> {
     let (known, command) = (case.runs.of(reading), run(case.code, reading));
     let run = &known.run;
-    // An impulse passed into a taut cable is no impact.
+    // An impulse that is passed into a taut cable is not an impact.
     let impacts = run.impacts().iter().filter(|impact| impact.v_n > 0.0);
     let snaps = "[.impacts[] | select(.v_n > 0)] | length";
     let mut numbers = vec![
@@ -101,9 +102,9 @@ fn in_doubles(case: &CaseRuns, reading: Reading) -> Vec<Number> {
     }
 }
 
-/// What an entry of Table 6.2 comes to in the chapter's reading: critical force and its difference
-/// from the published one, whether that exceeds, all proved; from which amplitudes on parts of the
-/// neighbours exceed first, the verdict, and all intervals in doubles.
+/// The results of an entry of Table 6.2 in the chapter's reading: critical force and its difference
+/// from the published one, whether the published one exceeds, all proved; the first amplitudes at
+/// which parts of the neighbours exceed, the verdict, and all intervals in doubles.
 pub(crate) fn critical_outcome(row: &CriticalRow) -> Vec<Number> {
     let published = row.published;
     let (made, neighbours) = (critical(row, Reading::Chapter), probability(row));
@@ -153,16 +154,16 @@ pub(crate) fn critical_outcome(row: &CriticalRow) -> Vec<Number> {
     numbers
 }
 
-/// The shape of a row and its cables, as the report names them.
+/// The shape of a row and its cables, as in the report.
 fn shape(row: &CriticalRow) -> String {
     format!("r = {}, {} x {}", row.r, row.size[0], row.size[1])
 }
 
-/// The times at which a run may be ended: the critical force hangs on them.
+/// Possible end times of runs, on which the critical force depends.
 pub(crate) const END_TIMES: [f64; 4] = [18.0, 25.0, 50.0, 100.0];
 
 /// The critical force of a row by convention: in the chapter's reading with each end time, proved;
-/// where sliding goes on, and where nothing but the two limits ends a run, in doubles.
+/// if sliding continues, and if only the two limits end a run, in doubles.
 pub(crate) fn by_convention(row: &CriticalRow) -> Vec<Number> {
     let none = |command: &str| Number::word("none", command, ".f_cr");
     let mut numbers: Vec<Number> = END_TIMES
@@ -194,7 +195,7 @@ pub(crate) fn by_convention(row: &CriticalRow) -> Vec<Number> {
     numbers
 }
 
-/// A difference with its sign; none where it vanishes.
+/// A difference with its sign; without one if it is zero.
 fn signed(difference: f64) -> String {
     match format!("{difference:+.2}").as_str() {
         "+0.00" | "-0.00" => "0.00".to_owned(),
@@ -231,7 +232,7 @@ pub(crate) fn csv_6_1(study: &Study) -> String {
     table(header, rows)
 }
 
-/// Table 6.2, computed beside published, and by convention.
+/// Table 6.2, with computed and published values, and by convention.
 pub(crate) fn csv_6_2(study: &Study) -> String {
     let header = "r,shape,a,b,published,proved,difference,published_ends,p05,p50,p95,verdict,exceeding,\
                   t_end_18,t_end_25,t_end_50,t_end_100,sliding_on,limits_alone";

@@ -1,8 +1,8 @@
-//! Verdicts, and how they combine.
+//! Verdicts, and their combination.
 
 use serde::Deserialize;
 
-/// What the computation says of a claim.
+/// The verdict of the computation on a claim.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Verdict {
@@ -10,14 +10,14 @@ pub enum Verdict {
     Reproduced,
     /// It disagrees.
     NotReproduced,
-    /// It speaks of several families of cases, holds for some of them and fails for others.
+    /// The claim is about several families of cases, and holds for some of them but not for others.
     Mixed,
-    /// It hangs on motion past the horizon: starts that differ by 1e-12 disagree.
+    /// It depends on motion past the horizon: starts that differ by 1e-12 disagree.
     NotDecidable,
 }
 
 impl Verdict {
-    /// Of a statement that either holds or does not.
+    /// The verdict on a statement that either holds or does not.
     pub(crate) fn of(holds: bool) -> Self {
         if holds {
             Self::Reproduced
@@ -26,8 +26,8 @@ impl Verdict {
         }
     }
 
-    /// Of a statement that holds for some members of an ensemble: all, none, or neither. Without
-    /// members nothing was shown.
+    /// The verdict on a statement that holds for all, none, or some members of an ensemble. Without
+    /// members nothing is shown.
     pub(crate) fn robust(members: impl IntoIterator<Item = bool>) -> Self {
         let (mut yes, mut no) = (false, false);
         for holds in members {
@@ -41,21 +41,21 @@ impl Verdict {
         }
     }
 
-    /// Of a statement that holds if all its parts do. One part that surely fails decides it;
-    /// without parts nothing was shown.
+    /// The verdict on a statement that holds if all its parts do. One part that certainly fails
+    /// decides it; without parts nothing is shown.
     pub(crate) fn all(parts: impl IntoIterator<Item = Self>) -> Self {
         let worst = [Self::NotReproduced, Self::Mixed, Self::NotDecidable];
         Self::first_of(worst, parts).unwrap_or(Self::Reproduced)
     }
 
-    /// Of a statement that holds if one of its parts does.
+    /// The verdict on a statement that holds if one of its parts does.
     pub(crate) fn any(parts: impl IntoIterator<Item = Self>) -> Self {
         let best = [Self::Reproduced, Self::Mixed, Self::NotDecidable];
         Self::first_of(best, parts).unwrap_or(Self::NotReproduced)
     }
 
-    /// Of a statement that speaks of several families of cases, or that can be taken in several
-    /// ways: mixed where it holds for one and fails for another.
+    /// The verdict on a statement about several families of cases, or with several interpretations:
+    /// mixed if it holds for one and fails for another.
     pub(crate) fn families(parts: impl IntoIterator<Item = Self>) -> Self {
         let parts: Vec<Self> = parts.into_iter().collect();
         let both = [Self::Reproduced, Self::NotReproduced];
@@ -66,7 +66,7 @@ impl Verdict {
         }
     }
 
-    /// The first of three verdicts that is among some; the first of all of none.
+    /// The first of three verdicts, in this order, that is among some; for none the first of all.
     fn first_of(order: [Self; 3], parts: impl IntoIterator<Item = Self>) -> Option<Self> {
         let parts: Vec<Self> = parts.into_iter().collect();
         if parts.is_empty() {
@@ -75,7 +75,7 @@ impl Verdict {
         order.into_iter().find(|verdict| parts.contains(verdict))
     }
 
-    /// How many came to this verdict.
+    /// The number of verdicts equal to this one.
     pub(crate) fn count(self, verdicts: impl IntoIterator<Item = Self>) -> usize {
         verdicts
             .into_iter()
@@ -83,7 +83,7 @@ impl Verdict {
             .count()
     }
 
-    /// As it is written in `claims.json` and in the report.
+    /// Its text in `claims.json` and in the report.
     pub fn words(self) -> &'static str {
         match self {
             Self::Reproduced => "reproduced",

@@ -4,7 +4,7 @@
 //! and "Rope/wire", for d in metres there in te/m and kN, here in kg/m and N. Strength of chains:
 //! c d² (44 − 80 d) with d in metres; the coefficients c of the offshore grades R3, R3S and R4 give
 //! the breaking loads that makers of chain print (38 mm: 1319, 1473 and 1621 kN), which a test
-//! holds. They are typical values for a first design, not those of a product.
+//! checks. They are typical values for a first design, not those of a product.
 
 /// A type of line by its name: mass \[kg/m\], stiffness and strength \[N\] of a diameter of 1 m.
 /// The strength of a chain follows from its grade.
@@ -16,7 +16,8 @@ const LINES: [(&str, f64, f64, Option<f64>); 6] = [
     ("polyester", 797.8, 1.09e9, Some(170_466e3)),
     ("nylon", 647.6, 1.18e8, Some(139_357e3)),
 ];
-/// The coefficient c of each grade of chain \[N/m²\]; the first is that of a chain without a grade.
+/// The coefficient c of each grade of chain \[N/m²\]; the first one is used for a chain without a
+/// grade.
 const CHAINS: [(&str, f64); 3] = [("R3", 2.23e7), ("R3S", 2.49e7), ("R4", 2.74e7)];
 
 /// The types of line by their names.
@@ -33,7 +34,7 @@ pub(crate) fn is_chain(kind: &str) -> bool {
         .any(|(name, .., strength)| *name == kind && strength.is_none())
 }
 
-/// What one metre of a line is like.
+/// The properties of one metre of a line.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Section {
     /// Mass per length μ in air \[kg/m\].

@@ -1,11 +1,11 @@
 //! Moored bodies in SI units: kilograms, metres, newtons and seconds.
 //!
-//! A case names a body, its lines, the place and the waves; [`Structure`] is that case, checked.
+//! A case names a body, its lines, the site and the waves; [`Structure`] is that case, checked.
 //! [`Model`] is the same in the units of the engine, [`snapload::System`], which computes the
-//! motion. How the one follows from the other, with sources, is told in `docs/structures.md`.
+//! motion. The derivations, with sources, are in `docs/structures.md`.
 //!
-//! The picture is the usual one: x to the right, z up from the still water, waves along x. The
-//! engine's is upside down; see [`Scales`].
+//! The axes are the usual ones: x to the right, z up from the still water, waves along x. The
+//! engine's y points down; see [`Scales`].
 
 mod catalogue;
 pub mod moordyn;

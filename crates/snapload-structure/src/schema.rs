@@ -5,9 +5,9 @@ use crate::options::PAIRS;
 use snapload::DefaultValue::{Count, Derived, Flag, Number, Required, Word};
 use snapload::{Heading, Key, Kind, Schema, Table};
 
-/// Lengths are at most this \[m\].
+/// The upper bound of lengths \[m\].
 const LONGEST: f64 = 1e5;
-/// Masses, forces and stiffnesses are at most this, in their SI units.
+/// The upper bound of masses, forces and stiffnesses, in their SI units.
 const HEAVIEST: f64 = 1e13;
 
 const MASS: Kind = Kind::positive(HEAVIEST);
@@ -152,9 +152,9 @@ pub static STRUCTURE: Schema = Schema {
     form: "tables such as [body] and below each one `key = value` a line, such as `mass = 72453`",
 };
 
-/// Whether a text looks like the case of a structure, so that it has a table of one.
+/// Whether a text looks like the case of a structure, by having one of its tables.
 pub fn is_structure(text: &str) -> bool {
-    // `body = "point"` is a key of the other sort of case, and has no table.
+    // `body = "point"` is a key of the thesis's case, which has no tables.
     let own = |name: &String| {
         STRUCTURE
             .tables

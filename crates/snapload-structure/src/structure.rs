@@ -1,4 +1,4 @@
-//! A moored structure in SI units, checked once at the border.
+//! A moored structure in SI units, checked once when it is read.
 
 mod added_mass;
 mod afloat;
@@ -16,7 +16,7 @@ use std::sync::Arc;
 /// The outline of the body in the x-z plane.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Outline {
-    /// A circle of the width as its diameter.
+    /// A circle whose diameter is the width.
     Circle,
     /// A rectangle.
     Rectangle,
@@ -37,7 +37,7 @@ impl Outline {
 pub struct BodySi {
     /// Mass m \[kg\].
     pub mass_kg: f64,
-    /// The water that moves with it.
+    /// The added mass of the water.
     pub added_mass: AddedMass,
     /// Outline.
     pub outline: Outline,
@@ -47,17 +47,17 @@ pub struct BodySi {
     pub height_m: f64,
     /// Displaced volume V \[m³\].
     pub displaced_volume_m3: f64,
-    /// Moment of inertia about the centre, beside that of `added_mass` \[kg m²\].
+    /// Moment of inertia about the centre, besides that of `added_mass` \[kg m²\].
     pub moment_of_inertia_kg_m2: f64,
     /// C_d A of the quadratic drag \[m²\].
     pub drag_area_m2: f64,
-    /// Force per velocity of the water past the body \[N s/m\].
+    /// Force per relative velocity of the water \[N s/m\].
     pub linear_damping_n_s_m: f64,
     /// Moment per angular velocity \[N m s\].
     pub turning_damping_n_m_s: f64,
-    /// A load `[x, z]` that does not change \[N\].
+    /// A constant load `[x, z]` \[N\].
     pub constant_force_n: [f64; 2],
-    /// Centre `[x, z]` to which the fairleads are drawn \[m\].
+    /// Position of the centre `[x, z]` for which the fairleads are given \[m\].
     pub position_m: [f64; 2],
 }
 
@@ -70,7 +70,7 @@ pub struct LineSi {
     pub fairlead_m: [f64; 2],
     /// Unstretched length \[m\].
     pub length_m: f64,
-    /// What it is called, from its type and diameter; empty where they are not given.
+    /// Its name, from its type and diameter; empty if they are not given.
     pub name: String,
     /// Axial stiffness EA \[N\].
     pub stiffness_n: Option<f64>,
@@ -81,7 +81,7 @@ pub struct LineSi {
 }
 
 impl BodySi {
-    /// How long it is across the plane, of which the case says nothing but the volume \[m\].
+    /// Its length across the plane: the displaced volume divided by the area of the section \[m\].
     pub fn length_m(&self) -> f64 {
         self.displaced_volume_m3 / self.outline.area_m2([self.width_m, self.height_m])
     }
@@ -93,18 +93,18 @@ impl BodySi {
         self.moment_of_inertia_kg_m2 = afloat.body.mass[(2, 2)];
     }
 
-    /// Mass that has to be moved along x and along z, with the water's \[kg\].
+    /// Mass along x and along z, with the added mass \[kg\].
     pub fn moving_mass_kg(&self) -> [f64; 2] {
         let added = &self.added_mass;
         [added.surge_kg, added.heave_kg].map(|added| self.mass_kg + added)
     }
 
-    /// Moment of inertia about the centre, with the water's \[kg m²\].
+    /// Moment of inertia about the centre, with the added one \[kg m²\].
     pub fn turning_inertia_kg_m2(&self) -> f64 {
         self.moment_of_inertia_kg_m2 + self.added_mass.pitch_kg_m2
     }
 
-    /// Whether a point of the plane is on the body at its position or within it, to a thousandth.
+    /// Whether a point of the plane is on or within the body at its position, to a thousandth.
     pub fn reaches(&self, [x, z]: [f64; 2]) -> bool {
         let [right, up] = [x - self.position_m[0], z - self.position_m[1]];
         let most = 0.501;
@@ -133,14 +133,14 @@ impl LineSi {
     }
 }
 
-/// The place.
+/// The site.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Site {
     /// Depth d \[m\].
     pub depth_m: f64,
     /// Density of the water ρ \[kg/m³\].
     pub water_density_kg_m3: f64,
-    /// Velocity of the water to +x beside that of waves \[m/s\].
+    /// Velocity of the water to +x besides that of waves \[m/s\].
     pub current_m_s: f64,
     /// Gravity g \[m/s²\].
     pub gravity_m_s2: f64,
@@ -175,11 +175,11 @@ pub struct IrregularSea {
     pub peak_period_s: f64,
     /// Seed of its phases.
     pub seed: u64,
-    /// How many sinusoids it is made of.
+    /// The number of its sinusoids.
     pub components: usize,
 }
 
-/// What moves the water.
+/// The motion of the water.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Water {
     /// Nothing.
@@ -190,21 +190,21 @@ pub enum Water {
     Sea(IrregularSea),
 }
 
-/// What stands at the head of a note; what is not given is empty.
+/// The head of a note; texts that are not given are empty.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Project {
-    /// What the structure belongs to.
+    /// The name of the project.
     pub name: String,
-    /// For whom the note is.
+    /// The client of the note.
     pub client: String,
-    /// Who answers for it.
+    /// The author.
     pub author: String,
-    /// Of the note.
+    /// The date of the note.
     pub date: String,
 }
 
 impl Project {
-    /// What is given: its key, its name on a page, and its text.
+    /// The texts that are given: key, name on a page, and text.
     pub(crate) fn rows(&self) -> Vec<[&str; 3]> {
         let all = [
             ["name", "Project", &self.name],
@@ -218,16 +218,16 @@ impl Project {
     }
 }
 
-/// Checks by the rule that a user designs by; each is made where its factors are given.
+/// The user's design rule; each check is made if its factors are given.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct DesignRule {
-    /// Partial factors γ_pret and γ_env, and the characteristic strength over the breaking load.
+    /// Partial factors γ_pret and γ_env, and the ratio of characteristic strength to breaking load.
     pub strength: Option<[f64; 3]>,
-    /// The least tension over that at rest has to be above this.
+    /// The ratio of the least tension to that at rest has to be above this.
     pub least_share: Option<f64>,
     /// γ₁ and γ₂ of γ₁ T_0 + γ₂ (T_min − T_0) > 0.
     pub least_factors: Option<[f64; 2]>,
-    /// The vertical force of the waves over the net buoyancy is at most this.
+    /// The ratio of the waves' vertical force to the net buoyancy is at most this.
     pub force_share: Option<f64>,
 }
 
@@ -255,26 +255,26 @@ impl DesignRule {
     /// The keys of `strength`, which are given together.
     pub(crate) const STRENGTH: [&'static str; 3] =
         ["pretension_factor", "environment_factor", "strength_factor"];
-    /// Those of `least_factors`.
+    /// The keys of `least_factors`, which are given together.
     pub(crate) const LEAST: [&'static str; 2] = ["rest_factor", "dynamic_factor"];
 }
 
-/// A structure and what it is to go through.
+/// A structure and the conditions of its run.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Structure {
-    /// What stands at the head of a note on it.
+    /// The head of a note on it.
     pub project: Project,
     /// The body.
     pub body: BodySi,
     /// The lines.
     pub lines: Vec<LineSi>,
-    /// The place.
+    /// The site.
     pub site: Site,
-    /// What the water does to it, if it floats.
+    /// The forces of the water on it, if it floats.
     pub afloat: Option<Arc<Afloat>>,
     /// The waves.
     pub water: Water,
-    /// Where they go: 1 to +x, −1 to −x.
+    /// The direction of the waves: 1 to +x, −1 to −x.
     pub heading: f64,
     /// Coefficient of restitution e.
     pub restitution: f64,
@@ -282,18 +282,18 @@ pub struct Structure {
     pub duration_s: f64,
     /// Snaps before this are not judged \[s\].
     pub transient_s: f64,
-    /// Centre at the start `[x, z]`; none: where it rests \[m\].
+    /// Centre at the start `[x, z]`; none for the position of rest \[m\].
     pub start_m: Option<[f64; 2]>,
     /// The run ends at more snaps than this.
     pub max_snaps: u64,
-    /// Checks by the rule that it is designed by.
+    /// The user's design rule.
     pub design: DesignRule,
 }
 
-/// Three hours, the time for which a sea is taken to be stationary \[s\].
+/// Three hours, during which a sea is assumed to be stationary \[s\].
 pub const THREE_HOURS_S: f64 = 10_800.0;
 impl Structure {
-    /// Net buoyancy F = (ρV − m) g \[N\]; positive in every checked structure that does not float.
+    /// Net buoyancy F = (ρV − m) g \[N\]; positive for every checked structure that does not float.
     pub fn net_buoyancy_n(&self) -> f64 {
         if let Some(afloat) = &self.afloat {
             return afloat.body.constant_force[1];
@@ -312,12 +312,12 @@ impl Structure {
         [added.surge_kg, added.heave_kg].map(|added| added / self.displaced_mass_kg())
     }
 
-    /// Where the added mass is from that the case does not give; none where it gives all of it.
+    /// The source of added mass that the case does not give; none if it gives all of it.
     pub fn added_mass_source(&self) -> Option<&'static str> {
         self.body.added_mass.source(self.body.outline)
     }
 
-    /// The added mass in words, where the case leaves some of it to the textbook.
+    /// The added mass in words, if the case leaves some of it to the textbook.
     pub fn default_words(&self) -> Option<String> {
         let (body, added) = (&self.body, &self.body.added_mass);
         let source = self.added_mass_source()?;
@@ -333,14 +333,14 @@ impl Structure {
         ))
     }
 
-    /// What the current drags with, ½ ρ C_d A |U| U + b U \[N\].
+    /// The drag of the current, ½ ρ C_d A |U| U + b U \[N\].
     pub fn drag_of_current_n(&self) -> f64 {
         let (body, current) = (&self.body, self.site.current_m_s);
         let quadratic = 0.5 * self.site.water_density_kg_m3 * body.drag_area_m2;
         (quadratic * current.abs() + body.linear_damping_n_s_m) * current
     }
 
-    /// The loads that do not change, beside weight and buoyancy, in words; none where there are none.
+    /// The constant loads besides weight and buoyancy, in words; none if there are none.
     pub fn steady_words(&self) -> Option<String> {
         let (current, [x, z]) = (self.site.current_m_s, self.body.constant_force_n);
         let mut parts = Vec::new();
@@ -362,7 +362,7 @@ impl Structure {
         (!parts.is_empty()).then(|| parts.join("; "))
     }
 
-    /// Where the waves go: the value of their key.
+    /// The direction of the waves: the value of their key.
     pub fn direction(&self) -> &'static str {
         if self.heading < 0.0 { "-x" } else { "+x" }
     }

@@ -1,19 +1,18 @@
-//! Templates as text: paragraphs, and labels with their words. The words stand in `templates/`.
+//! Templates as text: paragraphs, and labels with their texts. The texts are in `templates/`.
 
 use crate::physics::gumbel::Estimate;
 use askama::Template;
 
-/// Columns of the words beside a label.
+/// Columns of the text beside a label.
 const WIDTH: usize = 98;
 
-/// The words of a template as one paragraph.
+/// The text of a template as one paragraph.
 pub(crate) fn paragraph(template: &impl Template) -> String {
     let text = template.to_string();
     text.split_whitespace().collect::<Vec<_>>().join(" ")
 }
 
-/// The lines of a template, of which those below the first that have a bar are a label and its
-/// words.
+/// The lines of a template; below the first line, those with a bar are a label and its text.
 pub(crate) fn laid_out(template: &impl Template) -> String {
     let text = template.to_string();
     let (heading, rows) = text.split_once('\n').unwrap_or((&text, ""));
@@ -24,7 +23,7 @@ pub(crate) fn laid_out(template: &impl Template) -> String {
     format!("{heading}\n{}", rows.lines().map(row).collect::<String>())
 }
 
-/// A label and its words, broken to a width that reads well.
+/// A label and its text, wrapped to a readable width.
 pub fn told(label: &str, words: &str) -> String {
     let mut text = format!("  {label:<10}");
     let mut column = 0;
@@ -48,7 +47,7 @@ pub fn told(label: &str, words: &str) -> String {
 /// Larger numbers are written with a power of ten.
 const LONGEST: f64 = 1e12;
 
-/// A number with so many decimals; what rounding leaves of none has no sign.
+/// A number with `digits` decimals; a value that rounds to zero has no sign.
 pub(crate) fn decimals(value: &f64, digits: usize) -> String {
     if value.abs() >= LONGEST {
         return format!("{value:.1e}");

@@ -1,4 +1,4 @@
-//! What can go wrong with a study.
+//! The errors of a study.
 
 use snapload::CaseError;
 use snapload::analysis::Cancelled;
@@ -6,13 +6,13 @@ use std::fmt::Display;
 use std::io;
 use std::path::{Path, PathBuf};
 
-/// Why a study can not be begun, or not go on.
+/// Why a study can not begin, or not continue.
 #[derive(Debug, thiserror::Error)]
 pub enum StudyError {
     /// A key is unknown, or can not take a value.
     #[error(transparent)]
     Case(#[from] CaseError),
-    /// What was asked for can not be done as it is.
+    /// The request is not possible.
     #[error("{0}")]
     Input(String),
     /// Random points were asked for, and nothing varies; so many keys could.
@@ -21,38 +21,38 @@ pub enum StudyError {
     /// Something stands where the rows are to be kept.
     #[error("{}", .0.in_words("--resume", "--out"))]
     Occupied(Occupied),
-    /// Something broke on the way, such as a full disk.
+    /// Something failed during the work, such as a full disk.
     #[error("{0}")]
     Failed(String),
     /// A file of rows is damaged, or can not be read.
     #[error("can not read {}: {why}", .file.display())]
     Damaged {
-        /// Which file.
+        /// The file.
         file: PathBuf,
         /// What is wrong with it.
         why: String,
     },
-    /// It was told to end.
+    /// It was cancelled.
     #[error(transparent)]
     Cancelled(#[from] Cancelled),
 }
 
-/// What stands where the rows of a study are to be kept.
+/// What is already in the place where the rows of a study are to be kept.
 #[derive(Debug)]
 pub enum Occupied {
-    /// This very study, complete.
+    /// This same study, complete.
     Complete(PathBuf),
-    /// What was this study, and is damaged.
+    /// This study, but damaged.
     Damaged(PathBuf),
-    /// A file of something else.
+    /// A file with other contents.
     OtherFile(PathBuf),
     /// Some rows of this study.
     Begun {
         /// Where they are.
         directory: PathBuf,
-        /// How many are there.
+        /// The number of rows that are there.
         safe: u64,
-        /// How many there are to be.
+        /// The number of rows of the study.
         asked: u64,
     },
     /// Rows of another study.
@@ -64,13 +64,13 @@ pub enum Occupied {
         /// A line of this study that the other does not have.
         here: String,
     },
-    /// Another program that writes there.
+    /// Another program is writing there.
     InUse(PathBuf),
 }
 
 impl Occupied {
-    /// What is there and what to do, in words that call the option to resume and that for the file
-    /// by their names.
+    /// A message that says what is there and what to do; it names the option to resume and the
+    /// option for the file.
     pub fn in_words(&self, resume: &str, out: &str) -> String {
         match self {
             Self::Complete(file) => format!(
@@ -133,7 +133,7 @@ impl StudyError {
         }
     }
 
-    /// The same for a file that somebody named: it is the name that is wrong.
+    /// The same error for a file named by the user, where the name is probably wrong.
     pub(crate) fn of_input(self) -> Self {
         match self {
             Self::Failed(message) => Self::Input(message),
@@ -154,7 +154,7 @@ fn about(verb: &str, called: impl Display, error: &impl Display) -> String {
     format!("can not {verb} {called}: {error}")
 }
 
-/// The system's words without its number: `No space left on device`.
+/// The system's message without its error number: `No space left on device`.
 pub fn without_number(error: &impl Display) -> String {
     let mut text = error.to_string();
     text.truncate(text.find(" (os error").unwrap_or(text.len()));

@@ -1,4 +1,4 @@
-//! Evenly spaced values, each the double nearest to the decimal number that one would write.
+//! Evenly spaced values, each the double nearest to the exact decimal number.
 
 use dashu_int::IBig;
 use dashu_int::UBig;
@@ -6,13 +6,13 @@ use dashu_int::ops::Gcd;
 use dashu_ratio::RBig;
 use std::fmt;
 
-/// So many digits and powers of ten a bound may have: those of doubles, with room.
+/// The most digits, and the largest power of ten, of a bound: those of doubles, with a margin.
 const MOST_DIGITS: usize = 400;
 
 /// Doubles hold all whole numbers up to this one.
 const EXACT: i64 = 1 << 53;
 
-/// `n` values from a first to a last one, both among them.
+/// `n` values from a first to a last one, both included.
 ///
 /// They are computed as fractions of the decimal texts and rounded once, so there is no sum whose
 /// errors would show as 0.30000000000000004.
@@ -33,8 +33,8 @@ pub struct Grid {
 }
 
 impl Grid {
-    /// Of two decimal numbers and how many there are to be, one at the least; none if a text is no
-    /// number.
+    /// A grid from two decimal numbers and the number of values, at least one; none if a text is
+    /// not a number.
     pub fn new(first: &str, last: &str, count: u64) -> Option<Self> {
         let (first, last) = (first.trim(), last.trim());
         let from = decimal(first)?;
@@ -70,7 +70,7 @@ impl Grid {
 }
 
 impl fmt::Display for Grid {
-    /// As it was written, `first:last:n`.
+    /// In its notation, `first:last:n`.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(&self.text)
     }
@@ -94,7 +94,8 @@ fn over_one_denominator(one: &RBig, other: &RBig) -> Option<[i64; 3]> {
 
 /// A decimal number, exactly.
 fn decimal(text: &str) -> Option<RBig> {
-    // What a double can not hold is no number here either: `inf`, `1e999`, `0x10`, nothing at all.
+    // Texts that are not the decimal of a finite double are refused: `inf`, `1e999`, `0x10`, the
+    // empty text.
     text.parse::<f64>()
         .ok()
         .filter(|number| number.is_finite())?;

@@ -1,12 +1,12 @@
-//! Studies: many cases, a row each, in one Parquet file.
+//! Studies: many cases, one row each, in one Parquet file.
 //!
-//! A [`Study`] is a base case and a [`Plan`]: axes of a grid, Sobol points in a box, or a list. It
-//! gives case i without the ones before it, so a study can be cut anywhere: into chunks, into
-//! shards for several machines, at the point where a run was killed. [`rows()`] is the one place
-//! where cases become rows; a [`Store`] keeps each chunk as a file of its own until all are there,
-//! and then joins them. What the file holds depends on the study alone, to the byte: not on
-//! threads, chunks, shards or interruptions. Each file has its checksum in it, which is checked before
-//! its rows go into another one.
+//! A [`Study`] is a base case and a [`Plan`]: axes of a grid, Sobol points in a box, or a list.
+//! Case i does not depend on the ones before it, so a study can be divided anywhere: into chunks,
+//! into shards for several machines, at the point where a run was killed. Only [`rows()`] turns
+//! cases into rows; a [`Store`] keeps each chunk as a file of its own until all are complete, and
+//! then joins them. The contents of the file depend on the study alone, to the byte: not on
+//! threads, chunks, shards or interruptions. Each file contains its checksum, which is checked
+//! before its rows are copied into another one.
 
 mod error;
 mod grid;

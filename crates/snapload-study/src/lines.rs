@@ -1,19 +1,19 @@
-//! The lines of a CSV file, watched while it is read.
+//! Checks of the lines of a CSV file while it is read.
 //!
-//! A reader of CSV takes a record as it comes, however long, and a quote that is not closed takes in
-//! the lines that follow, to the end of the file if need be. No key takes a value of two lines, so
-//! both are slips; they are told here, with their line, before much is read.
+//! A reader of CSV accepts records of any length, and a quote that is not closed includes the lines
+//! that follow, up to the end of the file. No key has a value of two lines, so both are errors;
+//! they are reported here, with their line, before much is read.
 
 use std::fs::File;
 use std::io::{self, BufRead, BufReader, Read};
 use std::path::Path;
 
-/// The longest record. Every key has room in it many times over.
+/// The longest record, which is many times what all keys need.
 const LONGEST: usize = 1 << 20;
-/// What some programs put before the first letter.
+/// The byte order mark that some programs write before the first letter.
 const MARK: &[u8; 3] = b"\xef\xbb\xbf";
 
-/// Where in a record the next byte stands, as the `csv` crate sees it.
+/// The position of the next byte in a record, as the `csv` crate parses it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum At {
     /// Before its first byte; a line without any is no record.
@@ -24,7 +24,7 @@ enum At {
     Plain,
     /// Within quotes.
     Quoted,
-    /// After a quote within quotes: they end, unless another one follows.
+    /// After a quote within quotes, which closes them unless another one follows.
     Quote,
     /// After the end of a line that was within quotes.
     Open,
@@ -36,11 +36,11 @@ struct Lines {
     at: At,
     /// The line, from 1.
     line: u64,
-    /// Whether the last byte was a carriage return, whose line feed is no line of its own.
+    /// Whether the last byte was a carriage return, whose line feed does not count as another line.
     returned: bool,
-    /// How long the record is so far.
+    /// The length of the record so far.
     length: usize,
-    /// How many bytes of a mark were seen, and nothing else.
+    /// The number of bytes of a byte order mark that were read, if nothing else was.
     mark: usize,
 }
 
@@ -85,7 +85,7 @@ impl Lines {
         };
     }
 
-    /// What is wrong by now.
+    /// Reports an error found so far.
     fn check(&self, ended: bool) -> io::Result<()> {
         let open = self.at == At::Open || ended && self.at == At::Quoted;
         let line = self.line;
@@ -100,7 +100,7 @@ impl Lines {
     }
 }
 
-/// A file whose lines are watched.
+/// A file whose lines are checked while it is read.
 #[derive(Debug)]
 pub(crate) struct Watched {
     file: File,

@@ -1,4 +1,4 @@
-//! A list of cases in a CSV or Parquet file, read where it is needed and never as a whole.
+//! A list of cases in a CSV or Parquet file, of which only the needed rows are read.
 
 use crate::StudyError;
 use crate::lines::{Watched, line_of};
@@ -15,16 +15,17 @@ use std::io::Read;
 use std::ops::Range;
 use std::path::{Path, PathBuf};
 
-/// The place of every so many rows of a CSV file is remembered.
+/// The interval between rows of a CSV file whose positions are stored.
 const MARK_EVERY: u64 = 1024;
 
-/// What one row gives: keys with their values, or why it can not be read.
+/// The contents of one row: keys with their values, or why it can not be read.
 pub(crate) type ListRow = Result<Vec<(&'static str, Value)>, CaseError>;
 
 /// Why rows can not be read: an error of the system, of CSV or of Parquet.
 type Unreadable = Box<dyn Error>;
 
-/// A file with a row a case and a column a key. An empty cell leaves the key to the base case.
+/// A file with one row for each case and one column for each key. For an empty cell the base case's
+/// value is used.
 #[derive(Debug)]
 pub struct List {
     path: PathBuf,
@@ -60,7 +61,7 @@ impl List {
         let input = |error: &dyn Display| StudyError::read(called, error).of_input();
         let about = path.metadata().map_err(|error| input(&error))?;
         if !about.is_file() {
-            // It is read more than once, from any row, and has to end.
+            // It is read more than once, from any row, and has to be finite.
             return Err(input(
                 &"a list has to be a file, which can be read more than once",
             ));
@@ -110,27 +111,27 @@ impl List {
         self.count
     }
 
-    /// The name of the file, without the way to it.
+    /// The name of the file, without its folder.
     pub fn name(&self) -> String {
         let name = self.path.file_name().unwrap_or_default();
         name.to_string_lossy().into_owned()
     }
 
-    /// The line of the file in which a row begins; none where it has no lines.
+    /// The line of the file in which a row begins; none if it has no lines.
     pub fn line(&self, row: u64) -> Option<u64> {
         match self.format {
-            // Before the first row is the line of the keys.
+            // The first line contains the keys.
             Format::Csv { .. } => line_of(&self.path, row + 1).ok()?,
             Format::Parquet => None,
         }
     }
 
-    /// The keys that it has columns of, in their order.
+    /// The keys of its columns, in their order.
     pub fn keys(&self) -> &[&'static str] {
         &self.keys
     }
 
-    /// What `sha256sum` prints of the file.
+    /// The SHA-256 of the file, as `sha256sum` prints it.
     pub fn sha256(&self) -> &str {
         &self.sha256
     }
@@ -219,7 +220,7 @@ fn as_csv<R: Read>(file: R) -> Reader<R> {
     builder.flexible(true).trim(Trim::All).from_reader(file)
 }
 
-/// The names of the columns, the place of every 1024th row, and how many rows there are.
+/// The names of the columns, the position of every 1024th row, and the number of rows.
 fn index(path: &Path) -> csv::Result<(Vec<String>, Vec<Position>, u64)> {
     let mut reader = as_csv(Watched::open(path)?);
     let names = reader.byte_headers()?.iter();
@@ -254,7 +255,7 @@ fn named_columns(called: &str, reader: &ParquetReader) -> Result<Vec<String>, St
     fields.collect()
 }
 
-/// What a column holds that no key could, in the format's own words.
+/// The type of a column that no key can have, in the format's terms.
 fn shown_type(field: &Type) -> String {
     let about = field.get_basic_info();
     match (about.logical_type_ref(), about.converted_type()) {
@@ -285,7 +286,7 @@ fn keys(called: &str, names: &[String]) -> Result<Vec<&'static str>, StudyError>
     Ok(keys)
 }
 
-/// A cell of a CSV file; none where it is empty. What is neither number nor flag is a word.
+/// A cell of a CSV file; none if it is empty. A cell that is neither number nor flag is a word.
 fn value(cell: &str) -> Option<Value> {
     Some(match cell {
         "" => return None,

@@ -1,4 +1,4 @@
-//! What a file says of itself: which study, which program, which rows.
+//! The metadata of a file: which study, which program, which rows.
 
 use crate::{Study, StudyError};
 use parquet::file::metadata::KeyValue;
@@ -11,18 +11,18 @@ const STUDY: &str = "snapload.study";
 const VERSION: &str = "snapload.version";
 /// How many cases the study has.
 const CASES: &str = "snapload.cases";
-/// The first row and the one after the last; only where a file does not hold all of them.
+/// The first row and the one after the last; only if a file does not contain all rows.
 const ROWS: &str = "snapload.rows";
 
-/// Which of how many parts; only where a file is one.
+/// Which part of how many; only if a file is a part.
 const SHARD: &str = "snapload.shard";
 
-/// Which rows of which study a file holds.
+/// Which rows of which study a file contains.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Identity {
-    /// The study, as [`Study::describe`] tells it.
+    /// The study, as by [`Study::describe`].
     pub study: String,
-    /// The version of the program that computed it, as another one may have other last bits.
+    /// The version of the program that computed it, as the last bits of another one may differ.
     pub version: String,
     /// How many cases the study has.
     pub cases: u64,
@@ -43,7 +43,7 @@ impl Shard {
     /// Reads `i/n`, such as `1/4` for the first of four.
     ///
     /// # Errors
-    /// [`StudyError::Input`] if it is nothing of the kind.
+    /// [`StudyError::Input`] if the text has another form.
     pub fn parse(text: &str) -> Result<Self, StudyError> {
         let parts = text.split_once('/');
         let numbers =
@@ -56,12 +56,12 @@ impl Shard {
         }
     }
 
-    /// All of as many parts, in order.
+    /// All parts of the same division, in order.
     pub(crate) fn all(self) -> impl Iterator<Item = Self> {
         (1..=self.of).map(move |part| Self { part, ..self })
     }
 
-    /// Its rows, of so many.
+    /// Its rows, of a study with this number of cases.
     pub fn rows(self, cases: u64) -> Range<u64> {
         let bound = |i: u64| (u128::from(cases) * u128::from(i) / u128::from(self.of)) as u64;
         bound(self.part - 1)..bound(self.part)
@@ -69,7 +69,7 @@ impl Shard {
 }
 
 impl fmt::Display for Shard {
-    /// As one writes it, `i/n`.
+    /// In its notation, `i/n`.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(f, "{}/{}", self.part, self.of)
     }
@@ -88,7 +88,7 @@ impl Identity {
         }
     }
 
-    /// The same study and program.
+    /// Whether both are of the same study and program.
     pub(crate) fn goes_with(&self, other: &Self) -> bool {
         (&self.study, &self.version, self.cases) == (&other.study, &other.version, other.cases)
     }

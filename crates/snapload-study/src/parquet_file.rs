@@ -1,7 +1,7 @@
-//! Columns of Parquet files, read from any row.
+//! Reads columns of Parquet files, from any row.
 //!
 //! The Parquet project's own readers and writers of columns do this without Arrow, whose code for
-//! every type there is takes longer to compile than all else that the command line depends on.
+//! all types takes longer to compile than all other dependencies of the command line.
 
 use half::f16;
 use parquet::basic::{Compression, ConvertedType, LogicalType, Repetition, Type as Physical};
@@ -21,7 +21,7 @@ use std::io::{self, Read};
 use std::ops::Range;
 use std::path::Path;
 
-/// What a column holds.
+/// The type of a column's values.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Holds {
     /// Doubles.
@@ -47,7 +47,7 @@ pub enum Values {
     Words(Vec<Option<Cow<'static, str>>>),
 }
 
-/// The same for each kind of values.
+/// Applies the same expression to each type of values.
 macro_rules! of_each {
     ($values:expr, $list:ident => $do:expr) => {
         match $values {
@@ -60,7 +60,7 @@ macro_rules! of_each {
 }
 
 impl Values {
-    /// None yet.
+    /// An empty column.
     pub(crate) fn none(holds: Holds) -> Self {
         match holds {
             Holds::Numbers => Self::Numbers(Vec::new()),
@@ -70,12 +70,12 @@ impl Values {
         }
     }
 
-    /// How many.
+    /// The number of values.
     pub(crate) fn len(&self) -> usize {
         of_each!(self, list => list.len())
     }
 
-    /// Adds others of the same kind.
+    /// Appends values of the same type.
     pub(crate) fn append(&mut self, others: Self) {
         match (self, others) {
             (Self::Numbers(list), Self::Numbers(more)) => list.extend(more),
@@ -86,7 +86,7 @@ impl Values {
         }
     }
 
-    /// Takes the first so many out.
+    /// Removes and returns the first `count` values.
     pub(crate) fn take_first(&mut self, count: usize) -> Self {
         match self {
             Self::Numbers(list) => Self::Numbers(list.drain(..count).collect()),
@@ -117,10 +117,10 @@ pub(crate) struct Reader {
 }
 
 impl Reader {
-    /// The compressions that can be read, beside none.
+    /// The compressions that can be read, besides none.
     pub(crate) const CODECS: &'static str = "snappy, gzip, brotli, lz4, zstd";
 
-    /// The compression of a column that can not be read.
+    /// The compression of a column that can not be read, if there is one.
     pub(crate) fn codec_without_reader(&self) -> Option<&'static str> {
         let groups = self.reader.metadata().row_groups().iter();
         let mut codecs = groups
@@ -137,24 +137,24 @@ impl Reader {
         Ok(Self { reader, file })
     }
 
-    /// What the file says of itself.
+    /// The metadata of the file.
     pub(crate) fn about(&self) -> &FileMetaData {
         self.reader.metadata().file_metadata()
     }
 
-    /// The names of the columns, and what each holds; none where that is no kind of [`Values`].
+    /// The names of the columns, and their types; none for a type that is not in [`Values`].
     pub(crate) fn fields(&self) -> impl Iterator<Item = (&Type, Option<Holds>)> {
         let fields = self.about().schema().get_fields().iter();
         fields.map(|field| (&**field, holds(field)))
     }
 
-    /// How many rows each group has.
+    /// The number of rows of each group.
     pub(crate) fn groups(&self) -> impl ExactSizeIterator<Item = u64> {
         let groups = self.reader.metadata().row_groups().iter();
         groups.map(|group| group.num_rows().unsigned_abs())
     }
 
-    /// Values of columns, given by their places, in some rows of a group.
+    /// Values of columns, given by index, in some rows of a group.
     pub(crate) fn read(
         &self,
         group: usize,
@@ -174,7 +174,7 @@ impl Reader {
     }
 }
 
-/// What a column holds, for those that hold numbers, texts, or true and false.
+/// The type of a column's values, for numbers, texts, and true or false.
 fn holds(field: &Type) -> Option<Holds> {
     use ConvertedType as As;
     let about = field.get_basic_info();
@@ -190,7 +190,7 @@ fn holds(field: &Type) -> Option<Holds> {
         (Physical::FLOAT | Physical::DOUBLE, ..) => Some(Holds::Numbers),
         (_, As::DECIMAL, _) => Some(Holds::Numbers),
         (Physical::FIXED_LEN_BYTE_ARRAY, _, Some(LogicalType::Float16)) => Some(Holds::Numbers),
-        // The unknown type is that of a column of nothing but empty cells.
+        // A column of only empty cells has the unknown type.
         (Physical::INT32 | Physical::INT64, As::NONE, None | Some(LogicalType::Unknown)) => {
             Some(Holds::Counts)
         }
@@ -235,7 +235,7 @@ fn get(reader: ColumnReader, field: &Type, rows: &Range<u64>) -> Result<Values> 
             let counts = list::<Int64Type, _>(reader, rows, |n| Ok(*n))?;
             let too_large = |n: &i64| unsigned && *n < 0;
             match counts.iter().flatten().any(too_large) {
-                // As doubles, so that the key refuses them, in their own rows.
+                // As doubles, so that the key refuses them in the rows where they are.
                 true => Values::Numbers(
                     counts
                         .into_iter()
@@ -287,8 +287,8 @@ fn refused(why: &str) -> ParquetError {
     ParquetError::General(why.to_owned())
 }
 
-/// The whole number of bytes in two's complement, the highest first; rounded where it is so large
-/// that no key takes it.
+/// The integer of bytes in two's complement, the highest first; rounded if it is so large that no
+/// key accepts it.
 fn whole(bytes: &[u8]) -> f64 {
     let negative = bytes.first().is_some_and(|byte| *byte > 0x7f);
     let start = if negative { -1_i128 } else { 0 };
@@ -314,7 +314,7 @@ fn list<D: DataType, V>(
     let (mut values, mut there) = (Vec::new(), Vec::new());
     let (found, ..) = reader.read_records(count, Some(&mut there), None, &mut values)?;
     let mut values = values.iter();
-    // A column in which no value may be missing does not say which are there.
+    // A column in which no value may be missing has no definition levels.
     there.resize(found, 1);
     let list = there.into_iter().map(|level: i16| match level {
         0 => Ok(None),

@@ -1,4 +1,4 @@
-//! Columns of Parquet files, written.
+//! Writes columns of Parquet files.
 
 use crate::parquet_file::{Holds, Reader, Values};
 use bytes::Bytes;
@@ -18,7 +18,7 @@ use rayon::prelude::*;
 use std::io::Write;
 use std::sync::Arc;
 
-/// The name of a column, what it holds, and whether each row has a value.
+/// The name of a column, its type, and whether each row has a value.
 pub(crate) struct Field {
     pub name: &'static str,
     pub holds: Holds,
@@ -56,8 +56,8 @@ impl<W: Write + Send> Writer<W> {
         SerializedFileWriter::new(out, schema(fields)?, Arc::new(properties)).map(Self)
     }
 
-    /// Writes a group of rows, given by its columns. They are encoded on the threads that there are,
-    /// and written one after the other.
+    /// Writes a group of rows, given by its columns. They are encoded on all threads, and written
+    /// one after the other.
     pub(crate) fn write(&mut self, columns: &[Values]) -> Result<()> {
         let places = self.0.schema_descr().columns();
         if places.len() != columns.len() {
@@ -78,8 +78,8 @@ impl<W: Write + Send> Writer<W> {
         Ok(())
     }
 
-    /// Takes a group of rows over from another file as it stands. It has to be encoded in the way of
-    /// this one.
+    /// Copies a group of rows from another file without decoding it. The encoding has to be the
+    /// same as in this file.
     pub(crate) fn take(&mut self, from: &Reader, group: usize) -> Result<()> {
         let about = from.reader.metadata().row_group(group);
         let mut taken = self.0.next_row_group()?;
@@ -118,7 +118,7 @@ fn encoded(
         Values::Counts(list) => put::<Int64Type, _>(&mut column, list, |n| *n)?,
         Values::Flags(list) => put::<BoolType, _>(&mut column, list, |flag| *flag)?,
         Values::Words(list) => {
-            // Most words are those of the row before: they share its bytes.
+            // Most words equal that of the row before, and share its bytes.
             let mut latest = ByteArray::from("");
             put::<ByteArrayType, _>(&mut column, list, |word| {
                 if latest.data() != word.as_bytes() {
@@ -133,8 +133,8 @@ fn encoded(
     Ok((bytes.into_inner()?.into(), close))
 }
 
-/// What a column says of itself without the least and largest value in the fields of the format's
-/// first version. Nobody reads these, so they would be lost where a group is taken from another file.
+/// A column's metadata without the least and largest value in the fields of the format's first
+/// version. Readers ignore these, so they would be lost if a group is copied from another file.
 fn without_old_bounds(about: ColumnChunkMetaData) -> Result<ColumnChunkMetaData> {
     let new = match about.statistics().cloned() {
         Some(Statistics::Boolean(bounds)) => {

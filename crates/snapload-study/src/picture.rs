@@ -10,17 +10,19 @@ use snapload_figures::{
 };
 use std::path::Path;
 
-/// The most cells of a map, and points of a line: more are not seen, and make the file large.
+/// The most cells of a map, and points of a line: more would not be visible, and make the file
+/// large.
 const MOST_CELLS: u64 = 250_000;
 
-/// A picture that can be drawn of a study.
+/// A picture of a study.
 pub struct StudyPicture {
     axes: Vec<Axis>,
     column: &'static Column,
 }
 
 impl StudyPicture {
-    /// Over the axes of a grid: rho1 as a line over one, the end of the runs as a map over two.
+    /// A picture over the axes of a grid: rho1 as a line over one, the end of the runs as a map
+    /// over two.
     ///
     /// # Errors
     /// [`StudyError::Input`] unless one or two axes have several values, which are numbers.
@@ -89,7 +91,7 @@ impl StudyPicture {
         let points = points.map(|(x, cell)| [*x, value(cell)]).collect();
         let mut layers = shades(&thinned.values, &cells);
         layers.push(Layer::Line(vec![points], Stroke::default(), String::new()));
-        // Where there is no legal case, too.
+        // Also if there is no legal case.
         let [first, last] = [0, x.count() - 1].map(|k| x.value(k).number().unwrap_or_default());
         Ok(Plot {
             description: format!("{} against {}", self.column.name, x.key()),
@@ -102,11 +104,11 @@ impl StudyPicture {
 
     fn map(&self, file: &Path, x: &Axis, y: &Axis) -> Result<Plot, StudyError> {
         let side = MOST_CELLS.isqrt();
-        // An axis that needs less than its share leaves the rest to the other.
+        // If an axis needs less than its share of the cells, the other gets the rest.
         let of_x = Thinned::of(x, side.max(MOST_CELLS / y.count().min(side)));
         let of_y = Thinned::of(y, MOST_CELLS / of_x.values.len() as u64);
         let (mut cells, mut doubtful) = (Vec::new(), Vec::new());
-        // Whether and where trust ends is no result that it could leave in doubt.
+        // The end of trust itself is not uncertain beyond the horizon.
         let of_trust = ["certain", "horizon_t", "horizon_impact"];
         let of_motion = !of_trust.contains(&self.column.name);
         self.read(file, |row, cell, doubt| {
@@ -166,7 +168,7 @@ fn named(name: &str) -> Result<&'static Column, StudyError> {
     })
 }
 
-/// The values of an axis that are drawn, and every how many-th these are.
+/// The values of an axis that are drawn, and the step between them.
 struct Thinned {
     step: u64,
     values: Vec<f64>,
@@ -181,7 +183,7 @@ impl Thinned {
     }
 }
 
-/// Grey where there is no legal case: half the way to the neighbours.
+/// Grey where there is no legal case: half the distance to the neighbours.
 fn shades(at: &[f64], cells: &[Cell]) -> Vec<Layer> {
     let half = match at {
         [a, b, ..] => (b - a).abs() / 2.0,
@@ -202,15 +204,15 @@ fn shades(at: &[f64], cells: &[Cell]) -> Vec<Layer> {
     runs.filter_map(shade).collect()
 }
 
-/// The symbol of a key with its unit, for an axis; the name itself where there is no such key.
+/// The symbol of a key with its unit, for an axis; the name itself if there is no such key.
 pub fn key_label(name: &str) -> String {
     let Ok(key) = key_named(name) else {
         return name.to_owned();
     };
-    // As the report's figures have it: the f of f_o alone in italics.
+    // As in the report's figures, only the f of f_o is italic.
     let symbol = match (key.symbol.split_once("_o"), key.name) {
         (Some((letter, "")), _) => format!("*{letter}*ₒ"),
-        // The font of pictures has no letters with dots.
+        // The font of pictures has no dotted letters.
         (_, "vx") => "d*x*/d*t*".to_owned(),
         (_, "vy") => "d*y*/d*t*".to_owned(),
         (_, "vtheta") => "d*θ*/d*t*".to_owned(),

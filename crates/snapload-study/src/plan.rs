@@ -1,10 +1,10 @@
-//! Which cases a study has: the axes of a grid, the sides of a box, or a list.
+//! The cases of a study: the axes of a grid, the sides of a box, or a list.
 
 use crate::{Grid, List, Sobol, StudyError};
 use snapload::{KEYS, Key, Kind, Value, check_entry, key_named};
 use std::fmt;
 
-/// The most cases of a study, for a slip of the keyboard.
+/// The most cases of a study; a larger number is probably a typing error.
 pub const MOST_CASES: u64 = 1_000_000_000_000;
 /// How many random points may be asked for.
 pub const RANDOM: Key = Key::option("random", Kind::Count(1, MOST_CASES));
@@ -23,7 +23,7 @@ enum Values {
 }
 
 impl Axis {
-    /// Evenly spaced.
+    /// An axis with evenly spaced values.
     ///
     /// # Errors
     /// [`StudyError::Case`] if there is no such key, or it can not take the first or the last
@@ -36,7 +36,7 @@ impl Axis {
         Ok(Self { key, values })
     }
 
-    /// Evenly spaced, as one writes it: `first:last:n`.
+    /// An axis in the notation `first:last:n`.
     ///
     /// # Errors
     /// [`StudyError::Input`] if the text is no range, and as for [`Axis::even`].
@@ -57,7 +57,7 @@ impl Axis {
         Self::even(key, grid)
     }
 
-    /// One after the other.
+    /// An axis with listed values.
     ///
     /// # Errors
     /// [`StudyError::Case`] if there is no such key, or it can not take one of the values.
@@ -99,7 +99,7 @@ impl Axis {
 }
 
 impl fmt::Display for Axis {
-    /// As it stands in a study file.
+    /// In the notation of a study file.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match &self.values {
             Values::Even(grid) => write!(f, "\"{grid}\""),
@@ -111,11 +111,11 @@ impl fmt::Display for Axis {
     }
 }
 
-/// How one writes a grid, and a side of a box.
+/// The notation of a grid, and of a side of a box.
 const GRID: &str = "first:last:n for n evenly spaced values, such as 0.01:0.6:60";
 const SIDE: &str = "low:high for the side of a box, such as 0.05:0.6";
 
-/// What a key may vary over, for whoever wrote something else.
+/// The error of a wrong range for a key, with the notation that is allowed.
 fn wrong_range(key: &str, text: &str, what: &str, form: &str) -> StudyError {
     StudyError::Input(format!("{key} = {text:?}: {what}; write {form}"))
 }
@@ -139,10 +139,10 @@ pub struct Side {
 }
 
 impl Side {
-    /// From a lowest value to a highest one, which is not reached itself.
+    /// A side from a lowest value to a highest one, which is not reached itself.
     ///
     /// # Errors
-    /// [`StudyError::Input`] if there is no such key, if it is none that takes every number of a
+    /// [`StudyError::Input`] if there is no such key, if it does not accept every number of a
     /// range, or if it can not take one of the two.
     pub fn new(key: &str, low: f64, high: f64) -> Result<Self, StudyError> {
         check_entry(key, &Value::Number(low))?;
@@ -158,8 +158,8 @@ impl Side {
         Ok(Self { key, low, high })
     }
 
-    /// As one writes it: `low:high`. How many values a grid would have may follow after another
-    /// colon; it does not matter here.
+    /// A side in the notation `low:high`. A number of values, as for a grid, may follow after
+    /// another colon; it has no effect here.
     ///
     /// # Errors
     /// [`StudyError::Input`] if the text is no range, and as for [`Side::new`].
@@ -199,7 +199,7 @@ impl Side {
 }
 
 impl fmt::Display for Side {
-    /// As it stands in a study file, without its quotes.
+    /// In the notation of a study file, without its quotes.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(
             f,
@@ -210,7 +210,7 @@ impl fmt::Display for Side {
     }
 }
 
-/// Which cases a study has.
+/// The cases of a study.
 #[derive(Debug)]
 pub enum Plan {
     /// Every combination of the axes' values; the first axis is the slowest.
@@ -221,9 +221,9 @@ pub enum Plan {
         sides: Vec<Side>,
         /// The points.
         points: Sobol,
-        /// How many.
+        /// The number of points.
         count: u64,
-        /// Which scrambling.
+        /// The seed of the scrambling.
         seed: u64,
     },
     /// The rows of a file.
@@ -270,7 +270,7 @@ impl Plan {
         }
     }
 
-    /// What varies in case `index` of a grid or box.
+    /// The varying keys of case `index` of a grid or box, with their values.
     pub(crate) fn entries(&self, index: u64) -> Vec<(&'static str, Value)> {
         match self {
             Self::Grid(axes) => {
@@ -297,7 +297,7 @@ impl Plan {
     }
 }
 
-/// That no key varies twice.
+/// Checks that no key varies twice.
 fn once(keys: impl Iterator<Item = &'static str>) -> Result<(), StudyError> {
     let mut seen: Vec<&str> = Vec::new();
     for key in keys {
@@ -310,7 +310,7 @@ fn once(keys: impl Iterator<Item = &'static str>) -> Result<(), StudyError> {
     Ok(())
 }
 
-/// That a study has a case, and not too many.
+/// Checks that a study has a case, and not too many.
 fn check_count(count: u64) -> Result<(), StudyError> {
     if (1..=MOST_CASES).contains(&count) {
         return Ok(());

@@ -1,4 +1,4 @@
-//! The one place where cases become rows.
+//! Turns cases into rows.
 
 use crate::{Drawn, NoCase};
 use snapload::analysis::{
@@ -6,23 +6,23 @@ use snapload::analysis::{
 };
 use snapload::{Lanes, Outcome, Parameters};
 
-/// A row of a study: a case and what its run comes to, or of a case that can not be run, why.
+/// A row of a study: a case and the result of its run, or why the case can not be run.
 pub type Row = Result<(Parameters, Run), Box<NoCase>>;
 
-/// What there is to tell of a case that could be run.
+/// The result of a case that was run.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Run {
-    /// What the run comes to.
+    /// The outcome of the run.
     pub outcome: Outcome,
     /// How far the run can be trusted, if that was asked for.
     pub certainty: Option<Certainty>,
 }
 
-/// Runs cases, on the threads that there are, and returns their rows in order: those of the first
-/// cases, as many as are begun until `no_more` says so. Each is counted.
+/// Runs cases, on all threads, and returns their rows in order: those of the first cases, as many
+/// as are begun until `no_more` stops it. Each is counted.
 ///
-/// A row depends on its case alone, so it is the same wherever and with whichever others it is
-/// computed.
+/// A row depends on its case alone, so it is the same wherever and together with whichever cases it
+/// is computed.
 ///
 /// # Errors
 /// [`Cancelled`] if the work is to end before.
@@ -49,7 +49,7 @@ fn side_by_side(
         }
         Err(no_case) => {
             made.push(Err(no_case));
-            // Whoever is told to end hears of it with the next case that can be run.
+            // Cancellation is noticed at the next case that can be run.
             let _ = counter.add(1);
             None
         }
@@ -71,7 +71,7 @@ fn side_by_side(
     }
 }
 
-/// Cases and what their runs come to; of those that can not be run there is nothing told.
+/// Cases with the results of their runs; those that can not be run have none.
 fn together(
     made: Vec<Result<Parameters, Box<NoCase>>>,
     mut told: impl Iterator<Item = Run>,

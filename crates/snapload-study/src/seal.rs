@@ -1,9 +1,9 @@
-//! The checksum of a file, in the file itself.
+//! The checksum of a file, stored in the file itself.
 //!
-//! A Parquet file ends with notes on itself, which any reader skips that does not know them. The
-//! last one here is the SHA-256 of the whole file, in which the checksum's own digits count as
-//! zeros. So every bit of a file is covered, a part that is copied from machine to machine takes
-//! its checksum along, and it stays a Parquet file like any other.
+//! A Parquet file ends with metadata, of which readers skip entries that they do not know. The last
+//! entry here is the SHA-256 of the whole file, computed with zeros in place of its own digits. So
+//! every bit of a file is covered, a part that is copied to another machine contains its checksum,
+//! and it is still an ordinary Parquet file.
 
 use crate::without_number;
 use parquet::file::metadata::KeyValue;
@@ -13,21 +13,21 @@ use std::fs::File;
 use std::io::{self, Read, Seek, SeekFrom, Write};
 use std::path::Path;
 
-/// The name of the note.
+/// The name of the entry.
 const NAME: &str = "snapload.sha256";
-/// How many digits it has.
+/// The number of its digits.
 const DIGITS: usize = 64;
-/// What stands between the name and the digits: the next field, a text, of 64 bytes.
+/// The bytes between the name and the digits: the next field, a text, of 64 bytes.
 const BETWEEN: [u8; 2] = [0x18, 0x40];
-/// A Parquet file ends with the length of its notes in four bytes, and four letters.
+/// A Parquet file ends with the length of its metadata in four bytes, and these four letters.
 const END: &[u8; 4] = b"PAR1";
 
-/// The note of a file whose checksum is not known yet; it has to be the last one.
+/// The entry of a file whose checksum is not known yet; it has to be the last one.
 pub(crate) fn blank() -> KeyValue {
     KeyValue::new(NAME.to_owned(), "0".repeat(DIGITS))
 }
 
-/// Writes the checksum of a file with a blank note into it.
+/// Writes the checksum into a file that has a blank entry.
 pub(crate) fn seal(mut file: impl Read + Write + Seek) -> io::Result<()> {
     let note = Note::find(&mut file)?;
     let note = note.ok_or_else(|| io::Error::other("there is no room for its checksum"))?;
@@ -36,7 +36,7 @@ pub(crate) fn seal(mut file: impl Read + Write + Seek) -> io::Result<()> {
     file.write_all(digits.as_bytes())
 }
 
-/// Why a file is not as it was written; nothing if it is.
+/// Why a file differs from what was written; none if it does not.
 pub(crate) fn flaw(path: &Path) -> Option<String> {
     match File::open(path).and_then(flaw_of) {
         Ok(flaw) => flaw.map(str::to_owned),
@@ -44,7 +44,7 @@ pub(crate) fn flaw(path: &Path) -> Option<String> {
     }
 }
 
-/// The same for bytes or a file that is open.
+/// The same for bytes or an open file.
 pub(crate) fn flaw_of(mut file: impl Read + Seek) -> io::Result<Option<&'static str>> {
     let Some(note) = Note::find(&mut file)? else {
         return Ok(Some("it is damaged, or not a file of snapload sweep"));
@@ -53,7 +53,7 @@ pub(crate) fn flaw_of(mut file: impl Read + Seek) -> io::Result<Option<&'static 
     Ok((!whole).then_some("it is damaged: its checksum is not that of its bytes"))
 }
 
-/// A checksum in a file: where, and its digits.
+/// A checksum in a file: its position, and its digits.
 struct Note {
     place: u64,
     there: [u8; DIGITS],
@@ -90,7 +90,7 @@ impl Note {
         }))
     }
 
-    /// What its digits have to be.
+    /// The digits that are computed from the file.
     fn computed(&self, file: &mut (impl Read + Seek)) -> io::Result<String> {
         let mut sum = Sum::default();
         file.rewind()?;
@@ -102,12 +102,12 @@ impl Note {
     }
 }
 
-/// A SHA-256 in the making.
+/// A SHA-256 that is being computed.
 #[derive(Default)]
 pub(crate) struct Sum(Sha256);
 
 impl Sum {
-    /// Takes in all that there is to read.
+    /// Includes everything from a reader.
     pub(crate) fn add(&mut self, mut from: impl Read) -> io::Result<()> {
         let mut buffer = vec![0; 1 << 16];
         loop {
@@ -119,7 +119,7 @@ impl Sum {
         }
     }
 
-    /// As `sha256sum` prints it.
+    /// In the form of `sha256sum`.
     pub(crate) fn digits(self) -> String {
         let mut digits = String::with_capacity(DIGITS);
         for byte in self.0.finalize() {

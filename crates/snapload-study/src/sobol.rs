@@ -1,7 +1,8 @@
-//! Sobol points, scrambled after Owen, any one of them on its own.
+//! Sobol points with Owen's scrambling, each of which can be computed by itself.
 //!
-//! The crates that offer them stop at 65,536 points in single precision, or go from each point to
-//! the next only; a study needs ten million, and any one of them. Direction numbers: S. Joe and F.
+//! The available crates are limited to 65,536 points in single precision, or compute each point
+//! from the one before; a study needs ten million points in any order. Direction numbers: S. Joe
+//! and F.
 //! Y. Kuo, *Constructing Sobol sequences with better two-dimensional projections*, SIAM J. Sci.
 //! Comput. 30 (2008) 2635-2654, set new-joe-kuo-6.21201.
 
@@ -55,7 +56,7 @@ impl Sobol {
     /// The most dimensions.
     pub const MOST: usize = DIRECTIONS.len() + 1;
 
-    /// A sequence of so many dimensions; none beyond [`Sobol::MOST`]. Another seed is another
+    /// A sequence of `dimensions` dimensions; none beyond [`Sobol::MOST`]. The seed selects the
     /// scrambling.
     pub fn new(dimensions: usize, seed: u64) -> Option<Self> {
         let rest = DIRECTIONS.get(..dimensions.checked_sub(1)?)?;
@@ -99,12 +100,12 @@ fn vectors(direction: &Direction) -> [u64; BITS] {
     v
 }
 
-/// Owen's nested scrambling: every bit is turned over, or not, by a coin that the bits above it
-/// choose.
+/// Owen's nested scrambling: every bit is flipped or not, by a pseudorandom bit that depends on the
+/// bits above it.
 fn scramble(point: u64, key: u64) -> u64 {
     (0..BITS).fold(0, |scrambled, j| {
         let shift = BITS - 1 - j;
-        // The bits above, with a leading one that tells how many they are.
+        // The bits above, with a leading one that encodes their number.
         let above = (1_u64 << j) | (point >> shift >> 1);
         let coin = mix(key ^ mix(above)) >> 63;
         scrambled | ((point >> shift & 1 ^ coin) << shift)
@@ -132,8 +133,8 @@ mod tests {
         0.026474952697753906, 0.3119192123413086, 0.8279962539672852, 0.6682462692260742, 0.6286592483520508, 0.7950620651245117, 0.9707460403442383, 0.016793251037597656, 0.3004159927368164, 0.25440120697021484, 0.638331413269043, 0.9311761856079102, 0.27321720123291016, 0.5333433151245117, 0.6491060256958008, 0.7160959243774414, 0.4430112838745117, 0.25748538970947266, 0.5928945541381836, 0.3822927474975586, 0.040129661560058594,
     ];
 
-    /// Points 1 and 5 of scipy.stats.qmc.Sobol(21, scramble=False), which has the same direction
-    /// numbers, and point 1,000,000 of its last dimensions.
+    /// Points 1 and 5 agree with scipy.stats.qmc.Sobol(21, scramble=False), which uses the same
+    /// direction numbers, and so does point 1,000,000 in its last dimensions.
     #[test]
     fn plain_points_are_those_of_other_programs() {
         let sobol = Sobol::new(Sobol::MOST, 0).expect("as many as there are");
@@ -148,7 +149,8 @@ mod tests {
         assert_eq!(point(1_000_000), MILLIONTH);
     }
 
-    /// Of 2^m points each of the 2^m equal intervals of every coordinate holds one, scrambled too.
+    /// Of 2^m points each of the 2^m equal intervals of every coordinate contains one, also with
+    /// scrambling.
     #[test]
     fn every_interval_has_its_point() {
         let sobol = Sobol::new(Sobol::MOST, 7).expect("as many as there are");

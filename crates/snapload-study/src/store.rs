@@ -1,11 +1,11 @@
-//! Where the rows of a study are kept until all are there.
+//! Keeps the rows of a study until all are complete.
 //!
-//! Beside the file to come stands the directory `FILE.parts`. Each chunk of rows is written there
-//! under a scratch name, brought to the disk, and renamed: it is whole or not at all. When nothing
-//! is missing the chunks are joined, the file is brought to the disk and renamed into its place,
-//! and the directory goes. At whichever point the power fails, what was renamed is still there, and
-//! all else is done again. A chunk that comes back from the disk other than it was written is no
-//! chunk: its rows are missing.
+//! Beside the final file there is the directory `FILE.parts`. Each chunk of rows is written there
+//! under a temporary name, synced to the disk, and renamed: so it is either complete or absent.
+//! When nothing is missing the chunks are joined, the file is synced and renamed to its final name,
+//! and the directory is deleted. Whenever the power fails, renamed chunks are still there, and the
+//! others are computed again. A chunk whose contents on the disk have changed does not count: its
+//! rows are missing.
 
 use crate::seal::{flaw, flaw_of};
 use crate::whole::{identity_of, join, to_bytes};
@@ -20,40 +20,40 @@ use std::path::{Path, PathBuf};
 
 /// The description of the study to which the chunks belong.
 const STUDY: &str = "study.toml";
-/// Held by the program that is at work.
+/// Locked by the program that is working there.
 const LOCK: &str = "lock";
-/// Whatever is not yet whole.
+/// The temporary name of files that are not complete.
 const SCRATCH: &str = "scratch";
 
-/// A study's rows, in the making.
+/// The rows of a study that is not complete yet.
 #[derive(Debug)]
 pub struct Store {
     target: PathBuf,
     directory: PathBuf,
     identity: Identity,
-    /// The chunks that are there: first row, and the one after the last.
+    /// The complete chunks: first row, and the one after the last.
     chunks: BTreeMap<u64, u64>,
-    /// How many rows were there and damaged when it was opened.
+    /// The number of rows that were damaged when it was opened.
     damaged: u64,
     _lock: File,
 }
 
-/// What was found where the file is to be.
+/// The state of the final file.
 #[derive(Debug)]
 pub enum Opened {
-    /// The file itself, complete.
+    /// The file exists and is complete.
     Complete,
-    /// Something to do.
+    /// There are rows to compute.
     Work(Store),
 }
 
 impl Store {
-    /// Opens the place of a file. Rows of an earlier run are taken up only if `resume` says so.
+    /// Opens the place of a file. Rows of an earlier run are used only if `resume` is set.
     ///
     /// # Errors
-    /// [`StudyError::Occupied`] if something else stands there, if another study was begun there,
-    /// or this one was and is not to be resumed, or if another program is at work there;
-    /// [`StudyError::Input`] if there is no such folder, or the name is none of a Parquet file.
+    /// [`StudyError::Occupied`] if something else is there, if another study was begun there, if
+    /// this one was begun and is not to be resumed, or if another program is working there;
+    /// [`StudyError::Input`] if there is no such folder, or the name is not that of a Parquet file.
     pub fn open(target: &Path, identity: Identity, resume: bool) -> Result<Opened, StudyError> {
         check_name(target)?;
         let mut name = OsString::from(target);
@@ -100,32 +100,32 @@ impl Store {
         Ok(Opened::Work(store))
     }
 
-    /// How many rows are safe.
+    /// The number of rows that are saved.
     pub fn safe(&self) -> u64 {
         self.chunks.iter().map(|(start, end)| end - start).sum()
     }
 
-    /// How many rows were found damaged, and so are missing again.
+    /// The number of rows that were found damaged, and are missing again.
     pub fn damaged(&self) -> u64 {
         self.damaged
     }
 
-    /// The rows that there are to be.
+    /// The rows of the final file.
     pub fn rows(&self) -> Range<u64> {
         self.identity.rows.clone()
     }
 
-    /// How many rows there are to be.
+    /// The number of rows of the final file.
     pub fn asked(&self) -> u64 {
         self.identity.rows.end - self.identity.rows.start
     }
 
-    /// The first rows that are missing, up to the next ones that are there.
+    /// The first missing rows, up to the next ones that exist.
     pub fn gap(&self) -> Option<Range<u64>> {
         self.gaps().next()
     }
 
-    /// Every stretch of rows that are missing.
+    /// Every range of missing rows.
     pub fn gaps(&self) -> impl Iterator<Item = Range<u64>> + '_ {
         let Range { start, end } = self.identity.rows;
         let ends = std::iter::once(start).chain(self.chunks.values().copied());
@@ -135,10 +135,10 @@ impl Store {
             .filter(|gap| !gap.is_empty())
     }
 
-    /// Keeps rows, whole or not at all.
+    /// Saves rows, either completely or not at all.
     ///
     /// # Errors
-    /// [`StudyError::Failed`] if the disk is full, for instance.
+    /// [`StudyError::Failed`], for example if the disk is full.
     pub fn save(&mut self, range: Range<u64>, rows: &Made<Row>) -> Result<(), StudyError> {
         let bytes = encode(&self.identity, range.clone(), rows);
         let bytes = bytes.map_err(|error| StudyError::write(&self.directory, error))?;
@@ -147,10 +147,10 @@ impl Store {
         Ok(())
     }
 
-    /// Keeps rows that [`chunk`] made, perhaps on another machine.
+    /// Saves rows that [`chunk`] made, perhaps on another machine.
     ///
     /// # Errors
-    /// [`StudyError::Input`] if they are not those rows of this study, computed by this version of
+    /// [`StudyError::Input`] if they are not these rows of this study, computed by this version of
     /// the program; [`StudyError::Failed`] if they can not be written.
     pub fn keep(&mut self, range: Range<u64>, bytes: &[u8]) -> Result<(), StudyError> {
         let name = chunk_name(&range);
@@ -177,22 +177,22 @@ impl Store {
         )))
     }
 
-    /// Joins all rows into the file and puts it in its place.
+    /// Joins all rows into the final file.
     ///
     /// # Errors
-    /// [`StudyError::Failed`] if the disk is full, for instance; the rows stay where they are.
-    /// [`StudyError::Damaged`] if some came back from the disk other than they were written: those
-    /// are missing now, and all others stay.
+    /// [`StudyError::Failed`], for example if the disk is full; the rows are kept.
+    /// [`StudyError::Damaged`] if the contents of some on the disk have changed: those are missing
+    /// now, and all others are kept.
     pub fn finish(&mut self) -> Result<(), StudyError> {
         let scratch = self.directory.join(SCRATCH);
         let joined = self.join_to(&scratch).and_then(|()| {
             place(&scratch, &self.target).map_err(|error| StudyError::write(&self.target, error))
         });
         if joined.is_err() {
-            // Half a file helps nobody, and takes room where there may be none.
+            // An incomplete file is useless, and takes space that may be needed.
             let _ = fs::remove_file(&scratch);
         } else {
-            // The file is safe; what is left behind the next --resume takes away.
+            // The final file is safe; whatever remains is deleted by the next --resume.
             let _ = fs::remove_dir_all(&self.directory);
         }
         joined
@@ -214,7 +214,7 @@ impl Store {
         wrong.into_iter().next().map_or(Ok(()), Err)
     }
 
-    /// Takes a chunk away that is not as it was written.
+    /// Removes a chunk whose contents have changed.
     fn lose(&mut self, path: &Path) -> Result<(), StudyError> {
         let name = path.file_name().and_then(OsStr::to_str);
         if let Some(range) = name.and_then(parse_chunk_name) {
@@ -243,7 +243,7 @@ impl Store {
         })
     }
 
-    /// Takes up the chunks that are there and whole; what is not is done again.
+    /// Finds the complete chunks; others are computed again.
     fn find_chunks(&mut self) -> Result<(), StudyError> {
         let entries = fs::read_dir(&self.directory);
         let entries = entries.map_err(|error| StudyError::read(self.directory.display(), error))?;
@@ -272,8 +272,7 @@ impl Store {
     }
 }
 
-/// Some rows of a study, computed on the threads that there are, as a file that [`Store::keep`]
-/// takes.
+/// Some rows of a study, computed on all threads, as a file for [`Store::keep`].
 ///
 /// # Errors
 /// [`StudyError::Failed`] if the list of cases can not be read, and [`StudyError::Cancelled`].
@@ -298,7 +297,7 @@ fn encode(whole: &Identity, rows: Range<u64>, made: &Made<Row>) -> io::Result<Ve
     to_bytes(&identity, &made)
 }
 
-/// A finished file where one is to be made.
+/// Handles a file that already exists in the final place.
 fn finished(
     target: &Path,
     directory: &Path,
@@ -335,7 +334,7 @@ fn describe(identity: &Identity) -> String {
     )
 }
 
-/// That the name of a file of rows does not promise something else than Parquet.
+/// Checks that the name of a file of rows ends in `.parquet` or has no ending.
 ///
 /// # Errors
 /// [`StudyError::Input`] if it has another ending.
@@ -350,14 +349,14 @@ pub fn check_name(file: &Path) -> Result<(), StudyError> {
     }
 }
 
-/// The folder that a file's path names, there or not: `.` where it names none.
+/// The folder in a file's path, whether it exists or not: `.` if there is none.
 pub fn parent_of(file: &Path) -> &Path {
     let parent = file.parent();
     let named = parent.filter(|parent| !parent.as_os_str().is_empty());
     named.unwrap_or(Path::new("."))
 }
 
-/// The folder in which a file is to be.
+/// The existing folder for a file.
 ///
 /// # Errors
 /// [`StudyError::Input`] if there is none.
@@ -396,13 +395,12 @@ fn lock(directory: &Path) -> Result<File, StudyError> {
             let there = Occupied::InUse(directory.to_owned());
             Err(StudyError::Occupied(there))
         }
-        // Where the file system knows no locks, as some of clusters do not, there is nothing to
-        // hold.
+        // If the file system does not support locks, as some of clusters do not, none is taken.
         Ok(()) | Err(TryLockError::Error(_)) => Ok(file),
     }
 }
 
-/// Renames a file that is on the disk, and brings the new name there, too.
+/// Renames a file that is synced to the disk, and syncs the new name, too.
 fn place(scratch: &Path, path: &Path) -> io::Result<()> {
     fs::rename(scratch, path)?;
     #[cfg(unix)]

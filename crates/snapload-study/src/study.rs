@@ -1,4 +1,4 @@
-//! A study: what is the same in all its cases, and what varies.
+//! A study: the base case of all its cases, and what varies.
 
 use crate::list::ListRow;
 use crate::{Plan, StudyError};
@@ -20,25 +20,25 @@ pub struct NoCase {
     /// The values of all keys in the order of the schema: those given, and the defaults of the
     /// others.
     pub keys: Vec<Option<Value>>,
-    /// Why it can not.
+    /// Why it can not be run.
     pub error: CaseError,
 }
 
-/// Some cases of a study, in order. Each is made when it is asked for.
+/// Some cases of a study, in order. Each is made when it is needed.
 pub struct Drawn<'a> {
     study: &'a Study,
     range: Range<u64>,
-    /// What the list says of each, if it is a list.
+    /// The rows of the list, if it is one.
     listed: Vec<ListRow>,
 }
 
 impl Study {
-    /// A study of the keys given and of what varies. With `trust` every run says how far it can be
-    /// trusted.
+    /// A study of the given keys and of what varies. With `trust` the certainty of every run is
+    /// computed.
     ///
     /// # Errors
     /// [`StudyError::Input`] if a key of the base is unknown or can not take its value. Whether the
-    /// values go together shows only with those that vary.
+    /// values are compatible depends on those that vary.
     pub fn new(
         base: impl IntoIterator<Item = (String, Value)>,
         plan: Plan,
@@ -59,17 +59,17 @@ impl Study {
         })
     }
 
-    /// How many cases it has.
+    /// The number of its cases.
     pub fn count(&self) -> u64 {
         self.plan.count()
     }
 
-    /// What varies.
+    /// The plan of what varies.
     pub fn plan(&self) -> &Plan {
         &self.plan
     }
 
-    /// Whether every run says how far it can be trusted.
+    /// Whether the certainty of every run is computed.
     pub fn trust(&self) -> bool {
         self.trust
     }
@@ -124,17 +124,17 @@ impl Study {
 }
 
 impl Drawn<'_> {
-    /// Whether each is to say how far it can be trusted.
+    /// Whether the certainty of each run is to be computed.
     pub fn trust(&self) -> bool {
         self.study.trust
     }
 
-    /// How many.
+    /// The number of cases.
     pub fn count(&self) -> usize {
         (self.range.end - self.range.start) as usize
     }
 
-    /// What is given for the k-th of them, from 0: keys and values, those of the base first. Of a
+    /// The values given for the k-th case, from 0: keys and values, those of the base first. For a
     /// key given twice the last value counts.
     ///
     /// # Errors
@@ -150,7 +150,7 @@ impl Drawn<'_> {
         }
     }
 
-    /// The k-th of them, from 0, checked and ready to run.
+    /// The k-th case, from 0, checked and ready to run.
     ///
     /// # Errors
     /// A [`NoCase`] if it can not be run.
@@ -172,7 +172,7 @@ impl NoCase {
     fn of(given: &[(&'static str, Value)], error: CaseError) -> Self {
         let value = |key: &Key| match given.iter().rfind(|(name, _)| *name == key.name) {
             Some((_, value)) => Some(value.clone()),
-            // What follows from other keys does not follow from wrong ones.
+            // Values that are derived from wrong ones are left out.
             None if key.name == "inertia" => None,
             None => Parameters::STANDARD.get(key.name),
         };

@@ -1,4 +1,4 @@
-//! The loop of a study: the next cases, their rows, into the store.
+//! The loop of a study: runs the next cases, and saves their rows in the store.
 
 use crate::whole::GROUP;
 use crate::{Row, Store, Study, StudyError, rows};
@@ -7,27 +7,27 @@ use std::ops::{ControlFlow, Range};
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::{Duration, Instant};
 
-/// For so long cases of a chunk are begun; a crash can cost two of them.
+/// Cases of a chunk are begun for this long; a crash can cost two chunks.
 const BEGUN_FOR: Duration = Duration::from_secs(3);
-/// The most cases of a chunk: what is held in memory at a time, and a group of rows of the file,
-/// which takes such a chunk as it stands.
+/// The most cases of a chunk: what is held in memory at a time, and a row group of the file, into
+/// which such a chunk is copied unchanged.
 const MOST: u64 = GROUP as u64;
 
-/// So often rows that come back from the disk damaged are computed again.
+/// How often rows that are damaged on the disk are computed again.
 const TRIES: u32 = 3;
 
-/// A chunk that is run and not yet safe.
+/// A chunk that is computed but not saved yet.
 type Chunk = (Range<u64>, Made<Row>);
 
-/// Runs what is missing in the store, on the threads that there are, and completes the file. While
-/// a chunk is run the one before it is written. Rows that come back damaged when the file is put
-/// together are run again. If it is told to end, no more cases are begun, and the rows of those
-/// that were are kept.
+/// Runs the cases that are missing in the store, on all threads, and completes the file. While a
+/// chunk is run the one before it is written. Rows that are found damaged when the file is joined
+/// are run again. If the work is cancelled, no more cases are begun, and the rows of those that
+/// were begun are kept.
 ///
 /// # Errors
-/// [`StudyError::Failed`] if rows can not be written, or the list of cases not be read;
-/// [`StudyError::Damaged`] if rows come back damaged again and again; [`StudyError::Cancelled`],
-/// with the number of rows that are safe, if it is told to end.
+/// [`StudyError::Failed`] if rows can not be written, or the list of cases can not be read;
+/// [`StudyError::Damaged`] if rows are damaged repeatedly; [`StudyError::Cancelled`], with the
+/// number of saved rows, if the work is cancelled.
 pub fn sweep(study: &Study, mut store: Store, on_progress: OnProgress) -> Result<(), StudyError> {
     let mut tries = 1;
     loop {
@@ -76,8 +76,8 @@ fn fill(study: &Study, store: &mut Store, on_progress: OnProgress) -> Result<(),
     Ok(())
 }
 
-/// The first of some rows, as many as are begun within the time of a chunk; none if it is told to
-/// end before.
+/// The first of some rows, as many as are begun within the time of a chunk; none if the work is
+/// cancelled before.
 fn chunk(
     study: &Study,
     range: Range<u64>,
@@ -92,7 +92,7 @@ fn chunk(
     Ok((end > range.start).then_some((range.start..end, rows)))
 }
 
-/// The next rows that are missing, after those that are being written, up to the end of their group.
+/// The next missing rows, after those that are being written, up to the end of their row group.
 fn next_range(store: &Store, written: Option<&Chunk>) -> Option<Range<u64>> {
     let from = written.map_or(0, |(range, _)| range.end);
     let mut missing = store.gaps().filter(|gap| gap.end > from);

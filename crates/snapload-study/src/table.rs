@@ -1,5 +1,4 @@
-//! Columns of tables: what each is called, its unit, what it means, and how its values are taken
-//! from a row.
+//! Columns of tables: their names, units and meanings, and how their values are taken from a row.
 
 use crate::parquet_file::{Holds, Values};
 use crate::parquet_writer::Field;
@@ -8,7 +7,7 @@ use snapload::analysis::Horizon;
 use snapload::{FirstImpact, Get, Parameters, Stop, Value, quantity};
 use std::ops::Range;
 
-/// How a column's values are taken from a row; none where the row has no such value.
+/// How a column's values are taken from a row; none if the row has no such value.
 pub enum Take<R = Run> {
     /// A number.
     Number(fn(&R) -> Option<f64>),
@@ -24,9 +23,9 @@ pub enum Take<R = Run> {
 pub struct Column<R = Run> {
     /// Its name.
     pub name: &'static str,
-    /// Its symbol in the text of the model; the name where there is none.
+    /// Its symbol in the text of the model; the name if it has none.
     pub symbol: &'static str,
-    /// Its unit, as in [`snapload::Key::unit`]; empty where it has none.
+    /// Its unit, as in [`snapload::Key::unit`]; empty if it has none.
     pub unit: &'static str,
     /// What it means.
     pub meaning: &'static str,
@@ -35,7 +34,7 @@ pub struct Column<R = Run> {
 }
 
 impl<R> Column<R> {
-    /// A column; the arguments stand in the order in which a table of columns is read.
+    /// A column; the arguments are in the order of the columns of a table of columns.
     pub const fn new(
         name: &'static str,
         symbol: &'static str,
@@ -52,7 +51,7 @@ impl<R> Column<R> {
         }
     }
 
-    /// One of the model's quantities, under its own name; an unknown one has neither unit nor
+    /// One of the model's quantities, under its own name; an unknown name has neither unit nor
     /// meaning.
     pub const fn quantity(name: &'static str, take: Take<R>) -> Self {
         match quantity(name) {
@@ -79,7 +78,7 @@ impl<R> Column<R> {
         }
     }
 
-    /// What it holds.
+    /// The type of its values.
     pub fn holds(&self) -> Holds {
         match self.take {
             Take::Number(_) => Holds::Numbers,
@@ -91,7 +90,7 @@ impl<R> Column<R> {
 }
 
 impl Column {
-    /// The words it may hold, where it holds words.
+    /// Its possible words, if its values are words.
     pub fn words(&self) -> Vec<&'static str> {
         match self.take {
             Take::Word(_) => Stop::ALL.map(Stop::name).to_vec(),
@@ -109,7 +108,7 @@ fn horizon<T>(run: &Run, of: fn(Horizon) -> T) -> Option<T> {
     run.certainty?.horizon.map(of)
 }
 
-/// The columns of a study beside the row's number, the keys and the error, in their order.
+/// The columns of a study besides the row's number, the keys and the error, in their order.
 #[rustfmt::skip] // one row a column
 static COLUMNS: [Column; 18] = [
     Column::new("end", "end", "", Take::Word(|a| a.outcome.end.reason.name()),
@@ -142,12 +141,12 @@ static COLUMNS: [Column; 18] = [
         "whether the way it ends is certain; null without trust"),
 ];
 
-/// The columns that tell what a run comes to.
+/// The columns with the results of a run.
 pub fn columns() -> &'static [Column] {
     &COLUMNS
 }
 
-/// The columns in their order: `row`, the keys, what the runs come to, `error`.
+/// The columns in their order: `row`, the keys, the results, `error`.
 pub(crate) fn fields() -> Vec<Field> {
     let field = |name, holds| Field {
         name,
@@ -169,7 +168,7 @@ pub(crate) fn fields() -> Vec<Field> {
         .collect()
 }
 
-/// Rows as columns; `range` are their places in the study, from 0.
+/// Rows as columns; `range` are their indices in the study, from 0.
 pub(crate) fn columns_of(range: Range<u64>, rows: &[&Row]) -> Vec<Values> {
     let mut columns = vec![Values::Counts(range.map(signed).map(Some).collect())];
     for (k, (_, get)) in Parameters::keys().enumerate() {
@@ -184,10 +183,10 @@ pub(crate) fn columns_of(range: Range<u64>, rows: &[&Row]) -> Vec<Values> {
     columns
 }
 
-/// The values of the k-th key. A value of another type, in a row with an error, is left out: the
-/// error tells it.
+/// The values of the k-th key. A value of another type, in a row with an error, is left out, as the
+/// error contains it.
 fn key_values(rows: &[&Row], k: usize, get: Get) -> Values {
-    /// Of a case that could be run by `of`, of one that could not by `given`.
+    /// Values by `of` for cases that could be run, and by `given` for the others.
     fn values<T>(
         rows: &[&Row],
         k: usize,

@@ -1,4 +1,4 @@
-//! A table as a Parquet file, for answers that are tables and no studies.
+//! Writes a table as a Parquet file, for answers that are not studies.
 
 use crate::parquet_file::{Holds, Values};
 use crate::parquet_writer::{Field, Writer};

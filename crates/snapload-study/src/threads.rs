@@ -1,4 +1,4 @@
-//! How many threads a study takes that is told a number of them.
+//! The number of threads for a study, if a number is asked for.
 
 use snapload::{Key, Kind};
 use std::num::NonZero;
@@ -9,8 +9,8 @@ pub const THREADS: Key = Key::option("threads", Kind::Count(1, 65_535));
 /// Threads for each that the machine runs at a time: enough for whatever it says of itself.
 const MOST: usize = 4;
 
-/// As many threads as asked for, up to a few for each that the machine runs at a time; and where
-/// these are fewer, why.
+/// As many threads as asked for, up to a few for each that the machine runs at a time; and why, if
+/// these are fewer.
 pub fn threads_for(asked: usize) -> (usize, Option<String>) {
     let at_a_time = std::thread::available_parallelism().map_or(1, NonZero::get);
     let threads = asked.min(at_a_time.saturating_mul(MOST));

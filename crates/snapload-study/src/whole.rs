@@ -1,4 +1,4 @@
-//! Files of rows: written, joined in one pass, and read again.
+//! Complete files of rows: writing, joining in one pass, and reading.
 
 use crate::metadata::{Identity, Shard};
 use crate::parquet_file::{Holds, Reader, Values, is_parquet};
@@ -15,13 +15,13 @@ use std::io::{self, BufWriter, Cursor, Write};
 use std::ops::Range;
 use std::path::{Path, PathBuf};
 
-/// Rows of a row group. A constant, as the bytes of a file hang on it.
+/// Rows of a row group. A constant, as the bytes of a file depend on it.
 pub(crate) const GROUP: usize = 1 << 15;
 
-/// How hard columns are compressed; more makes them no shorter.
+/// The level of compression; higher levels make columns no shorter.
 const LEVEL: i32 = 1;
 
-/// So many missing parts are named.
+/// The most missing parts that are named in a message.
 const MOST_NAMES: usize = 10;
 
 /// Rows as the bytes of a file of their own.
@@ -36,9 +36,9 @@ pub(crate) fn to_bytes(identity: &Identity, rows: &[&Row]) -> io::Result<Vec<u8>
     Ok(bytes)
 }
 
-/// How columns are encoded. Words are few, and stand in a dictionary. Numbers that runs come to are
-/// all different, and those of keys follow a pattern, which the compression finds sooner than a
-/// dictionary is made. Statistics are those of a group, which is small enough.
+/// How columns are encoded. There are few different words, which are in a dictionary. The results
+/// of runs are all different, and the numbers of keys follow a pattern, which is compressed without
+/// the time for making a dictionary. Statistics are those of a row group, which is small enough.
 fn properties(identity: &Identity) -> ParquetResult<WriterProperties> {
     let mut notes = identity.to_metadata();
     notes.push(blank());
@@ -57,14 +57,14 @@ fn properties(identity: &Identity) -> ParquetResult<WriterProperties> {
     Ok(words.fold(described, with).build())
 }
 
-/// Puts the rows of files, one file after the other, into a new one, and has it on the disk when it
-/// returns. Groups of rows that fall together with those of the new file are taken as they stand, and
-/// have the bytes that they would have if all rows were taken out and written anew, as others are.
-/// So the bytes depend on the rows and not on how they were cut.
+/// Copies the rows of files, one file after the other, into a new one, and returns when it is
+/// synced to the disk. Row groups that coincide with those of the new file are copied unchanged,
+/// and have the same bytes as if their rows were decoded and written again, as all others are. So
+/// the bytes depend on the rows and not on how they were divided.
 ///
 /// # Errors
-/// [`StudyError::Damaged`] if it is one of the files that is wrong, and [`StudyError::Failed`] if it
-/// is the new one.
+/// [`StudyError::Damaged`] if one of the files is wrong, and [`StudyError::Failed`] if the new one
+/// can not be written.
 pub(crate) fn join(parts: &[PathBuf], out: &Path, identity: &Identity) -> Result<(), StudyError> {
     let wrong = |error: ParquetError| StudyError::write(out, to_io(error));
     let mut made = OpenOptions::new();
@@ -111,7 +111,8 @@ fn open(path: &Path) -> Result<Reader, StudyError> {
     Reader::open(file).map_err(|error| StudyError::damaged(path, error))
 }
 
-/// What a file says of itself, if it is one of this program's and has as many rows as it says.
+/// The identity in a file's metadata, if it is one of this program's and has as many rows as it
+/// says.
 pub fn identity_of(path: &Path) -> Option<Identity> {
     identity(&open(path).ok()?)
 }
@@ -123,7 +124,7 @@ fn identity(reader: &Reader) -> Option<Identity> {
     (u64::try_from(about.num_rows()) == Ok(rows)).then_some(identity)
 }
 
-/// The system's error where there is one, such as a full disk.
+/// The system's error if there is one, such as a full disk.
 pub(crate) fn to_io(error: ParquetError) -> io::Error {
     match error {
         ParquetError::External(inner) => match inner.downcast::<io::Error>() {
@@ -134,7 +135,7 @@ pub(crate) fn to_io(error: ParquetError) -> io::Error {
     }
 }
 
-/// Joins parts of a study into the file that one run would have written, to the byte.
+/// Joins parts of a study into the file that a single run would have written, to the byte.
 ///
 /// # Errors
 /// [`StudyError::Input`] if the files are not all parts of one study by one version of the program,
@@ -182,7 +183,7 @@ pub fn merge(files: &[PathBuf], out: &Path) -> Result<(), StudyError> {
     })
 }
 
-/// What a part says of itself, once it is known to be as it was written.
+/// The identity of a part, after its checksum is checked.
 fn identity_of_part(path: &Path) -> Result<Identity, StudyError> {
     let shown = path.display();
     if File::open(path).is_err() {
@@ -201,7 +202,7 @@ fn identity_of_part(path: &Path) -> Result<Identity, StudyError> {
     })
 }
 
-/// That rows are in none of the parts, and which parts these were to be in.
+/// The error of rows that are in none of the parts, with the names of the missing parts.
 fn missing(rows: Range<u64>, parts: &[(Identity, &PathBuf)]) -> StudyError {
     let there: Option<Vec<Shard>> = parts.iter().map(|(identity, _)| identity.shard).collect();
     let there = there.unwrap_or_default();
@@ -230,15 +231,15 @@ fn missing(rows: Range<u64>, parts: &[(Identity, &PathBuf)]) -> StudyError {
 /// How the runs of a file ended.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct StudyEnds {
-    /// How many in which way.
+    /// The number of runs for each kind of end.
     pub ends: BTreeMap<String, u64>,
-    /// Of how many it was found out whether the end is certain.
+    /// The number of runs whose certainty was computed.
     pub judged: u64,
-    /// How many of these are.
+    /// The number of these whose end is certain.
     pub certain: u64,
-    /// How many rows have an error.
+    /// The number of rows with an error.
     pub errors: u64,
-    /// The number of the first of those, and its error.
+    /// The number of the first row with an error, and the error.
     pub first_error: Option<(u64, String)>,
 }
 
@@ -282,21 +283,21 @@ pub fn ends(path: &Path) -> Result<StudyEnds, StudyError> {
     Ok(tally)
 }
 
-/// What a column holds in one row.
+/// The value of a column in one row.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Shown<'a> {
     /// A number.
     Number(f64),
     /// A word, or `true` or `false`.
     Word(&'a str),
-    /// Nothing, as the run has no such thing.
+    /// None, as the run has no such value.
     Nothing,
-    /// Nothing, as there was no run.
+    /// None, as there was no run.
     Fault,
 }
 
-/// Shows one column of a file, row by row from its first one, which counts as 0, and whether trust
-/// in the run ends before the run does.
+/// Passes the values of one column of a file, row by row from its first one, which is number 0, and
+/// whether trust in the run ends before the run does.
 ///
 /// # Errors
 /// [`StudyError::Damaged`] if it can not be read.
@@ -328,7 +329,7 @@ pub fn read_shown(
     })
 }
 
-/// What the columns of a study's file are called and hold, in their order.
+/// The names and types of the columns of a study's file, in their order.
 pub fn columns_of_files() -> Vec<(&'static str, Holds)> {
     fields()
         .iter()
@@ -336,11 +337,10 @@ pub fn columns_of_files() -> Vec<(&'static str, Holds)> {
         .collect()
 }
 
-/// What a study's file says of itself, once its bytes are compared with its checksum; nothing if it
-/// is another file.
+/// The identity of a study's file, after its checksum is checked; none if it is another file.
 ///
 /// # Errors
-/// [`StudyError::Damaged`] if the file can not be read, or is not as it was written.
+/// [`StudyError::Damaged`] if the file can not be read, or has changed since it was written.
 pub fn checked_identity(path: &Path) -> Result<Option<Identity>, StudyError> {
     if !is_parquet(path).map_err(|error| StudyError::damaged(path, error))? {
         return Ok(None);
@@ -354,8 +354,8 @@ pub fn checked_identity(path: &Path) -> Result<Option<Identity>, StudyError> {
     }
 }
 
-/// One column of a file, some tens of thousands of rows at a time; of these rows, the first of the
-/// file counting as 0.
+/// One column of a file, some tens of thousands of rows at a time, limited to these rows; the first
+/// row of the file is number 0.
 ///
 /// # Errors
 /// [`StudyError::Damaged`] if it can not be read.
@@ -386,7 +386,7 @@ struct Columns<'a> {
 }
 
 impl<'a> Columns<'a> {
-    /// All that a study's file has.
+    /// All columns of a study's file.
     fn all(path: &'a Path) -> Result<Self, StudyError> {
         let names: Vec<&str> = fields().iter().map(|field| field.name).collect();
         Self::named(path, &names)

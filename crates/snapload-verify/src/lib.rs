@@ -1,7 +1,7 @@
-//! Motions with many digits: what an ordinary run is held to.
+//! Motions with many digits, with which an ordinary run is compared.
 //!
-//! The motion is that of the library, over numbers of many digits. It is compiled here, as whatever
-//! uses those numbers would otherwise compile the whole engine for them once more.
+//! The motion is that of the library, over numbers of many digits. It is compiled here, as each
+//! crate that uses those numbers would otherwise compile the whole engine for them again.
 //!
 //! ```
 //! use snapload::analysis::{Unfinished, unwatched};

@@ -1,19 +1,19 @@
-//! Runs of many digits, rounded to doubles once they are made, and runs of doubles in the same shape.
+//! Runs of many digits, rounded to doubles afterwards, and runs of doubles in the same form.
 
 use snapload::{
     Case, CaseError, End, Impact, Norms, Parameters, Precise, Real, Rules, Simulation, State,
     Steps, Stop, System,
 };
 
-/// The digits of a run where few errors grow, and of any other.
+/// The number types with the digits for runs in which errors grow little, and for others.
 type Digits76 = Precise<4>;
 type Digits153 = Precise<8>;
 
-/// A run as tables look at it: of doubles, or of many digits rounded to doubles.
+/// A run for tables: of doubles, or of many digits rounded to doubles.
 #[derive(Clone, Debug)]
 pub struct Run {
     system: System,
-    /// Where each stretch begins: from there the motion within it is computed.
+    /// The beginning of each stretch, from which the motion within it is computed.
     stretches: Vec<(f64, State)>,
     impacts: Vec<Impact>,
     end: End,
@@ -104,7 +104,7 @@ impl Run {
         &self.impacts
     }
 
-    /// The impacts of a cable that was slack: an impulse passed into a taut one is none.
+    /// The impacts of slack cables: an impulse that is passed into a taut one does not count.
     pub fn snaps(&self) -> usize {
         self.impacts.iter().filter(|hit| hit.v_n > 0.0).count()
     }
@@ -142,8 +142,8 @@ fn rounded<T: Real>(state: &State<T>) -> State {
 mod tests {
     use super::*;
 
-    /// The first impacts are those of doubles, the last ones are not; and the motion between them is
-    /// that of the run.
+    /// The first impacts agree with those of doubles, the last ones do not; and the motion between
+    /// them is that of the run.
     #[test]
     fn a_run_of_many_digits_is_one_of_doubles_until_these_are_used_up() -> Result<(), CaseError> {
         let case = Parameters::STANDARD;
@@ -151,7 +151,7 @@ mod tests {
         for (p, q) in exact.impacts().iter().zip(doubles.impacts()).take(100) {
             assert!((p.t - q.t).abs() < 1e-6 && p.cable == q.cable);
         }
-        // What `snapload certify` proves of it, and what doubles make of that.
+        // The number that `snapload certify` proves, and the number in doubles.
         assert_eq!((exact.snaps(), doubles.snaps()), (290, 300));
         assert!((exact.end().t - 7.246_303_94).abs() < 1e-6);
         let run = Case::new(case)?.run();

@@ -1,4 +1,4 @@
-//! Proof by more digits: the same motion again in multi-precision.
+//! Verification by more digits: the same motion again in multi-precision.
 
 use snapload::analysis::{OnProgress, Progress, Trust, Uncertainty, Unfinished, trusted_run};
 use snapload::{
@@ -8,25 +8,25 @@ use snapload::{
 /// The most digits that [`verify`] can compute with.
 pub const MOST_DIGITS: u32 = Precise::<16>::DIGITS;
 
-/// An ordinary run beside the same run with many digits.
+/// An ordinary run together with the same run in many digits.
 #[derive(Clone, Debug)]
 pub struct Verification {
-    /// Decimal digits that the second run was computed with.
+    /// Decimal digits with which the second run was computed.
     pub digits: u32,
-    /// Digits of those that are still right at its end: what its own growth of errors leaves.
+    /// The digits of these that are still right at its end, after its own growth of errors.
     pub digits_left: f64,
     /// The ordinary run.
     pub run: Trajectory,
-    /// What was predicted of it.
+    /// The trust that was computed for it.
     pub trust: Trust,
-    /// Difference of the two at each impact that both have: the largest of time and states, of each
-    /// relative to its value where that is above 1.
+    /// Difference of the two runs at each impact that both have: the largest of the time and the
+    /// states' components, each relative to its value where that is above 1.
     pub differences: Vec<f64>,
     /// The first impact, numbered from 1, that differs by more than the tolerance, or that only one
-    /// of them has. The end counts as the one after the last.
+    /// of them has. The end counts as the impact after the last.
     pub first_wrong: Option<usize>,
-    /// How the run with many digits ends; none if a cable stuck first, as the proof covers slack
-    /// flight, impacts and the stop rules.
+    /// How the run with many digits ends; none if a cable stuck first, as the verification covers
+    /// slack flight, impacts and the stop rules.
     pub end: Option<Stop>,
     /// When it ends.
     pub t: f64,
@@ -34,8 +34,8 @@ pub struct Verification {
     pub impacts: Vec<ExactImpact>,
 }
 
-/// An impact of the run with many digits: numbers with as many decimals as the growth of its own
-/// errors leaves, and two less, as that is an estimate.
+/// An impact of the run with many digits: numbers with as many decimals as remain after the growth
+/// of its own errors, and two fewer, as that is an estimate.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct ExactImpact {
     /// Time \[T\].
@@ -48,14 +48,14 @@ pub struct ExactImpact {
     pub impulse: String,
 }
 
-/// Runs a case with at least `digits` decimal digits beside the ordinary run.
+/// Runs a case with at least `digits` decimal digits, together with the ordinary run.
 ///
-/// The numbers of the case count as decimals: 0.1 is a tenth in the run with many digits, while the
-/// ordinary one begins with the double next to it.
+/// The numbers of the case are taken as decimals: 0.1 is a tenth in the run with many digits, while
+/// the ordinary one uses the double next to it.
 ///
 /// # Errors
-/// A [`CaseError`] if there are more digits asked for than [`MOST_DIGITS`], or if the start, on the
-/// very edge of what is legal, is illegal with more digits; and [`Unfinished::Cancelled`].
+/// A [`CaseError`] if more digits are asked for than [`MOST_DIGITS`], or if the start, at the very
+/// edge of what is legal, is illegal with more digits; and [`Unfinished::Cancelled`].
 pub fn verify(
     case: &Case,
     digits: u32,
@@ -135,8 +135,8 @@ fn with_words<const WORDS: usize>(
     })
 }
 
-/// Whether a run ends in another way, later or sooner than the one with many digits, which has so
-/// many impacts; nothing is known where that has not come to its end.
+/// Whether a run ends in another way, later or sooner than the one with many digits, which has
+/// `impacts` impacts; unknown if that has not ended.
 fn ends_otherwise<T: Real>(
     run: &Trajectory,
     exact: &Simulation<T>,
@@ -150,7 +150,7 @@ fn ends_otherwise<T: Real>(
     })
 }
 
-/// How many decimals the growth of errors leaves of a run with many digits.
+/// The number of decimals of a run with many digits that remain after the growth of errors.
 struct Decimals<'a> {
     trust: &'a Trust,
     digits: f64,
@@ -168,8 +168,9 @@ impl<'a> Decimals<'a> {
         }
     }
 
-    /// At an impact, by its index: what the ordinary run lost up to there, the run with many digits
-    /// has lost as well; where the ordinary one has lost all, by the mean growth.
+    /// The number at an impact, by its index: the digits that the ordinary run has lost up to there
+    /// are also lost in the run with many digits; after the ordinary one has lost all, the mean
+    /// growth is used.
     fn at(&mut self, impact: usize, t: f64) -> usize {
         let errors = &self.trust.errors;
         let known = errors.get(impact).filter(|error| error.is_finite());
@@ -191,7 +192,7 @@ impl ExactImpact {
     }
 }
 
-/// The digits that the growth of errors leaves at the end.
+/// The digits that remain at the end after the growth of errors.
 fn digits_left<const WORDS: usize>(trust: &Trust, simulation: &Simulation<Precise<WORDS>>) -> f64 {
     let growth = trust.exponents[0].max(0.0) * simulation.time().to_f64();
     f64::from(Precise::<WORDS>::DIGITS) - growth * std::f64::consts::LOG10_E
@@ -220,7 +221,7 @@ mod tests {
     use std::ops::ControlFlow::{Break, Continue};
     use std::sync::Mutex;
 
-    /// With twice the digits each decimal is the same, but for a rounding of the last one.
+    /// With twice the digits each decimal is the same, up to a rounding of the last one.
     #[test]
     fn decimals_that_are_told_are_right() -> Result<(), Unfinished> {
         let case = Case::new(Parameters::STANDARD)?;
@@ -243,7 +244,7 @@ mod tests {
                     .split_once('.')
                     .map_or(0, |(_, fraction)| fraction.len());
                 assert!(decimals >= 30 && many.len() > few.len(), "{few} {many}");
-                // The last 30 places of both, as far as numbers hold them.
+                // The last 30 places of both, which fit into the integers.
                 let last = |text: &str| -> i128 {
                     let units = units(text, decimals);
                     units[units.len() - 30..].parse().expect("digits")
@@ -254,7 +255,7 @@ mod tests {
         Ok(())
     }
 
-    /// It tells of its progress, which only grows, and ends where it is told to.
+    /// It reports its progress, which only increases, and ends when it is cancelled.
     #[test]
     fn a_proof_can_be_watched_and_cancelled() -> Result<(), Unfinished> {
         let case = Case::new(Parameters::STANDARD)?;

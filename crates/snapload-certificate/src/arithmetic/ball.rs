@@ -1,5 +1,5 @@
-//! Balls: a midpoint and a radius. A ball stands for some number within it, and the result of an
-//! operation for what that operation makes of any numbers within its balls.
+//! Balls: a midpoint and a radius. A ball encloses an unknown number; the result of an operation is
+//! a ball that encloses what the operation makes of any numbers within the balls given.
 
 use crate::arithmetic::number::{Number, Rounded};
 use crate::arithmetic::radius::Radius;
@@ -12,14 +12,15 @@ pub(crate) struct Ball {
     radius: Radius,
 }
 
-/// Newton's method for a reciprocal or a root doubles the digits that a double has; two limbs more
-/// than that begin with.
+/// How many steps of Newton's method a reciprocal or a root needs: a double gives the first digits,
+/// each step doubles them, up to two limbs more than `limbs`.
 fn newton_steps(limbs: usize) -> u32 {
     (64 * limbs / 45).ilog2() + 1
 }
 
 impl Ball {
-    /// What was rounded differs from the true value by less than two units of its last bit.
+    /// A rounded midpoint differs from the exact one by less than two units of its last bit, which
+    /// the radius has to include.
     fn rounded((mid, inexact): Rounded, radius: Radius) -> Self {
         let radius = if inexact {
             radius.plus(Radius::power_of_two(mid.unit() + 1))
@@ -44,18 +45,18 @@ impl Ball {
         Self::exact(Number::from_integer(integer))
     }
 
-    /// A double, exactly; what is no number counts as zero.
+    /// The ball of one double, exactly; infinity and NaN give zero.
     pub(crate) fn double(value: f64) -> Self {
         Self::exact(Number::from_f64(value).unwrap_or_else(Number::zero))
     }
 
-    /// ± the integer of these limbs · 2^power, with so many limbs.
+    /// ± the integer of these limbs · 2^power, rounded to at most `most` limbs.
     pub(crate) fn from_limbs(negative: bool, limbs: &[u64], power: i64, most: usize) -> Self {
         let rounded = Number::from_limbs(negative, limbs, power, most);
         Self::rounded(rounded, Radius::ZERO)
     }
 
-    /// The number that a bound is, exactly.
+    /// The value of a bound as a ball without a radius, exactly.
     pub(crate) fn bound(radius: Radius) -> Self {
         let (mantissa, exponent) = radius.parts();
         Self::from_limbs(false, &[mantissa], exponent, 1)
@@ -69,12 +70,13 @@ impl Ball {
         }
     }
 
-    /// The same with so many limbs, and so what is made of it.
+    /// This ball with its midpoint at `limbs` limbs; results computed from it then have that
+    /// precision.
     pub(crate) fn with_limbs(&self, limbs: usize) -> Self {
         Self::rounded(self.mid.with_limbs(limbs), self.radius)
     }
 
-    /// Its midpoint as a ball of one number.
+    /// The midpoint as a ball of radius zero.
     pub(crate) fn centre(&self) -> Self {
         Self::exact(self.mid.clone())
     }
@@ -87,16 +89,16 @@ impl Ball {
         self.radius
     }
 
-    /// The ball with a radius so much larger.
+    /// The ball with its radius enlarged by `by`.
     pub(crate) fn widened(mut self, by: Radius) -> Self {
         self.radius = self.radius.plus(by);
         self
     }
 
-    /// A ball that holds both.
+    /// A ball that contains both balls.
     ///
-    /// About the middle of the two midpoints; from there to any number of either is at most half
-    /// their distance and the larger radius.
+    /// Its midpoint is the middle between the two midpoints; the distance from there to any number
+    /// of either ball is at most half the distance of the midpoints plus the larger radius.
     pub(crate) fn hull(&self, other: &Self) -> Self {
         let distance = (&self.centre() - &other.centre()).upper().scaled(-1);
         let middle = (&self.centre() + &other.centre()).half();
@@ -130,7 +132,7 @@ impl Ball {
         (self - other).is_negative()
     }
 
-    /// Whether it is zero and nothing else.
+    /// Whether the ball contains zero and no other number.
     pub(crate) fn is_zero(&self) -> bool {
         self.mid.is_zero() && self.radius.is_zero()
     }
@@ -173,9 +175,9 @@ impl Ball {
 
     /// The reciprocal; none if zero is in the ball.
     ///
-    /// Whatever x is, for every β in the ball |1/β − x| = |1 − βx|/|β|. The numerator is bounded by
+    /// For any x and every β in the ball, |1/β − x| = |1 − βx|/|β|. The numerator is bounded by
     /// evaluating 1 − βx in balls, the denominator by the ball's smallest magnitude. Newton's
-    /// method makes x so good that this is little, and has no part in the proof.
+    /// method only makes x so good that the bound is small; the proof does not depend on it.
     pub(crate) fn reciprocal(&self) -> Option<Self> {
         let least = self.lower();
         if least.is_zero() {
@@ -205,7 +207,7 @@ impl Ball {
 
     /// The square root; none unless all numbers of the ball are positive.
     ///
-    /// Whatever s > 0 is, for every α in the ball |√α − s| = |α − s²|/(√α + s) ≤ |α − s²|/s, and the
+    /// For any s > 0 and every α in the ball, |√α − s| = |α − s²|/(√α + s) ≤ |α − s²|/s, and the
     /// numerator is bounded by evaluating it in balls. s comes from Newton's method for 1/√α.
     pub(crate) fn sqrt(&self) -> Option<Self> {
         if !self.is_positive() {
@@ -241,13 +243,14 @@ impl Ball {
     }
 }
 
-/// The top 32 bits and one more unit of them; see [`Number`] for the power of two.
+/// A bound on |number| from its top 32 bits plus one unit of them; see [`Number`] for the power of
+/// two.
 fn magnitude_above(number: &Number) -> Radius {
     let top = number.limbs.last().copied().unwrap_or(0);
     if top == 0 {
         return Radius::ZERO;
     }
-    // One below the top may be set: the number is below (top + 1) · 2^(exponent − 64).
+    // The bits cut off below the top may be set: the number is below (top + 1) · 2^(exponent − 64).
     let exact = number.limbs[..number.limbs.len() - 1]
         .iter()
         .all(|limb| *limb == 0);
@@ -311,7 +314,7 @@ impl Mul for &Ball {
     }
 }
 
-/// The same operators for balls that are given away.
+/// The same operators for operands passed by value.
 macro_rules! by_value {
     ($($operator:ident $method:ident),*) => {$(
         impl $operator<Ball> for Ball {

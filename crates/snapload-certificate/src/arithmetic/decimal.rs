@@ -1,4 +1,4 @@
-//! Decimals: exact as they are written, and printed where an enclosure decides every digit.
+//! Decimals: read exactly, and printed only where an enclosure decides every digit.
 
 use crate::arithmetic::ball::Ball;
 use dashu_int::{IBig, Sign, UBig};
@@ -87,7 +87,7 @@ impl Decimal {
         Self::parse(&text)
     }
 
-    /// As it was written.
+    /// The text from which it was read.
     pub fn text(&self) -> &str {
         &self.text
     }
@@ -145,14 +145,15 @@ impl Decimal {
         Self::computed(IBig::from(5), self.places + 1)
     }
 
-    /// A ball of so many limbs around it: the digits and the power of ten are integers.
+    /// A ball of at most `limbs` limbs around it; the digits and the power of ten are integers.
     pub(crate) fn ball(&self, limbs: usize) -> Ball {
         let digits = of_integer(&self.digits, limbs);
         let power = of_integer(&power_of_ten(self.places.abs()).into(), limbs);
         if self.places <= 0 {
             return digits * power;
         }
-        // A power of ten is above zero, and cut off to a ball it stays so.
+        // A power of ten is positive, and stays so when rounded to a ball, so that the division
+        // succeeds.
         digits.over(&power).unwrap_or(digits)
     }
 }
@@ -181,7 +182,7 @@ fn of_integer(integer: &IBig, limbs: usize) -> Ball {
     Ball::from_limbs(sign == Sign::Negative, &words, 0, limbs)
 }
 
-/// The integer next to the middle of a ball; the nearest or the one beside it.
+/// An integer within one of the midpoint of a ball.
 fn nearest_integer(ball: &Ball) -> IBig {
     let number = ball.mid();
     let bytes: Vec<u8> = number.limbs.iter().flat_map(|l| l.to_le_bytes()).collect();
@@ -190,7 +191,7 @@ fn nearest_integer(ball: &Ball) -> IBig {
     if power >= 0 {
         magnitude <<= power.min(1 << 16) as usize;
     } else {
-        // Half is added before what is below the point is cut off.
+        // Half is added before the digits below the point are cut off, which rounds.
         let shift = (-power).min(1 << 20) as usize;
         magnitude = (magnitude + (UBig::ONE << (shift - 1))) >> shift;
     }
@@ -198,8 +199,8 @@ fn nearest_integer(ball: &Ball) -> IBig {
     if number.negative { -integer } else { integer }
 }
 
-/// The number in a ball, printed with so many places after the point, if every number of the ball
-/// is within half a unit of what is printed.
+/// The number in a ball as an integer of units of the last of `places` places after the point, if
+/// every number of the ball is within half a unit of it.
 fn rounded(ball: &Ball, places: i64) -> Option<IBig> {
     let limbs = ball.mid().limbs.len() + 1;
     let power = of_integer(&power_of_ten(places.abs()).into(), limbs);
@@ -210,12 +211,12 @@ fn rounded(ball: &Ball, places: i64) -> Option<IBig> {
     };
     let digits = nearest_integer(&scaled);
     let off = (scaled - of_integer(&digits, limbs)).twice();
-    // |off| ≤ ½, doubled: strictly below one, as nothing is gained by a tie.
+    // 2 |off| < 1, strictly: at a tie the digit would not be decided.
     off.abs().is_below(&Ball::integer(1)).then_some(digits)
 }
 
-/// With so many places after the point, or up to two fewer where the number is next to a tie; none
-/// if the ball is too wide.
+/// The number with `places` places after the point, or up to two fewer where it is close to a tie;
+/// none if the ball is too wide.
 pub(crate) fn fixed(ball: &Ball, places: i64) -> Option<String> {
     (places - 2..=places).rev().find_map(|places| {
         let (sign, magnitude) = rounded(ball, places)?.into_parts();
@@ -227,14 +228,14 @@ pub(crate) fn fixed(ball: &Ball, places: i64) -> Option<String> {
     })
 }
 
-/// With so many significant digits, or up to two fewer, as d.ddde-k.
+/// The number with `digits` significant digits, or up to two fewer, as d.ddde-k.
 pub(crate) fn significant(ball: &Ball, digits: i64) -> Option<String> {
     if ball.is_zero() {
         return Some("0".to_owned());
     }
     let exponent = ball.mid().to_f64().abs().log10().floor();
     if !exponent.is_finite() {
-        // No double is next to it, or it may be zero.
+        // The number is too small for a double, or may be zero.
         return None;
     }
     let exponent = exponent as i64;

@@ -3,19 +3,19 @@
 use crate::arithmetic::ball::Ball;
 use crate::arithmetic::radius::Radius;
 
-/// What sine and cosine need at one precision.
+/// The constants that sine and cosine need at one precision.
 #[derive(Clone, Debug)]
 pub(crate) struct Elementary {
     limbs: usize,
     half_pi: Ball,
     /// 1/k! from k = 0 on.
     inverse_factorials: Vec<Ball>,
-    /// How often an argument is halved before its series.
+    /// How often an argument is halved before its power series is used.
     halvings: i64,
 }
 
 impl Elementary {
-    /// For numbers of so many limbs.
+    /// The constants for numbers of `limbs` limbs.
     pub(crate) fn new(limbs: usize) -> Self {
         let bits = 64 * limbs as i64;
         let halvings = 2 + bits.isqrt() / 4;
@@ -45,8 +45,9 @@ impl Elementary {
 
     /// Sine and cosine.
     ///
-    /// Both change by no more than their argument does, so that those of the midpoint serve for the
-    /// whole ball with its radius added; and no two values differ by more than 2.
+    /// Both change by no more than their argument does, so that the values at the midpoint, with
+    /// the radius of the argument added to theirs, hold for the whole ball; and no two values
+    /// differ by more than 2.
     pub(crate) fn sin_cos(&self, x: &Ball) -> (Ball, Ball) {
         let spread = x.radius().min(Radius::power_of_two(1));
         let mid = x.centre().with_limbs(self.limbs);
@@ -67,12 +68,13 @@ impl Elementary {
         (sine.widened(spread), cosine.widened(spread))
     }
 
-    /// Of a small argument: with t = y/2^k, sin t and 1 − cos t by their series, then k times
+    /// Sine and cosine of a small argument: with t = y/2^k, sin t and 1 − cos t by their series,
+    /// then k times
     ///
     /// sin 2t = 2 sin t cos t = 2 s (1 − v),      1 − cos 2t = 2 sin² t = 2 s².
     ///
-    /// For |t| ≤ 1 the terms of either series alternate and fall, so that what is left out is no
-    /// more than its first term, and the remainder is widened by that.
+    /// For |t| ≤ 1 the terms of either series alternate and decrease, so that the remainder is at
+    /// most the first term left out, and the result is widened by that.
     fn reduced(&self, y: &Ball) -> (Ball, Ball) {
         let mut halvings = self.halvings;
         while y.scaled(-halvings).upper() > Radius::power_of_two(0) {

@@ -1,4 +1,4 @@
-//! Intervals of doubles, for what needs few digits.
+//! Intervals of doubles, for bounds that need few digits.
 
 use crate::arithmetic::ball::Ball;
 use crate::arithmetic::elementary::Elementary;
@@ -7,9 +7,9 @@ use crate::arithmetic::scalar::Scalar;
 
 /// All numbers from `low` to `high`, which may be infinite but are never NaN.
 ///
-/// An operation of IEEE 754 on two doubles gives a double next to the exact result: between the
-/// exact result and it there is no other. So the exact result lies between the doubles on either side
-/// of what is computed, also where that is zero by underflow or infinite by overflow.
+/// An operation of IEEE 754 on two doubles is rounded to a double next to the exact result, in
+/// whatever direction. So the exact result lies between the two neighbours of the computed double,
+/// also where that is zero by underflow or infinite by overflow.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Interval {
     low: f64,
@@ -26,7 +26,7 @@ impl Interval {
         high: f64::INFINITY,
     };
 
-    /// What was rounded to these, however it was.
+    /// Encloses exact ends that were rounded to these doubles, in whatever direction.
     fn rounded(low: f64, high: f64) -> Self {
         if low.is_nan() || high.is_nan() {
             return Self::ALL;
@@ -39,8 +39,9 @@ impl Interval {
 
     /// All numbers of a ball.
     ///
-    /// About a double d next to the midpoint: d ± e, with e a bound on the distance of any number of
-    /// the ball from d. Where a bound is too small for a double, the next one above zero is larger.
+    /// Let d be a double next to the midpoint: the interval is d ± e, with e a bound on the
+    /// distance of any number of the ball from d. Where e is too small for a double, the smallest
+    /// positive double is used.
     pub(crate) fn of(ball: &Ball) -> Self {
         let near = ball.to_f64();
         if !near.is_finite() {
@@ -57,13 +58,13 @@ impl Interval {
         Self::rounded(near - reach, near + reach)
     }
 
-    /// A ball about it; none if it has no end.
+    /// A ball that contains the interval; none if the interval is unbounded.
     pub(crate) fn ball(&self) -> Option<Ball> {
         let is_finite = self.low.is_finite() && self.high.is_finite();
         is_finite.then(|| Ball::double(self.low).hull(&Ball::double(self.high)))
     }
 
-    /// At least as large as the magnitude of all its numbers; none if it has no end.
+    /// A bound on the magnitude of all its numbers; none if the interval is unbounded.
     pub(crate) fn upper(&self) -> Option<Radius> {
         let largest = self.low.abs().max(self.high.abs());
         largest.is_finite().then(|| Ball::double(largest).upper())
@@ -85,8 +86,8 @@ impl Scalar for Interval {
     fn minus(&self, other: &Self) -> Self {
         Self::rounded(self.low - other.high, self.high - other.low)
     }
-    /// The extremes of a product are among those of the ends. Zero times infinity, which is NaN, makes
-    /// the sum NaN.
+    /// The extremes of a product are among the products of the ends. Zero times infinity is NaN,
+    /// which `rounded` takes for all numbers.
     fn times(&self, other: &Self) -> Self {
         let products = [
             self.low * other.low,

@@ -1,5 +1,5 @@
-//! Numbers that are enclosed: a midpoint of many digits and a bound on how far the true one is from
-//! it. Each operation stands below the proof that its result encloses every true one.
+//! Numbers with enclosures: a midpoint of many digits and a bound on its distance from the true
+//! number. The proof that a result encloses every true value stands above each operation.
 
 pub(crate) mod ball;
 pub(crate) mod decimal;

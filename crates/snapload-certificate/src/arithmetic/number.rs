@@ -1,9 +1,9 @@
-//! Binary numbers of many digits: exact integers of 64-bit limbs with a sign and a power of two.
-//! Sums and products are cut off, and say whether anything was.
+//! Binary numbers of many digits: integers of 64-bit limbs with a sign and a power of two. Sums and
+//! products are truncated, and report whether anything was cut off.
 
 use smallvec::SmallVec;
 
-/// Limbs of 64 bits, the least significant one first; six of them stay off the heap.
+/// Limbs of 64 bits, the least significant one first; up to six of them need no allocation.
 pub(crate) type Limbs = SmallVec<[u64; 6]>;
 
 /// ± L · 2^(`exponent` − 64 n), with the integer L of n limbs, the topmost bit of which is set: so
@@ -15,7 +15,8 @@ pub(crate) struct Number {
     pub(crate) limbs: Limbs,
 }
 
-/// A result, and whether it differs from the exact one; if so by less than [`Number::unit`] · 2.
+/// A result, and whether it differs from the exact one; the difference is less than 2 ·
+/// 2^[`Number::unit`].
 pub(crate) type Rounded = (Number, bool);
 
 impl Number {
@@ -41,14 +42,15 @@ impl Number {
         }
     }
 
-    /// A double, exactly; none if it is infinite or no number.
+    /// A double, exactly; none if it is infinite or NaN.
     pub(crate) fn from_f64(value: f64) -> Option<Self> {
         if !value.is_finite() {
             return None;
         }
         let bits = value.to_bits();
         let (field, fraction) = ((bits >> 52) & 0x7ff, bits & ((1 << 52) - 1));
-        // IEEE 754: fraction · 2^-1074 below the normal numbers, else (2^52 + fraction) · 2^(field − 1075).
+        // IEEE 754: fraction · 2^-1074 below the normal numbers, else (2^52 + fraction) · 2^(field
+        // − 1075).
         let (integer, power) = if field == 0 {
             (fraction, -1074)
         } else {
@@ -71,12 +73,13 @@ impl Number {
         self.limbs.last().is_none_or(|top| *top == 0)
     }
 
-    /// The exponent of the unit of the last bit: 2^that.
+    /// The exponent k of the unit 2^k of the last bit.
     pub(crate) fn unit(&self) -> i64 {
         self.exponent - 64 * self.limbs.len() as i64
     }
 
-    /// With so many limbs: the others are cut off, those that are missing are zero.
+    /// The number with `limbs` limbs: surplus low limbs are cut off, missing ones are filled with
+    /// zeros.
     pub(crate) fn with_limbs(&self, limbs: usize) -> Rounded {
         let n = self.limbs.len();
         let mut number = self.clone();
@@ -91,8 +94,9 @@ impl Number {
         (number, inexact)
     }
 
-    /// ± `limbs` · 2^(exponent − 64 n) with the topmost bit brought to the top, cut off or filled up
-    /// to `most` limbs, so that the digits that a result is known to do not depend on its value.
+    /// ± `limbs` · 2^(exponent − 64 n), shifted so that the topmost bit is set, and truncated or
+    /// padded with zeros to `most` limbs, so that the precision of a result does not depend on its
+    /// value.
     fn normalised(negative: bool, mut exponent: i64, limbs: &mut Limbs, most: usize) -> Rounded {
         while limbs.len() > 1 && limbs.last() == Some(&0) {
             limbs.pop();
@@ -114,7 +118,7 @@ impl Number {
         }
         let mut inexact = false;
         if popped > most {
-            // What is drained goes, looked at or not.
+            // `drain` removes all these limbs even if `any` stops early.
             inexact = limbs.drain(..popped - most).any(|limb| limb != 0);
         } else if popped < most {
             limbs.insert_many(0, std::iter::repeat_n(0, most - popped));
@@ -129,12 +133,12 @@ impl Number {
 
     /// The sum, with as many limbs as the longer of the two.
     ///
-    /// Let a be the one with the larger exponent, n the limbs of the result. Both are brought to
-    /// n + 1 limbs below a's exponent, the unit of which is u = 2^(a.exponent − 64 n − 64). There a
-    /// is exact; of b less than u is cut off, and only where its exponent is smaller by more than
-    /// 64. Then |b| < |a| 2^-63, the sum is above 2^(a.exponent − 2), and u is less than 2^-62 units
-    /// of the result. Cutting the sum to n limbs takes away less than one unit: less than two
-    /// together.
+    /// Let a be the one with the larger exponent, b the other, n the limbs of the result. Both are
+    /// aligned to n + 1 limbs below a's exponent, so that the unit is u = 2^(a.exponent − 64 n −
+    /// 64). There a is exact; of b less than u is cut off, and only where its exponent is smaller
+    /// than a's by more than 64. Then |b| < |a| 2^-63, the sum is above 2^(a.exponent − 2), and u
+    /// is less than 2^-62 units of the result. Truncating the sum to n limbs takes away less than
+    /// one unit, so that the total error is less than two units.
     pub(crate) fn add(&self, other: &Self) -> Rounded {
         if self.is_zero() {
             return (other.clone(), false);
@@ -166,7 +170,7 @@ impl Number {
         (number, inexact || lost)
     }
 
-    /// The limbs shifted down by so many bits, in so many limbs, and whether any set bit was lost.
+    /// The limbs shifted down by `bits` bits, in `length` limbs, and whether any set bit was lost.
     fn shifted(&self, length: usize, bits: u64) -> (Limbs, bool) {
         let mut out: Limbs = SmallVec::from_elem(0, length);
         let whole = usize::try_from(bits / 64).unwrap_or(usize::MAX);
@@ -175,7 +179,7 @@ impl Number {
             return (out, true);
         }
         let mut lost = false;
-        // The top of self is at the top of out, `whole` limbs lower and `part` bits within.
+        // The top of self moves to `whole` limbs and `part` bits below the top of out.
         let offset = (length - whole) as i64 - self.limbs.len() as i64;
         for (k, &limb) in self.limbs.iter().enumerate() {
             let at = k as i64 + offset;
@@ -195,7 +199,7 @@ impl Number {
         (out, lost)
     }
 
-    /// The product, with as many limbs as the longer factor: the exact one, cut off.
+    /// The product, truncated to as many limbs as the longer factor has.
     pub(crate) fn mul(&self, other: &Self) -> Rounded {
         if self.is_zero() || other.is_zero() {
             return (Self::zero(), false);
@@ -212,7 +216,7 @@ impl Number {
             product[i + m] = carry as u64;
         }
         let exponent = self.exponent + other.exponent;
-        // Both tops are set, so that the product's top limb is not zero.
+        // Both topmost bits are set, so that at most the product's topmost bit is zero.
         Self::normalised(
             self.negative != other.negative,
             exponent,
@@ -221,7 +225,7 @@ impl Number {
         )
     }
 
-    /// Divided by a small integer above zero, cut off to as many limbs.
+    /// The quotient by a small positive integer, truncated to as many limbs.
     pub(crate) fn over_small(&self, divisor: u64) -> Rounded {
         if self.is_zero() {
             return (Self::zero(), false);

@@ -1,4 +1,5 @@
-//! Bounds: numbers of 32 bits that are never negative, rounded up or down as told.
+//! Bounds: non-negative numbers with a mantissa of 32 bits, rounded up or down as each operation
+//! says.
 
 use std::cmp::Ordering;
 
@@ -26,10 +27,11 @@ impl Radius {
         }
     }
 
-    /// The least that is not below `integer` · 2^`exponent`.
+    /// The smallest value that is not below `integer` · 2^`exponent`.
     ///
-    /// An integer of 64 bits has at most 32 too many. Those are cut off, and one is added, which is
-    /// more than was cut off; if that makes it 2³² it is even, and halved exactly.
+    /// An integer of 64 bits has at most 32 bits too many. If any bit cut off is set, one is added,
+    /// which is more than was cut off; if that makes the mantissa 2³² it is even, and halved
+    /// exactly.
     pub(crate) fn above(integer: u64, exponent: i64) -> Self {
         if integer == 0 {
             return Self::ZERO;
@@ -58,7 +60,7 @@ impl Radius {
         }
     }
 
-    /// The largest that is not above `integer` · 2^`exponent`: what is too many is cut off.
+    /// The largest value that is not above `integer` · 2^`exponent`: surplus bits are cut off.
     pub(crate) fn below(integer: u64, exponent: i64) -> Self {
         if integer == 0 {
             return Self::ZERO;
@@ -79,7 +81,7 @@ impl Radius {
         self.mantissa == 0
     }
 
-    /// A bound on the sum from above.
+    /// An upper bound on the sum.
     ///
     /// The smaller one is brought to the larger one's exponent by cutting bits off; one unit is
     /// more than what was cut off.
@@ -98,7 +100,7 @@ impl Radius {
         Self::above(large.mantissa + cut, large.exponent)
     }
 
-    /// A bound from below on the difference; zero where it is negative.
+    /// A lower bound on the difference; zero where that is negative.
     pub(crate) fn minus(self, other: Self) -> Self {
         if self <= other {
             return Self::ZERO;
@@ -106,7 +108,7 @@ impl Radius {
         if other.is_zero() {
             return self;
         }
-        // self > other: its exponent is not the smaller one. As in a sum, other is rounded up.
+        // As self > other, its exponent is not smaller. As in a sum, other is rounded up.
         let shift = self.exponent - other.exponent;
         let cut = if shift < 32 {
             let cut = other.mantissa >> shift;
@@ -117,7 +119,7 @@ impl Radius {
         Self::below(self.mantissa.saturating_sub(cut), self.exponent)
     }
 
-    /// A bound on the product from above; the exact product of two 32-bit integers has 64 bits.
+    /// An upper bound on the product; the exact product of two 32-bit integers has 64 bits.
     pub(crate) fn times(self, other: Self) -> Self {
         Self::above(
             self.mantissa * other.mantissa,
@@ -125,7 +127,7 @@ impl Radius {
         )
     }
 
-    /// A bound on the quotient from above; the divisor is not zero.
+    /// An upper bound on the quotient; the divisor is not zero.
     ///
     /// The integer quotient of mantissa · 2³² cuts off less than one unit, which is added.
     pub(crate) fn over(self, divisor: Self) -> Self {
@@ -151,14 +153,14 @@ impl Radius {
         (self.mantissa, self.exponent)
     }
 
-    /// A double next to it, for what no proof asks for.
+    /// A double next to it; proofs do not use it.
     pub(crate) fn to_f64(self) -> f64 {
         let exponent = i32::try_from(self.exponent).unwrap_or(if self.exponent > 0 {
             i32::MAX
         } else {
             i32::MIN
         });
-        // In two steps, as 2^exponent alone may be no double where the product is one.
+        // In two steps, because 2^exponent alone may overflow where the product does not.
         let half = exponent / 2;
         self.mantissa as f64 * 2f64.powi(half) * 2f64.powi(exponent - half)
     }
@@ -179,7 +181,8 @@ impl PartialOrd for Radius {
 }
 
 impl Ord for Radius {
-    /// The mantissas that are not zero lie in one octave, so that the exponent decides first.
+    /// Nonzero mantissas differ by less than a factor of two, so that the exponent is compared
+    /// first.
     fn cmp(&self, other: &Self) -> Ordering {
         match (self.is_zero(), other.is_zero()) {
             (true, true) => Ordering::Equal,

@@ -1,9 +1,9 @@
-//! What power series are made of.
+//! The numbers that are coefficients of power series.
 
 use crate::arithmetic::ball::Ball;
 use crate::arithmetic::elementary::Elementary;
 
-/// Numbers that enclose a true one, and what is made of them.
+/// The operations on enclosures of a true number.
 pub(crate) trait Scalar: Clone {
     /// A number that does not depend on the state.
     type Constant: Clone;
@@ -17,12 +17,12 @@ pub(crate) trait Scalar: Clone {
     fn times_small(&self, factor: u32) -> Self;
     /// Divided by an integer above zero.
     fn over_small(&self, divisor: u32) -> Self;
-    /// None where zero may be divided by.
+    /// None if the divisor contains zero.
     fn reciprocal(&self) -> Option<Self>;
-    /// None unless it is above zero.
+    /// None unless the enclosure is positive.
     fn sqrt(&self) -> Option<Self>;
     fn sin_cos(&self, functions: &Elementary) -> Option<(Self, Self)>;
-    /// Whether it is zero and nothing else.
+    /// Whether the enclosure contains zero and no other number.
     fn is_nothing(&self) -> bool;
 }
 
@@ -67,7 +67,7 @@ impl Scalar for Ball {
     }
 }
 
-/// A number with its derivatives by the N coordinates at the begin.
+/// A number with its derivatives with respect to the N coordinates at the beginning.
 #[derive(Clone, Debug)]
 pub(crate) struct Jet<S, const N: usize> {
     pub(crate) value: S,
@@ -75,7 +75,8 @@ pub(crate) struct Jet<S, const N: usize> {
 }
 
 impl<S: Scalar, const N: usize> Jet<S, N> {
-    /// A coordinate at the begin; `one` is 1.
+    /// The coordinate number `which` at the beginning, whose derivative with respect to itself is
+    /// 1.
     pub(crate) fn coordinate(value: S, which: usize, one: &S) -> Self {
         let slope = |i: usize| if i == which { one.clone() } else { S::zero() };
         Self::with(value, slope)

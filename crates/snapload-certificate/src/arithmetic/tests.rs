@@ -160,7 +160,7 @@ proptest! {
     }
 }
 
-/// What is typed in another way is the same number.
+/// Decimals in other spellings are read as the same number.
 #[test]
 fn decimals_are_read_as_people_write_them() {
     for (typed, plain) in [

@@ -86,7 +86,7 @@ fn holds(ball: &Ball, value: &Exact) -> bool {
     off.is_at_most(&Exact::of_radius(ball.radius()))
 }
 
-/// A limb of the kinds that make carries.
+/// A limb whose bits are likely to cause carries.
 fn limb() -> impl Strategy<Value = u64> {
     prop_oneof![
         Just(0),
@@ -161,7 +161,7 @@ proptest! {
         prop_assert!(!x.is_negative() || p.sign() == Ordering::Less);
         prop_assert!(!x.is_zero() || p.sign() == Ordering::Equal);
         prop_assert!(!x.is_below(&y) || p.minus(&q).sign() == Ordering::Less);
-        // And numbers are told apart, however close.
+        // Midpoints are ordered correctly, however close they are.
         let (a, b) = (x.centre(), y.centre());
         let order = Exact::middle(&a).minus(&Exact::middle(&b)).sign();
         prop_assert_eq!(a.is_below(&b), order == Ordering::Less);
@@ -184,7 +184,8 @@ proptest! {
         prop_assert_eq!(a.cmp(&b), x.minus(&y).sign());
     }
 
-    /// sin x = Σ ± x^k/k!, in integers of 2^-600 with what each division and the rest leave out.
+    /// sin x = Σ ± x^k/k!, in integer multiples of 2^-600, with a bound on the rounding of the
+    /// divisions and on the remainder.
     #[test]
     fn sines_of_wide_balls_hold_those_of_members(
         m in -(1i64 << 44)..1 << 44, e in -44i64..-34, limbs in 2usize..7, below in -300i64..4, share in -8i64..=8,
@@ -204,7 +205,8 @@ proptest! {
             k += 1;
             term = term * &at.0 / (IBig::from(k as u64) * &unit);
         }
-        // Each term is off by less than one, times what follows of it, at most e^1100 · k before.
+        // The rounding of each term is below one unit, and is magnified by the later factors to at
+        // most e^1100 · k units.
         let slack = Exact(IBig::from(k as u64) << 60, -(BITS as i64), IBig::ONE);
         let (sine, cosine) = Elementary::new(limbs).sin_cos(&x);
         let [c, s] = sums.map(|sum| Exact(sum, -(BITS as i64), IBig::ONE));
@@ -216,7 +218,7 @@ proptest! {
         }
     }
 
-    /// Far out, against what doubling makes of those of a small part of the argument.
+    /// At large arguments, against the results of doubling a small part of the argument.
     #[test]
     fn sines_far_out_are_those_of_doubled_angles(m in -(1i64 << 52)..1 << 52, limbs in 2usize..6) {
         let x = Ball::from_limbs(m < 0, &[m.unsigned_abs()], 0, limbs);
@@ -231,7 +233,7 @@ proptest! {
         }
     }
 
-    /// What is printed is no further from any member than half a unit of its last place.
+    /// A printed number is within half a unit of its last place of every member of the ball.
     #[test]
     fn printed_digits_are_those_of_every_member(
         (x, p) in member(), power in prop_oneof![-60i64..60, -1200i64..1200],

@@ -1,4 +1,4 @@
-//! One lap of all states of a box, with its derivative.
+//! The motion of a box of states over one lap, with its derivative.
 
 use crate::arithmetic::ball::Ball;
 use crate::case::ExactCase;
@@ -10,30 +10,32 @@ use crate::slack::set::product;
 use crate::verdict::Trouble;
 use snapload::Stop;
 
-/// What laps are proved with: a case in numbers of many digits and of fewer, and when a lap begins.
+/// The data for proofs about laps: a case at high and at low precision, and the time at which a lap
+/// begins.
 pub(super) struct Laps {
     case: ExactCase,
     fine: Model,
     coarse: Model,
     begin: Ball,
-    /// The periods of the forcing that a lap has, as times since its begin.
+    /// The ends of the periods of the forcing within a lap, as times since its beginning.
     sections: Vec<Ball>,
 }
 
-/// What is proved of all states of a box.
+/// What is proved for all states of a box.
 pub(super) struct Lap {
     /// The states after the lap.
     pub(super) image: State,
     /// ∂(the state after the lap)/∂(the one before), over all of the box.
     pub(super) derivative: Matrix,
-    /// The impacts, all of them.
+    /// All impacts.
     pub(super) impacts: Vec<ProvedImpact>,
     /// The states after each period of the forcing but the last.
     pub(super) sections: Vec<State>,
 }
 
 impl Laps {
-    /// Laps of a case that begin at a part of the forcing's period, in numbers of so many limbs.
+    /// Laps of a case that begin at a given part of the forcing's period, in numbers of `limbs`
+    /// limbs.
     pub(super) fn new(
         case: &ExactCase,
         (phase, periods): (&Ball, u32),
@@ -64,8 +66,8 @@ impl Laps {
         })
     }
 
-    /// A lap of all states of a box: that it has these snaps and nothing else, and where it leads
-    /// to.
+    /// Proves that a lap of all states of a box has these snaps and nothing else, and encloses the
+    /// states after it.
     pub(super) fn of(&self, states: &State, struck: &[usize]) -> Result<Lap, Trouble> {
         let models = [&self.fine, &self.coarse];
         let mut run = Run::of_states(&self.case, models, &self.begin, states);
@@ -111,8 +113,8 @@ impl Laps {
         }
     }
 
-    /// Keeps the states at the sections that a flight passes before it ends, at a time from its T
-    /// on.
+    /// Keeps the states at the sections that a flight passes before `end`, a time since the
+    /// flight's T.
     fn pass(&self, run: &Run<'_>, end: &Ball, kept: &mut Vec<State>) -> Result<(), Trouble> {
         let within = self.sections.len() - 1;
         while let Some(section) = self.sections[..within].get(kept.len()) {
@@ -129,7 +131,7 @@ impl Laps {
     }
 
     /// ∂(state)/∂(state before) of a flight: the force does not depend on the state, so that a
-    /// deviation goes on with its velocity.
+    /// deviation of the position grows at the rate of the velocity's deviation, which is constant.
     fn flown(&self, time: &Ball) -> Matrix {
         let time = time.with_limbs(self.coarse.limbs);
         let mut matrix = unit();

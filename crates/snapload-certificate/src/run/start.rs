@@ -12,7 +12,7 @@ use crate::slack::set::Set;
 use crate::taut::begin::Instants;
 use crate::verdict::Trouble;
 
-/// A gap at the start within this of zero counts as closed, as a decimal.
+/// A gap at the start within this distance of zero counts as closed.
 const START_TOLERANCE: &str = "1e-9";
 
 impl<'a> Run<'a> {
@@ -43,7 +43,7 @@ impl<'a> Run<'a> {
     ) -> Result<Self, Trouble> {
         let mut start = case.start().iter().map(|number| number.ball(fine.limbs));
         let start: State = std::array::from_fn(|_| start.next().unwrap_or_else(Ball::zero));
-        // At x = y = θ = 0 both gaps are zero whatever the sizes are.
+        // At x = y = θ = 0 both gaps are exactly zero for every size.
         let at_origin = case.start()[..3].iter().all(Decimal::is_zero);
         let tolerance = Decimal::parse(START_TOLERANCE).map(|d| d.ball(fine.limbs));
         let tolerance = tolerance.unwrap_or_else(Ball::zero);
@@ -86,12 +86,12 @@ impl<'a> Run<'a> {
         Ok(run)
     }
 
-    /// Whether its flight has begun a time from T on, for all states.
+    /// Whether, for all states, the flight has begun by the time `tau` after T.
     pub(crate) fn is_under_way(&self, tau: &Ball) -> bool {
         Ball::bound(self.slack).is_below(tau)
     }
 
-    /// Whether it starts with both cables closed and without any velocity.
+    /// Whether the run starts with both cables closed and with zero velocity.
     pub(crate) fn is_at_rest(&self) -> bool {
         self.impacts == 0 && self.case.start().iter().all(Decimal::is_zero)
     }

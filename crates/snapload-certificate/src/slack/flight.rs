@@ -1,12 +1,12 @@
-//! Slack flight in closed form (docs/model.md, section 4), and bounds on how the watched values
-//! bend along it.
+//! Slack flight in closed form (docs/model.md, section 4), and bounds on the second and third
+//! derivatives of the watched values along it.
 
 use crate::arithmetic::ball::Ball;
 use crate::arithmetic::radius::Radius;
 use crate::model::{FIRST_TOP, Force, Model, State, Watched};
 use crate::slack::search::{Path, name};
 
-/// A flight from a state at a time, which is a number.
+/// A flight from a state at a time; the time is a single number.
 pub(crate) struct Flight<'a> {
     pub(crate) model: &'a Model,
     pub(crate) begin: Ball,
@@ -25,7 +25,8 @@ impl<'a> Flight<'a> {
         }
     }
 
-    /// vₓ + (f_o/Ω)(sin Ωt − sin Ωt₀) and v_y − τ − ν (f_o/Ω)(cos Ωt − cos Ωt₀), with the force then.
+    /// vₓ + (f_o/Ω)(sin Ωt − sin Ωt₀) and v_y − τ − ν (f_o/Ω)(cos Ωt − cos Ωt₀), with the force
+    /// then.
     pub(crate) fn velocity(&self, tau: &Ball) -> ([Ball; 2], Force) {
         let (m, start) = (self.model, &self.force);
         let force = m.force(&(&self.begin + tau));
@@ -81,7 +82,8 @@ impl Path for Flight<'_> {
         self.model.watched(&self.at(tau).0)
     }
 
-    /// Of a gap: g⃛ = 2 (3 Ṗ·P̈ + D·P⃛), with P̈ = f − θ̇² ρ and P⃛ = ḟ − θ̇³ ρ⟂.
+    /// The third derivative of a gap: g⃛ = 2 (3 Ṗ·P̈ + D·P⃛), with P̈ = f − θ̇² ρ and P⃛ = ḟ − θ̇³
+    /// ρ⟂.
     fn third(&self, which: usize, middle: &Ball, half: Radius) -> Option<Ball> {
         if which >= FIRST_TOP {
             return None;
@@ -109,7 +111,8 @@ impl Path for Flight<'_> {
     ///
     /// g̈ = 2 (|Ṗ|² + D·P̈),   P̈ = f − θ̇² ρ,
     ///
-    /// with D at the middle and, by the mean value theorem, Ṗ times half the length away from it.
+    /// with D enclosed by its value at the middle and, by the mean value theorem, Ṗ times half the
+    /// length.
     fn bends(&self, middle: &Ball, half: Radius) -> Vec<Ball> {
         let m = self.model;
         let reach = Ball::within(half);

@@ -1,4 +1,4 @@
-//! The law of impact (docs/model.md, section 5), and what it does to small deviations.
+//! The law of impact (docs/model.md, section 5), and its effect on small deviations.
 
 use crate::arithmetic::ball::Ball;
 use crate::model::{CableEnd, Force, Model, State};
@@ -50,20 +50,20 @@ impl Impact {
         a * &other.g[0] + b * &other.g[1] + c * &other.g[2]
     }
 
-    /// v − share · v_n u / w: the velocity after the impact with share 1 + e, without a normal part
-    /// with share 1.
+    /// v − share · v_n u / w: the velocity after the impact if share = 1 + e; with share = 1 the
+    /// normal velocity is zero.
     pub(crate) fn velocity(&self, state: &State, share: &Ball) -> [Ball; 3] {
         let impulse = share * &self.v_n * &self.inverse_w;
         std::array::from_fn(|i| &state[3 + i] - &(&impulse * &self.u[i]))
     }
 
-    /// T r/w at rest on the taut cable, which has the sign of its tension: |Ṗ|² + D·(f − θ̇² ρ) with
-    /// the normal velocity taken away.
+    /// T r/w for a cable that stays taut at this state, which has the sign of its tension T: |Ṗ|² +
+    /// D·(f − θ̇² ρ) with the normal velocity set to zero.
     pub(crate) fn pull(&self, state: &State, force: &Force) -> Ball {
         self.load(&self.velocity(state, &Ball::integer(1)), force)
     }
 
-    /// r b = |Ṗ|² + D·(f − θ̇² ρ), b = g̈/(2r) without any tension, at a velocity of the body.
+    /// r b = |Ṗ|² + D·(f − θ̇² ρ), with b = g̈/(2r) for zero tension, at a velocity of the body.
     pub(crate) fn load(&self, [vx, vy, spin]: &[Ball; 3], force: &Force) -> Ball {
         let ([px, py], [dx, dy]) = (&self.end.arm, &self.end.reach);
         let (ux, uy) = (vx - &(spin * py), vy + &(spin * px));
@@ -72,15 +72,16 @@ impl Impact {
         ux.squared() + uy.squared() + along
     }
 
-    /// The Jacobian of the state after an impact, continued to a fixed time, by the one before it,
-    /// taken at a fixed time: with 3 × 3 blocks on positions and velocities
+    /// The Jacobian of the state after an impact, at a fixed time, by the state before it, at a
+    /// fixed time: with 3 × 3 blocks on positions and velocities
     ///
     /// J = [1 τ₂; 0 1] · [A 0; C A] · [1 τ₁; 0 1],
     /// A = 1 − (1 + e) u Gᵀ/w,   C = Q − (Q v⁻ + (A − 1) a) Gᵀ/v_n,
     ///
-    /// where τ₁ and τ₂ are the times before and after, Q = ∂v⁺/∂q at fixed v⁻, and a the force. The
-    /// instant moves by δt = −G·δq/v_n, at fixed time that shifts the position by (v⁻ − v⁺) δt,
-    /// which makes A of the upper left block, and the velocity by what C subtracts.
+    /// where τ₁ and τ₂ are the times from the first fixed time to the impact and from there to the
+    /// second, Q = ∂v⁺/∂q at fixed v⁻, and a the force. The instant moves by δt = −G·δq/v_n; at
+    /// fixed time this shifts the position by (v⁻ − v⁺) δt, which makes the upper left block A, and
+    /// the velocity by the terms that C subtracts.
     pub(crate) fn jacobian(
         &self,
         model: &Model,
@@ -143,7 +144,7 @@ impl Impact {
         for (j, [dx, dy]) in dn.iter().enumerate() {
             let mut ds = px * dy - py * dx;
             if j == 2 {
-                // ρ itself turns.
+                // ∂ρ/∂θ: the arm turns with the body.
                 ds = ds - (py * &self.g[1] + px * &self.g[0]);
             }
             let spun = &ds * &model.inverse_inertia;

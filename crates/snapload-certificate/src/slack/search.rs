@@ -6,19 +6,19 @@ use crate::arithmetic::radius::Radius;
 use crate::model::Watched;
 use crate::verdict::Trouble;
 
-/// So many pieces of one flight are looked at before it is given up.
+/// The most pieces of one flight that are examined before the search gives up.
 const MOST_PIECES: u32 = 4000;
-/// So often is the first piece halved where a value leaves zero without a rate.
+/// How often the first piece may be halved where a value leaves zero with zero rate.
 const MOST_HALVINGS: u32 = 60;
 
-/// A stretch of time in which one value crosses zero once, rising, for every flight of the set, and
-/// before the end of which nothing else of what is watched reaches zero.
+/// A stretch of time in which one value crosses zero once, rising, for every flight of the set,
+/// while no other watched value reaches zero before its end.
 #[derive(Clone, Debug)]
 pub(crate) struct Crossing {
     pub(crate) which: usize,
     pub(crate) from: Ball,
     pub(crate) to: Ball,
-    /// The rate of the value throughout: above zero.
+    /// The rate of the value throughout the piece, which is positive.
     pub(crate) slope: Ball,
 }
 
@@ -26,11 +26,12 @@ pub(crate) struct Crossing {
 pub(crate) trait Path {
     /// How many values are watched.
     fn count(&self) -> usize;
-    /// One of them, at a ball of times.
+    /// One watched value, at a ball of times.
     fn one_watched(&self, which: usize, tau: &Ball) -> Watched;
-    /// Their second derivatives over all times that differ from `middle` by at most `half`.
+    /// The second derivatives of the values over all times that differ from `middle` by at most
+    /// `half`.
     fn bends(&self, middle: &Ball, half: Radius) -> Vec<Ball>;
-    /// What is reached where one of them is zero.
+    /// The event that happens where a value reaches zero, in words.
     fn words(&self, which: usize) -> String;
     /// All of them.
     fn watched(&self, tau: &Ball) -> Vec<Watched> {
@@ -58,21 +59,21 @@ pub(crate) enum Zero {
 /// Values that are zero at the instant at which the motion begins.
 pub(crate) type Zeros = Vec<(usize, Zero)>;
 
-/// A moment, which is a number, and what is watched then.
+/// A time, which is a single number, and the watched values at it.
 type Moment = (Ball, Vec<Watched>);
 
 /// What is known of a piece of a flight.
 enum Piece {
-    /// All values stay below zero, at its end, too.
+    /// All values stay below zero, also at its end.
     Clear,
-    /// One crosses.
+    /// One value crosses zero.
     Crossed(usize, Ball),
-    /// Nothing yet.
+    /// Not decided yet.
     Open,
 }
 
-/// The first crossing in (lo, limit] of a motion that begins at some instant within the ball `begin`,
-/// no later than the number `lo`; none if there is none.
+/// The first crossing in (lo, limit] of a motion that begins at some instant within the ball
+/// `begin`, no later than the number `lo`; none if there is none.
 ///
 /// # Errors
 /// [`Trouble`] where it can not be told.
@@ -131,9 +132,9 @@ pub(crate) fn first_crossing(
     Err(undecided(path, &at))
 }
 
-/// The first piece where a value leaves zero without a rate: where the value and its rate are zero
-/// and its second derivative is negative up to a moment, or where that is zero, too, and the third
-/// derivative is negative, the value is below zero after the begin up to that moment.
+/// The first piece where a value leaves zero with zero rate. If its second derivative is negative
+/// up to some time, or is zero at the beginning and the third derivative is negative up to that
+/// time, the value is below zero from just after the beginning to that time.
 fn without_rate(
     path: &impl Path,
     at: &Moment,
@@ -150,7 +151,7 @@ fn without_rate(
         if !to.is_below(limit) {
             to = limit.clone();
         }
-        // The motion begins at −lo at the earliest.
+        // The motion begins no earlier than at time −lo.
         let half = Ball::double(step)
             .half()
             .upper()
@@ -175,7 +176,7 @@ fn without_rate(
     Err(undecided(path, at))
 }
 
-/// Whether all values but those that are skipped stay below zero over a piece.
+/// Whether all values except the skipped ones stay below zero over a piece.
 fn others_clear(
     path: &impl Path,
     from: &Moment,
@@ -200,7 +201,7 @@ fn others_clear(
     })
 }
 
-/// Which value is nearest to zero there, or which two are equally near.
+/// An error that names the value nearest to zero there, or the two that are equally near.
 fn undecided(path: &impl Path, (_, watched): &Moment) -> Trouble {
     let size = |k: &usize| watched[*k].value.to_f64().abs();
     let mut order: Vec<usize> = (0..watched.len()).collect();
@@ -222,7 +223,7 @@ fn undecided(path: &impl Path, (_, watched): &Moment) -> Trouble {
     ))
 }
 
-/// What a watched value is.
+/// The name of a watched value.
 pub(crate) fn name(which: usize) -> &'static str {
     match which {
         0 => "the length of cable 1",
@@ -231,9 +232,9 @@ pub(crate) fn name(which: usize) -> &'static str {
     }
 }
 
-/// What is watched on the ball of times in which the motion begins. What is zero at that instant is
-/// below zero from there to the end of the ball, as its rate is negative on it (or by a higher
-/// derivative, of which the first piece takes care); all else is below zero.
+/// The watched values on the ball of times in which the motion begins. A value that is zero at the
+/// first instant is below zero from there to the end of the ball, as its rate is negative on it (or
+/// by a higher derivative, which the first piece examines); all others are below zero.
 fn beginning(path: &impl Path, begin: &Ball, zeros: &Zeros) -> Result<Vec<Watched>, Trouble> {
     let first = path.watched(begin);
     for (which, watched) in first.iter().enumerate() {
@@ -254,7 +255,8 @@ fn beginning(path: &impl Path, begin: &Ball, zeros: &Zeros) -> Result<Vec<Watche
     Ok(first)
 }
 
-/// How long it may last: a guess from the parabolas through what is watched now.
+/// A guess of how long no value reaches zero, from the parabolas through the values, rates and
+/// second derivatives now.
 fn likely_length(path: &impl Path, lo: &Ball, first: &[Watched], zeros: &Zeros) -> f64 {
     let bends = path.bends(lo, Radius::ZERO);
     let mut least = 0.4;
@@ -272,7 +274,7 @@ fn likely_length(path: &impl Path, lo: &Ball, first: &[Watched], zeros: &Zeros) 
         } else {
             (root - rate) / bend
         };
-        // What was released has no parabola.
+        // A value that leaves zero with zero rate and second derivative has no such parabola.
         if t > 1e-15 && t < least {
             least = t;
         }
@@ -280,8 +282,8 @@ fn likely_length(path: &impl Path, lo: &Ball, first: &[Watched], zeros: &Zeros) 
     1.25 * least
 }
 
-/// What is proved of the piece between two moments. The values in `closed` are known to be at most
-/// zero at the first, and not evaluated there.
+/// Decides what happens on the piece between two times. The values in `closed` are known to be at
+/// most zero at the first time, and not evaluated there.
 fn judge(path: &impl Path, from: &Moment, to: &Moment, closed: &[usize]) -> Piece {
     let length = &to.0 - &from.0;
     let middle = (&from.0 + &to.0).half();
@@ -310,12 +312,12 @@ fn judge(path: &impl Path, from: &Moment, to: &Moment, closed: &[usize]) -> Piec
     }
 }
 
-/// Whether a value stays below zero after the begin of a piece up to its end.
+/// Whether a value stays below zero from just after the beginning of a piece up to its end.
 ///
 /// Let f̈ ≥ −K on the piece of length H, f ≤ 0 at both ends and t the time since its begin. The
-/// difference of f and the chord plus K t (H − t)/2 has a second derivative that is not negative and
-/// vanishes at both ends, so that f ≤ chord + K t (H − t)/2. With f < 0 at the end, f < 0 holds in
-/// between, too,
+/// difference of f and the chord plus K t (H − t)/2 has a second derivative that is not negative
+/// and vanishes at both ends, so that f ≤ chord + K t (H − t)/2. With f < 0 at the end, f < 0 holds
+/// in between, too,
 ///
 /// - if K < 0: the chord is at most zero, and the rest below;
 /// - if f < −KH²/8 at both ends and K ≥ 0, as t (H − t) ≤ H²/4;
@@ -346,12 +348,12 @@ pub(crate) fn stays_below(
         || beyond(&end.value, 0)
 }
 
-/// The rate of a value all along a piece, if it rises there from below zero to above.
+/// The rate of a value throughout a piece, if the value rises there from below zero to above.
 fn rising(begin: &Watched, end: &Watched, bend: &Ball, length: &Ball) -> Option<Ball> {
     if !(begin.value.is_negative() && end.value.is_positive()) {
         return None;
     }
-    // [0, H], and the rate at either end with the largest change since.
+    // The rate is enclosed by the rate at either end and its largest change over [0, H].
     let within = length.half().widened(length.upper().scaled(-1));
     let change = bend * &within;
     [&begin.rate + &change, &end.rate - &change]

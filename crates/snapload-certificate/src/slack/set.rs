@@ -1,5 +1,5 @@
-//! The set of states that a proof carries: c + B r, with numbers c, a matrix B of doubles and a box
-//! r about zero (Lohner's method).
+//! The set of states that a proof carries: c + B r, with a vector c, a matrix B of doubles and a
+//! box r about zero (Lohner's method).
 
 use crate::arithmetic::ball::Ball;
 use crate::arithmetic::radius::Radius;
@@ -17,7 +17,7 @@ pub(crate) struct Set<const N: usize> {
 }
 
 impl<const N: usize> Set<N> {
-    /// A box of balls.
+    /// The set that equals a box of balls.
     pub(crate) fn of_box(state: &[Ball; N]) -> Self {
         Self {
             centre: std::array::from_fn(|i| state[i].centre()),
@@ -30,7 +30,7 @@ impl<const N: usize> Set<N> {
         &self.centre
     }
 
-    /// The box of balls about the set: |(B ρ)_i| ≤ Σ |B_ij| r_j.
+    /// The smallest box of balls that contains the set: |(B ρ)_i| ≤ Σ |B_ij| r_j.
     pub(crate) fn hull(&self) -> [Ball; N] {
         std::array::from_fn(|i| {
             let row = self.axes[i].iter().zip(&self.sides);
@@ -41,14 +41,14 @@ impl<const N: usize> Set<N> {
         })
     }
 
-    /// The image under a map into M dimensions that takes the centre into `image`, and the Jacobian of
-    /// which is within `jacobian` everywhere on the hull.
+    /// The image under a map into M dimensions that takes the centre into `image`, and whose
+    /// Jacobian is within `jacobian` everywhere on the hull.
     ///
     /// By the mean value theorem, row by row, the image lies in image + J B r. With any invertible
-    /// B' that is c' + B' r', where c' is the middle of `image`, δ its radius and
-    /// r' = (B'⁻¹ J B) r + B'⁻¹ δ. Let B'ᵀB' = 1 + E and ε < 1 bound the sums of |E| along rows. Then
-    /// B'⁻¹ y = (1 + E)⁻¹ B'ᵀ y, and by Neumann's series (1 + E)⁻¹ z differs from z by no more than
-    /// ε/(1 − ε) max |z|, at most 2 ε max |z| for ε ≤ 1/2.
+    /// B' that is c' + B' r', where c' is the middle of `image`, δ its radius and r' = (B'⁻¹ J B) r
+    /// + B'⁻¹ δ. Let B'ᵀB' = 1 + E and ε < 1 bound the sums of |E| along rows. Then B'⁻¹ y = (1 +
+    /// E)⁻¹ B'ᵀ y, and by Neumann's series (1 + E)⁻¹ z differs from z by no more than ε/(1 − ε) max
+    /// |z|, at most 2 ε max |z| for ε ≤ 1/2.
     pub(crate) fn mapped<const M: usize>(
         &self,
         image: &[Ball; M],
@@ -82,8 +82,8 @@ impl<const N: usize> Set<N> {
         })
     }
 
-    /// Orthonormal directions along the columns of a matrix, those first along which the set is
-    /// longest. How good they are has no part in the proof.
+    /// Orthonormal directions along the columns of a matrix, beginning with those along which the
+    /// set is longest. The proof does not depend on their accuracy.
     fn new_axes<const M: usize>(&self, moved: &[[Ball; N]; M]) -> Doubles<M> {
         let columns: [[f64; M]; N] =
             std::array::from_fn(|j| std::array::from_fn(|i| moved[i][j].to_f64()));
@@ -100,7 +100,7 @@ impl<const N: usize> Set<N> {
         for column in order.map(|j| columns[j]).into_iter().chain(units) {
             let least = 1e-12 * length(&column);
             let mut v = column;
-            // Twice, as once leaves what rounding brings back.
+            // Twice, as rounding in the first pass leaves components along the earlier directions.
             for u in found.iter().chain(&found) {
                 let along: f64 = u.iter().zip(&v).map(|(a, b)| a * b).sum();
                 for (x, a) in v.iter_mut().zip(u) {

@@ -1,4 +1,4 @@
-//! The parts of the proof against what is known of them otherwise.
+//! The parts of the proof against results from other methods.
 use crate::arithmetic::ball::Ball;
 use crate::arithmetic::radius::Radius;
 use crate::case::ExactCase;
@@ -25,7 +25,7 @@ fn rectangle() -> Parameters {
     }
 }
 
-/// The number of a root of a gap along a flight, by Newton's method.
+/// The time at which a gap vanishes along a flight, by Newton's method.
 fn root(flight: &Flight<'_>, cable: usize, guess: f64) -> Ball {
     let mut tau = Ball::double(guess).with_limbs(LIMBS);
     for _ in 0..14 {
@@ -36,7 +36,7 @@ fn root(flight: &Flight<'_>, cable: usize, guess: f64) -> Ball {
     tau
 }
 
-/// The state at `end` of the flight after the impact of a flight from `state`.
+/// The state at time `end` after a flight from `state`, its impact and the flight that follows.
 fn mapped(model: &Model, state: &State, cable: usize, guess: f64, end: f64) -> State {
     let flight = Flight::new(model, Ball::zero(), state.clone());
     let tau = root(&flight, cable, guess);
@@ -82,8 +82,8 @@ fn the_jacobian_agrees_with_differences() {
     }
 }
 
-/// Second differences over a stretch lie within the bends of the stretch: each is the second
-/// derivative somewhere in it.
+/// Second differences over a stretch lie within the second derivatives that are given for the
+/// stretch: each is the second derivative somewhere in it.
 #[test]
 fn bends_hold_second_differences() {
     for parameters in [
@@ -123,8 +123,8 @@ fn bends_hold_second_differences() {
 proptest! {
     #![proptest_config(ProptestConfig::with_cases(2000))]
 
-    /// On f = p + q t + s t²/2 of [0, H], the largest value of which is known: what the lemma says
-    /// stays below zero does.
+    /// For f = p + q t + s t²/2 on [0, H], whose largest value is known: where the lemma says that
+    /// f stays below zero, it does.
     #[test]
     fn the_lemma_holds_for_parabolas(
         p in -1.0f64..0.2, q in -2.0f64..2.0, s in -6.0f64..6.0, h in 0.05f64..2.0, known: bool,
@@ -143,7 +143,7 @@ proptest! {
         let top = if s < 0.0 { (-q / s).clamp(0.0, h) } else { 0.0 };
         let largest = at(top).value.to_f64().max(at(h).value.to_f64());
         prop_assert!(!says || largest < 0.0 || (known && top == 0.0 && at(h).value.to_f64() < 0.0));
-        // And it is no empty word: far below zero it says so.
+        // The lemma is not vacuous: it holds wherever f is far below zero.
         let deep = p.max(at(h).value.to_f64()) + s.abs() * h * h / 2.0 < -1e-9;
         prop_assert!(says || !deep || known);
     }

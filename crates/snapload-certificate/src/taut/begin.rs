@@ -1,5 +1,5 @@
-//! How a motion begins at the end of another: from states at instants of their own to states at one
-//! time.
+//! How a motion begins at the end of another: the states, each known at an instant of its own, are
+//! carried to one common time.
 
 use crate::arithmetic::ball::Ball;
 use crate::arithmetic::interval::Interval;
@@ -27,14 +27,14 @@ fn parts([x, y, theta, vx, vy, spin, t]: [Ball; 7]) -> ([Ball; 6], Ball) {
 pub(crate) struct Begun<const N: usize> {
     /// A number before all instants at which it begins.
     pub(crate) t: Ball,
-    /// The states then, of the motions continued to there along their own equations: nothing of what
-    /// is proved of the time before the begin is used.
+    /// The states at that time, of the motions continued to there along their own equations;
+    /// nothing that is proved of the time before the beginning is used.
     pub(crate) set: Set<N>,
-    /// At least as long after that does it begin as nothing, at most as long as this.
+    /// The motion begins between this common time and this long after it.
     pub(crate) slack: Radius,
 }
 
-/// The begin of a motion after the laws of an event.
+/// The beginning of a motion after the laws of an event.
 ///
 /// Let y be the coordinates after the event, at the instant t*, and T the time asked for. The state
 /// at T is z = Φ(y), the flow of the new equations q̇ = F over T − t*, and as a function of y and t*
@@ -53,7 +53,7 @@ pub(crate) fn begin<const N: usize>(
     let model = equations.model;
     let lost = || Trouble::undecided("the begin of a motion");
     let (whole, when) = hull_of(instants);
-    // T has a limb less than there is, so that T + H is a number, too.
+    // T has one limb less than the model's numbers, so that T + H is exact, too.
     let last = Radius::power_of_two(64 - 64 * model.limbs as i64);
     let before = &when.centre() - &Ball::bound(when.radius().plus(last)).twice();
     let before = before.centre().with_limbs(model.limbs - 1).centre();

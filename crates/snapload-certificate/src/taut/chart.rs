@@ -7,10 +7,11 @@ use crate::model::{Model, State};
 use crate::taut::series::{Program, Term};
 use crate::verdict::Trouble;
 
-/// What is watched along a taut motion: each value stays below zero until it ends it.
+/// The quantities that are watched along a taut motion: the motion ends where one of them reaches
+/// zero from below.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Watch {
-    /// −T of a taut cable, by index from 0.
+    /// −T of a taut cable, T its tension; by index from 0.
     Tension(usize),
     /// The gap of a slack one.
     Gap(usize),
@@ -21,7 +22,7 @@ pub(crate) enum Watch {
 }
 
 impl Watch {
-    /// What is reached where it ends the motion.
+    /// The event that ends the motion where it reaches zero, in words.
     pub(crate) fn words(self) -> String {
         match self {
             Self::Tension(cable) => format!("the end of the tension of cable {}", cable + 1),
@@ -32,20 +33,20 @@ impl Watch {
     }
 }
 
-/// The equations of motion as terms and, as their outputs, what is watched.
+/// The equations of motion as terms, with the watched quantities as their outputs.
 pub(crate) struct Terms {
     pub(crate) program: Program,
     pub(crate) watched: Vec<Watch>,
 }
 
 impl Terms {
-    /// One more output.
+    /// Adds an output.
     pub(crate) fn watch(&mut self, what: Watch, value: Term) {
         self.watched.push(what);
         self.program.outputs.push(value);
     }
 
-    /// Both sides of the rotation limit.
+    /// Watches both sides of the rotation limit.
     pub(crate) fn watch_rotation(&mut self, model: &Model, theta: Term) {
         let limit = self.program.constant(model.functions.half_pi().clone());
         let minus_theta = self.program.negate(theta);
@@ -56,17 +57,18 @@ impl Terms {
     }
 }
 
-/// x, y, θ, their rates and a time, with their derivatives by as many numbers.
+/// x, y, θ and their rates, with their derivatives with respect to the six coordinates and the
+/// time.
 pub(crate) type StateJets = [Jet<Interval, 7>; 6];
 
-/// N coordinates, the rates among them, of the motion with some cables taut.
+/// N coordinates of the motion with some cables taut, their rates included.
 pub(crate) trait Chart<const N: usize> {
     fn terms(&self, model: &Model) -> Terms;
     /// The coordinates of a state in which those cables are taut and have no normal velocity.
     fn coordinates(&self, model: &Model, state: &State) -> Result<[Ball; N], Trouble>;
     /// The derivatives of the coordinates of such a state; none where they are not known.
     fn slopes(&self, model: &Model, state: &StateJets) -> Option<[[Interval; 7]; N]>;
-    /// Its outputs are the state of coordinates.
+    /// A program whose outputs are the state that belongs to given coordinates.
     fn place(&self, model: &Model) -> Program;
 }
 
@@ -85,7 +87,7 @@ pub(crate) fn force(p: &mut Program, model: &Model) -> [Term; 2] {
     [fx, p.subtract(fy, weight)]
 }
 
-/// R(θ) of a vector of the body, from sin θ and cos θ.
+/// The vector of the body rotated by θ, from sin θ and cos θ.
 pub(crate) fn arm(p: &mut Program, [a, b]: [&Ball; 2], [sine, cosine]: [Term; 2]) -> [Term; 2] {
     let [a_cos, a_sin] = [p.scale(cosine, a.clone()), p.scale(sine, a.clone())];
     let [b_cos, b_sin] = [p.scale(cosine, b.clone()), p.scale(sine, b.clone())];
@@ -97,7 +99,7 @@ pub(crate) fn side(cable: usize) -> i64 {
     if cable == 0 { 1 } else { -1 }
 }
 
-/// ρ and D = P − A of a cable, of the centre's place.
+/// ρ and D = P − A of a cable, for a position of the centre.
 pub(crate) fn end(
     p: &mut Program,
     model: &Model,

@@ -1,4 +1,5 @@
-//! Boxes that are proved to hold a taut motion over a step, and what they bound.
+//! Boxes that are proved to contain a taut motion over a step, and the bounds on its remainder that
+//! follow from them.
 
 use crate::arithmetic::ball::Ball;
 use crate::arithmetic::interval::Interval;
@@ -7,23 +8,24 @@ use crate::arithmetic::scalar::{Jet, Scalar};
 use crate::taut::series::Expansion;
 use crate::taut::step::{Equations, slopes_of, value_of};
 
-/// How much larger the boxes are than the ranges of the polynomials, those of the states and those of
-/// the derivatives by the begin.
+/// By how much the boxes are larger than the ranges of the polynomials, both for the states and for
+/// the derivatives with respect to the beginning.
 const ROOM: Radius = Radius::power_of_two(-48);
 const SLOPE_ROOM: Radius = Radius::power_of_two(-24);
 
-/// A box that is proved to hold the motion for a length.
+/// A box that is proved to contain the motion over a length of time.
 pub(super) struct Enclosed<'a, const N: usize> {
     equations: &'a Equations<'a>,
     length: f64,
     over: Interval,
     times: Interval,
     wide: [Interval; N],
-    /// The logarithm of the largest of what the coefficients of order n + 1 over it add to the state.
+    /// The logarithm of the largest contribution of the coefficients of order n + 1 over the box to
+    /// the state.
     pub(super) bits: f64,
 }
 
-/// Such a box; none if the one that is tried is too small.
+/// Such a box; none if the box that is tried is too small.
 pub(super) fn enclosed<'a, const N: usize>(
     equations: &'a Equations<'a>,
     time: &Ball,
@@ -45,7 +47,7 @@ pub(super) fn enclosed<'a, const N: usize>(
         .expand(&wide, &times, order, &equations.functions)?;
     let last = rest.state.iter().map(|series| series.last().copied());
     let largest = largest(last, length, order)?;
-    // The range and what is left out stay within the box if that is less than the room.
+    // The range plus the remainder stays within the box if the remainder is less than the room.
     (largest < ROOM).then(|| Enclosed {
         equations,
         length,
@@ -57,8 +59,8 @@ pub(super) fn enclosed<'a, const N: usize>(
 }
 
 impl<const N: usize> Enclosed<'_, N> {
-    /// The coefficients of order n + 1 over the box, and their derivatives by the begin; none if the box
-    /// that is tried for the derivatives is too small.
+    /// The coefficients of order n + 1 over the box, and their derivatives by the begin; none if
+    /// the box that is tried for the derivatives is too small.
     pub(super) fn rest(
         self,
         whole: &Expansion<Jet<Interval, N>, N>,

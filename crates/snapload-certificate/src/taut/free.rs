@@ -1,4 +1,4 @@
-//! Slack flight as a motion without taut cables, for what begins it.
+//! Slack flight as a motion without taut cables, for the events that begin it.
 
 use crate::arithmetic::ball::Ball;
 use crate::arithmetic::interval::Interval;

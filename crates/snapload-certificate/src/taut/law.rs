@@ -1,5 +1,5 @@
-//! What impacts make of a state, as terms, so that all digits and derivatives come from one text
-//! (docs/model.md, section 5).
+//! The effect of impacts on a state, as terms, so that values with all digits and derivatives come
+//! from the same formula (docs/model.md, section 5).
 
 use crate::arithmetic::ball::Ball;
 use crate::arithmetic::interval::Interval;
@@ -12,8 +12,8 @@ use crate::taut::series::{Program, Term};
 pub(crate) enum Law {
     /// Takes `share` of the normal velocity v of a cable away: v → v − share v u/w.
     One { cable: usize, share: Ball },
-    /// The same of a struck cable, and all of the normal velocity v_t of another: with q the impulse
-    /// of that one, w p + W q = share v, W p + w_t q = v_t,
+    /// Does the same for a struck cable, and takes all of the normal velocity v_t of another cable
+    /// away: with q the impulse of that one, w p + W q = share v, W p + w_t q = v_t,
     ///
     /// p = (share v − W v_t/w_t)/(w − W²/w_t),   q = (v_t − W p)/w_t.
     Beside {
@@ -86,7 +86,7 @@ impl Law {
     }
 }
 
-/// What laws, one after the other, make of a state; none where one divides by what may be zero.
+/// The state after laws applied one after the other; none where a divisor may be zero.
 pub(crate) fn after(laws: &[Law], model: &Model, state: &State) -> Option<State> {
     laws.iter().try_fold(state.clone(), |state, law| {
         let found = law.program(model).evaluate(&state, &model.functions)?;
@@ -94,7 +94,7 @@ pub(crate) fn after(laws: &[Law], model: &Model, state: &State) -> Option<State>
     })
 }
 
-/// The same of a state with its derivatives.
+/// The same for a state with its derivatives.
 pub(crate) fn jets_after(laws: &[Law], model: &Model, state: StateJets) -> Option<StateJets> {
     laws.iter().try_fold(state, |state, law| {
         let few = law.program(model).map(Interval::of);

@@ -1,4 +1,5 @@
-//! Motion with both cables taut, of one degree of freedom: the rotation θ (docs/model.md, section 6).
+//! Motion with both cables taut, of one degree of freedom: the rotation θ (docs/model.md, section
+//! 6).
 
 use crate::arithmetic::ball::Ball;
 use crate::arithmetic::interval::Interval;
@@ -9,16 +10,16 @@ use crate::verdict::Trouble;
 
 /// Both cables taut. The coordinates are θ and θ̇.
 ///
-/// Let m be the place of the middle between both fairleads, seen from the middle between both anchors,
-/// and d = (a cos θ − 1, a sin θ). Then P₁ − A₁ = m + d and P₂ − A₂ = m − d, and both have the length r
-/// exactly if m·d = 0 and |m|² = r² − |d|². With D = |d|² = 1 + a² − 2 a cos θ > 0 and D < r² these
-/// are the two points m = ± S d⟂, S = √(r²/D − 1) > 0, d⟂ = (−a sin θ, a cos θ − 1). A motion stays
-/// with its sign, as S is not zero.
+/// Let m be the place of the middle between both fairleads, seen from the middle between both
+/// anchors, and d = (a cos θ − 1, a sin θ). Then P₁ − A₁ = m + d and P₂ − A₂ = m − d, and both have
+/// the length r exactly if m·d = 0 and |m|² = r² − |d|². With D = |d|² = 1 + a² − 2 a cos θ > 0 and
+/// D < r² these are the two points m = ± S d⟂, S = √(r²/D − 1) > 0, d⟂ = (−a sin θ, a cos θ − 1). A
+/// motion keeps its sign, as S is never zero.
 pub(crate) struct Rocking {
     sign: i64,
 }
 
-/// Where the body is, as terms.
+/// The position of the body, as terms.
 struct Held {
     theta: Term,
     spin: Term,
@@ -32,13 +33,13 @@ struct Held {
 }
 
 impl Rocking {
-    /// As the body hangs below its anchors where a cos θ < 1.
+    /// The branch with the sign of a body that hangs below its anchors where a cos θ < 1.
     #[cfg(test)]
     pub(crate) fn hanging() -> Self {
         Self { sign: 1 }
     }
 
-    /// On the side on which the state is.
+    /// The branch on which the state is.
     ///
     /// # Errors
     /// [`Trouble`] where that can not be told.

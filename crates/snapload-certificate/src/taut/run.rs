@@ -14,7 +14,7 @@ use crate::taut::step::{Equations, Place, Step};
 use crate::verdict::Trouble;
 use snapload::Stop;
 
-/// So many steps before a taut motion is given up.
+/// The most steps of a taut motion before the proof gives up.
 const MOST_STEPS: usize = 100_000;
 const LONGEST_STEP: f64 = 0.25;
 
@@ -24,10 +24,10 @@ pub(crate) struct TautEnd {
     pub(crate) event: Event,
 }
 
-/// What ends it. Cables are by index from 0.
+/// The event that ends it. Cables are by index from 0.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Event {
-    /// The tension of a cable is lost, falling.
+    /// The tension of a cable falls to zero.
     Released(usize),
     /// A slack cable closes.
     Struck(usize),
@@ -38,7 +38,7 @@ pub(crate) enum Event {
 pub(crate) struct Begin<'a> {
     /// The taut cables, by index from 0.
     pub(crate) taut: &'a [usize],
-    /// Before the laws of what brings them about.
+    /// The states before the laws of the event that makes the cables taut.
     pub(crate) instants: &'a Instants,
     pub(crate) laws: &'a [Law],
     /// Other cables that are closed then, and leave.
@@ -48,7 +48,7 @@ pub(crate) struct Begin<'a> {
 /// The motion from an instant at which some cables are taut with positive tensions and without
 /// normal velocities.
 ///
-/// `on_step` is told the time of each step, and may end the work.
+/// `on_step` receives the time of each step, and may end the work.
 pub(crate) fn hold(
     model: &Model,
     begin: &Begin<'_>,
@@ -93,7 +93,8 @@ fn follow<const N: usize>(
     for _ in 0..MOST_STEPS {
         let left = &model.t_end - &t;
         let step = Step::new(&equations, &t, &set, most)?;
-        // A little more than what served last time, as a length that is too large costs a trial.
+        // A little more than the last length that succeeded, as a length that is too large costs a
+        // trial.
         most = LONGEST_STEP.min(1.06 * step.length.to_f64());
         let now = Now {
             t: &t,
@@ -117,8 +118,8 @@ fn follow<const N: usize>(
     Err(Trouble::undecided("a taut motion of very many steps"))
 }
 
-/// Where a step begins: its time, the states, the time that is left, when the motion begins, and what is
-/// zero then.
+/// The beginning of a step: its time, the states, the time that is left, when the motion begins,
+/// and which values are zero then.
 struct Now<'a, const N: usize> {
     t: &'a Ball,
     set: &'a Set<N>,
@@ -127,7 +128,7 @@ struct Now<'a, const N: usize> {
     zeros: &'a Zeros,
 }
 
-/// The end of the motion within a step, if it is there.
+/// The end of the motion within a step, if it ends there.
 fn ending<const N: usize>(
     step: &Step<'_, N>,
     now: &Now<'_, N>,
@@ -180,7 +181,7 @@ fn event(watched: Watch) -> Event {
     }
 }
 
-/// When a watched value crosses zero, for the centre and for every state of the set.
+/// The times at which a watched value crosses zero, for the centre and for every state of the set.
 fn roots<const N: usize>(step: &Step<'_, N>, crossing: &Crossing) -> Result<[Ball; 2], Trouble> {
     let which = crossing.which;
     let (mut low, mut high) = (crossing.from.clone(), crossing.to.clone());
@@ -208,7 +209,8 @@ fn roots<const N: usize>(step: &Step<'_, N>, crossing: &Crossing) -> Result<[Bal
     if !(crossing.from.is_below(&tau) && tau.is_below(&crossing.to)) {
         return Err(flat());
     }
-    // As for flights: τ − f(τ)/ḟ, first with the slope of the piece, then with that about the root.
+    // As for flights: τ − f(τ)/ḟ, first with the slope over the piece, then with the slope near the
+    // root.
     let value = step.one_watched(which, &tau).value;
     let first = &tau - &value.over(&crossing.slope).ok_or_else(flat)?;
     let slope = step.one_watched(which, &tau.hull(&first)).rate;

@@ -1,18 +1,18 @@
 //! Taylor coefficients of a motion, order by order: a list of operations on power series, evaluated
-//! over balls or intervals, or with their derivatives by the state at the begin.
+//! over balls or intervals, with or without derivatives with respect to the initial state.
 
 use crate::arithmetic::ball::Ball;
 use crate::arithmetic::elementary::Elementary;
 use crate::arithmetic::scalar::Scalar;
 
-/// The place of a series in the list.
+/// The index of a series in the list.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct Term(usize);
 
 enum Operation<C> {
     Coordinate(usize),
     Constant(C),
-    /// Ωt, of the time since the begin.
+    /// Ωt, with t the time since the beginning.
     Phase(C),
     Add(Term, Term),
     Subtract(Term, Term),
@@ -25,12 +25,12 @@ enum Operation<C> {
     Cosine(Term),
 }
 
-/// A system of differential equations and what is to be known along its motion.
+/// A system of differential equations and the quantities that are evaluated along its motion.
 pub(crate) struct Program<C = Ball> {
     operations: Vec<Operation<C>>,
     /// The derivatives of the coordinates by time.
     pub(crate) rates: Vec<Term>,
-    /// What is watched.
+    /// The watched quantities.
     pub(crate) outputs: Vec<Term>,
 }
 
@@ -96,7 +96,7 @@ impl Program<Ball> {
         (sine, self.push(Operation::Cosine(a)))
     }
 
-    /// The same with other numbers for its constants.
+    /// The same program with its constants in another number type.
     pub(crate) fn map<C>(&self, number: impl Fn(&Ball) -> C) -> Program<C> {
         let operations = self.operations.iter().map(|operation| match operation {
             Operation::Coordinate(which) => Operation::Coordinate(*which),
@@ -120,14 +120,14 @@ impl Program<Ball> {
 }
 
 impl<C: Clone> Program<C> {
-    /// All series up to an order; none where something is divided by zero. Each coefficient follows
-    /// from those before it:
+    /// All series up to an order; none where a divisor may be zero. Each coefficient follows from
+    /// those before it:
     ///
     /// (ab)_k = Σ a_i b_{k−i},   (1/a)_k = −(1/a)_0 Σ_{i≥1} a_i (1/a)_{k−i},
     /// (√a)_k = (a_k − Σ_{0<i<k} (√a)_i (√a)_{k−i})/(2 (√a)_0),
     /// (sin a)_k = Σ i a_i (cos a)_{k−i}/k,   (cos a)_k = −Σ i a_i (sin a)_{k−i}/k,
     ///
-    /// and a coordinate's from its rate, y_k = ẏ_{k−1}/k.
+    /// and a coordinate's coefficient from that of its rate, y_k = ẏ_{k−1}/k.
     pub(crate) fn expand<S: Scalar<Constant = C>, const N: usize>(
         &self,
         begin: &[S; N],
@@ -156,7 +156,7 @@ impl<C: Clone> Program<C> {
         Some(Expansion { state, outputs })
     }
 
-    /// The outputs of numbers in place of coordinates, which do not move.
+    /// The outputs at given coordinates, which are taken as constant.
     pub(crate) fn evaluate<S: Scalar<Constant = C>, const N: usize>(
         &self,
         begin: &[S; N],

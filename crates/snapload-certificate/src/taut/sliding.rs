@@ -14,8 +14,8 @@ use crate::verdict::Trouble;
 pub(crate) struct Sliding(pub(crate) usize);
 
 impl Chart<4> for Sliding {
-    /// With n = (sin φ, −cos φ) along the cable from the anchor, e = (cos φ, sin φ) across it, ρ the
-    /// arm, s = ρ × n and m = ρ·n,
+    /// With n = (sin φ, −cos φ) along the cable from the anchor, e = (cos φ, sin φ) across it, ρ
+    /// the arm, s = ρ × n and m = ρ·n,
     ///
     /// P = A + r n,   P̈ = r φ̈ e − r φ̇² n = f − T n + θ̈ ρ⟂ − θ̇² ρ,   θ̈ = −T s/I,
     ///
@@ -70,9 +70,9 @@ impl Chart<4> for Sliding {
         terms
     }
 
-    /// D/|D| = (sin φ, −cos φ), where |D| is r but for the digits. For a number φ₀ next to φ,
-    /// cos(φ − φ₀) > 0, z = sin(φ − φ₀) follows from the addition theorem, and |arcsin z − z| ≤ |z|³
-    /// for |z| ≤ 1/2. The rate is (D_x Ṗ_y − D_y Ṗ_x)/r².
+    /// The coordinates follow from D/|D| = (sin φ, −cos φ), where |D| is r up to rounding. For a
+    /// number φ₀ next to φ, cos(φ − φ₀) > 0, z = sin(φ − φ₀) follows from the addition theorem, and
+    /// |arcsin z − z| ≤ |z|³ for |z| ≤ 1/2. The rate is (D_x Ṗ_y − D_y Ṗ_x)/r².
     fn coordinates(&self, model: &Model, state: &State) -> Result<[Ball; 4], Trouble> {
         let end = model.end(self.0, state, &model.turn(&state[2]));
         let [dx, dy] = &end.reach;
@@ -155,9 +155,9 @@ impl Chart<4> for Sliding {
     }
 }
 
-/// Where the body is, as terms.
+/// The position of the body, as terms.
 struct Held {
-    /// Of the end of the taut cable, along the body.
+    /// The coordinates of the taut cable's end, in the body's frame.
     a: Ball,
     n: [Term; 2],
     /// sin θ and cos θ.
@@ -167,7 +167,7 @@ struct Held {
 }
 
 impl Sliding {
-    /// The other cable's gap and the tops.
+    /// Watches the other cable's gap and the tops.
     fn watch_gap_and_tops(&self, terms: &mut Terms, model: &Model, held: &Held) {
         let p = &mut terms.program;
         // The centre, with the anchors' level as zero and this anchor's x, is r n − ρ.

@@ -8,11 +8,11 @@ use crate::slack::search::{Zero, Zeros};
 use crate::taut::law::{Law, after};
 use crate::verdict::Trouble;
 
-/// What a snap beside a taut cable makes of the motion.
+/// The motion after a snap while another cable is taut.
 pub(crate) struct After {
-    /// The law of impact, before any rest is taken away.
+    /// The law of impact, before remaining normal velocities are taken away.
     pub(crate) rebound: Vec<Law>,
-    /// The laws with which the motion goes on.
+    /// The laws after which the motion continues.
     pub(crate) goes_on: Vec<Law>,
     /// The taut cables from now on, by index from 0.
     pub(crate) taut: Vec<usize>,
@@ -20,7 +20,7 @@ pub(crate) struct After {
     pub(crate) zeros: Zeros,
 }
 
-/// A cable that is struck, and one that is taut, without normal velocity, at the same instant.
+/// A cable that is struck while another one is taut and without normal velocity.
 pub(crate) struct Pair<'a> {
     model: &'a Model,
     state: &'a State,
@@ -56,13 +56,13 @@ impl<'a> Pair<'a> {
         })
     }
 
-    /// The law of impact, and of what it leaves the taut set. `may_stick` is whether the struck cable
-    /// is slower than `v_stick` or does not bounce; `in_turns` whether it is the last of a row of slow
-    /// snaps of both cables.
+    /// The law of impact, and which cables are taut after it. `may_stick` says whether the struck
+    /// cable is slower than `v_stick` or e = 0; `in_turns` whether the snap is the last of a row of
+    /// slow snaps of both cables.
     ///
-    /// With W > 0 between them the impulse of the struck cable, (1 + e) v/w, opens the taut one:
-    /// its normal velocity becomes −W p < 0. With W < 0 it pulls on the taut one, which stays
-    /// without normal velocity by an impulse of its own.
+    /// If the coupling W is positive, the impulse of the struck cable, p = (1 + e) v/w, opens the
+    /// taut one: its normal velocity becomes −W p < 0. If W < 0 the impulse loads the taut cable,
+    /// which keeps its zero normal velocity by an impulse of its own.
     pub(crate) fn after(&self, may_stick: bool, in_turns: bool) -> Result<After, Trouble> {
         let all = Ball::integer(1) + &self.model.e;
         let unloads = sign(&self.coupling, "whether a snap unloads the taut cable")?;
@@ -88,7 +88,8 @@ impl<'a> Pair<'a> {
         Ok(self.loading(rebound, halted, carries))
     }
 
-    /// Where both cables are closed and nothing moves: which of them are taut, and how the others leave.
+    /// Where both cables are closed and the body is at rest: which of them are taut, and how the
+    /// others leave.
     pub(crate) fn resting(&self) -> Result<(Vec<usize>, Zeros), Trouble> {
         let [vx, vy, spin] = [3, 4, 5].map(|k: usize| self.state[k].clone());
         let carries = self.carrying(&[vx, vy, spin], true)?;
@@ -103,7 +104,7 @@ impl<'a> Pair<'a> {
         Ok([vx, vy, spin])
     }
 
-    /// Whether the taut cable leaves by less than `v_stick`: by nothing, or by W (1 + e) v/w.
+    /// Whether the taut cable leaves more slowly than `v_stick`: its speed is 0, or W (1 + e) v/w.
     fn leaves_slowly(&self, unloads: bool) -> Result<bool, Trouble> {
         let e = Ball::integer(1) + &self.model.e;
         let speed = &self.coupling * &e * &self.struck.v_n * &self.struck.inverse_w;
@@ -111,7 +112,7 @@ impl<'a> Pair<'a> {
         Ok(!unloads || sign(&(&self.model.v_stick - &speed), what)?)
     }
 
-    /// Where the taut cable leaves and the struck one may stick.
+    /// The case in which the impact opens the taut cable; the struck one may stick.
     fn unloading(&self, rebound: Law, may_stick: bool, in_turns: bool) -> Result<After, Trouble> {
         let [struck, taut] = self.cables;
         let leaves = (taut, Zero::Opening);
@@ -147,7 +148,8 @@ impl<'a> Pair<'a> {
         }
     }
 
-    /// How the struck cable leaves where it does not stick: at −e v, or with e = 0 by its acceleration.
+    /// How the struck cable leaves where it does not stick: with the normal velocity −e v, or, if e
+    /// = 0, by its acceleration.
     fn struck_leaves(&self) -> Zero {
         if self.model.e.is_zero() {
             Zero::Lifting
@@ -156,9 +158,9 @@ impl<'a> Pair<'a> {
         }
     }
 
-    /// Which carry tension, the struck one and the taut one, at the velocity `halted`:
-    /// 0 ≤ T ⟂ −g̈ ≥ 0 with g̈/(2r) = b − W T, all signs strict. Where the struck one leaves anyway, the
-    /// taut one alone is asked.
+    /// Which of the two cables, struck and taut, carry tension at the velocity `halted`: 0 ≤ T ⟂
+    /// −g̈ ≥ 0 with g̈/(2r) = b − W T, all signs strict. Where the struck cable leaves in any case,
+    /// only the taut one is considered.
     fn carrying(&self, halted: &[Ball; 3], may_stick: bool) -> Result<[bool; 2], Trouble> {
         let (w, force) = (&self.coupling, &self.force);
         let b_taut = self.taut.load(halted, force);
@@ -166,13 +168,13 @@ impl<'a> Pair<'a> {
             return Ok([false, sign(&b_taut, "the tension of the taut cable")?]);
         }
         let b_struck = self.struck.load(halted, force);
-        // r T of each if both carry, but for a factor above zero.
+        // r T of each if both carry, up to a positive factor.
         let struck = &b_struck - &(w * &b_taut * &self.taut.inverse_w);
         let taut = &b_taut - &(w * &b_struck * &self.struck.inverse_w);
         if struck.is_positive() && taut.is_positive() {
             return Ok([true, true]);
         }
-        // The matrix of the problem is positive definite, so that there is one solution alone.
+        // The matrix of the problem is positive definite, so that the solution is unique.
         if b_taut.is_positive() && struck.is_negative() {
             return Ok([false, true]);
         }
@@ -196,7 +198,7 @@ impl<'a> Pair<'a> {
         }
     }
 
-    /// Of cables at rest those that carry, and the others, which leave by their acceleration.
+    /// The cables at rest that carry tension, and the others, which leave by their acceleration.
     fn carriers(&self, carries: [bool; 2]) -> (Vec<usize>, Zeros) {
         let pairs = || self.cables.into_iter().zip(carries);
         let mut taut: Vec<usize> = pairs().filter(|pair| pair.1).map(|pair| pair.0).collect();
@@ -205,7 +207,7 @@ impl<'a> Pair<'a> {
         (taut, others.map(|pair| (pair.0, Zero::Lifting)).collect())
     }
 
-    /// Where the taut cable is pulled on.
+    /// The case in which the impact loads the taut cable.
     fn loading(&self, rebound: Law, halted: Law, carries: [bool; 2]) -> After {
         let [struck, taut] = self.cables;
         let lifts = (taut, Zero::Lifting);
@@ -215,8 +217,8 @@ impl<'a> Pair<'a> {
             [false, true] => (vec![rebound.clone()], vec![taut], vec![leaves]),
             [false, false] => (vec![rebound.clone()], Vec::new(), vec![lifts, leaves]),
             [true, false] => {
-                // What is left of the struck cable's normal velocity, −e v, is taken away, which opens
-                // the other: its normal velocity becomes W e v/w < 0.
+                // The struck cable's remaining normal velocity, −e v, is taken away, which opens
+                // the other cable: its normal velocity becomes W e v/w < 0.
                 let rest = Law::One {
                     cable: struck,
                     share: Ball::integer(1),

@@ -1,4 +1,4 @@
-//! One step of taut motion by its Taylor polynomial, with a bound on what is left out.
+//! One step of taut motion by its Taylor polynomial, with a bound on the remainder.
 
 use crate::arithmetic::ball::Ball;
 use crate::arithmetic::elementary::Elementary;
@@ -13,7 +13,7 @@ use crate::taut::enclosure::enclosed;
 use crate::taut::series::{Expansion, Program};
 use crate::verdict::Trouble;
 
-/// The equations of a motion, with all digits and with those of doubles.
+/// The equations of a motion, at full precision and in intervals of doubles.
 pub(crate) struct Equations<'a> {
     pub(crate) model: &'a Model,
     pub(crate) program: Program,
@@ -23,7 +23,7 @@ pub(crate) struct Equations<'a> {
     pub(crate) watched: Vec<Watch>,
 }
 
-/// A program with all digits and with those of doubles.
+/// A program at full precision and in intervals of doubles.
 pub(crate) struct Place {
     pub(crate) exact: Program,
     pub(crate) few: Program<Interval>,
@@ -51,43 +51,43 @@ impl<'a> Equations<'a> {
     }
 }
 
-/// Motion over [0, H] from a set of states at a time, which is a number.
+/// Motion over [0, H] from a set of states at a time, which is a single number.
 pub(crate) struct Step<'a, const N: usize> {
     equations: &'a Equations<'a>,
     /// H, a number.
     pub(crate) length: Ball,
     centre: Expansion<Ball, N>,
-    /// From all states of the set, with the derivatives by them; the last coefficients are those of
-    /// order n + 1 over all states passed, and stand for all that is left out.
+    /// The series from all states of the set, with derivatives with respect to them; the last
+    /// coefficients are those of order n + 1 over all states passed, and bound the remainder.
     whole: Expansion<Jet<Interval, N>, N>,
-    /// Of each output the coefficients of its derivative, of the centre and of all states.
+    /// For each output the coefficients of its derivative, for the centre and for all states.
     rates: Vec<(Vec<Ball>, Vec<Jet<Interval, N>>)>,
-    /// From the centre to any state of the set.
+    /// The difference of any state of the set from the centre.
     spread: [Ball; N],
-    /// Of each output the coefficients of the second and third derivative over the set, with the
+    /// For each output the coefficients of the second and third derivative over the set, the
     /// remainder's as the last.
     bends: Vec<[Vec<Interval>; 2]>,
 }
 
-/// What is left out of the polynomial is less than 2 to the power of this times the limbs.
+/// The remainder of the polynomial is kept below 2^(−38 · limbs).
 const REMAINDER_BITS: f64 = 38.0;
-/// So many lengths are tried for a step.
+/// The most lengths that are tried for a step.
 const MOST_TRIALS: u32 = 40;
 
-/// Terms of the polynomial, by the limbs of its numbers.
+/// The order of the polynomial, by the number of limbs.
 fn order(limbs: usize) -> usize {
     8 + 8 * limbs
 }
 
 impl<'a, const N: usize> Step<'a, N> {
-    /// A step of a length of its own choice, at most `most`.
+    /// A step whose length is chosen here, at most `most`.
     ///
-    /// Let P be the Taylor polynomial of order n of the solution from a state x of the set X. If for a
-    /// box Y and R, the coefficients of order n + 1 over Y and the times passed, the range of P over
-    /// [0, H] with R [0, H]^(n+1) is within Y for every x, then each solution exists on [0, H], is
-    /// within Y, and is within P + R τ^(n+1) (Nedialkov and Jackson's enclosure of higher order; the
-    /// remainder is Lagrange's). The derivatives by x solve the variational equation, and are
-    /// enclosed alike: their coefficients over Y and a box that is proved to hold them.
+    /// Let P be the Taylor polynomial of order n of the solution from a state x of the set X. If
+    /// for a box Y and R, the coefficients of order n + 1 over Y and the times passed, the range of
+    /// P over [0, H] with R [0, H]^(n+1) is within Y for every x, then each solution exists on [0,
+    /// H], is within Y, and is within P + R τ^(n+1) (Nedialkov and Jackson's enclosure of higher
+    /// order; the remainder is Lagrange's). The derivatives by x solve the variational equation,
+    /// and are enclosed alike: their coefficients over Y and a box that is proved to hold them.
     pub(crate) fn new(
         equations: &'a Equations<'a>,
         time: &Ball,
@@ -135,7 +135,7 @@ impl<'a, const N: usize> Step<'a, N> {
                     spread,
                 });
             }
-            // The remainder falls with the power n + 1 of the length, and a bit faster.
+            // The remainder decreases with the power n + 1 of the length, and a bit faster.
             let over = if is_little {
                 f64::INFINITY
             } else {
@@ -159,8 +159,8 @@ impl<'a, const N: usize> Step<'a, N> {
         std::array::from_fn(|i| self.with_spread(&self.centre.state[i], &self.whole.state[i], tau))
     }
 
-    /// A polynomial of the centre with what it leaves out, and by the mean value theorem the
-    /// derivatives over the set times what is between.
+    /// The polynomial of the centre with its remainder, plus, by the mean value theorem, the
+    /// derivatives over the set times the differences from the centre.
     fn with_spread(&self, centre: &[Ball], whole: &[Jet<Interval, N>], tau: &Ball) -> Ball {
         let slopes = slopes_of(whole, Interval::of(tau)).map(some_ball);
         let pairs = slopes.iter().zip(&self.spread);
@@ -183,8 +183,8 @@ impl<'a, const N: usize> Step<'a, N> {
         std::array::from_fn(|i| polynomial(&self.centre.state[i], &self.whole.state[i], tau))
     }
 
-    /// The set after τ in [0, H], each state at an instant τ* of its own within `whole`, at which the
-    /// output `which` is zero; `centre` is that of the set's centre.
+    /// The set after τ in [0, H], each state at an instant τ* of its own within `whole`, at which
+    /// the output `which` is zero; `centre` is the instant of the set's centre.
     ///
     /// With q(τ, x) the coordinates and f the output, dq/dx = ∂q/∂x + q̇ dτ*/dx and
     /// dτ*/dx = −(∂f/∂x)/ḟ.
@@ -201,7 +201,7 @@ impl<'a, const N: usize> Step<'a, N> {
         self.moved(time, [centre, whole], instant, place)
     }
 
-    /// The map to the state at an instant τ* and that instant, with the derivatives of τ*.
+    /// The map to the state at an instant τ* and to that instant, from the derivatives of τ*.
     fn moved(
         &self,
         time: &Ball,
@@ -276,8 +276,8 @@ pub(super) fn slopes_of<const N: usize>(
     })
 }
 
-/// A ball about an interval; of one without an end a ball so large that whatever is made with it, but by
-/// a factor of exactly zero, has no sign, and decides nothing.
+/// A ball that contains an interval. For an unbounded interval the ball is so large that every
+/// product with it, unless the factor is exactly zero, has an undecided sign.
 pub(crate) fn some_ball(interval: Interval) -> Ball {
     let endless = || Ball::within(Radius::power_of_two(1 << 20));
     interval.ball().unwrap_or_else(endless)
@@ -307,7 +307,8 @@ fn with_last<S: Scalar, const N: usize>(
 
 /// An output f is a function of the solution, so that f is its own polynomial with the coefficient
 /// of order n + 1 taken over Y, and a derivative of f that polynomial's derivative: that of order d
-/// has as its Lagrange remainder the derivative of order n + 1 of f, over Y, divided by (n + 1 − d)!.
+/// has as its Lagrange remainder the derivative of order n + 1 of f, over Y, divided by (n + 1 −
+/// d)!.
 impl<const N: usize> Path for Step<'_, N> {
     fn count(&self) -> usize {
         self.bends.len()
@@ -358,7 +359,7 @@ fn derivative<S: Scalar>(coefficients: &[S]) -> Vec<S> {
     terms.map(|(k, c)| c.times_small(k as u32)).collect()
 }
 
-/// A length at which the last terms of the polynomial are as small as the digits ask for.
+/// A length at which the last terms of the polynomial are as small as the precision requires.
 fn likely_length<const N: usize>(centre: &Expansion<Ball, N>, limbs: usize) -> f64 {
     let bits = REMAINDER_BITS * limbs as f64;
     let mut least = 0.25f64;
@@ -373,7 +374,7 @@ fn likely_length<const N: usize>(centre: &Expansion<Ball, N>, limbs: usize) -> f
     rounded(least)
 }
 
-/// A double of few bits, so that times stay short.
+/// The length rounded to a double of few bits, so that sums of times stay short.
 fn rounded(length: f64) -> f64 {
     let unit = (length.log2().floor() - 6.0).exp2();
     (length / unit).floor() * unit

@@ -1,5 +1,5 @@
 //! Taut motion against references of 25 digits that were computed by other code in two other
-//! formulations (`crates/snapload/tests/oracle`), and its parts against what they are made for.
+//! formulations (`crates/snapload/tests/oracle`), and its parts against independent computations.
 use crate::arithmetic::ball::Ball;
 use crate::arithmetic::decimal::Decimal;
 use crate::arithmetic::radius::Radius;
@@ -57,7 +57,7 @@ fn model(params: &Value, inertia: &Value, t_end: f64) -> Model {
     Model::new(&case, 2).expect("a model")
 }
 
-/// The event of a kind of the references.
+/// The event that a reference's kind stands for.
 fn event_of(kind: &str) -> Event {
     match kind {
         "rotation_limit" => Event::Stop(Stop::RotationLimit),
@@ -74,8 +74,8 @@ fn close(case: &Value, ours: &Ball, theirs: &Value) {
     assert!(off < 1e-19, "{}: {off:e}", case["id"]);
 }
 
-/// Motion with one and with two taut cables from a given state to its event: which it is, when, and
-/// the state then are the reference's to 19 digits.
+/// Motion with one and with two taut cables from a given state to its event: the kind of event, its
+/// time and the state agree with the reference to 19 digits.
 #[test]
 fn taut_motion_is_the_references() {
     let path = format!(
@@ -91,7 +91,8 @@ fn taut_motion_is_the_references() {
         let cables = cables.map(|cable| cable.as_u64().expect("a cable") as usize - 1);
         let taut: Vec<usize> = cables.collect();
         if kind == "upper_bound" {
-            // Those files stop where the centre passes the anchors' level, which is later than the top.
+            // Those files stop where the centre passes the anchors' level, which is later than the
+            // top does.
             continue;
         }
         let t_end = if kind == "t_max" { 2.0 } else { 10.0 };
@@ -110,14 +111,14 @@ fn taut_motion_is_the_references() {
         let end = end.unwrap_or_else(|why| panic!("{}: {why:?}", case["id"]));
         let (state, t) = hull_of(&end.instants);
         if end.event == Event::Stop(Stop::UpperBound) {
-            // The top is there before what the reference ends with, as the centre goes on for it.
+            // The top reaches the level before the reference ends, which follows the centre.
             let later = ball(&case["end"]["t"]);
             assert!(t.is_below(&later), "{}", case["id"]);
             continue;
         }
         seen[taut.len() - 1] += 1;
         assert_eq!(end.event, event_of(kind), "{}", case["id"]);
-        // Those that go on to the end of their time are followed to a row of their tables.
+        // References that run to the end of their time are followed to a row of their tables.
         let end = if kind == "t_max" {
             let mut rows = case["rows"].as_array().expect("rows").iter();
             rows.find(|row| row["t"] == "2.0000").expect("a row")
@@ -152,8 +153,9 @@ fn number(x: f64) -> Ball {
 }
 
 /// At x = y = θ = 0 both cables are closed, with D = (±(a − 1), −h) and the arms (±a, b). What an
-/// impact of one makes of the other, which is taut, against the problem that it solves: no impulse
-/// pushes, the struck cable's speed is reversed, and the taut one opens or passes an impulse on.
+/// The effect of an impact of one cable on the other, which is taut, against the problem that it
+/// solves: impulses are not negative, the struck cable's velocity is reversed, and the taut one
+/// opens or takes an impulse.
 #[test]
 fn an_impact_beside_a_taut_cable_is_complementary() {
     let (mut stayed, mut left) = (0, 0);
@@ -195,7 +197,8 @@ fn an_impact_beside_a_taut_cable_is_complementary() {
                 let rebound = after(&snap.rebound, &model, &state).expect("a velocity");
                 let [.., vx, vy, spin] = rebound.map(|ball| ball.to_f64());
                 let after = [vx, vy, spin];
-                // M (v⁻ − v⁺) = p g + q t: q from what is left of it across g.
+                // M (v⁻ − v⁺) = p g + q t: q from the component of the left side perpendicular to
+                // g.
                 let lost = [v[0] - after[0], v[1] - after[1], i * (v[2] - after[2])];
                 let cross = g[0] * t[1] - g[1] * t[0];
                 let p = (lost[0] * t[1] - lost[1] * t[0]) / cross;
@@ -215,9 +218,9 @@ fn an_impact_beside_a_taut_cable_is_complementary() {
     assert!(stayed > 5 && left > 5, "{stayed} {left}");
 }
 
-/// The derivatives of a chart's series by the state at the begin are the central differences of them
-/// with steps of 2⁻⁶⁰, which are off by about 2⁻¹²⁰ times a third derivative; those of intervals are
-/// as wide as doubles make them.
+/// The derivatives of a chart's series with respect to the initial state agree with central
+/// differences with steps of 2⁻⁶⁰, whose error is about 2⁻¹²⁰ times a third derivative; the
+/// derivatives in intervals are as wide as the rounding of doubles makes them.
 fn slopes_are_differences<const N: usize>(chart: &impl Chart<N>, start: [f64; N]) {
     let (_, model) = rectangle([1.5, 0.2, 0.1], LIMBS);
     let terms = chart.terms(&model);
@@ -276,8 +279,8 @@ fn followed<const N: usize>(
     }
 }
 
-/// A step with few digits, so that its remainder is what is widest, and a step from a wide box hold
-/// what many digits make of the box's middle and corners: coordinates and what is watched.
+/// A step with few digits, where the remainder dominates, and a step from a wide box contain the
+/// results of many digits for the box's middle and corners: coordinates and watched values.
 fn steps_hold<const N: usize>(chart: &impl Chart<N>, start: [f64; N]) {
     let [(_, fine), (_, few)] = [4, 2].map(|limbs| rectangle([1.5, 0.2, 0.1], limbs));
     let [exact, equations] = [&fine, &few].map(|model| Equations::of(chart, model));
@@ -337,8 +340,9 @@ fn steps_hold_the_motion() {
     steps_hold(&Rocking::hanging(), [0.3, -1.1]);
 }
 
-/// States of a box, each at an instant of its own, carried to the begin of a motion: what is made of
-/// single states of the box is in the set. So for all three kinds of motion, after a law.
+/// The states of a box, each at an instant of its own, are carried to the beginning of a motion:
+/// the images of single states of the box are in the set. This is tested for all three kinds of
+/// motion, after a law.
 fn begins_hold<const N: usize>(chart: &impl Chart<N>, laws: &[Law], state: [f64; 7]) {
     let (_, model) = rectangle([1.5, 0.2, 0.1], LIMBS);
     let equations = Equations::of(chart, &model);

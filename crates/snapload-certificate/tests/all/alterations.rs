@@ -1,4 +1,4 @@
-//! A certificate that is altered anywhere is not passed.
+//! An altered certificate is refused, wherever it is altered.
 use crate::common::{case_of, proof};
 use serde_json::{Value, json};
 use snapload::{Case, Parameters};
@@ -223,7 +223,7 @@ fn other_shapes_are_no_certificates() {
     }
 }
 
-/// A list of the values in the order of the keys is not what has the keys.
+/// A list of the values in the order of the keys does not replace an object with the keys.
 #[test]
 fn lists_in_place_of_keys_are_no_certificates() {
     let whole = certificate();
@@ -268,7 +268,7 @@ fn lists_in_place_of_keys_are_no_certificates() {
     }
 }
 
-/// The times of the ordinary run, however few of their decimals are printed, are not those of the
+/// The impact times of a run in doubles, even with few decimals printed, are not those of the
 /// standard case.
 #[test]
 fn times_of_the_ordinary_run_are_refused() {
@@ -291,7 +291,7 @@ fn times_of_the_ordinary_run_are_refused() {
     }
 }
 
-/// An inertia that was typed is that decimal, also where its double is that of the size.
+/// A typed inertia is kept as that decimal, even if its double is that of the size.
 #[test]
 fn a_typed_inertia_is_kept() {
     let typed = "0.010000000000000002";

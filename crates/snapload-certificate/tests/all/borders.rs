@@ -1,9 +1,10 @@
-//! Cases of decimals that lie on a border exactly: nothing may be proved of either side. A step of
-//! 10⁻²⁰ to one side decides each.
+//! Cases of decimals that lie exactly on a border: neither side may be proved. A change of 10⁻²⁰ to
+//! one side decides each.
 use snapload_certificate::{Certification, Decimal, Ended, ExactCase, Reason, certify};
 use std::ops::ControlFlow;
 
-/// A rigid body or a point under a steady force, by hand; what is not given is zero.
+/// A rigid body or a point under a constant force, in exact decimals; values that are not given are
+/// zero.
 struct Border {
     is_point: bool,
     keys: Vec<(&'static str, String)>,
@@ -38,7 +39,7 @@ impl Border {
         proof.expect("not cancelled").expect("a legal start")
     }
 
-    /// How it ends; nothing where that is undecided.
+    /// How the run ends; none if that is undecided.
     fn end(&self) -> Option<&'static str> {
         match self.proof().end {
             Ended::Proved(reason) => Some(reason.name()),
@@ -47,10 +48,9 @@ impl Border {
     }
 }
 
-/// A point on a cable of the length 5/4, h = 3/4, that reaches D = (−1.2, −0.35) of cable 1 at
-/// t = 1/10 with the velocity (−0.2, −1.1): v_n = 0.192 + 0.308 = 1/2. What is left of the velocity is
-/// (0.28, −0.96), of the size 1, and with f_o = 1.125 the tension is none:
-/// 1 + D·f = 1 − 1.35 + 0.35 = 0.
+/// A point on a cable of the length 5/4, h = 3/4, that reaches D = (−1.2, −0.35) of cable 1 at t =
+/// 1/10 with the velocity (−0.2, −1.1): v_n = 0.192 + 0.308 = 1/2. The remaining velocity is (0.28,
+/// −0.96), of magnitude 1, and with f_o = 1.125 the tension is zero: 1 + D·f = 1 − 1.35 + 0.35 = 0.
 fn point() -> Border {
     Border::new(
         true,
@@ -83,7 +83,7 @@ fn an_end_at_the_instant_of_an_impact_is_undecided() {
 
 #[test]
 fn a_tension_of_zero_is_undecided() {
-    // v_stick is above v_n, so that the tension is asked for; a little less force makes it positive.
+    // v_stick is above v_n, so that the tension decides; a little less force makes it positive.
     let slow = point().with("v_stick", "0.6");
     assert_eq!(slow.end(), None);
     assert_eq!(slow.with("e", "0").end(), None);
@@ -130,7 +130,7 @@ fn a_stick_at_the_settling_height_is_undecided() {
         ],
     );
     assert_eq!(rectangle.end(), None);
-    // A smaller x strikes sooner and higher, a larger one later and lower.
+    // A smaller x makes the impact earlier and higher, a larger one later and lower.
     let high = rectangle.with("x", "-0.04000000000000000001");
     assert_eq!(high.end(), Some("sliding_start"));
     let low = rectangle.with("x", "-0.03999999999999999999");

@@ -1,4 +1,4 @@
-//! Cables that are all but touched: a hit and a miss are told apart, a touch is not decided.
+//! Cables that are nearly touched: a hit and a miss are decided, an exact touch is not.
 use crate::common::{case_of, proof};
 use snapload::Stop;
 use snapload_certificate::{Ended, Reason, Verdict, check};
@@ -48,7 +48,7 @@ fn ten_to_the_minus_38_decides_it() {
     }
 }
 
-/// A start that is its own mirror image brings both cables taut at one instant.
+/// A symmetric start makes both cables taut at one instant.
 #[test]
 fn two_at_one_instant_are_undecided() {
     let both = proof(&case_of("f_o=0"));
@@ -56,8 +56,9 @@ fn two_at_one_instant_are_undecided() {
     assert_eq!(both.impacts, 0);
 }
 
-/// A gap at the start within 1e-9 of zero is put right by an iteration, of which nothing is proved; at
-/// x = y = θ = 0 both are zero for every size, and two taut cables so low are settled.
+/// A gap within 1e-9 of zero at the start is corrected by an iteration about which nothing is
+/// proved; at x = y = θ = 0 both gaps are zero for every size, and two taut cables so low are
+/// settled.
 #[test]
 fn a_start_next_to_a_cable_is_undecided() {
     let next_to_it = proof(&case_of("y=1e-12 f_o=0.1"));

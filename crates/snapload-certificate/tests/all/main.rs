@@ -1,4 +1,4 @@
-//! What certificates must hold, by the authority that each agrees with.
+//! The properties of certificates, one file for each reference or kind of test.
 mod alterations;
 mod borders;
 mod common;

@@ -43,7 +43,7 @@ fn agrees(printed: &str, reference: &str) -> bool {
         .split_once('.')
         .map_or(0, |(_, fraction)| fraction.len());
     let unit = 10f64.powi(power.parse::<i32>().expect("a power") - places as i32);
-    // Both agree in the leading digits; the difference is that of what is left of them.
+    // Both agree in the leading digits; the rest is compared.
     let scaled = |text: &str| -> (i128, i32) {
         let (digits, power) = text.split_once('e').unwrap_or((text, "0"));
         let places = digits
@@ -56,7 +56,7 @@ fn agrees(printed: &str, reference: &str) -> bool {
     let low = p.min(q);
     let at = |n: i128, power: i32| n * 10i128.pow((power - low) as u32);
     let off = (at(a, p) - at(b, q)).abs() as f64 * 10f64.powi(low);
-    // The reference itself is cut off after 30 digits.
+    // The reference itself is truncated after 30 digits.
     off <= 0.5 * unit * (1.0 + 1e-3)
 }
 
@@ -87,7 +87,7 @@ fn compare(proof: &Certification, reference: &Value) {
     assert!(agrees(end["t"].as_str().expect("a time"), t));
     let kind = reference["end"]["kind"].as_str().expect("a kind");
     let reason = end["reason"].as_str().expect("a reason");
-    // Without stop_when_sliding a cable that sticks high up is no stop.
+    // Without stop_when_sliding a cable that sticks at a high position does not end the run.
     assert_eq!(
         reason,
         if kind == "sliding_start" {
@@ -98,7 +98,8 @@ fn compare(proof: &Certification, reference: &Value) {
     );
 }
 
-/// Every case of the oracle to its end; count, cables, times, velocities and end are its digits.
+/// Every case of the oracle is proved to its end; count, cables, times, velocities and end agree
+/// with its digits.
 #[test]
 fn every_case_is_proved_to_its_end() {
     for reference in read("cases.json")["cases"].as_array().expect("cases") {
@@ -113,7 +114,7 @@ fn every_case_is_proved_to_its_end() {
     }
 }
 
-/// Starts tuned so that a gap peaks at ±1e-4 to ±1e-13: each touch is proved, each miss, too.
+/// Starts tuned so that a gap peaks at ±1e-4 to ±1e-13: each touch and each miss is proved.
 #[test]
 fn grazes_are_proved() {
     for reference in read("grazing.json")["cases"].as_array().expect("cases") {
@@ -125,7 +126,8 @@ fn grazes_are_proved() {
             proof.end
         );
         assert!(matches!(check(&proof.text()), Verdict::Proved { .. }));
-        // One ends by another rule: its first snap is below v_stick without tension and flies on.
+        // One case ends by another rule: its first snap is below v_stick without tension and the
+        // flight continues.
         if reference["end"]["kind"] != "sliding_start" {
             compare(&proof, reference);
         }

@@ -1,5 +1,4 @@
-//! Certificates of motion with taut cables; its numbers are compared with references beside the
-//! proof itself.
+//! Certificates of motion with taut cables; the numbers in them are tested beside the proof itself.
 use crate::common::case_of;
 use serde_json::Value;
 use snapload::{Case, Entries, Impact, Parameters, Trajectory};
@@ -68,8 +67,8 @@ fn stretches(lines: &[Line]) -> Vec<(&[u64], f64, f64, &str)> {
     stretches.collect()
 }
 
-/// What becomes of the taut cables at each end of a stretch: how many there are, the event, and which
-/// are taut then.
+/// The changes at the end of each stretch: the number of taut cables before, the event, and the
+/// cables that are taut afterwards.
 fn changes(lines: &[Line]) -> Vec<String> {
     let stretches = stretches(lines);
     let pairs = stretches.windows(2);
@@ -87,9 +86,9 @@ fn changes(lines: &[Line]) -> Vec<String> {
     change.collect()
 }
 
-/// Short runs that slide, rock, snap beside a taut cable and fly again, as the simulator has them with
-/// doubles, which is another formulation: multipliers in x, y and θ. Each snap is of its cable, at its
-/// time, as fast; and both end alike.
+/// Short runs that slide, rock, snap beside a taut cable and fly again agree with those of the
+/// simulator, which uses doubles and another formulation: multipliers in x, y and θ. Each snap has
+/// the same cable, time and speed, and both runs end alike.
 #[test]
 fn taut_runs_are_those_of_the_simulator() {
     let common = "stop_when_settled=false";
@@ -99,13 +98,14 @@ fn taut_runs_are_those_of_the_simulator() {
         "x=0 y=0 theta=0 vx=0 vtheta=0 vy=0 f_o=0.5 t_end=3.2",
         "x=0 y=0 theta=0 vx=0 vtheta=0 f_o=0.9 nu=1.5 omega=3 vy=0 t_end=1",
         "x=0 y=0 theta=0 vx=0 vy=0.3 vtheta=0 f_o=0 t_end=0.5",
-        // A cable that does not bounce, and snaps of both in turn that come to rest together.
+        // A cable that does not rebound, and alternating snaps of both that come to rest together.
         "r=1.2 e=0 a=0.3 b=0.2 f_o=0.6 nu=0 omega=3 x=0 y=0.15 theta=0.1 vx=0 vy=0 vtheta=0.3 v_stick=1e-3 t_end=1.2",
         // A snap that pulls on the taut cable, which stays so.
         "r=2 e=0.5 a=0.5 b=0.2 f_o=0.8 nu=0 omega=1.5 x=0 y=0.1 theta=0.1 vx=0 vy=0 vtheta=0 v_stick=1e-3 t_end=2.5",
-        // Snaps that unload the taut cable, until both come to rest together in turns.
+        // Snaps that unload the taut cable, until both come to rest together after alternating
+        // snaps.
         "r=2 e=0.2 a=0.3 b=0.4 f_o=0.4 nu=1 omega=3 x=-0.1 y=0.15 theta=-0.2 vx=0.2 vy=0 vtheta=0 v_stick=1e-2 t_end=2.7",
-        // Rocking that loses a tension, and sliding that does.
+        // Rocking in which a tension is lost, and sliding in which it is.
         "r=1.2 e=0.2 a=0.1 b=0 f_o=1 nu=1 omega=3 x=0.05 y=0.15 theta=0.1 vx=0 vy=0 vtheta=0.3 v_stick=1e-2 t_end=4",
     ] {
         let settings = format!("{settings} {common}");
@@ -161,9 +161,9 @@ fn taut_runs_are_those_of_the_simulator() {
     }
 }
 
-/// The sliding example, by its published account: cable 2 is taut from 7.907, cable 1 snaps at 8.008,
-/// cable 2 sticks again from about 8.75, and after an accumulation of snaps beside it both hold the
-/// body from 8.876 on.
+/// The sliding example, by its published account: cable 2 is taut from 7.907, cable 1 snaps at
+/// 8.008, cable 2 sticks again from about 8.75, and after an accumulation of snaps beside it both
+/// hold the body from 8.876 on.
 #[test]
 fn the_sliding_example_is_proved_into_rocking() {
     let named = snapload::named_case("sliding-example").expect("a built-in case");
@@ -186,7 +186,7 @@ fn the_sliding_example_is_proved_into_rocking() {
     );
 }
 
-/// A taut stretch is checked again, and refused where anything of it is altered.
+/// A taut stretch is checked again, and is refused if any part of it is altered.
 #[test]
 fn altered_stretches_are_refused() {
     let parameters = Parameters {
@@ -217,7 +217,7 @@ fn altered_stretches_are_refused() {
             "{key} {value}: {verdict:?}"
         );
     }
-    // Of format 1 there are no stretches.
+    // Format 1 has no stretches.
     let mut altered = certificate;
     altered["format"] = serde_json::json!("snapload-certificate-1");
     assert!(matches!(check(&altered.to_string()), Verdict::Malformed(_)));

@@ -1,4 +1,4 @@
-//! Case files with slips: each is named by its line, with what is allowed or to be written.
+//! Case files with errors: each message names the line, and what is allowed or meant.
 
 use crate::common::{directory, listing, snapload};
 use predicates::str::is_empty;

@@ -40,7 +40,7 @@ fn a_branch_goes_over_at_a_doubling() {
     let from = branch["from"].as_array().unwrap();
     assert_eq!(from.len(), 1);
     assert_eq!(from[0]["kind"], "period_doubling");
-    // 50 digits by an independent program, rounded.
+    // The value was computed with 50 digits by an independent program, and rounded.
     let born = 1.680507876014799;
     assert!((number(&from[0]["value"]) - born).abs() < 1e-9);
     assert_eq!(branch["ends"][0]["because"], "the period doubling");
@@ -130,7 +130,7 @@ fn a_curve_of_folds_is_one_of_branches() {
     assert_eq!(read("c.csv").lines().count(), points.len() + 1);
     assert!(read("c.csv").starts_with("arclength,f_o,omega,x,y,"));
     assert!(read("c.svg").contains("of a stable orbit"));
-    // From the event as it was told.
+    // The state of the event as it is reported.
     let state = &branch["events"][0]["state"];
     let start = format!(
         "x={},y={},vx={},vy={}",
@@ -269,8 +269,8 @@ fn sections_and_branches_are_drawn() {
         .stderr(contains(".svg or .png"));
 }
 
-/// The points of the first example of a section fill their two closed curves: seen from the middle of a curve no
-/// two neighbours are far apart.
+/// The points of the first example of a section fill its two closed curves: seen from the middle of
+/// a curve no two neighbours are far apart.
 #[test]
 fn the_example_of_a_torus_shows_curves() {
     let d = directory();
@@ -313,7 +313,8 @@ fn the_example_of_a_torus_shows_curves() {
     }
 }
 
-/// A motion that stops before the first point has no section: that is said, and no file is written.
+/// A motion that stops before the first point has no section: a message says so, and no file is
+/// written.
 #[test]
 fn a_section_without_points_is_none() {
     let d = directory();

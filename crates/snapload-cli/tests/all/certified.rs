@@ -1,5 +1,5 @@
-//! What is said of a run beside its proof, held against the run with many digits of `snapload
-//! verify`, which proves by other code.
+//! The report on a run with its proof, compared with the run with many digits of `snapload verify`,
+//! which proves by other code.
 
 use crate::common::{directory, listing, snapload};
 use serde_json::Value;
@@ -84,7 +84,7 @@ fn where_a_cable_sticks_the_proof_goes_on() {
         args.extend(["--set", key]);
     }
     let run = json(&args);
-    // The motion slides at the end, as that of the ordinary run does.
+    // The motion slides at the end, as the ordinary run does.
     assert_eq!(run["modes"][1]["mode"], "sliding");
     let certificate = &run["certificate"];
     assert_eq!(certificate["proved"], true);
@@ -94,7 +94,7 @@ fn where_a_cable_sticks_the_proof_goes_on() {
 
 #[test]
 fn what_is_not_proved_is_said() {
-    // Its own mirror image: both cables snap at one instant.
+    // The case is symmetric: both cables snap at one instant.
     let text = told(&["run", "--certify", "--set", "f_o=0", "--ensemble", "0"]);
     assert!(
         text.contains("\nProved    0 impacts, up to t = 0 "),
@@ -125,7 +125,7 @@ fn the_certificate_of_a_run_can_be_checked() {
         serde_json::from_str(&fs::read_to_string(d.path().join("r/run.json")).unwrap()).unwrap();
     assert_eq!(inside["certificate"]["proved"], true);
 
-    // Nothing is said of a proof that was not asked for.
+    // Without `--certify` the output does not mention a proof.
     let d = directory();
     let mut command = snapload(d.path());
     command.args(["run", "--out", "r"]).assert().success();
@@ -137,7 +137,8 @@ fn the_certificate_of_a_run_can_be_checked() {
     );
 }
 
-/// Where a proof of slack flight ends although the motion goes on, the command says how to go on.
+/// Where a proof of slack flight ends although the motion continues, the command names the option
+/// with which the proof continues.
 #[test]
 fn a_proof_that_ends_at_a_stick_names_the_option_that_goes_on() {
     let slack = told(&[

@@ -1,4 +1,4 @@
-//! The command line as its users meet it: what it prints, what it writes, how it refuses.
+//! The command line: what it prints, what it writes, and which errors it reports.
 
 use crate::common::{directory, listing, snapload};
 use predicates::prelude::*;
@@ -16,7 +16,7 @@ fn json(directory: &Path, args: &[&str]) -> serde_json::Value {
     serde_json::from_slice(&out.get_output().stdout).unwrap()
 }
 
-/// The places of some texts in another one rise.
+/// Asserts that the texts occur in this order.
 fn in_order(text: &str, parts: &[&str]) {
     let mut from = 0;
     for part in parts {
@@ -231,7 +231,7 @@ fn a_directory_of_results_is_complete() {
     let motion = read("motion.csv");
     assert!(motion.starts_with("t,x,y,theta,vx,vy,vtheta,T1,T2,energy\n0.0,0.0,0.1,"));
     assert_eq!(motion.lines().count(), 1 + 1001);
-    // Again, over what is there.
+    // Once more, over existing files.
     let run = [
         "run",
         "--set",

@@ -1,4 +1,4 @@
-//! The documents say what is.
+//! The documents agree with the source and with the program's output.
 
 use std::path::{Path, PathBuf};
 
@@ -10,8 +10,8 @@ fn read(path: &str) -> String {
     std::fs::read_to_string(root().join(path)).expect(path)
 }
 
-/// Every file that the tree of ARCHITECTURE.md names is there, and every source of the crates is
-/// named, the sections of the chapter in one line.
+/// Every file that the tree of ARCHITECTURE.md names exists, and the tree names every source file
+/// of the crates; the sections of the chapter have one line together.
 #[test]
 fn the_architecture_is_true() {
     let text = read("ARCHITECTURE.md");
@@ -82,7 +82,7 @@ fn links_lead_somewhere() {
     }
 }
 
-/// What the documents print of the standard case is what the program prints.
+/// The output of the standard case that the documents print is that of the program.
 #[test]
 fn the_printed_output_is_the_programs() {
     let mut program = assert_cmd::Command::new(assert_cmd::cargo::cargo_bin!("snapload"));
@@ -96,7 +96,7 @@ fn the_printed_output_is_the_programs() {
     }
 }
 
-/// And of the floating body whose coefficients the manual looks at.
+/// The same for the coefficients of the manual's floating body.
 #[test]
 fn the_printed_hydrodynamics_are_the_programs() {
     let mut program = assert_cmd::Command::new(assert_cmd::cargo::cargo_bin!("snapload"));
@@ -113,7 +113,7 @@ fn the_printed_hydrodynamics_are_the_programs() {
     );
 }
 
-/// And of the pontoon that floats.
+/// The same for the floating pontoon.
 #[test]
 fn the_printed_pontoon_is_the_programs() {
     for command in [
@@ -134,7 +134,7 @@ fn the_printed_pontoon_is_the_programs() {
     assert!(read("docs/pontoon.md").contains(case.trim_end()));
 }
 
-/// And of the same on lines that stretch, but for the time that it took.
+/// The same for the pontoon on lines that stretch, except for the computing time.
 #[test]
 fn the_printed_pulls_are_the_programs() {
     let mut program = assert_cmd::Command::new(assert_cmd::cargo::cargo_bin!("snapload"));
@@ -159,7 +159,7 @@ fn the_printed_pulls_are_the_programs() {
     );
 }
 
-/// And of the structure that the manual works through.
+/// The same for the structure that the manual assesses.
 #[test]
 fn the_printed_assessment_is_the_programs() {
     let mut program = assert_cmd::Command::new(assert_cmd::cargo::cargo_bin!("snapload"));

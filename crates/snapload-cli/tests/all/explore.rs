@@ -11,7 +11,7 @@ use std::process::{Child, Command, Stdio};
 /// The program, serving.
 struct Serving {
     child: Child,
-    /// What it answers to: host and port.
+    /// Its address: host and port.
     host: String,
 }
 
@@ -37,7 +37,7 @@ impl Serving {
 
     fn ask(&self, method: &str, path: &str, body: &str) -> (String, Vec<u8>) {
         let mut stream = TcpStream::connect(&self.host).unwrap();
-        // HTTP/1.0, whose bodies end with the connection.
+        // With HTTP/1.0 the body ends with the connection.
         let head = format!(
             "{method} {path} HTTP/1.0\r\nHost: {}\r\nContent-Type: application/json\r\nContent-Length: {}\r\n\r\n{body}",
             self.host,
@@ -160,7 +160,7 @@ fn it_listens_on_the_loopback_address_alone() {
     let serving = Serving::of(d.path(), &[]);
     let (host, port) = serving.host.split_once(':').unwrap();
     assert_eq!(host, "127.0.0.1");
-    // Another address of the loopback network is not served, nor that of IPv6.
+    // The server does not listen on another loopback address, nor on that of IPv6.
     assert!(TcpStream::connect(format!("127.0.0.2:{port}")).is_err());
     assert!(TcpStream::connect(format!("[::1]:{port}")).is_err());
 }
@@ -171,7 +171,7 @@ fn an_interruption_is_how_it_ends() {
     for signal in ["-INT", "-TERM"] {
         let mut serving = Serving::of(d.path(), &[]);
         let id = serving.child.id().to_string();
-        // A connection that is open does not keep it.
+        // An open connection does not keep the program from ending.
         let _open = TcpStream::connect(&serving.host).unwrap();
         let killed = Command::new("kill").args([signal, &id]).status().unwrap();
         assert!(killed.success());
@@ -200,6 +200,6 @@ fn what_can_not_be_explored_is_refused() {
     );
     refuse(&["nothing.toml"], "nothing.toml: there is no such file");
     fs::write(d.path().join("cylinder.toml"), "[body]\nmass = 1000.0\n").unwrap();
-    // A structure is refused in the words of assess.
+    // A structure is refused with the same message as by `assess`.
     refuse(&["cylinder.toml"], "site.depth (left out) is not allowed");
 }

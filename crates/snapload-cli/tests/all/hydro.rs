@@ -1,4 +1,4 @@
-//! `snapload hydro` and `snapload decay` as their users meet them.
+//! `snapload hydro` and `snapload decay`: what they print, write and refuse.
 
 use crate::common::{directory, listing, snapload};
 use predicates::prelude::*;
@@ -24,8 +24,8 @@ fn json(room: &tempfile::TempDir, name: &str) -> Value {
     serde_json::from_slice(&fs::read(room.path().join(name)).unwrap()).unwrap()
 }
 
-/// The pontoon of 98.4 t: heave 3.254 s, pitch 3.793 s; on two taut lines at 80 t it rests where it was
-/// computed with 99.14 kN in each and sways in 7.295 s (independent code, `linear.json` and
+/// The pontoon of 98.4 t: heave 3.254 s, pitch 3.793 s; on two taut lines at 80 t it rests where it
+/// was computed with 99.14 kN in each and sways in 7.295 s (independent code, `linear.json` and
 /// `rests.json` of the library's tests).
 #[test]
 fn hydro_answers_in_a_few_lines_a_page_and_json() {
@@ -68,7 +68,7 @@ fn hydro_answers_in_a_few_lines_a_page_and_json() {
     assert!(all["quality"]["least_eigenvalue"].as_f64().unwrap() > -2e-9);
     assert_eq!(all["sea"].as_array().unwrap().len(), 2);
 
-    // The memory that was written is taken as it is, and gives the same answers.
+    // The memory that was written is read back, and gives the same answers.
     snapload(room.path())
         .args([
             "hydro",
@@ -91,7 +91,7 @@ fn hydro_answers_in_a_few_lines_a_page_and_json() {
     }
 }
 
-/// Heave swings in the period of the eigenvalue; the table has a row a step.
+/// Heave oscillates with the period of the eigenvalue; the table has a row for each step.
 #[test]
 fn decay_tells_its_swings() {
     let room = room();
@@ -109,7 +109,7 @@ fn decay_tells_its_swings() {
         .args(["--out", "decay.csv", "--json", "decay.json"])
         .assert()
         .success();
-    // A row a swing below the names of its columns, each as JSON has it.
+    // A row for each swing below the names of its columns, with the values of the JSON.
     let text = String::from_utf8(output.get_output().stdout.clone()).unwrap();
     let mut rows = text.lines().skip_while(|row| !row.contains("from s"));
     let names = rows.next().expect("the names of the columns");
@@ -137,7 +137,7 @@ fn decay_tells_its_swings() {
     assert!((period - 3.802).abs() < 0.02, "{period}");
 }
 
-/// What can not be is said with its name and ends with status 2, and nothing is left behind.
+/// Errors name their cause and end with status 2, and no file is left behind.
 #[test]
 fn hydro_refuses_with_reasons() {
     let room = room();

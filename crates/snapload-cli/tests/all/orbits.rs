@@ -52,7 +52,7 @@ fn the_orbit_of_the_attractor_and_near_a_start_are_one() {
         &["--start", "x=-0.2689,y=0.3829,vx=0.8083,vy=-0.4262"],
     );
     for orbit in [json("orbit", &[]), near] {
-        // 50 digits by an independent program, rounded.
+        // The values were computed with 50 digits by an independent program, and rounded.
         let state = &orbit["section"]["state"];
         assert!((number(&state[0]) + 0.2688102191814386).abs() < 1e-13);
         assert!((number(&state[3]) - 0.8083740914045439).abs() < 1e-13);
@@ -68,7 +68,8 @@ fn the_orbit_of_the_attractor_and_near_a_start_are_one() {
     }
 }
 
-/// Two laps of an orbit of one period are a lap of two periods, and told as what they are.
+/// Two laps of an orbit of one period form a lap of two periods; the output says that they are one
+/// orbit.
 #[test]
 fn a_lap_that_goes_round_twice_says_so() {
     let d = directory();
@@ -90,7 +91,7 @@ fn a_lap_that_goes_round_twice_says_so() {
     }
 }
 
-/// An orbit of two periods has two; two laps of it are told as that.
+/// An orbit of two periods is reported with two; two laps of it are reported as such.
 #[test]
 fn an_orbit_of_two_periods_has_no_fewer() {
     let start = "x=0.069220795,y=0.067061903,vx=0.162448120,vy=0.407325943";
@@ -122,9 +123,7 @@ fn an_orbit_far_from_its_start_says_so() {
     assert!(json("orbit", &[])["start_distance"].is_null());
 }
 
-/// At its birth an orbit of two periods has the squares of the multipliers, and the parameter goes
-/// with the square of how far its two laps are apart.
-/// An attractor of two periods is followed as such.
+/// The period, the snaps and the exponent of an attractor are those of its orbit.
 #[test]
 fn a_section_knows_its_period() {
     let section = json("section", &["--periods", "1000", "--keep", "500"]);
@@ -149,7 +148,6 @@ fn a_section_knows_its_period() {
     assert_eq!(diagram["rows"][1]["restarted"], false);
 }
 
-/// Every point of a curve is the special point of the branch at its value of the second key.
 /// The impacts of a stable motion are the events of its orbit, which is closed by Newton's method.
 #[test]
 fn the_section_at_impacts_is_that_of_the_orbit() {
@@ -175,7 +173,7 @@ fn the_section_at_impacts_is_that_of_the_orbit() {
     assert!(json("section", &[])["impacts"].is_null());
 }
 
-/// A torus has no period, however few its points: a period is told after eight laps of it.
+/// A torus has no period, however few its points: a period is reported only after eight laps of it.
 #[test]
 fn a_motion_without_a_period_is_told_as_one() {
     let keys = [
@@ -310,7 +308,7 @@ fn an_orbit_is_proved_with_a_bound_on_the_error_of_what_is_printed() {
     assert_eq!(orbit["proved"], true);
     let bound = number(&orbit["error_bound"]);
     assert!(bound > 0.0 && bound < 1e-14, "{bound:e}");
-    // Of 50 digits by an independent program, 30.
+    // 30 digits of the values that an independent program computed with 50.
     let proof = &orbit["proof"];
     let exact = "-0.268810219181438605342115917801";
     assert_eq!(proof["state"][0], exact);
@@ -319,7 +317,7 @@ fn an_orbit_is_proved_with_a_bound_on_the_error_of_what_is_printed() {
     assert_eq!(proof["prime"], true);
     let printed = number(&orbit["section"]["state"][0]);
     assert!((printed - exact.parse::<f64>().unwrap()).abs() <= bound);
-    // What was typed is what is proved: a decimal that no double is.
+    // The typed decimal is proved, although no double equals it.
     let d = directory();
     let typed = "r=1.70000000000000000000000000001";
     let out = snapload(d.path())

@@ -16,7 +16,7 @@ fn run(directory: &Path, verb: &str, args: &[&str]) -> Value {
 }
 
 /// Every row of Table 6.1, the printed variants and both examples run to an end that the schema
-/// knows, and what the JSON says hangs together.
+/// names, and their JSON is consistent.
 #[test]
 fn every_built_in_case_runs() {
     let d = directory();
@@ -39,7 +39,7 @@ fn every_built_in_case_runs() {
     }
 }
 
-/// At an event's instant a sample is the state after it, and the end is listed once.
+/// At an event's instant a sample has the state after it, and the end is listed once.
 #[test]
 fn samples_are_taken_after_events_and_at_the_end() {
     let d = directory();
@@ -55,7 +55,7 @@ fn samples_are_taken_after_events_and_at_the_end() {
     assert_eq!(motion[motion.len() - 1]["t"], answer["end"]["t"]);
     let step = impact["t"].as_f64().unwrap();
     assert_eq!(motion[2]["t"].as_f64(), Some(2.0 * step));
-    // Sampling changes nothing else.
+    // Sampling changes nothing else in the output.
     assert_eq!(answer["impacts"], first["impacts"]);
 }
 

@@ -1,5 +1,5 @@
-//! The report as a reader meets it: written by the command, opened in a real browser, its commands
-//! run.
+//! The report as a reader meets it: written by the command, opened in a real browser, and its
+//! commands run.
 
 use crate::common::{directory, listing, snapload};
 use serde_json::Value;
@@ -12,10 +12,10 @@ use std::process::Command;
 use std::sync::LazyLock;
 use tempfile::TempDir;
 
-/// Chromium, which the test command installs: without windows of its own, where there is that.
+/// Chromium, which the test command installs: the variant without windows, if it is installed.
 const BROWSERS: [&str; 2] = ["chromium-headless-shell", "chromium"];
 
-/// The report, made once for all tests.
+/// The report, written once for all tests.
 static MADE: LazyLock<TempDir> = LazyLock::new(|| {
     let d = directory();
     let mut command = snapload(d.path());
@@ -33,7 +33,7 @@ fn read(name: &str) -> String {
     fs::read_to_string(place(name)).unwrap()
 }
 
-/// The page after its scripts, had it any, and what the browser complained of.
+/// The page after a browser has loaded it, and the browser's messages.
 fn opened(page: &Path, more: &[&str]) -> (String, String) {
     let profile = directory();
     let there = |name: &&str| Command::new(name).arg("--version").output().is_ok();
@@ -175,7 +175,7 @@ fn commands(page: &str) -> Vec<String> {
     items.map(command).collect()
 }
 
-/// A number of the page: as it is shown, the number of its command, its place in what that prints.
+/// A number of the page: its text, the number of its command, and its place in that command's JSON.
 struct Shown {
     text: String,
     command: usize,
@@ -196,7 +196,7 @@ fn numbers(page: &str) -> Vec<Shown> {
     links.map(number).collect()
 }
 
-/// What each command prints, line by line; all run in a directory of their own, side by side.
+/// The output of each command, line by line; all run side by side, in a directory of their own.
 fn printed(commands: &[String]) -> Vec<Vec<Value>> {
     let program = assert_cmd::cargo::cargo_bin!("snapload");
     let mut path = program.parent().unwrap().as_os_str().to_owned();
@@ -205,7 +205,7 @@ fn printed(commands: &[String]) -> Vec<Vec<Value>> {
     let scratch = directory();
     let print = |k: usize| -> Result<Vec<Value>, Infallible> {
         let command = &commands[k];
-        // Made already: it is the report itself.
+        // This command writes the report itself, which exists already.
         if command.starts_with("snapload reproduce") {
             return Ok(Vec::new());
         }
@@ -223,7 +223,7 @@ fn printed(commands: &[String]) -> Vec<Vec<Value>> {
     in_parallel(commands.len(), print).unwrap()
 }
 
-/// Every command of the page runs, and gives the very numbers that link to it.
+/// Every command of the page runs, and prints the numbers that link to it.
 #[test]
 fn every_number_is_made_again_by_its_command() {
     let page = read("report.html");
@@ -232,7 +232,7 @@ fn every_number_is_made_again_by_its_command() {
     let numbers = numbers(&page);
     assert!(numbers.len() > 500, "{}", numbers.len());
     for Shown { text, command, key } in &numbers {
-        // What stands before a number that lies past the horizon of its run.
+        // The sign of a number past the horizon of its run.
         let text = text.trim_start_matches('~');
         let made = match key.split_once(": ") {
             Some(("claims.json", key)) => of_claims(key, text),
@@ -305,7 +305,7 @@ fn value(json: &Value, key: &str, shown: &str) -> String {
     }
     let (path, less) = key.split_once(" - ").unwrap_or((key, "0"));
     let found = pointer(path);
-    // Certificates write numbers as words.
+    // Certificates write numbers as strings.
     let number = found.as_f64().or_else(|| found.as_str()?.parse().ok());
     match (number, found) {
         (Some(number), _) => {
@@ -350,8 +350,8 @@ fn of_table(file: &str, key: &str, shown: &str) -> String {
     }
 }
 
-/// The evidence of a claim, without the remark that follows it there, or how many came to a
-/// verdict.
+/// The evidence of a claim, without the remark that follows it on the page, or the number of claims
+/// with a verdict.
 fn of_claims(key: &str, shown: &str) -> String {
     let quoted = key.split('"').nth(1).unwrap();
     let claims = claims();
@@ -364,8 +364,8 @@ fn of_claims(key: &str, shown: &str) -> String {
     evidence.get(..shown.len()).unwrap_or(evidence).to_owned()
 }
 
-/// The points behind a curve or a figure of norms are those that its two commands print; the reader
-/// of JSON may miss the last bit of a number.
+/// The points of a curve or a figure of norms are those that its two commands print; parsing the
+/// JSON may change the last bit of a number.
 fn curve_is_made_again(page: &str, number: usize, printed: &[Vec<Value>]) {
     let keys: &[&str] = match number {
         27..=30 => &["/f_cr"],

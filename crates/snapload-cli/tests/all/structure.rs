@@ -1,4 +1,4 @@
-//! `snapload assess` and `snapload seas` as their users meet them.
+//! `snapload assess` and `snapload seas`: what they print, write and refuse.
 
 use crate::common::{directory, listing, snapload};
 use predicates::prelude::*;
@@ -58,7 +58,7 @@ fn assess_answers_in_a_few_lines_a_page_and_json() {
     assert!((json["units"]["length_m"].as_f64().unwrap() - 3.593).abs() < 1e-12);
 }
 
-/// The inputs of a note tell where the waves go; a headline does where they go to -x.
+/// The inputs of a note state the direction of the waves; a headline does so if they travel to −x.
 #[test]
 fn it_is_told_where_waves_go() {
     let room = room();
@@ -143,7 +143,7 @@ fn bad_input_is_told_and_ends_with_2() {
     assert_eq!(listing(room.path()), ["cylinder-sea.toml", "cylinder.toml"]);
 }
 
-/// What stands behind a link is replaced and the link kept; a device is written into.
+/// Writing to a link replaces its target and keeps the link; a device is written into.
 #[cfg(unix)]
 #[test]
 fn links_are_followed_and_devices_written_into() {
@@ -177,7 +177,7 @@ fn links_are_followed_and_devices_written_into() {
     assert!(device.file_type().is_char_device());
 }
 
-/// A structure given to `run` leads to `assess`.
+/// `run` refuses a structure and names `assess`.
 #[test]
 fn run_points_to_assess() {
     let room = room();
@@ -227,8 +227,8 @@ fn the_keys_are_listed() {
         );
 }
 
-/// Both models of a line beside each other: the first snap comes before any line has pulled, and is
-/// the same in both.
+/// Both models of a line are compared: the first snap comes before any line has pulled, and is the
+/// same in both.
 #[test]
 fn elastic_runs_both_ways() {
     let room = room();

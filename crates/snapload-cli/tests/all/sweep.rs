@@ -1,4 +1,4 @@
-//! Studies: the same bytes whatever happened on the way, and no row lost.
+//! Studies: interruptions do not change the bytes of the file, and no row is lost.
 #![cfg(unix)]
 
 use crate::common::{directory, listing, snapload};
@@ -75,7 +75,7 @@ pub(crate) fn chunks(directory: &Path, out: &str, wanted: usize, child: &mut Chi
 fn a_killed_study_goes_on_to_the_same_bytes() {
     let d = directory();
     sweep(d.path(), &LONG, "whole.parquet").success();
-    // At the first chunk, at the second, and so on: in the middle of computing, writing or joining.
+    // Killed at the first chunk, at the second, and so on: while computing, writing or joining.
     let mut killed = 0;
     for (round, wait) in [0_u64, 3, 11, 29, 70].into_iter().enumerate() {
         let mut child = begin(d.path(), &LONG, "killed.parquet");
@@ -102,7 +102,7 @@ fn a_killed_study_goes_on_to_the_same_bytes() {
 #[test]
 fn an_interruption_says_how_to_go_on() {
     let d = directory();
-    // So long that it can not end by itself before it is told to.
+    // So long that it can not end by itself before it is told to end.
     let endless = ["--vary", "f_o=0.01:0.6:600", "--vary", "omega=0.4:2.4:500"];
     let mut child = begin(d.path(), &endless, "map.parquet");
     assert!(chunks(d.path(), "map.parquet", 1, &mut child));
@@ -119,7 +119,7 @@ fn an_interruption_says_how_to_go_on() {
         "{said}"
     );
     assert_eq!(listing(d.path()), ["map.parquet.parts"]);
-    // Without --resume nothing is taken up, and nothing lost; nor by another study.
+    // Without --resume nothing is continued or lost; nor by another study.
     sweep(d.path(), &endless, "map.parquet")
         .code(2)
         .stderr(contains("go on with --resume"));
@@ -136,8 +136,8 @@ fn a_full_disk_loses_nothing() {
     sweep(d.path(), &LONG, "whole.parquet").success();
     let size = bytes(d.path(), "whole.parquet").len();
     let program = assert_cmd::cargo::cargo_bin!("snapload");
-    // A limit that a chunk keeps and the whole does not, and one that not even a chunk keeps. The
-    // shell is told to ignore the signal that goes with it, so that writing fails as on a full
+    // A limit that a chunk satisfies and the whole does not, and one that not even a chunk
+    // satisfies. The shell ignores the signal of the limit, so that writing fails as on a full
     // disk.
     for blocks in [size / 512 / 2, 8] {
         let script = format!(
@@ -256,7 +256,7 @@ fn a_study_file_is_the_same_study() {
     ];
     sweep(d.path(), &flags, "flags.parquet").success();
     assert!(bytes(d.path(), "file.parquet") == bytes(d.path(), "flags.parquet"));
-    // The command line has the last word.
+    // The command line takes precedence over the file.
     sweep(d.path(), &["study.toml", "--vary", "e=0.8"], "one.parquet")
         .success()
         .stdout(contains("Cases     5\n"));
@@ -273,7 +273,7 @@ fn a_bad_row_is_a_row_with_its_error() {
         .stdout(contains(
             "Errors    3; the first, in row 1, line 3 of cases.csv: e = 1.5 is not allowed",
         ));
-    // Cases that are illegal only together are errors of their row, too, and the others run.
+    // Cases illegal only by combination are errors of their row, too, and the others run.
     sweep(d.path(), &["--vary", "r=0.5:1.5:3"], "r.parquet")
         .success()
         .stdout(contains(
@@ -281,8 +281,7 @@ fn a_bad_row_is_a_row_with_its_error() {
         ));
 }
 
-/// Where a cable returns half of its velocity errors hardly grow; the standard case is past trust
-/// when it ends.
+/// With e = 0.5 errors hardly grow; the standard case ends past its horizon of trust.
 #[test]
 fn the_summary_tells_how_many_ends_are_certain() {
     let d = directory();

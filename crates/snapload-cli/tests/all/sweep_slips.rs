@@ -1,4 +1,4 @@
-//! What `snapload sweep` makes of damage, of slips, and of files that are there already.
+//! How `snapload sweep` handles damage, mistakes, and files that exist already.
 #![cfg(unix)]
 
 use crate::common::{directory, snapload};
@@ -69,7 +69,7 @@ fn a_damaged_part_or_file_is_refused() {
     .stderr(contains("it is damaged").and(contains("remove it to compute it anew")));
 }
 
-/// A study of which no case can be run has not been done; its file says why, row by row.
+/// A study whose cases are all illegal is an error; its file has the reason in each row.
 #[test]
 fn a_list_of_bad_rows_is_bad_input() {
     let d = directory();
@@ -87,7 +87,7 @@ fn a_list_of_bad_rows_is_bad_input() {
             "not one of the 2 cases could be run; the column error of bad.parquet",
         ));
     }
-    // One part may be all bad where the others are not.
+    // In one part all cases may be illegal if they are not in the others.
     sweep(
         d.path(),
         &["--list", "bad.csv", "--shard", "1/2"],
@@ -116,7 +116,7 @@ fn what_is_there_is_not_written_over() {
     assert!(!d.path().join("a.parquet").exists());
     fs::remove_file(d.path().join("map.svg")).unwrap();
     sweep(d.path(), &plot, "a.parquet").success();
-    // The same picture once more is no other one.
+    // The same picture may be written again.
     let again = [&plot[..], &["--resume"]].concat();
     sweep(d.path(), &again, "a.parquet")
         .success()

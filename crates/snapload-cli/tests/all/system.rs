@@ -1,4 +1,4 @@
-//! The command line among pipes, devices, links and signals.
+//! The command line with pipes, devices, links and signals.
 #![cfg(unix)]
 
 use crate::common::{directory, listing, snapload};
@@ -31,7 +31,7 @@ fn a_reader_that_leaves_is_no_error() {
             .stderr(Stdio::piped())
             .spawn()
             .unwrap();
-        // Read a little of the long one, nothing of the others, and go.
+        // Read a little of the long output, nothing of the others, and close the pipe.
         let mut stdout = child.stdout.take().unwrap();
         if args[0] == "run" {
             stdout.read_exact(&mut [0; 10]).unwrap();
@@ -88,7 +88,7 @@ fn devices_are_written_into_and_links_followed() {
     assert_eq!(listing(d.path()), ["link.json", "target.json"]);
 }
 
-/// What can not be written is an error, also where standard output was closed from the start.
+/// Failure to write is an error, also if standard output was closed from the start.
 #[test]
 #[cfg(target_os = "linux")]
 fn standard_output_that_takes_nothing_is_an_error() {

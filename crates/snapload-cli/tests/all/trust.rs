@@ -1,4 +1,4 @@
-//! What the command line says of how far its results can be trusted.
+//! What the command line reports about the trust in its results.
 
 use crate::common::{directory, listing, snapload};
 use predicates::str::contains;

@@ -1,5 +1,4 @@
-//! `/api/structure/elastic`: the same structure on lines that stretch, as `snapload elastic` tells
-//! it.
+//! `/api/structure/elastic`: the same structure on lines that stretch, as by `snapload elastic`.
 use super::Latest;
 use super::motion::Columns;
 use super::opened::{Asked, Opened};
@@ -12,9 +11,9 @@ use snapload::analysis::Progress;
 use snapload_structure::{Prepared, both_models};
 use std::time::Duration;
 
-/// What it may take.
+/// Its time budget.
 const BUDGET: Duration = Duration::from_secs(60);
-/// The motion is kept so often \[s\], or so many times in a long record.
+/// The time between the states that are kept \[s\], and the number of states in a long record.
 const EVERY_S: f64 = 0.02;
 const MOST_KEPT: f64 = 200_000.0;
 
@@ -22,13 +21,13 @@ const MOST_KEPT: f64 = 200_000.0;
 #[serde(deny_unknown_fields)]
 pub(crate) struct Request {
     case: Asked,
-    /// The stretch of time that is looked at \[s\].
+    /// The time interval that is shown \[s\].
     window: [f64; 2],
 }
 
 #[derive(Serialize)]
 struct Answer {
-    /// As `snapload elastic --json` tells it, but for its lists of pulls and snaps.
+    /// As by `snapload elastic --json`, without its lists of pulls and snaps.
     elastic: JsonValue,
     motion: Columns,
     shell: String,

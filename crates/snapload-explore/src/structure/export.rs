@@ -1,4 +1,4 @@
-//! `/api/structure/export/NAME`: the case, its answer and the page for a design note.
+//! `/api/structure/export/NAME`: the case, its results and the page for a design note.
 use super::Latest;
 use super::opened::{Asked, Opened};
 use super::run::{Wanted, assessed, too_long};
@@ -9,7 +9,7 @@ use snapload::analysis::Unfinished;
 use snapload_structure::note::{self, Source};
 use std::time::Duration;
 
-/// What a file may take: a run, its neighbours and other waves.
+/// The time budget of a file: a run, its neighbours and other waves.
 const BUDGET: Duration = Duration::from_secs(120);
 
 /// A file that can be asked for.
@@ -24,7 +24,7 @@ pub(crate) enum File {
 #[serde(deny_unknown_fields)]
 pub(crate) struct Request {
     case: Asked,
-    /// Whether to tell how far it has come, line by line.
+    /// Whether to report the progress, line by line.
     #[serde(default, rename = "told")]
     pub(crate) progress: bool,
 }
@@ -40,7 +40,7 @@ impl File {
         }
     }
 
-    /// Its type, as browsers know it.
+    /// Its media type.
     pub(crate) fn content_type(self) -> &'static str {
         match self {
             Self::Case => "application/toml",
@@ -49,7 +49,7 @@ impl File {
         }
     }
 
-    /// What is in it.
+    /// Its contents.
     pub(crate) fn write(
         self,
         request: &Request,
@@ -62,7 +62,7 @@ impl File {
             return Ok(case.opened.entries.to_toml().into_bytes());
         }
         let allowance = allowance.within(BUDGET);
-        // What the page has been told already is not run again.
+        // What was already computed for the page is not run again.
         let wanted = Wanted {
             preview: false,
             neighbours: true,

@@ -1,7 +1,7 @@
-//! Structures on the page: in metres, kilonewtons and seconds, with the words and numbers of
+//! Structures on the page: in metres, kilonewtons and seconds, with the texts and numbers of
 //! `snapload assess`.
 //!
-//! The page sends a case as the command line has it: a file, and changes as `--set` takes them. So
+//! The page sends a case as on the command line: a file, and changes in the notation of `--set`. So
 //! errors are those of the command, and the command for the same answer can be copied.
 
 mod elastic;
@@ -23,14 +23,14 @@ pub(crate) use waves::{Request as WavesRequest, answer as waves};
 use snapload_structure::{Assessment, BothModels};
 use std::sync::{Arc, Mutex, PoisonError};
 
-/// The latest runs: a page that looks at another part of their time does not have them run again.
+/// The latest runs, which are not repeated when a page shows another part of their time.
 #[derive(Default)]
 pub(crate) struct Latest {
     assessment: Kept<Assessment>,
     both: Kept<BothModels>,
 }
 
-/// The latest thing that was computed, with what it was computed for.
+/// The latest result, with the request for which it was computed.
 struct Kept<T>(Mutex<Option<(String, Arc<T>)>>);
 
 impl<T> Default for Kept<T> {
@@ -40,15 +40,15 @@ impl<T> Default for Kept<T> {
 }
 
 impl<T> Kept<T> {
-    /// What is kept for this.
+    /// The stored result for a request.
     fn get(&self, asked: &str) -> Option<Arc<T>> {
-        // Whoever panicked with it has put nothing half-made into it.
+        // A thread that panicked while it held the lock has stored nothing incomplete.
         let kept = self.0.lock().unwrap_or_else(PoisonError::into_inner);
         let same = kept.as_ref().filter(|(of, _)| of == asked);
         same.map(|(_, found)| Arc::clone(found))
     }
 
-    /// What is kept for this, or is computed now and kept.
+    /// The stored result for a request, or one that is computed now and stored.
     fn of<E>(&self, asked: &str, compute: impl FnOnce() -> Result<T, E>) -> Result<Arc<T>, E> {
         if let Some(found) = self.get(asked) {
             return Ok(found);

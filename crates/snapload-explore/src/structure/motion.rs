@@ -1,14 +1,13 @@
-//! The motion of a structure within a stretch of time, as columns in metres, kilonewtons and
-//! seconds.
+//! The motion of a structure within a time interval, as columns in metres, kilonewtons and seconds.
 use serde::ser::{Serialize, SerializeMap, Serializer};
 use snapload::{Impact, Playback, State, Trajectory};
 use snapload_structure::{ElasticRun, Scales};
 
-/// Rows within the stretch that is looked at.
+/// Rows within the interval that is shown.
 const ROWS: u32 = 1500;
 
-/// Times, places, velocities and tensions, a row a time; angles and places are those of z up. Times
-/// are whole doubles; the rest is drawn, and as exact as that takes.
+/// Times, positions, velocities and tensions, one row for each time; angles and positions are for z
+/// up. Times are doubles; the rest is drawn, for which single precision is enough.
 #[derive(Default)]
 pub(super) struct Columns {
     t: Vec<f64>,
@@ -49,7 +48,7 @@ impl Columns {
 
     fn before_and_after(&mut self, playback: &mut Playback<'_>, scales: &Scales, snap: &Impact) {
         let t = snap.t * scales.time_s;
-        // Snaps of several lines at one instant have its rows once.
+        // Snaps of several lines at one instant share their rows.
         if self.t.last().is_some_and(|last| *last >= t) {
             return;
         }
@@ -74,7 +73,7 @@ impl Columns {
         let first = run.looks.partition_point(|look| look.t_s < from);
         let within = run.looks[first..].iter().take_while(|look| look.t_s <= to);
         let count = within.clone().count();
-        // No more rows than the others have; the peaks between them are told by themselves.
+        // At most as many rows as for the other model; the peaks between them are sent separately.
         let stride = count.div_ceil(ROWS as usize).max(1);
         for look in within.step_by(stride) {
             columns.push(scales, look.t_s, &look.state, |line| look.tension_n[line]);

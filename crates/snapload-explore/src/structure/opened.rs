@@ -1,4 +1,4 @@
-//! The case of a structure as the page asks for it: a file, changed.
+//! The case of a structure in a request of the page: a file with changes.
 use crate::refusal::Refusal;
 use serde::{Deserialize, Serialize};
 use snapload::{CaseError, Entries};
@@ -6,18 +6,18 @@ use snapload_structure::{READS_NO_FILES, STRUCTURE, Structure};
 use std::fmt::Write as _;
 use std::path::PathBuf;
 
-/// The case of a structure that the program was begun with, or that was opened on the page.
+/// The case of a structure with which the program was started, or that was opened on the page.
 #[derive(Clone, Debug)]
 pub struct Opened {
-    /// What errors and commands call it.
+    /// Its name in errors and commands.
     pub name: String,
     /// Its keys.
     pub entries: Entries,
-    /// Where files are that it names; none of a case that was opened on the page.
+    /// The folder of the files that it names; none for a case that was opened on the page.
     pub folder: Option<PathBuf>,
 }
 
-/// What moves the water; the keys of other waters are left out.
+/// The kind of waves; the keys of other kinds are left out.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, Serialize)]
 #[serde(rename_all = "lowercase")]
 pub(crate) enum WaterKind {
@@ -26,7 +26,7 @@ pub(crate) enum WaterKind {
     Sea,
 }
 
-/// Tables that stand for waves, with the water that each is.
+/// The tables of waves, with the kind of each.
 const WATERS: [(&str, WaterKind); 2] = [("wave", WaterKind::Wave), ("sea", WaterKind::Sea)];
 
 /// A case file that was opened on the page.
@@ -41,13 +41,13 @@ pub(crate) struct File {
 #[derive(Clone, Debug, Deserialize, Serialize)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct Asked {
-    /// A file in place of the one that the program was begun with.
+    /// A file in place of the one with which the program was started.
     #[serde(default)]
     file: Option<File>,
-    /// Changes, each as `--set` takes it.
+    /// Changes, each in the notation of `--set`.
     #[serde(default)]
     set: Vec<String>,
-    /// What moves the water, where that is another than in the file.
+    /// The kind of waves, if it is another than in the file.
     #[serde(default)]
     water: Option<WaterKind>,
 }
@@ -57,12 +57,12 @@ pub(crate) struct Case {
     pub(crate) opened: Opened,
     pub(crate) structure: Structure,
     set: Vec<String>,
-    /// Whether the changes by themselves make it from the file.
+    /// Whether the changes alone turn the file into this case.
     by_set: bool,
 }
 
 impl File {
-    /// Reads it; nothing on the disk is looked at for a page.
+    /// Reads it; no file on the disk is read for a page.
     pub(crate) fn read(&self) -> Result<Opened, CaseError> {
         Ok(Opened {
             name: self.name.clone(),
@@ -73,7 +73,7 @@ impl File {
 }
 
 impl Opened {
-    /// What moves the water in it.
+    /// Its kind of waves.
     pub(crate) fn water(&self) -> WaterKind {
         let there = WATERS
             .iter()
@@ -81,8 +81,8 @@ impl Opened {
         there.map_or(WaterKind::Still, |(_, kind)| *kind)
     }
 
-    /// The structure. What a browser hands over has no folder, and what lies where the program was
-    /// begun may be another body's: such a case says all by itself.
+    /// The structure. A case from a browser has no folder, and files in the folder in which the
+    /// program was started may belong to another body: such a case may not name files.
     pub(crate) fn structure(&self) -> Result<Structure, CaseError> {
         let Some(folder) = &self.folder else {
             let alone = Structure::from_entries(&self.entries);
@@ -91,7 +91,7 @@ impl Opened {
         Structure::from_entries_beside(&self.entries, folder)
     }
 
-    /// With a hint if the error is that a file is named.
+    /// Adds a hint if the error is that a file is named.
     fn say_how_to_begin(&self, error: CaseError) -> CaseError {
         if &*error.allowed != READS_NO_FILES {
             return error;
@@ -102,7 +102,7 @@ impl Opened {
         ))
     }
 
-    /// The same with no other waves than of this kind.
+    /// The same with waves of this kind only.
     fn with_water(self, water: WaterKind) -> Result<Self, CaseError> {
         let mut entries = Entries::new(&STRUCTURE);
         let left_out = |table: &str| {
@@ -134,7 +134,7 @@ impl Opened {
 }
 
 impl Asked {
-    /// Reads and checks it; `start` is what the program was begun with.
+    /// Reads and checks it; `start` is the case with which the program was started.
     pub(crate) fn read(&self, start: Option<&Opened>) -> Result<Case, Refusal> {
         let mut opened = match (&self.file, start) {
             (Some(file), _) => file.read()?,
@@ -161,15 +161,15 @@ impl Asked {
         })
     }
 
-    /// What tells two cases apart.
+    /// A text that differs for different cases.
     pub(crate) fn fingerprint(&self) -> String {
         serde_json::to_string(self).unwrap_or_default()
     }
 }
 
 impl Case {
-    /// The command line that a verb has the same answer with: by changes of the file where they are
-    /// all that is changed, else of a file that has to be saved first.
+    /// The command line that gives the same answer: with changes to the file if these are all that
+    /// is changed, and otherwise with a file that has to be saved first.
     pub(crate) fn command(&self, verb: &str) -> String {
         if !self.by_set {
             return format!("snapload {verb} case.toml");

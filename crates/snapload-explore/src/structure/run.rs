@@ -1,5 +1,4 @@
-//! `/api/structure/run`: a structure as `snapload assess` tells it, and all that the page draws of
-//! it.
+//! `/api/structure/run`: a structure as by `snapload assess`, with everything that the page draws.
 use super::Latest;
 use super::motion::Columns;
 use super::opened::{Asked, Case, Opened};
@@ -12,13 +11,13 @@ use snapload_structure::{Assessment, DEFAULT_NEIGHBOURS, Outline, Snap, Structur
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
-/// What a run may take while the page waits for a picture.
+/// The time budget of a run while the page waits for a picture.
 const BUDGET: Duration = Duration::from_secs(2);
-/// What a whole record may take, and its neighbours.
+/// The time budget of a whole record, and of its neighbours.
 const LONG_BUDGET: Duration = Duration::from_secs(60);
-/// Of a longer record the beginning is shown first \[s\].
+/// The beginning of a longer record that is shown first \[s\].
 const PREVIEW_S: f64 = 300.0;
-/// A page can not show more snaps than this.
+/// The most snaps that a page shows.
 const MOST_SHOWN: usize = 20_000;
 
 #[derive(Deserialize)]
@@ -31,10 +30,10 @@ pub(crate) struct Request {
     /// Whether to run neighbours, too, and other restitutions.
     #[serde(default)]
     neighbours: bool,
-    /// The stretch of time that is looked at \[s\]; by default that about the hardest snap.
+    /// The time interval that is shown \[s\]; by default that about the hardest snap.
     #[serde(default)]
     window: Option<[f64; 2]>,
-    /// Whether to tell how far it has come, line by line.
+    /// Whether to report the progress, line by line.
     #[serde(default, rename = "told")]
     pub(crate) progress: bool,
 }
@@ -73,18 +72,18 @@ pub(crate) fn answer(
     serde_json::to_vec(&answer).map_err(Refusal::failed)
 }
 
-/// Which run of a case is asked for.
+/// The run of a case that is asked for.
 #[derive(Clone, Copy)]
 pub(super) struct Wanted {
-    /// The beginning of a long record alone.
+    /// The beginning of a long record only.
     pub(super) preview: bool,
-    /// Its neighbours, too, and other restitutions.
+    /// Also its neighbours and other restitutions.
     pub(super) neighbours: bool,
-    /// What it may take.
+    /// Its time budget.
     pub(super) time: Duration,
 }
 
-/// The run that is asked for, or the same that was asked for before.
+/// The run that is asked for, which is not repeated if it was asked for before.
 pub(super) fn assessed(
     asked: &Asked,
     case: &Case,
@@ -127,7 +126,7 @@ fn beginning(structure: &Structure) -> Structure {
     }
 }
 
-/// Work that was refused, or did not come to its end in time.
+/// The refusal of work that failed or did not end within its time.
 pub(super) fn too_long(case: &Case, time: Duration, unfinished: Unfinished) -> Refusal {
     match unfinished {
         Unfinished::Case(error) => error.into(),
@@ -141,15 +140,15 @@ pub(super) fn too_long(case: &Case, time: Duration, unfinished: Unfinished) -> R
 
 #[derive(Serialize)]
 struct Answer {
-    /// As `snapload assess --json` tells it, but for its lists of snaps and neighbours.
+    /// As by `snapload assess --json`, without its lists of snaps and neighbours.
     assessment: JsonValue,
-    /// As it prints it.
+    /// The summary that it prints.
     summary: String,
     /// Its verdict in a word.
     standing: &'static str,
-    /// What it would rest on with other restitutions, once those are run.
+    /// The numbers behind it with other restitutions, if those are run.
     rebound: Option<String>,
-    /// Whether this is the beginning of a longer record, and how long that is \[s\].
+    /// Whether this is the beginning of a longer record, and the length of that \[s\].
     preview: bool,
     lasts_s: f64,
     transient_s: f64,
@@ -175,11 +174,12 @@ struct Snaps {
     speed: Vec<f64>,
     peak: Vec<Option<f64>>,
     utilisation: Vec<Option<f64>>,
-    /// How many there are; the first are shown.
+    /// The number of snaps; the first are shown.
     all: usize,
 }
 
-/// Which lines are taut from when on \[s\], within the stretch that is looked at; counted from 1.
+/// The taut lines and the times from which on they are taut \[s\], within the interval that is
+/// shown; counted from 1.
 #[derive(Serialize)]
 struct Modes {
     t_start: Vec<f64>,
@@ -198,7 +198,7 @@ impl Answer {
         let end = assessment.outcome.end_s;
         let window = window.filter(|[from, _]| *from < end);
         let window = window.unwrap_or_else(|| note::window(assessment));
-        // To the millisecond, as it stands in links.
+        // Rounded to the millisecond, as in links.
         let window = [window[0], window[1].min(end)].map(|t| (t * 1e3).round() / 1e3);
         let mut told = assessment.to_json(name);
         if let Some(told) = told.as_object_mut() {
@@ -231,7 +231,7 @@ impl Answer {
     }
 }
 
-/// What there is to draw, in metres.
+/// The geometry to draw, in metres.
 fn geometry(assessment: &Assessment) -> JsonValue {
     let structure = &assessment.prepared.structure;
     let body = &structure.body;

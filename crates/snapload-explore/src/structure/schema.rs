@@ -1,4 +1,4 @@
-//! Which keys a structure has, and what a case gives for them.
+//! The keys of a structure, and the values of a case.
 use super::opened::{File, Opened};
 use crate::refusal::Refusal;
 use crate::schema::kind;
@@ -7,7 +7,7 @@ use snapload::{DefaultValue, Heading};
 use snapload_report::ValueRow;
 use snapload_structure::STRUCTURE;
 
-/// The keys, and the case that the program was begun with, if it is one of a structure.
+/// The keys, and the case with which the program was started, if it is a structure's.
 pub(crate) fn schema(start: Option<&Opened>) -> JsonValue {
     let tables = STRUCTURE.tables.iter().map(|table| {
         let keys = table.keys.iter().map(|key| {
@@ -40,14 +40,14 @@ pub(crate) fn schema(start: Option<&Opened>) -> JsonValue {
     })
 }
 
-/// What a file gives that was opened on the page.
+/// The values of a file that was opened on the page.
 pub(crate) fn opened(file: &File) -> Result<JsonValue, Refusal> {
     let opened = file.read()?;
     opened.structure()?;
     Ok(case(&opened))
 }
 
-/// A case: its name, its waters and lines, and what it gives, by path.
+/// A case: its name, its waves and lines, and its values, by path.
 fn case(opened: &Opened) -> JsonValue {
     let mut given = Map::new();
     for table in STRUCTURE.tables {

@@ -8,7 +8,7 @@ use snapload::analysis::{Progress, Unfinished};
 use snapload_structure::note;
 use std::time::Duration;
 
-/// What they may take together.
+/// The time budget for all runs together.
 const BUDGET: Duration = Duration::from_secs(120);
 
 #[derive(Deserialize)]
@@ -21,9 +21,9 @@ pub(crate) struct Request {
 struct Answer {
     periods_s: Vec<f64>,
     heights_m: Vec<f64>,
-    /// For the first period all heights, then for the next.
+    /// All heights for the first period, then for the next.
     cells: Vec<Option<f64>>,
-    /// Whether cells are the largest utilisation; else the fastest snap \[m/s\].
+    /// Whether cells are the largest utilisation; otherwise the fastest snap \[m/s\].
     utilisation: bool,
     /// The number of periods of each wave that are run.
     length: f64,

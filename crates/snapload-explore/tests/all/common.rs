@@ -1,4 +1,4 @@
-//! What the tests of the server share: one that runs, and the plainest of clients.
+//! Shared by the tests of the server: a running server, and a minimal client.
 use serde_json::{Value, json};
 use snapload::{Entries, Parameters};
 use snapload_explore::{Opened, Server, Start, Stop};
@@ -95,7 +95,7 @@ impl Running {
         )
     }
 
-    /// Sends bytes and reads what comes back, none where it is no answer.
+    /// Sends bytes and reads the answer; none if there is no valid one.
     pub(crate) fn send(&self, bytes: &[u8]) -> Option<Answer> {
         let mut stream = self.connect();
         // The server may refuse before it has read all.

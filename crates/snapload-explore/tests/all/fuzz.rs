@@ -1,4 +1,4 @@
-//! Whatever comes in: the server says no, and goes on.
+//! The server refuses every malformed request, and keeps running.
 
 use crate::common::{Running, serve};
 use snapload::KEYS;
@@ -50,7 +50,7 @@ const STRUCTURE: &str = r#"{"name":"a.toml","text":"[body]\nmass=1000\ndisplaced
 /// Panics of any thread, counted by the hook.
 static PANICS: AtomicUsize = AtomicUsize::new(0);
 
-/// The server is as it was: it answers at once, and nothing in it panicked.
+/// The server still answers at once, and no thread panicked.
 fn is_well(server: &Running) {
     let began = Instant::now();
     let schema = server.get("/api/schema");
@@ -71,8 +71,8 @@ fn is_no_failure(server: &Running, bytes: &[u8]) {
     }
 }
 
-/// A client that waits a moment, and leaves where nothing comes back: much of what it says is no
-/// whole request.
+/// A client that waits briefly, and closes the connection if no answer comes: many of its requests
+/// are incomplete.
 fn said(server: &Running, bytes: &[u8]) {
     let mut stream = server.connect();
     let _ = stream.write_all(bytes);
@@ -160,7 +160,7 @@ fn mutated_requests(server: &Running) {
     let mut numbers = Numbers(2);
     for round in 0..600 {
         let request = requests[round % requests.len()].as_bytes();
-        // Either anywhere, or in the body alone.
+        // Changes anywhere, or in the body alone.
         let from = match numbers.below(2) {
             0 => 0,
             _ => request.windows(4).position(|w| w == b"\r\n\r\n").unwrap() + 3,
@@ -171,7 +171,7 @@ fn mutated_requests(server: &Running) {
     }
 }
 
-/// What JSON can hold, and some that it can not.
+/// Values that JSON can hold, and some that it can not.
 const VALUES: [&str; 34] = [
     "0",
     "-0",
@@ -213,7 +213,7 @@ fn values_of_every_kind(server: &Running) {
     let kind = "Content-Type: application/json\r\n";
     for key in KEYS {
         for value in VALUES {
-            // A short run, unless it is the end itself that is tried.
+            // A short run, unless the key under test is the end itself.
             let end = if key.name == "t_end" {
                 ""
             } else {
@@ -270,7 +270,7 @@ fn values_of_every_kind(server: &Running) {
 fn slow_and_half_closed(server: &Running) {
     let kind = "Content-Type: application/json\r\n";
     let request = server.request("POST", "/api/run", kind, "{\"values\":{}}");
-    // So many that begin and do not go on, at every place.
+    // Requests that stop at every possible place.
     let unfinished: Vec<_> = (0..50)
         .map(|k| {
             let mut stream = server.connect();
@@ -289,7 +289,7 @@ fn slow_and_half_closed(server: &Running) {
     let mut read = String::new();
     stream.read_to_string(&mut read).unwrap();
     assert!(read.starts_with("HTTP/1.0 200"), "{read}");
-    // Asking, and leaving at once, or saying no more, or never listening.
+    // Clients that close at once after a request, that send no more, or that never read.
     let silent: Vec<_> = (0..40)
         .map(|k| {
             let mut stream = server.connect();

@@ -1,4 +1,4 @@
-//! What the server does not do, and in which words.
+//! The requests that the server refuses, and the messages.
 
 use crate::common::{Running, serve};
 use serde_json::{Value, json};
@@ -38,7 +38,7 @@ fn values_are_refused_in_the_words_of_the_command() {
     }
 }
 
-/// That each of these is refused, with which status, key and words.
+/// Asserts that each of these is refused, with its status, key and message.
 fn refuse(path: &str, cases: impl IntoIterator<Item = (Value, u16, Value, &'static str)>) {
     let server = serve();
     for (body, status, key, words) in cases {
@@ -168,7 +168,7 @@ fn a_picture_of_very_many_impacts_is_left_to_the_command() {
     }
 }
 
-/// Sends one request and tells the status.
+/// Sends one request and returns the status.
 fn status(server: &Running, request: &str) -> u16 {
     server.send(request.as_bytes()).unwrap().status
 }
@@ -182,7 +182,7 @@ fn only_our_own_page_is_answered() {
     for (host, wanted) in [
         (format!("Host: 127.0.0.1:{port}\r\n"), 200),
         (format!("Host: localhost:{port}\r\n"), 200),
-        // A name of another site that was made to lead here.
+        // The name of another site that resolves to this server.
         (format!("Host: evil.example:{port}\r\n"), 421),
         ("Host: evil.example\r\n".to_owned(), 421),
         (format!("Host: 127.0.0.1:{}\r\n", port ^ 1), 421),
@@ -235,7 +235,7 @@ fn bodies_that_are_no_json_or_too_large_are_refused() {
     assert_eq!(refused.status, 413);
     let said = String::from_utf8_lossy(&refused.body);
     assert!(said.contains("more than 64 KiB"), "{said}");
-    // The same without saying so before.
+    // The same without announcing its length.
     let chunked = format!(
         "POST /api/run HTTP/1.1\r\nHost: 127.0.0.1:{}\r\nConnection: close\r\nTransfer-Encoding: chunked\r\n{kind}\r\n\
          {:x}\r\n{large}\r\n0\r\n\r\n",

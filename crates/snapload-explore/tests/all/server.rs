@@ -1,4 +1,4 @@
-//! What the server answers: its numbers are the library's.
+//! The numbers in the server's answers are those of the library.
 
 use crate::common::serve;
 use serde_json::{Value, json};
@@ -159,8 +159,8 @@ fn a_run_has_the_numbers_of_the_library() {
     }
 }
 
-/// Between impacts the motion is the run's; at an impact the body stays where it is, and the energy
-/// that is lost is the impact's.
+/// Between impacts the motion is the run's; at an impact the position does not change, and the loss
+/// of energy is the impact's.
 fn motion_is_of(run: &Trajectory, told: &Value) {
     let names = [
         "t", "x", "y", "theta", "vx", "vy", "vtheta", "T1", "T2", "energy",
@@ -242,7 +242,7 @@ fn a_neighbour_starts_beside_the_run_and_parts_from_it_where_it_says() {
 
 #[test]
 fn a_neighbour_beyond_the_cables_is_sought_on_the_other_side() {
-    // With the right cable taut there is no room to the left, and only rounding to the right.
+    // With the right cable taut there is no free space to the left, and only rounding to the right.
     let server = serve();
     let asked = json!({ "values": { "x": 0, "y": 0 }, "ghost": 1e-6 });
     let told = server.post("/api/run", &asked).json();
@@ -311,7 +311,7 @@ fn a_map_has_the_outcomes_of_its_cases() {
     };
     assert_eq!(*done, json!({ "done": true }));
     let (x, y) = (numbers(&axes["x"]), numbers(&axes["y"]));
-    // The decimals that one would write: 0.01 + 2 (0.59 / 10).
+    // The expected decimals: 0.01 + 2 (0.59 / 10).
     assert_eq!((x[0], x[2], x[10]), (0.01, 0.128, 0.6));
     let mut seen = vec![0; 55];
     for chunk in chunks {
@@ -338,7 +338,7 @@ fn a_map_has_the_outcomes_of_its_cases() {
     assert!(seen.iter().all(|count| *count == 1), "{seen:?}");
 }
 
-/// What is cut short among others is run to its end all the same.
+/// Cases whose runs are cut short in lanes are run to their ends nevertheless.
 #[test]
 fn a_map_runs_long_cases_to_their_ends() {
     let server = serve();
@@ -361,8 +361,8 @@ fn a_map_runs_long_cases_to_their_ends() {
     assert_eq!(chunk["reason"][0], "end_time");
 }
 
-/// Two maps at one time are all there are, so a third would wait for ever if closing one did not
-/// end it.
+/// Two maps at one time are the maximum, so that a third would wait forever if closing a connection
+/// did not end one.
 #[test]
 fn closing_the_connection_ends_a_map() {
     let server = serve();

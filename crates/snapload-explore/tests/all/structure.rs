@@ -1,4 +1,4 @@
-//! Structures: what the server answers is what `snapload assess` and `snapload elastic` tell.
+//! Structures: the server's answers are those of `snapload assess` and `snapload elastic`.
 
 use crate::common::{Running, serve_structure};
 use serde_json::{Value, json};
@@ -153,7 +153,7 @@ fn another_water_takes_the_place_of_that_of_the_file() {
         (&whole["preview"], &whole["assessment"]["end"]["t_s"]),
         (&json!(false), &json!(400.0))
     );
-    // The file that is saved is the case that is shown.
+    // The exported file is the case that is shown.
     let file = server.post("/api/structure/export/case.toml", &json!({ "case": sea }));
     let saved = Structure::parse("case.toml", std::str::from_utf8(&file.body).unwrap()).unwrap();
     let direct = assess(saved, 0, &unwatched).unwrap();

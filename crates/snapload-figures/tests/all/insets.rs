@@ -1,4 +1,4 @@
-//! A plot within a plot: a part enlarged, or the whole of which a part is shown.
+//! A plot within a plot: an enlarged part, or the whole of which the plot shows a part.
 
 use crate::pictures::picture;
 use snapload::{Case, CaseError, named_case};
@@ -76,8 +76,8 @@ fn markers_of_plots_that_are_compared_have_one_size() {
     assert_eq!(picture(marked(500, 0)).svg(), picture(marked(500, 3)).svg());
 }
 
-/// A run that goes on without snaps shows where they are, and the whole as an inset; one that snaps to
-/// its end has none.
+/// The picture of a run that continues without snaps shows the part with snaps, and the whole as an
+/// inset; that of a run that snaps to its end has no inset.
 #[test]
 fn snaps_are_shown_where_they_are() -> Result<(), CaseError> {
     let plot = |code: &str| -> Result<Plot, CaseError> {

@@ -1,4 +1,4 @@
-//! Where the areas of a map come to lie on paper, and in which shades.
+//! The positions of a map's areas on paper, and their shades.
 
 use crate::paper::Paper;
 use snapload_figures::{Axis, Cell, Layer, Map, Plot, Range, Width, draw};

@@ -1,4 +1,4 @@
-//! Names beside the dots that they are of.
+//! The names beside dots.
 
 use snapload_figures::{Axis, Layer, Mark, Plot, Point, Range, Stroke, Width, draw};
 
@@ -19,8 +19,8 @@ fn numbers(document: &roxmltree::Document, name: &str, keys: [&str; 2]) -> Vec<(
         .collect()
 }
 
-/// Along a rising line two special points lie close to each other, as the doubling and the corner of a
-/// branch do. A name that stood nearer to the other's dot would be taken for its name.
+/// Along a rising line two special points lie close to each other, as the doubling and the corner
+/// of a branch do. A name that stood nearer to the other's dot would be taken for its name.
 #[test]
 fn each_name_is_nearest_to_its_own_dot() {
     for apart in [0.05, 0.06, 0.07, 0.0867, 0.1, 0.12] {

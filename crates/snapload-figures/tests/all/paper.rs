@@ -1,4 +1,4 @@
-//! Where lines and ticks come to lie on paper.
+//! The positions of lines and ticks on paper.
 
 use proptest::prelude::*;
 use snapload_figures::{
@@ -12,7 +12,7 @@ const ROUNDING: f64 = 0.01;
 /// The ranges in which lines are drawn here.
 const RANGES: [f64; 2] = [200.0, 100.0];
 
-/// What is read from a picture.
+/// The elements of a picture, as read from its SVG.
 pub(crate) struct Paper {
     /// Left, top, width and height of the frame.
     frame: [f64; 4],
@@ -110,7 +110,7 @@ fn pieces(d: &str) -> Vec<Vec<Point>> {
         .collect()
 }
 
-/// A plot of the given layers in ranges that are easy to reckon with.
+/// A plot of the given layers in ranges that make positions easy to compute.
 fn plot(layers: Vec<Layer>) -> Plot {
     let [x, y] = RANGES.map(|end| Axis::new("", Range::Fixed(0.0, end)));
     Plot {
@@ -167,7 +167,7 @@ fn a_path_is_a_point_and_steps_in_short_numbers() {
         frame: [left, top, width, height],
         ..
     } = drawn(&[]);
-    // In data such that the steps on paper are those of the path that is wanted.
+    // Data for which the steps on paper are those of the wanted path.
     let data = |[x, y]: Point| {
         [
             (x - left) / width * RANGES[0],
@@ -306,7 +306,7 @@ fn large_and_small_numbers_share_a_power_of_ten() {
 fn ticks(plot: Plot, (low, high): (f64, f64)) -> (f64, f64, usize) {
     let paper = Paper::of(plot);
     let [left, top, _, height] = paper.frame;
-    // Those of y are level.
+    // The ticks of y are horizontal.
     let of_y = paper
         .ticks
         .iter()
@@ -362,7 +362,8 @@ proptest! {
         middle in -1.0e3..1.0e3_f64, size in -12.0..8.0_f64, angle in any::<bool>(),
     ) {
         let half = 10_f64.powf(size);
-        // A range too narrow for its place is widened, so that its ends are not known here.
+        // A range that is too narrow for its magnitude is widened, so that its ends are not known
+        // here.
         prop_assume!(2.0 * half > 2e-10 * (middle.abs() + half));
         let (low, high) = (middle - half, middle + half);
         let style = if angle { TickStyle::Angle } else { TickStyle::Decimal };

@@ -1,4 +1,4 @@
-//! What every picture must be: well-formed, labelled, of the right size, and never a panic.
+//! Every picture is well-formed, labelled and of the right size, and none causes a panic.
 
 use proptest::prelude::*;
 use snapload_figures::{
@@ -292,8 +292,7 @@ fn values_have_a_bar_and_classes_a_legend() {
     assert!(!classes.svg().contains("#440154"));
 }
 
-/// What is in doubt keeps its colour, and is hatched on top; where there is nothing, there is no
-/// doubt.
+/// Uncertain cells keep their colour and are hatched on top; cells without a value are not hatched.
 #[test]
 fn cells_in_doubt_are_hatched() {
     use Cell::{Class, Empty, Fault};
@@ -309,7 +308,7 @@ fn cells_in_doubt_are_hatched() {
     // The cells, and the sample of the legend.
     assert_eq!(some.svg().matches("fill=\"url(#doubt)\"").count(), 2);
     let certain = doubt(vec![Class(0); 6], Vec::new());
-    // All that is drawn without doubt is drawn with it.
+    // Everything that is drawn without uncertainty is drawn with it, too.
     for line in certain.svg().lines() {
         assert!(some.svg().contains(line), "{line}");
     }

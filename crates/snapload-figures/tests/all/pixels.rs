@@ -1,4 +1,4 @@
-//! What a picture is as pixels.
+//! Pictures as pixels.
 
 use crate::pictures::picture;
 use snapload_figures::{FigureError, Plot, energy};

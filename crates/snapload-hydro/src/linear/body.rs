@@ -1,11 +1,11 @@
-//! The rigid body: its mass matrix, its hydrostatic stiffness, and the forces that do not change.
+//! The rigid body: its mass matrix, its hydrostatic stiffness, and the constant forces.
 
 use crate::coefficients::Hydrodynamics;
 use crate::error::HydroError;
 use nalgebra::{Matrix3, Vector3};
 
-/// The body's weight. What is not given is that of the file: the mass that it displaces, and the
-/// centre of gravity and inertia that it was computed with.
+/// The body's weight. Values that are not given are taken from the file: the displaced mass, and
+/// the centre of gravity and inertia for which it was computed.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Weight {
     /// m \[kg\].
@@ -27,9 +27,9 @@ pub struct Body {
     pub mass: Matrix3<f64>,
     /// C.
     pub stiffness: Matrix3<f64>,
-    /// Linear damping beside that of waves.
+    /// Linear damping in addition to that of waves.
     pub damping: Matrix3<f64>,
-    /// Weight and buoyancy at the mean place, and what else does not change.
+    /// Weight and buoyancy at the mean position, and other constant forces.
     pub constant_force: Vector3<f64>,
 }
 
@@ -37,8 +37,8 @@ impl Body {
     /// The body of a file with a weight.
     ///
     /// # Errors
-    /// [`HydroError::Missing`] if neither the file nor the weight say something that is needed, or
-    /// [`HydroError::Value`] if a number can not be.
+    /// [`HydroError::Missing`] if a required value is neither in the file nor in the weight, or
+    /// [`HydroError::Value`] if a number is not possible.
     pub fn new(hydro: &Hydrodynamics, weight: &Weight) -> Result<Self, HydroError> {
         let statics = &hydro.hydrostatics;
         let need = |what: &str, value: Option<f64>| {
@@ -99,8 +99,9 @@ impl Body {
     }
 }
 
-/// I_O of a body that has the file's moment of inertia about its centre of gravity, wherever that is
-/// and whatever it weighs: I_O(file) − m(file) |G(file)|² + m |G|², from the reference point.
+/// I_O of a body that has the file's moment of inertia about its centre of gravity, for any
+/// position of that and any mass: I_O(file) − m(file) |G(file)|² + m |G|², from the reference
+/// point.
 fn of_the_file(
     file: &Matrix3<f64>,
     own: [f64; 2],
@@ -120,7 +121,7 @@ fn of_the_file(
                       in a case)";
         return Err(HydroError::value(what, inertia, advice));
     }
-    // As the file has it to the bit, where nothing differs.
+    // If nothing differs this is the file's value to the bit.
     Ok(file[(2, 2)] + (mass_kg * square(centre) - own_mass * square(own)))
 }
 
@@ -136,8 +137,8 @@ fn mass_matrix(m: f64, [x, z]: [f64; 2], inertia: f64) -> Matrix3<f64> {
     Matrix3::new(m, 0.0, m * z, 0.0, m, -m * x, m * z, -m * x, inertia)
 }
 
-/// C for this weight. The file's holds m g z_G of a body that weighs what it displaces; surge has
-/// none.
+/// C for this weight. The file's includes m g z_G of a body whose mass is the displaced mass; surge
+/// has none.
 ///
 /// ```text
 /// C55 = C55(file) + (ρV z_G(file) − m z_G) g,    z_G from the reference point
@@ -176,7 +177,8 @@ fn stiffness(
     Ok(stiffness)
 }
 
-/// F_c = (0, (ρV − m) g, m g x_G − ρgV x_B); a body whose file has no volume floats in balance.
+/// F_c = (0, (ρV − m) g, m g x_G − ρgV x_B); a body whose file has no volume is taken to float in
+/// balance.
 fn weight_and_buoyancy(hydro: &Hydrodynamics, mass_kg: f64, x: f64) -> Vector3<f64> {
     let statics = &hydro.hydrostatics;
     let g = hydro.water.gravity_m_s2;
@@ -186,7 +188,8 @@ fn weight_and_buoyancy(hydro: &Hydrodynamics, mass_kg: f64, x: f64) -> Vector3<f
     let buoyancy = statics
         .centre_of_buoyancy_m
         .map(|b| b[0] - hydro.reference_m[0]);
-    // Without a centre of buoyancy the body floats upright with the file's centre of gravity.
+    // Without a centre of buoyancy the body is taken to float upright with the file's centre of
+    // gravity.
     let made = statics
         .centre_of_mass_m
         .map(|c| c[0] - hydro.reference_m[0]);

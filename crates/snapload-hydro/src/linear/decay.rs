@@ -1,4 +1,4 @@
-//! Free decay: the body is let go from a displacement in still water, without lines.
+//! Free decay: the body is released from a displacement in still water, without lines.
 
 use super::body::Body;
 use super::natural::state_matrix;
@@ -8,7 +8,7 @@ use crate::memory::{DampingCurve, Memory};
 use nalgebra::{Complex, DMatrix, DVector, Matrix3, Vector3};
 use std::f64::consts::PI;
 
-/// The motion after the body was let go.
+/// The motion after the release.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Decay {
     /// t \[s\].
@@ -33,11 +33,12 @@ pub struct Swing {
     pub damping_ratio: f64,
 }
 
-/// The motion from rest at `start` by the exponentials. It is linear with constant coefficients, so
-/// that steps of one length are one matrix, y ← e^{Lh} y, exact to rounding.
+/// The motion from rest at `start`, with the exponentials as the memory. It is linear with constant
+/// coefficients, so that each step of a fixed length is one multiplication, y ← e^{Lh} y, exact to
+/// rounding.
 ///
 /// # Errors
-/// A [`HydroError`] if the mass is not positive definite, or the times can not be.
+/// A [`HydroError`] if the mass is not positive definite, or the times are not possible.
 pub fn decay(
     body: &Body,
     memory: &Memory,
@@ -76,14 +77,15 @@ const ROUNDING: f64 = 1e-9;
 /// resonances lie in the first.
 const RANGES: [(f64, usize); 2] = [(1.3, 12_000), (12.0, 2_000)];
 
-/// The decay of heave alone by the file's damping and no exponentials: with A∞ and K̂ from B
-/// (Kramers and Kronig), the Fourier integral of the frequency response,
+/// The decay of heave alone, computed from the file's damping without exponentials: with A∞ and K̂
+/// from B (Kramers and Kronig), the Fourier integral of the frequency response,
 ///
 /// ```text
 /// x̂(iω) = x0 (iω(M + A∞) + K̂)/(C − ω²(M + A∞) + iωK̂),    x(t) = (2/π) ∫ Re x̂ cos ωt dω
 /// ```
 ///
-/// for a motion that is zero before t = 0. It shows what the exponentials are off by.
+/// for a motion that is zero before t = 0. The difference from the other decay is the error of the
+/// exponentials.
 pub fn decay_of_the_damping(
     hydro: &Hydrodynamics,
     body: &Body,
@@ -117,7 +119,7 @@ pub fn decay_of_the_damping(
     t_s.iter().map(at).collect()
 }
 
-/// ∫ f cos ωt dω of a function that is linear between points, exactly.
+/// ∫ f cos ωt dω of a function that is linear between the given points, exactly.
 fn filon(values: &[(f64, f64)], t: f64) -> f64 {
     let mut sum = 0.0;
     let (mut a, mut fa) = values[0];

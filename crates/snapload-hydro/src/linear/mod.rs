@@ -1,4 +1,4 @@
-//! What follows from the coefficients without simulating anything.
+//! Results from the coefficients that need no simulation.
 
 mod body;
 mod decay;

@@ -1,4 +1,4 @@
-//! Natural frequencies, without lines or with taut ones that hold the body.
+//! Natural frequencies, without lines or with taut lines.
 
 use super::body::Body;
 use crate::coefficients::{Hydrodynamics, MatrixCurve};
@@ -7,10 +7,10 @@ use crate::memory::{Memory, Term};
 use nalgebra::{Complex, DMatrix, DVector, Matrix3, Schur};
 use std::f64::consts::PI;
 
-/// An eigenvalue of stiffness over mass below this part of the largest is that of a freedom without
-/// stiffness, such as surge without lines.
+/// An eigenvalue of stiffness over mass below this part of the largest belongs to a degree of
+/// freedom without stiffness, such as surge without lines.
 const SOFT: f64 = 1e-9;
-/// Points of the search for a frequency at which mass and stiffness are in balance.
+/// Points in the search for a frequency at which stiffness and inertia are in balance.
 const SEARCH: usize = 400;
 
 /// A natural motion without damping: det(C − ω²(M + A(ω))) = 0.
@@ -20,7 +20,7 @@ pub struct Natural {
     pub omega_rad_s: f64,
     /// 2π/ω \[s\].
     pub period_s: f64,
-    /// The freedom that moves most, each weighed by its own mass.
+    /// The degree of freedom that moves most, each weighted by its own mass.
     pub freedom: usize,
     /// Whether ω lies outside the file's frequencies, where A is that at the nearest; not if A is the
     /// same at all of them, as it is in textbooks.
@@ -38,7 +38,7 @@ pub struct Mode {
     pub damping_ratio: f64,
 }
 
-/// A basis of the motions that are left: all three, or the null space of taut lines.
+/// A basis of the possible motions: all three, or the null space of taut lines.
 fn all() -> DMatrix<f64> {
     DMatrix::identity(3, 3)
 }
@@ -57,7 +57,7 @@ pub fn natural_of_the_file(hydro: &Hydrodynamics, body: &Body) -> Result<Vec<Nat
     natural(hydro, &body.mass, &body.stiffness, &all())
 }
 
-/// The same in the motions that taut lines leave, with their stiffness.
+/// The same for the motions that taut lines allow, with their stiffness.
 pub(super) fn natural(
     hydro: &Hydrodynamics,
     mass: &Matrix3<f64>,
@@ -109,8 +109,8 @@ struct Problem<'a> {
 }
 
 impl Problem<'_> {
-    /// Eigenvalues of stiffness over mass with the added mass of a frequency, rising, with their
-    /// motions.
+    /// Eigenvalues of stiffness over mass with the added mass at a frequency, in rising order, with
+    /// their motions.
     fn at(&self, omega: f64) -> Result<Vec<(f64, DVector<f64>)>, HydroError> {
         let mass = reduced(&(self.mass + self.curve.at(omega)), self.basis);
         let Some(factor) = mass.cholesky() else {
@@ -141,7 +141,7 @@ impl Problem<'_> {
         let top = 10.0 * high;
         let mut low = 0.0;
         for step in 1..=SEARCH {
-            // Closer at the low end.
+            // The points are closer together at low frequencies.
             let next = top * (step as f64 / SEARCH as f64).powi(3);
             if excess(next)? <= 0.0 {
                 let (mut below, mut above) = (low, next);
@@ -186,8 +186,8 @@ fn of_matrix(matrix: DMatrix<f64>) -> Result<Vec<Complex<f64>>, HydroError> {
     Ok(values)
 }
 
-/// L in the motions of a basis, u with q = N u. A pole with a complex residue is carried by the
-/// real and the imaginary part of its state.
+/// L for the motions of a basis, u with q = N u. A pole with a complex residue is represented by
+/// the real and the imaginary part of its state.
 pub(super) fn state_matrix(
     body: &Body,
     stiffness: &Matrix3<f64>,
@@ -260,11 +260,11 @@ pub fn natural_of_the_memory(
     nearest(matrix, natural)
 }
 
-/// The same of any state matrix.
+/// The same for any state matrix.
 pub(super) fn nearest(matrix: DMatrix<f64>, natural: &[Natural]) -> Result<Vec<Mode>, HydroError> {
     let values = of_matrix(matrix)?;
     let oscillating: Vec<Complex<f64>> = values.into_iter().filter(|v| v.im > 0.0).collect();
-    // Each eigenvalue is that of one motion: the nearest pairs are taken first.
+    // Each eigenvalue belongs to one motion: the nearest pairs are assigned first.
     let mut taken = vec![None; natural.len()];
     for _ in natural {
         let free = |k: &usize| !taken.contains(&Some(*k));

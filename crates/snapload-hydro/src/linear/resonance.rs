@@ -1,4 +1,4 @@
-//! The response between the file's frequencies, as close as its peaks want it.
+//! The response between the file's frequencies, with as many points as its peaks need.
 
 use super::body::Body;
 use super::response::{Response, of_the_memory, solved};
@@ -7,15 +7,15 @@ use crate::error::HydroError;
 use crate::memory::Memory;
 use nalgebra::{Complex, Matrix3, Vector3};
 
-/// Points that a peak is looked at in, each time from closer by.
+/// Points per refinement of a peak.
 const LOOKS: usize = 32;
-/// So many points beside the highest the next look reaches.
+/// The number of points on either side of the highest one that the next refinement includes.
 const BESIDE: usize = 4;
-/// A peak is found where its neighbours are as high, but for this part.
+/// A peak is resolved if its neighbours are as high, up to this part.
 const ALIKE: f64 = 1e-4;
-/// Frequencies that differ by less than this part are one.
+/// Frequencies that differ by less than this part are the same.
 const SAME: f64 = 1e-9;
-/// Looks at one peak at most: one that nothing damps has no end.
+/// The most refinements of one peak; an undamped one would never be resolved.
 const CLOSEST: usize = 14;
 
 /// The largest response of one freedom over all frequencies.
@@ -23,12 +23,12 @@ const CLOSEST: usize = 14;
 pub struct Peak {
     /// |ξ| \[m/m, m/m, rad/m\].
     pub amplitude: f64,
-    /// Where, ω \[rad/s\].
+    /// The frequency of the peak ω \[rad/s\].
     pub omega_rad_s: f64,
 }
 
 impl Response {
-    /// The largest response of each freedom at the frequencies that there are.
+    /// The largest response of each degree of freedom at the available frequencies.
     pub fn peaks(&self) -> [Peak; 3] {
         std::array::from_fn(|freedom| {
             let sizes = self.amplitude.iter().map(|xi| xi[freedom].norm());
@@ -52,10 +52,10 @@ impl Response {
 }
 
 /// The response by the file's coefficients, with cubic splines between its frequencies, and by the
-/// exponentials, each at the file's frequencies and so close about every peak that its height is
-/// known to a ten-thousandth. A peak may be much narrower than the file's frequencies are apart: it
-/// is looked for about every local maximum, and about `natural`, the frequencies of natural
-/// motions.
+/// exponentials, each at the file's frequencies and so densely about every peak that its height is
+/// accurate to a ten-thousandth. A peak may be much narrower than the spacing of the file's
+/// frequencies: it is searched for about every local maximum, and about `natural`, the frequencies
+/// of natural motions.
 ///
 /// # Errors
 /// A [`HydroError`] if the file does not have the direction.
@@ -108,24 +108,24 @@ impl<'a> Points<'a> {
         points
     }
 
-    /// The response at more frequencies; where there is none, that point is left out.
+    /// Adds the response at more frequencies; points without a response are left out.
     fn add(&mut self, omega: impl Iterator<Item = f64>) {
         let of = self.of;
         self.all
             .extend(omega.filter_map(|omega| Some((omega, of(omega)?))));
         self.all.sort_by(|a, b| a.0.total_cmp(&b.0));
-        // Splines through them want no two at one place.
+        // Splines through the points need distinct frequencies.
         self.all.dedup_by(|a, b| a.0 - b.0 <= SAME * a.0);
     }
 
-    /// With all local maxima of all freedoms looked at from close by.
+    /// Refines all local maxima of all degrees of freedom.
     fn refined(mut self) -> (Vec<f64>, Vec<Vector3<Complex<f64>>>) {
         let coarse = self.all.clone();
         for freedom in 0..3 {
             let size = |k: usize| coarse[k].1[freedom].norm();
             for k in 1..coarse.len().saturating_sub(1) {
                 if size(k) > size(k - 1) && size(k) > size(k + 1) {
-                    // Its flanks, too, are steeper than the file's frequencies show.
+                    // The flanks of the peak, too, are steeper than the file's frequencies show.
                     let [low, high] = [k.saturating_sub(3), (k + 3).min(coarse.len() - 1)];
                     self.look_at(freedom, [coarse[low].0, coarse[high].0]);
                 }
@@ -134,7 +134,7 @@ impl<'a> Points<'a> {
         self.all.into_iter().unzip()
     }
 
-    /// Looks at the peak of a freedom between two frequencies, ever closer.
+    /// Refines the peak of a degree of freedom between two frequencies.
     fn look_at(&mut self, freedom: usize, [mut low, mut high]: [f64; 2]) {
         for _ in 0..CLOSEST {
             let step = (high - low) / LOOKS as f64;

@@ -1,4 +1,4 @@
-//! How a body without lines answers to regular waves, and to a sea.
+//! The response of a body without lines to regular waves, and to a sea.
 
 use super::body::Body;
 use crate::coefficients::Hydrodynamics;
@@ -7,8 +7,8 @@ use crate::memory::Memory;
 use crate::spline::Spline;
 use nalgebra::{Complex, Matrix3, Vector3};
 
-/// ξ(ω) per metre of wave amplitude, q = Re ξ e^{−iωt}: the phase by which the motion is ahead of
-/// the crest at x = 0 is −arg ξ.
+/// ξ(ω) per metre of wave amplitude, q = Re ξ e^{−iωt}: the phase by which the motion leads the
+/// crest at x = 0 is −arg ξ.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Response {
     /// +1 for waves to +x, −1 to −x.
@@ -32,7 +32,7 @@ pub fn response_of_the_file(
     response(hydro, body, direction, of)
 }
 
-/// The same by the exponentials: K̂(iω) = B + iω(A − A∞).
+/// The same with the exponentials: K̂(iω) = B + iω(A − A∞).
 ///
 /// # Errors
 /// A [`HydroError`] if the file does not have the direction, or the matrix is singular.
@@ -70,7 +70,7 @@ fn response(
     })
 }
 
-/// ξ of one frequency by A and B there; none where nothing bounds it.
+/// ξ at one frequency from A and B there; none if the matrix is singular.
 pub(super) fn solved(
     body: &Body,
     omega: f64,
@@ -110,7 +110,7 @@ impl Response {
         });
         let [first, last] = moduli[0].ends();
         let steps = 40_000;
-        // The spectrum's own range is wider than the file's.
+        // The spectrum extends beyond the file's range.
         let top = 4.0 * last;
         let width = top / f64::from(steps);
         let (mut sums, mut covered, mut all) = ([0.0; 3], 0.0, 0.0);

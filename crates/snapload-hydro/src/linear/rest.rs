@@ -1,4 +1,4 @@
-//! Where a body rests on its lines in still water, and how it moves a little about that place.
+//! Where a body rests on its lines in still water, and its small motions about that position.
 
 use super::body::Body;
 use super::natural::{Mode, Natural, natural, nearest, reduced, state_matrix};
@@ -8,9 +8,9 @@ use crate::memory::Memory;
 use nalgebra::{DMatrix, DVector, Matrix2x3, Matrix3, RowVector3, Vector2, Vector3};
 use std::f64::consts::FRAC_PI_2;
 
-/// Lines that can be taut at once: there are three freedoms.
+/// The most lines that can be taut at once: there are three degrees of freedom.
 const MOST: usize = 3;
-/// Newton's method: steps, and places to begin at.
+/// The steps of Newton's method, and the factors of its starting points.
 const STEPS: usize = 60;
 const ROUNDING: f64 = 1e-13;
 /// An eigenvalue of NᵀHN below this part of the largest counts as no stiffness.
@@ -21,13 +21,13 @@ const SINGULAR: f64 = 1e-9;
 pub struct Line {
     /// The anchor (x, z) \[m\].
     pub anchor_m: [f64; 2],
-    /// The fairlead from the reference point, in the body at its mean place \[m\].
+    /// The fairlead relative to the reference point, in the body at its mean position \[m\].
     pub fairlead_m: [f64; 2],
     /// Its length \[m\].
     pub length_m: f64,
 }
 
-/// A place of rest.
+/// A position of rest.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Rest {
     /// q \[m, m, rad\].
@@ -36,17 +36,17 @@ pub struct Rest {
     pub taut: Vec<usize>,
     /// The tension of each line \[N\], 0 if slack.
     pub tension_n: Vec<f64>,
-    /// By how much each line is too long \[m\].
+    /// The slack of each line \[m\].
     pub slack_m: Vec<f64>,
-    /// A basis of the motions that the taut lines leave, a motion a column.
+    /// A basis of the motions that the taut lines allow, one motion in each column.
     pub motions: DMatrix<f64>,
     /// NᵀHN.
     pub stiffness: DMatrix<f64>,
-    /// H, that of the body and of the tensions together.
+    /// H, the stiffness of the body and of the tensions together.
     pub whole: Matrix3<f64>,
 }
 
-/// A line at a place of the body.
+/// A line at a position of the body.
 struct Pull {
     /// From the reference point to the fairlead.
     r: Vector2<f64>,
@@ -96,19 +96,19 @@ struct Problem<'a> {
     force: f64,
 }
 
-/// The place of rest of lowest potential V = ½ qᵀCq − F_cᵀq with no line longer than it is. For
-/// every set of up to three lines Newton's method solves
+/// The position of rest with the lowest potential V = ½ qᵀCq − F_cᵀq at which no line is longer
+/// than its length. For every set of up to three lines Newton's method solves
 ///
 /// ```text
 /// C q − F_c + Σ T_i G_iᵀ = 0,    |P_i − A_i| = r_i
 /// ```
 ///
-/// from several places; a solution counts if T_i > 0, the other lines are slack, and NᵀHN is
-/// positive definite, with H = C + Σ T_i ∂²|P_i − A_i|/∂q² and N a basis of the null space of the
-/// taut lines' G.
+/// from several starting points; a solution is accepted if T_i > 0, the other lines are slack, and
+/// NᵀHN is positive definite, with H = C + Σ T_i ∂²|P_i − A_i|/∂q² and N a basis of the null space
+/// of the taut lines' G.
 ///
 /// # Errors
-/// [`HydroError::Impossible`] if there is none, as where no taut line holds surge.
+/// [`HydroError::Impossible`] if there is none, for example if no taut line holds surge.
 pub fn rest(hydro: &Hydrodynamics, body: &Body, lines: &[Line]) -> Result<Rest, HydroError> {
     let mut length: f64 = 1.0;
     for (index, line) in lines.iter().enumerate() {
@@ -206,8 +206,8 @@ impl Problem<'_> {
         0.5 * q.dot(&(self.body.stiffness * q)) - self.body.constant_force.dot(q)
     }
 
-    /// Places to begin at: the mean place, where the body would float without lines, and beside and
-    /// below it; above each anchor.
+    /// Starting points: the mean position, the position without lines, and points beside and below
+    /// it; above each anchor.
     fn starts(&self, taut: &[usize]) -> Vec<Vector3<f64>> {
         let heave = self.body.stiffness[(1, 1)];
         let free = match heave > 0.0 {
@@ -236,7 +236,7 @@ impl Problem<'_> {
     fn solve(&self, taut: &[usize], start: Vector3<f64>) -> Option<Rest> {
         let m = taut.len();
         let mut q = start;
-        // Tensions to begin with, so that lines hold surge: what lifts the body, shared out.
+        // First tensions that let lines hold surge: the lift, divided among them.
         let lift = (self.body.constant_force[1] / m.max(1) as f64).max(0.1 * self.force);
         let mut tension = vec![lift; m];
         let mut settled = 0;
@@ -245,7 +245,7 @@ impl Problem<'_> {
             let (matrix, right) = self.newton(taut, &pulls, &q, &tension);
             let step = matrix.lu().solve(&right)?;
             let part = step.rows(0, 3).amax() / self.length;
-            // A long step is shortened, for the equations bend.
+            // A long step is shortened, as the equations are nonlinear.
             let scale = (0.3 / part.max(1e-300)).min(1.0);
             for i in 0..3 {
                 let unit = if i == 2 { 1.0 / self.length } else { 1.0 };
@@ -262,7 +262,7 @@ impl Problem<'_> {
                 return self.judged(taut, q, &tension);
             }
         }
-        // Rounding may keep the last step above the bound by a little.
+        // Rounding may keep the last step slightly above the bound.
         let pulls: Vec<Pull> = taut.iter().map(|line| self.pull(*line, &q)).collect();
         let (_, right) = self.newton(taut, &pulls, &q, &tension);
         (right.amax() < 1e-11).then(|| self.judged(taut, q, &tension))?
@@ -284,7 +284,8 @@ impl Problem<'_> {
             hessian += pull.bend() * *tension;
             force -= pull.row().transpose() * *tension;
         }
-        // q_i = s_i u_i with s = (1, 1, 1/length): moments and lengths get comparable sizes.
+        // q_i = s_i u_i with s = (1, 1, 1/length), so that moments and lengths are of comparable
+        // size.
         let unit = |i: usize| if i == 2 { 1.0 / self.length } else { 1.0 };
         let mut matrix = DMatrix::zeros(3 + m, 3 + m);
         let mut right = DVector::zeros(3 + m);
@@ -304,7 +305,7 @@ impl Problem<'_> {
         (matrix, right)
     }
 
-    /// The place, if it is one of rest.
+    /// The position, if it is accepted as one of rest.
     fn judged(&self, taut: &[usize], q: Vector3<f64>, tension: &[f64]) -> Option<Rest> {
         if tension.iter().any(|tension| *tension <= 1e-9 * self.force) {
             return None;
@@ -348,12 +349,12 @@ impl Problem<'_> {
     }
 }
 
-/// An orthonormal basis of the vectors that all rows are orthogonal to: what Gram and Schmidt leave
-/// of the axes after the rows, the one that most is left of first.
+/// An orthonormal basis of the vectors that are orthogonal to all rows: the axes, orthogonalised
+/// against the rows by Gram and Schmidt's procedure, beginning with the one of which most is left.
 fn null_space(rows: &DMatrix<f64>) -> DMatrix<f64> {
     let mut known: Vec<DVector<f64>> = Vec::new();
     let left = |vector: DVector<f64>, known: &[DVector<f64>]| {
-        // Twice is enough for orthogonality to rounding.
+        // Two passes give orthogonality to rounding.
         let once = |vector: DVector<f64>| {
             known
                 .iter()
@@ -381,8 +382,8 @@ fn null_space(rows: &DMatrix<f64>) -> DMatrix<f64> {
 }
 
 impl Rest {
-    /// Natural motions about this place with the taut lines taut: without damping by A(ω) of the
-    /// file, NᵀHN − ω² Nᵀ(M + A(ω))N, and with the memory's.
+    /// Natural motions about this position with the taut lines taut: without damping from A(ω) of
+    /// the file, NᵀHN − ω² Nᵀ(M + A(ω))N, and with the memory's damping.
     ///
     /// # Errors
     /// [`HydroError::Impossible`] if mass and added mass are not positive definite.

@@ -1,4 +1,5 @@
-//! What the coupled freedoms of a memory are fitted to, and least squares for given poles.
+//! The samples to which the memory of coupled degrees of freedom is fitted, and least squares for
+//! given poles.
 
 use super::curve::DampingCurve;
 use super::poles::{Poles, Samples, basis, first_guess, relocate};
@@ -6,19 +7,19 @@ use super::quality::Kernel;
 use crate::coefficients::Hydrodynamics;
 use nalgebra::{Complex, DMatrix, DVector, Matrix3};
 
-/// Points that are added beyond the last frequency, up to this many times it.
+/// Points that are added beyond the last frequency, and their range as a multiple of it.
 const BEYOND: usize = 30;
 const FARTHEST: f64 = 8.0;
 /// Relocations of the poles.
 const RELOCATIONS: usize = 60;
 
-/// What one block is fitted to.
+/// The samples to which one block is fitted.
 pub(super) struct Block {
     pub freedoms: Vec<usize>,
-    /// Entries i ≤ j by place in `freedoms`.
+    /// Entries i ≤ j by index in `freedoms`.
     pub entries: Vec<(usize, usize)>,
     pub samples: Samples,
-    /// The samples of the file, without those beyond its last frequency.
+    /// The number of samples from the file, without those beyond its last frequency.
     pub own: usize,
     pub kernels: Vec<Kernel>,
     pub unit: Vec<f64>,
@@ -89,7 +90,7 @@ impl Block {
     }
 }
 
-/// One for the file's own samples. Beyond them each stands for a band of frequencies, so that the
+/// One for the file's own samples. Beyond them each represents a band of frequencies, so that the
 /// sum of squares is ∫|ΔK̂|² dω = π ∫ ΔK² dt there (Parseval), and K(0) is right.
 fn weights(omega: &[f64], own: usize) -> Vec<f64> {
     let spacing = (omega[own - 1] - omega[0]) / (own - 1) as f64;
@@ -117,15 +118,15 @@ pub(super) struct Residues {
     pub best: Vec<DVector<f64>>,
 }
 
-/// Least squares of the coefficients x for each entry under K̂(0) = 0, as a body that moves steadily
+/// Least squares of the coefficients x for each entry under K̂(0) = 0, as a body in steady motion
 /// makes no waves:
 ///
 /// ```text
 /// min Σ w² |Σ x_j φ_j(iω) − f|²    with    Σ x_j φ_j(0) = 0
 /// ```
 ///
-/// x = N y, N a basis of the constraint's null space; with M N = Q R the error is |R y − Qᵀf| and a
-/// constant.
+/// x = N y, N a basis of the constraint's null space; with M N = Q R the error is |R y − Qᵀf| up to
+/// a constant.
 pub(super) fn residues(block: &Block, poles: &Poles) -> Option<Residues> {
     let samples = &block.samples;
     let m = samples.omega.len();
@@ -163,8 +164,8 @@ pub(super) fn residues(block: &Block, poles: &Poles) -> Option<Residues> {
     })
 }
 
-/// Columns that are orthogonal to a vector and to one another: those of Householder's reflection
-/// that takes the vector to the first axis, without its first.
+/// Columns that are orthogonal to a vector and to one another: the Householder reflection that
+/// takes the vector to the first axis, without its first column.
 fn null_space(vector: &DVector<f64>) -> Option<DMatrix<f64>> {
     let length = vector.norm();
     if !(length > 0.0 && length.is_finite()) {
@@ -186,7 +187,7 @@ impl Block {
     }
 
     /// The root mean square of the difference over the file's own frequencies and all entries, each
-    /// in units of itself.
+    /// relative to itself.
     pub fn rms(&self, poles: &Poles, coefficients: &[DVector<f64>]) -> f64 {
         let mut sum = 0.0;
         for k in 0..self.own {
@@ -201,7 +202,7 @@ impl Block {
         (sum / (self.own * coefficients.len()) as f64).sqrt()
     }
 
-    /// The best poles among those that relocation passes through.
+    /// The best poles among those of all relocations.
     pub fn poles(&self, pairs: usize) -> Option<Poles> {
         let mut poles = first_guess(pairs, self.omega_max());
         let mut best: Option<(f64, Poles)> = None;

@@ -6,7 +6,7 @@ use crate::spline::Spline;
 use nalgebra::Matrix3;
 use std::f64::consts::PI;
 
-/// Nodes and weights of Gauss and Legendre's rule with eight points on (−1, 1), one side.
+/// Nodes and weights of the Gauss-Legendre rule with eight points on (−1, 1), for one side.
 const GAUSS: [[f64; 2]; 4] = [
     [0.183_434_642_495_649_8, 0.362_683_783_378_362],
     [0.525_532_409_916_329, 0.313_706_645_877_887_3],
@@ -15,9 +15,9 @@ const GAUSS: [[f64; 2]; 4] = [
 ];
 /// The exponents that the power law beyond the last frequency may have.
 const EXPONENTS: [f64; 2] = [3.0, 12.0];
-/// The frequencies whose trend goes on beyond the last.
+/// The number of last frequencies from which the power law beyond them is found.
 const TREND: usize = 10;
-/// Where the integral of the memory ends, in last frequencies.
+/// The end of the memory's integral, in units of the last frequency.
 const FAR: f64 = 40.0;
 /// Panels of that integral beyond the last frequency.
 const FAR_PANELS: usize = 240;
@@ -25,7 +25,7 @@ const FAR_PANELS: usize = 240;
 const TAIL_PANELS: usize = 8;
 
 /// B(ω) of one entry over all frequencies: a cubic spline through zero and the file's values, then
-/// the power law of the last ten of them.
+/// the power law fitted to the last ten of them.
 #[derive(Clone, Debug)]
 pub struct DampingCurve {
     within: Spline,
@@ -49,7 +49,7 @@ fn panel(from: f64, to: f64) -> impl Iterator<Item = [f64; 2]> {
 }
 
 impl DampingCurve {
-    /// Through values at rising frequencies above 0.
+    /// The curve through values at rising frequencies above 0.
     pub fn new(omega: &[f64], damping: &[f64]) -> Self {
         let x: Vec<f64> = std::iter::once(0.0).chain(omega.iter().copied()).collect();
         let y: Vec<f64> = std::iter::once(0.0)
@@ -92,8 +92,8 @@ impl DampingCurve {
         self.at_last * (self.last / omega).powf(self.exponent)
     }
 
-    /// A(ω) − A∞ that belongs to this damping, by the relation of Kramers and Kronig. The principal
-    /// value loses its singularity with the value at ω taken away, for P∫ dν/(ν² − ω²) = 0:
+    /// A(ω) − A∞ that belongs to this damping, by the Kramers-Kronig relation. Subtracting the
+    /// value at ω removes the singularity of the principal value, as P∫ dν/(ν² − ω²) = 0:
     ///
     /// ```text
     /// A(ω) − A∞ = −(1/ω) ∫ K(t) sin ωt dt = (2/π) P∫ B(ν)/(ν² − ω²) dν = (2/π) ∫ (B(ν) − B(ω))/(ν² − ω²) dν
@@ -106,8 +106,8 @@ impl DampingCurve {
         let sum: f64 = points
             .map(|[nu, weight, value]| {
                 let apart = (nu - omega) * (nu + omega);
-                // Where a point of the rule falls on ω the quotient is the slope there over 2ω,
-                // which is a rounding's worth of the sum.
+                // Where a point of the rule is exactly ω the quotient is the slope there over 2ω,
+                // whose contribution is no more than a rounding of the sum.
                 match apart == 0.0 {
                     true => 0.0,
                     false => weight * (value - here) / apart,
@@ -149,8 +149,8 @@ fn exponent(omega: &[f64], damping: &[f64]) -> f64 {
 }
 
 /// A∞ by [`DampingCurve::added_mass`]: the median of A(ω) minus it over the middle half of the
-/// frequencies, entry by entry. It belongs to the file's damping, as the memory does; the panel
-/// code's own A(∞) differs from it by the errors of both.
+/// frequencies, entry by entry. It is consistent with the file's damping, as the memory is; the
+/// panel code's own A(∞) differs from it by the errors of both.
 pub fn added_mass_at_infinity(hydro: &Hydrodynamics) -> Matrix3<f64> {
     let mut matrix = Matrix3::zeros();
     let count = hydro.omega_rad_s.len();
@@ -176,7 +176,7 @@ pub fn added_mass_at_infinity(hydro: &Hydrodynamics) -> Matrix3<f64> {
 mod tests {
     use super::*;
 
-    /// A memory K = a e^{−ct} cos bt has both in closed form.
+    /// The memory K = a e^{−ct} cos bt, for which both integrals have closed forms.
     #[test]
     fn integrals_agree_with_an_exponential() {
         let (a, c, b) = (3.0, 0.6, 1.3);
@@ -188,15 +188,15 @@ mod tests {
         let omega: Vec<f64> = (1..=400).map(|k| 0.05 * f64::from(k)).collect();
         let damping: Vec<f64> = omega.iter().map(|w| transform(*w).re).collect();
         let mut curve = DampingCurve::new(&omega, &damping);
-        // This memory's damping is not zero at ω = 0 as a body's is.
+        // Unlike that of a body, this memory's damping is not zero at ω = 0.
         let x: Vec<f64> = std::iter::once(0.0).chain(omega.iter().copied()).collect();
         let y: Vec<f64> = x.iter().map(|w| transform(*w).re).collect();
         curve.within = Spline::new(&x, &y);
         for point in &mut curve.inner {
             point[2] = curve.within.clamped(point[0]);
         }
-        // Its damping falls as ω⁻², which the power law is not allowed: the tail is 1 % of the sum
-        // at the last frequency.
+        // Its damping falls as ω⁻², which the power law does not allow: the error of the tail is 1
+        // % of the sum at the last frequency.
         for omega in [0.4, 1.3, 2.7] {
             let (found, exact) = (curve.added_mass(omega), transform(omega).im / omega);
             assert!((found - exact).abs() < 2e-4, "{omega}: {found} {exact}");

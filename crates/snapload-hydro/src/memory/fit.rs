@@ -1,4 +1,4 @@
-//! A memory for the coefficients of a file.
+//! Fits a memory to the coefficients of a file.
 
 use super::block::{Block, residues};
 use super::curve::{DampingCurve, added_mass_at_infinity};
@@ -12,42 +12,42 @@ use crate::coefficients::{Hydrodynamics, UPPER};
 use crate::error::{HydroError, Warning};
 use nalgebra::{Complex, DVector, Matrix3};
 
-/// Numbers of pairs that are tried in turn, and the error of the fit and of K at which the first is
-/// taken.
+/// Numbers of pole pairs that are tried in turn, and the error of the fit and of K at which the
+/// first is accepted.
 const PAIRS: [usize; 5] = [4, 6, 8, 10, 12];
 const GOOD: f64 = 0.01;
-/// A fit that is worse than this is told of.
+/// A worse fit causes a warning.
 pub(super) const POOR: f64 = 0.02;
-/// What passivity may cost.
+/// The increase of the error that passivity may cause.
 pub(super) const PRICE: f64 = 0.02;
-/// Couplings below this part of the freedoms' own are those of a body that is its own mirror image.
+/// Couplings below this part of the diagonal are taken as zero, as for a mirror-symmetric body.
 const COUPLED: f64 = 1e-3;
 
-/// What may be chosen.
+/// Options of the fit.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct FitOptions {
-    /// Pairs of poles for each block; without it as many as are needed for 1 % of K.
+    /// Pairs of poles for each block; if not given, as many as are needed for an error of 1 % in K.
     pub pairs: Option<usize>,
 }
 
-/// A memory with what is known of it.
+/// A memory with its quality.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Fit {
     /// The memory.
     pub memory: Memory,
-    /// A∞ that belongs to it, from the damping and not the file's.
+    /// The A∞ that belongs to it, computed from the damping instead of the file's.
     pub added_mass_inf: Matrix3<f64>,
-    /// Damping that was added where the memory could not be made passive; zero else.
+    /// Damping that was added if the memory could not be made passive; otherwise zero.
     pub damping: Matrix3<f64>,
     /// The fit of each block.
     pub blocks: Vec<BlockQuality>,
     /// The fit of each entry that is not zero.
     pub entries: Vec<EntryQuality>,
-    /// What to know.
+    /// Warnings.
     pub warnings: Vec<Warning>,
 }
 
-/// The coupled freedoms that make waves.
+/// The groups of coupled degrees of freedom that make waves.
 fn blocks(hydro: &Hydrodynamics) -> Vec<Vec<usize>> {
     let largest = |i: usize, j: usize| {
         let values = hydro.damping_entry(i, j).into_iter().enumerate();
@@ -62,7 +62,7 @@ fn blocks(hydro: &Hydrodynamics) -> Vec<Vec<usize>> {
     let (force, omega) = [largest(0, 0), largest(1, 1)]
         .into_iter()
         .fold((0.0, 1.0), |a, b| if b.0 > a.0 { b } else { a });
-    // A circle that turns about its centre makes no waves; what the file has is noise.
+    // A circle that turns about its centre makes no waves; what the file has for it is noise.
     let length = hydro.water.gravity_m_s2 / (omega * omega);
     let makes_waves = |i: usize| {
         let unit = if i == 2 { length * length } else { 1.0 };
@@ -89,7 +89,7 @@ struct Candidate {
     quality: BlockQuality,
     /// The worst root mean square of K over the entries.
     kernel_rms: f64,
-    /// The largest eigenvalue times the violation, where damping has to be added.
+    /// The largest eigenvalue times the violation, for which damping has to be added.
     violation: f64,
 }
 
@@ -159,7 +159,7 @@ impl Block {
         sums.into_iter().map(part).fold(0.0, f64::max)
     }
 
-    /// The first candidate that is good, or else the best.
+    /// The first candidate that is good enough, or else the best.
     fn chosen(&self, options: FitOptions) -> Option<Candidate> {
         let numbers = match options.pairs {
             Some(pairs) => vec![pairs],
@@ -172,7 +172,7 @@ impl Block {
             };
             let error = |c: &Candidate| c.quality.rms.max(c.kernel_rms);
             let good = error(&candidate) <= GOOD && !candidate.quality.damped;
-            // More poles have to be worth it.
+            // More poles are accepted only if they reduce the error by a tenth.
             let better = |best: &Candidate| error(&candidate) < 0.9 * error(best);
             if good || best.as_ref().is_none_or(better) {
                 best = Some(candidate);
@@ -186,8 +186,8 @@ impl Block {
 }
 
 impl Candidate {
-    /// The terms: the coefficients x, y of a pair stand for the residue 2(x + iy) of the pole above
-    /// the axis, whose conjugate the real part brings along.
+    /// The terms: the coefficients x, y of a pair stand for the residue 2(x + iy) of the pole with
+    /// Im p > 0; taking the real part includes its conjugate.
     fn memory(&self, block: &Block) -> Memory {
         let mut terms = Vec::new();
         let mut at = 0;
@@ -213,8 +213,8 @@ impl Candidate {
     }
 }
 
-/// The fit of one block. Where it is poor, frequencies that stand apart from the others are left
-/// out, and A∞ and the fit are made again.
+/// The fit of one block. If it is poor, outlying frequencies are left out, and A∞ and the fit are
+/// made again.
 fn chosen(
     hydro: &Hydrodynamics,
     inf: &mut Matrix3<f64>,
@@ -251,7 +251,7 @@ fn chosen(
 }
 
 /// The memory of a file's coefficients, by vector fitting of B + iω(A − A∞) with common poles for
-/// coupled freedoms, no damping at constant speed, and no energy out of nothing.
+/// coupled degrees of freedom, zero damping at constant speed, and passivity.
 ///
 /// # Errors
 /// A [`HydroError`] if there is nothing to fit, or no fit is found.
@@ -299,10 +299,10 @@ pub fn fit(hydro: &Hydrodynamics, options: FitOptions) -> Result<Fit, HydroError
     Ok(fit)
 }
 
-/// A memory that is given, with its quality beside a file's coefficients.
+/// A given memory, with its quality relative to a file's coefficients.
 ///
 /// # Errors
-/// A [`HydroError`] as [`Memory::check`] gives it, or if A∞ can not be.
+/// A [`HydroError`] as [`Memory::check`] gives it, or if A∞ is not possible.
 pub fn given(
     hydro: &Hydrodynamics,
     added_mass_inf: [[f64; 3]; 3],

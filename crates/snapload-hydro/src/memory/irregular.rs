@@ -1,4 +1,4 @@
-//! Frequencies at which a panel code's answer stands apart from the others.
+//! Outlying frequencies in the results of a panel code.
 
 use super::block::{Block, residues};
 use super::poles::{Poles, Samples, basis, first_guess, relocate};
@@ -8,14 +8,16 @@ use nalgebra::Complex;
 const PAIRS: usize = 6;
 const RELOCATIONS: usize = 20;
 const ROUNDS: usize = 6;
-/// Rounds in which a sample that is off counts less; in those after it counts nothing.
+/// The number of rounds in which outliers have a reduced weight; in those after it their weight is
+/// zero.
 const SOFT: usize = 4;
-/// What counts as off: this part of the median size, and this many median errors.
+/// A sample is an outlier if its error exceeds this part of the median size, and this many median
+/// errors.
 const OFF: f64 = 0.05;
 const ERRORS: f64 = 3.0;
 
-/// The places of the frequencies that are off a fit in which they count the less the more they are
-/// off (Huber's weights), and in the last rounds nothing. At most a quarter of all.
+/// The indices of outlying frequencies, by a fit in which a sample's weight decreases with its
+/// error (Huber's weights), and is zero for outliers in the last rounds. At most a quarter of all.
 pub(super) fn irregular(block: &Block) -> Vec<usize> {
     let mut block = Block {
         samples: robust(block),
@@ -44,7 +46,7 @@ pub(super) fn irregular(block: &Block) -> Vec<usize> {
                 _ => 1.0,
             };
         }
-        // What goes on beyond the last frequency rests on the last ones.
+        // The extrapolation beyond the last frequency depends on the last ones.
         let trusted = block.samples.weight[block.own - 3..block.own].iter();
         let trusted = trusted.fold(1.0, |least: f64, weight| least.min(*weight)) > 0.5;
         for (weight, own) in block.samples.weight[block.own..].iter_mut().zip(&beyond) {
@@ -60,7 +62,7 @@ pub(super) fn irregular(block: &Block) -> Vec<usize> {
     }
 }
 
-/// The samples with each function in units of its median.
+/// The samples with each function divided by its median.
 fn robust(block: &Block) -> Samples {
     let samples = &block.samples;
     let scale = (0..samples.values.ncols()).map(|e| {
@@ -106,7 +108,8 @@ fn best(block: &Block) -> Option<Poles> {
     best.map(|(_, poles)| poles)
 }
 
-/// The largest difference over the functions at each of the file's frequencies, in units of each.
+/// The largest difference over the functions at each of the file's frequencies, each relative to
+/// its function.
 fn differences(block: &Block, poles: &Poles) -> Option<Vec<f64>> {
     let residues = residues(block, poles)?;
     let coefficients = block.coefficients(&residues, &residues.best);

@@ -1,11 +1,11 @@
-//! Least squares: plain, and with bounds.
+//! Least squares, without and with bounds.
 
 use nalgebra::{DMatrix, DVector};
 
 /// Singular values below this part of the largest count as zero.
 const RANK: f64 = 1e-13;
 
-/// min ‖A x − b‖, the shortest x where there are several. Columns are scaled to the same length.
+/// min ‖A x − b‖, the shortest x if there are several. Columns are scaled to equal length.
 pub(super) fn solve(a: &DMatrix<f64>, b: &DVector<f64>) -> Option<DVector<f64>> {
     let scale: Vec<f64> = a
         .column_iter()
@@ -24,8 +24,7 @@ pub(super) fn solve(a: &DMatrix<f64>, b: &DVector<f64>) -> Option<DVector<f64>> 
     Some(x)
 }
 
-/// The same by a QR decomposition, which takes a tenth of the time, where the columns are
-/// independent.
+/// The same by a QR decomposition, which takes a tenth of the time, if the columns are independent.
 fn quick(a: &DMatrix<f64>, b: &DVector<f64>) -> Option<DVector<f64>> {
     if a.nrows() < a.ncols() {
         return solve(a, b);

@@ -27,14 +27,14 @@ pub struct Term {
     pub residue: Matrix3<Complex<f64>>,
 }
 
-/// K(t) = Re Σ R_k e^{p_k t}, the retardation of a body in waves of its own making:
+/// K(t) = Re Σ R_k e^{p_k t}, the retardation function of the waves that a body makes:
 ///
 /// ```text
 /// F_mem(t) = ∫ K(t−τ) q̇(τ) dτ = Re Σ R_k z_k,    ż_k = p_k z_k + q̇,    z_k(0) = 0
 /// ```
 ///
-/// Source: W. E. Cummins, *Schiffstechnik* 9 (1962) 101, for K; the exponentials give it back by
-/// linear differential equations.
+/// Source: W. E. Cummins, *Schiffstechnik* 9 (1962) 101, for K; with the exponentials it becomes a
+/// system of linear differential equations.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Memory {
     /// The exponentials.
@@ -66,8 +66,8 @@ impl Memory {
         })
     }
 
-    /// How many real states the motion carries along: for each pole and each motion that it acts
-    /// on, one if the pole is real and two if it is not.
+    /// The number of real states of the memory: for each pole and each motion that it responds to,
+    /// one if the pole is real and two if it is not.
     pub fn states(&self) -> usize {
         let of = |term: &Term| {
             let columns = (0..3).filter(|j| term.residue.column(*j).iter().any(|r| r.norm() > 0.0));
@@ -77,14 +77,14 @@ impl Memory {
     }
 
     /// The least eigenvalue of Re K̂(iω), as a part of the largest over ω, over frequencies from
-    /// 1e-4 to 1000 times the given one. The memory is passive, and can not feed energy into the
-    /// motion, where it is not below zero. Each entry is taken in units of the damping of its own
+    /// 1e-4 to 1000 times the given one. If it is not negative the memory is passive and can not
+    /// feed energy into the motion. Each entry is relative to the damping of its own degrees of
     /// freedom.
     pub fn least_eigenvalue(&self, omega_max_rad_s: f64) -> f64 {
         passivity::least(self, omega_max_rad_s)
     }
 
-    /// Checks exponentials that were given and not fitted.
+    /// Checks exponentials that are given instead of fitted.
     ///
     /// # Errors
     /// A [`HydroError`] if a pole does not decay, a residue is not symmetric, or a number is not
@@ -129,7 +129,7 @@ pub struct TermRow {
 }
 
 impl Memory {
-    /// As rows of numbers.
+    /// The memory as rows of numbers.
     pub fn rows(&self) -> Vec<TermRow> {
         let row = |term: &Term| TermRow {
             pole: [term.pole.re, term.pole.im],
@@ -140,7 +140,7 @@ impl Memory {
         self.terms.iter().map(row).collect()
     }
 
-    /// Out of rows of numbers.
+    /// The memory from rows of numbers.
     ///
     /// # Errors
     /// A [`HydroError`] as [`Memory::check`] gives it.

@@ -1,4 +1,4 @@
-//! Whether a memory can feed energy into the motion, and the nearest one that can not.
+//! Whether a memory is passive, and the nearest one that is.
 //!
 //! ∫ q̇ᵀ F_mem dt ≥ 0 for every motion from rest if Re K̂(iω) is positive semidefinite for all ω.
 
@@ -7,16 +7,16 @@ use super::least_squares::shortest_above;
 use super::poles::{Poles, basis};
 use nalgebra::{Complex, DMatrix, DVector, Matrix3};
 
-/// Below this part of the largest eigenvalue, with its sign turned round, an eigenvalue counts as
-/// zero.
+/// A negative eigenvalue whose magnitude is below this part of the largest counts as zero.
 const ZERO: f64 = 1e-9;
-/// The range of the search in last frequencies, and the points in it.
+/// The range of the search, in units of the last frequency, and the points in it.
 const RANGE: [f64; 2] = [1e-4, 1e3];
 const POINTS: usize = 3000;
-/// Rounds of least squares with ever more inequalities.
+/// The most rounds of least squares, each with more inequalities.
 const ROUNDS: usize = 60;
 
-/// Frequencies from far below to far above the last one, closer where poles are near the axis.
+/// Frequencies from far below to far above the last one, more densely where poles are near the
+/// axis.
 fn grid(poles: impl Iterator<Item = Complex<f64>>, omega_max: f64) -> Vec<f64> {
     let [low, high] = RANGE.map(f64::ln);
     let point = |k: usize| omega_max * (low + (high - low) * k as f64 / (POINTS - 1) as f64).exp();
@@ -27,8 +27,8 @@ fn grid(poles: impl Iterator<Item = Complex<f64>>, omega_max: f64) -> Vec<f64> {
     grid
 }
 
-/// The least eigenvalue of Re K̂ over the largest, each freedom in units of the root of its own
-/// largest damping.
+/// The least eigenvalue of Re K̂ over the largest, each degree of freedom in units of the root of
+/// its own largest damping.
 pub(super) fn least(memory: &Memory, omega_max: f64) -> f64 {
     let poles = memory.terms.iter().map(|term| term.pole);
     let real: Vec<Matrix3<f64>> = grid(poles, omega_max)
@@ -54,9 +54,9 @@ pub(super) fn least(memory: &Memory, omega_max: f64) -> f64 {
     if most > 0.0 { least / most } else { 0.0 }
 }
 
-/// Least squares in coordinates in which it is the distance from a point: for entry e of the matrix
-/// the coefficients are `basis · z_e · scale_e`, and the sum over e of |z_e − target_e|² is to be
-/// least.
+/// Least squares in coordinates in which the error is the distance from a point: for entry e of the
+/// matrix the coefficients are `basis · z_e · scale_e`, and the sum over e of |z_e − target_e|² is
+/// minimised.
 pub(super) struct Nearest<'a> {
     pub poles: &'a Poles,
     pub omega_max: f64,
@@ -71,11 +71,11 @@ pub(super) struct Nearest<'a> {
     pub unit: &'a [f64],
 }
 
-/// A passive memory, or the least eigenvalue that was left.
+/// A passive memory, or the least eigenvalue that remains.
 pub(super) struct Passive {
     /// The z of each entry.
     pub z: Vec<DVector<f64>>,
-    /// Over the largest, before and after.
+    /// The least eigenvalue over the largest, before and after.
     pub least_before: f64,
     pub least: f64,
     /// The largest eigenvalue.
@@ -83,8 +83,8 @@ pub(super) struct Passive {
 }
 
 impl Nearest<'_> {
-    /// The nearest passive memory: least squares under vᵀ Re K̂(iω) v ≥ 0 at the offending ω, with v
-    /// the eigenvectors there, repeated until none offends.
+    /// The nearest passive memory: least squares under vᵀ Re K̂(iω) v ≥ 0 at the frequencies with
+    /// negative eigenvalues, with v the eigenvectors there, repeated until there are none.
     pub fn passive(&self) -> Passive {
         let omega = grid(self.poles.iter().copied(), self.omega_max);
         let row = |omega: &f64| -> Vec<f64> {

@@ -1,22 +1,22 @@
-//! Where the poles of a memory lie, by vector fitting.
+//! The poles of a memory, by vector fitting.
 //!
 //! Source: B. Gustavsen and A. Semlyen, *IEEE Trans. Power Delivery* 14 (1999) 1052.
 
 use super::least_squares::solve;
 use nalgebra::{Complex, DMatrix, DVector, Schur};
 
-/// The least part of |p| that −Re p may be. A narrower pole near the last frequency is an artefact
-/// of the data's end, and breaks passivity.
+/// The least −Re p as a part of |p|. A narrower pole near the last frequency is an artefact of the
+/// end of the data, and breaks passivity.
 const NARROWEST: f64 = 0.06;
 
 /// Poles, one of each conjugate pair: Im p ≥ 0.
 pub(super) type Poles = Vec<Complex<f64>>;
 
-/// Samples of several functions at the same frequencies, with weights: what is fitted.
+/// Samples of several functions at the same frequencies, with weights, which are fitted.
 pub(super) struct Samples {
     /// ω.
     pub omega: Vec<f64>,
-    /// A function a column.
+    /// One function in each column.
     pub values: DMatrix<Complex<f64>>,
     /// A weight for each sample, and one for each function.
     pub weight: Vec<f64>,
@@ -28,7 +28,8 @@ pub(super) fn order(poles: &Poles) -> usize {
     poles.iter().map(|p| if p.im == 0.0 { 1 } else { 2 }).sum()
 }
 
-/// The functions that the fit is a real combination of, at s: 1/(s − p) for a real pole, and
+/// The functions, at s, of which the fit is a real linear combination: 1/(s − p) for a real pole,
+/// and
 ///
 /// ```text
 /// 1/(s − p) + 1/(s − p̄),    i/(s − p) − i/(s − p̄)
@@ -49,7 +50,7 @@ pub(super) fn basis(s: Complex<f64>, poles: &Poles) -> Vec<Complex<f64>> {
     functions
 }
 
-/// Poles to begin with: pairs −0.2 b − 0.05 ± ib, b evenly from 0.5 to 0.8 ω_max.
+/// The first poles: pairs −0.2 b − 0.05 ± ib, b evenly spaced from 0.5 to 0.8 ω_max.
 pub(super) fn first_guess(pairs: usize, omega_max: f64) -> Poles {
     let b = |k: usize| {
         let part = k as f64 / (pairs.max(2) - 1) as f64;
@@ -93,7 +94,7 @@ pub(super) fn relocate(samples: &Samples, poles: &Poles) -> Option<Poles> {
             }
             (a[(k, 2 * n)], a[(m + k, 2 * n)]) = (value.re * weight, value.im * weight);
         }
-        // Only c̃ is common to the functions: their own c is eliminated by a QR decomposition each.
+        // The functions share only c̃: their own c is eliminated by a QR decomposition for each.
         let r = a.qr().r();
         rows.rows_mut(f * n, n).copy_from(&r.view((n, n), (n, n)));
         right
@@ -134,7 +135,7 @@ fn zeros(poles: &Poles, c: &DVector<f64>) -> Option<Poles> {
         if value.im < -1e-13 * size {
             continue;
         }
-        // A pole that grows is mirrored.
+        // A pole that would grow is reflected at the imaginary axis.
         let re = -value.re.abs();
         new.push(match value.im > 1e-13 * size {
             true => Complex::new(re.min(-NARROWEST * size), value.im),

@@ -1,4 +1,4 @@
-//! How well a memory gives back what it was fitted to.
+//! How well a memory reproduces the data to which it was fitted.
 
 use super::Memory;
 use super::curve::DampingCurve;
@@ -6,26 +6,27 @@ use crate::coefficients::{FREEDOMS, Hydrodynamics};
 use nalgebra::Matrix3;
 use serde::Serialize;
 
-/// The memory is compared over this many units of 1/ω_max, at this many times.
+/// The memory is compared over this many units of 1/ω_max, at the number of times that follows.
 const LONG: f64 = 140.0;
 const TIMES: usize = 400;
 
-/// How well one entry is given back.
+/// How well one entry is reproduced.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct EntryQuality {
     /// The force's freedom, 0 to 2.
     pub force: usize,
     /// The motion's.
     pub motion: usize,
-    /// The root mean square of the difference in B + iω(A − A∞) over that of itself.
+    /// The root mean square of the difference in B + iω(A − A∞), relative to that of the quantity
+    /// itself.
     pub rms: f64,
     /// The largest difference in B over the largest B.
     pub worst_damping: f64,
-    /// Where that is \[rad/s\].
+    /// Its frequency \[rad/s\].
     pub worst_damping_rad_s: f64,
     /// The largest difference in A over the largest |A − A∞|.
     pub worst_added_mass: f64,
-    /// The root mean square of the difference in K(t) over that of itself.
+    /// The root mean square of the difference in K(t), relative to that of K.
     pub kernel_rms: f64,
     /// The largest difference in K(t) over the largest K, most often at t = 0.
     pub worst_kernel: f64,
@@ -65,14 +66,14 @@ pub struct BlockQuality {
     pub least_before: f64,
     /// After.
     pub least: f64,
-    /// Whether the price of passivity was too high: the memory is as it was, and linear damping is
-    /// added.
+    /// Whether passivity would have increased the error too much: the memory is unchanged, and
+    /// linear damping is added.
     pub damped: bool,
-    /// Frequencies that stand apart from the others and were left out \[rad/s\].
+    /// Outlying frequencies that were left out \[rad/s\].
     pub left_out_rad_s: Vec<f64>,
 }
 
-/// K(t) of the damping, at the times at which memories are compared.
+/// K(t) from the damping, at the times at which memories are compared.
 pub(super) struct Kernel {
     pub t: Vec<f64>,
     pub value: Vec<f64>,

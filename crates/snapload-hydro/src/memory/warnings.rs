@@ -1,4 +1,4 @@
-//! What should be known of a memory.
+//! Warnings about a memory.
 
 use super::fit::{Fit, POOR, PRICE};
 use super::quality::{BlockQuality, EntryQuality};
@@ -7,7 +7,7 @@ use crate::error::Warning;
 use nalgebra::Matrix3;
 use std::f64::consts::PI;
 
-/// All of it.
+/// All warnings.
 pub(super) fn warnings(hydro: &Hydrodynamics, fit: &Fit) -> Vec<Warning> {
     let mut warnings = Vec::new();
     if let Some(file) = hydro.added_mass_inf {
@@ -56,7 +56,8 @@ pub(super) fn warnings(hydro: &Hydrodynamics, fit: &Fit) -> Vec<Warning> {
     warnings
 }
 
-/// How long the memory of one of the freedoms is above a fiftieth of its largest \[s\].
+/// How long the memory of one of the degrees of freedom exceeds a fiftieth of its largest value
+/// \[s\].
 fn length(hydro: &Hydrodynamics, fit: &Fit) -> f64 {
     let step = 0.5 / hydro.range_rad_s()[1];
     let kernels: Vec<Matrix3<f64>> = (0..1000)

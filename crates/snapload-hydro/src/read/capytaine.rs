@@ -10,9 +10,9 @@ use crate::error::HydroError;
 use nalgebra::{Complex, Matrix3, Vector3};
 use std::f64::consts::{FRAC_PI_2, PI};
 
-/// How near a wave direction has to be to 0 or π \[rad\].
+/// The largest difference of a wave direction from 0 or π that is still in the plane \[rad\].
 const IN_PLANE: f64 = 1e-6;
-/// The names of the frequency's dimension in versions of Capytaine.
+/// The names of the frequency dimension in different versions of Capytaine.
 const FREQUENCIES: [&str; 5] = ["omega", "freq", "period", "wavenumber", "wavelength"];
 const ROW: &str = "influenced_dof";
 const COLUMN: &str = "radiating_dof";
@@ -33,7 +33,7 @@ impl Plane {
         }
     }
 
-    /// The sign of each freedom: roll turns y to z, where pitch turns z to x.
+    /// The sign of each degree of freedom: roll turns y to z, where pitch turns z to x.
     fn signs(self) -> [f64; 3] {
         match self {
             Self::X => [1.0; 3],
@@ -66,10 +66,10 @@ impl Plane {
 }
 
 /// The coefficients of a dataset as Capytaine's `assemble_dataset` makes it, with complex values
-/// apart (`export_dataset`, `separate_complex_values`).
+/// separated (`export_dataset`, `separate_complex_values`).
 ///
 /// # Errors
-/// A [`HydroError`] if something is missing, has another layout, or is no number.
+/// A [`HydroError`] if something is missing, has another layout, or is not a number.
 pub fn from_dataset(dataset: &Dataset, given: &Given) -> Result<Hydrodynamics, HydroError> {
     refuse_speed(dataset)?;
     let (plane, rows) = freedoms(dataset, ROW, given)?;
@@ -122,7 +122,7 @@ fn refuse_speed(dataset: &Dataset) -> Result<(), HydroError> {
     }
 }
 
-/// The reference point of the file and of the case, to a millimetre the same.
+/// The reference point of the file and of the case, which have to agree to a millimetre.
 fn reference(file: Option<[f64; 2]>, given: &Given) -> Result<[f64; 2], HydroError> {
     match (file, given.reference_m) {
         (Some(file), Some(case)) => {
@@ -149,7 +149,7 @@ fn names(dataset: &Dataset, dim: &str) -> Result<usize, HydroError> {
     Ok(dataset.words(dim)?.len())
 }
 
-/// Which of the file's freedoms are surge, heave and pitch, or sway, heave and roll.
+/// The indices in the file of surge, heave and pitch, or of sway, heave and roll.
 fn freedoms(
     dataset: &Dataset,
     dim: &str,
@@ -186,7 +186,7 @@ fn freedoms(
     ))
 }
 
-/// Freedoms of several bodies are called `name__Heave`.
+/// With several bodies, degrees of freedom are called `name__Heave`.
 fn chosen_body(words: &[String], given: &Given) -> Result<Option<String>, HydroError> {
     let mut bodies: Vec<&str> = words
         .iter()
@@ -212,7 +212,7 @@ fn chosen_body(words: &[String], given: &Given) -> Result<Option<String>, HydroE
     }
 }
 
-/// The dimension that the frequencies are along.
+/// The dimension of the frequencies.
 fn frequency_dimension(dataset: &Dataset) -> Result<String, HydroError> {
     let variable = dataset.variable("added_mass")?;
     let found = variable
@@ -226,7 +226,7 @@ fn frequency_dimension(dataset: &Dataset) -> Result<String, HydroError> {
     })
 }
 
-/// ω along that dimension, which may be called something else.
+/// ω along that dimension, whose variable may have another name.
 fn frequencies(dataset: &Dataset, dim: &str) -> Result<Vec<f64>, HydroError> {
     type Known = (&'static str, fn(f64) -> f64);
     let known: [Known; 3] = [
@@ -260,7 +260,7 @@ fn picked(
 
 type Forces = Vec<Vec<Vector3<Complex<f64>>>>;
 
-/// The directions in the plane, and the forces of each over the frequencies.
+/// The directions in the plane, and the forces of each at all frequencies.
 fn excitation(
     dataset: &Dataset,
     dim: &str,
@@ -351,7 +351,7 @@ fn complex(dataset: &Dataset, name: &str, dim: &str) -> Result<Vec<Complex<f64>>
     Ok((0..half).map(of).collect())
 }
 
-/// A place (x, z) or (y, z), if the file has it and it is a number.
+/// A point (x, z) or (y, z), if the file has it and its values are numbers.
 fn point(dataset: &Dataset, name: &str, plane: Plane) -> Result<Option<[f64; 2]>, HydroError> {
     if !dataset.has(name) {
         return Ok(None);

@@ -1,4 +1,4 @@
-//! Whether coefficients keep to the conventions of signs, phases and units, and how good they are.
+//! Whether coefficients follow the conventions of signs, phases and units, and how good they are.
 
 use crate::coefficients::{Excitation, FREEDOMS, Hydrodynamics, UPPER};
 use crate::error::{HydroError, Warning};
@@ -10,7 +10,7 @@ const ASYMMETRY: [f64; 2] = [0.01, 0.2];
 /// limit of low frequency.
 const LONG_WAVE: f64 = 0.5;
 
-/// Refuses coefficients that break a convention, and lists what is doubtful.
+/// Refuses coefficients that violate a convention, and lists what is doubtful.
 pub(super) fn check(hydro: &Hydrodynamics) -> Result<Vec<Warning>, HydroError> {
     let mut warnings = Vec::new();
     symmetry(hydro, &mut warnings)?;
@@ -124,13 +124,13 @@ fn stiffness(hydro: &Hydrodynamics, warnings: &mut Vec<Warning>) -> Result<(), H
     Ok(())
 }
 
-/// The limits of low frequency prove units and the sign of time:
+/// The limits of low frequency verify units and the sign of time:
 ///
 /// ```text
 /// X3 → +C33,    X1 → −i |X1| for a wave to +x, +i |X1| for one to −x       (e^{−iωt})
 /// ```
 ///
-/// for the pressure falls towards +x a quarter of a period before a crest arrives.
+/// as the pressure decreases towards +x a quarter of a period before a crest arrives.
 fn low_frequency(
     hydro: &Hydrodynamics,
     excitation: &Excitation,

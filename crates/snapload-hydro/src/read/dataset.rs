@@ -3,7 +3,7 @@
 use crate::error::HydroError;
 use std::collections::BTreeMap;
 
-/// What a variable holds.
+/// The values of a variable.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Values {
     /// Numbers, the last dimension fastest.
@@ -21,7 +21,7 @@ pub struct Variable {
     pub dims: Vec<String>,
     /// Their lengths.
     pub shape: Vec<usize>,
-    /// What it holds.
+    /// Its values.
     pub values: Values,
 }
 
@@ -32,7 +32,7 @@ pub struct Dataset {
 }
 
 impl Dataset {
-    /// Of variables by name, as an xarray dataset gives them.
+    /// A dataset of variables by name, as an xarray dataset gives them.
     ///
     /// # Errors
     /// [`HydroError::Layout`] if a variable does not have as many values as its dimensions say.
@@ -120,12 +120,12 @@ impl Dataset {
         }
     }
 
-    /// The numbers of a variable, arranged by dimensions in this order. Others that it has must be
-    /// of length 1.
+    /// The numbers of a variable, arranged with the dimensions in this order. Its other dimensions
+    /// must be of length 1.
     ///
     /// # Errors
-    /// A [`HydroError`] if there is none of this name, it holds something else, or its dimensions
-    /// are others.
+    /// A [`HydroError`] if there is none of this name, it does not hold numbers, or it has other
+    /// dimensions.
     pub fn arranged(&self, name: &str, wanted: &[&str]) -> Result<Vec<f64>, HydroError> {
         let variable = self.variable(name)?;
         let numbers = match &variable.values {

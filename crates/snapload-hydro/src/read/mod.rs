@@ -1,4 +1,4 @@
-//! Files of panel codes, all into one [`Hydrodynamics`].
+//! Reads the files of panel codes into a [`Hydrodynamics`].
 
 mod capytaine;
 mod checks;
@@ -42,7 +42,7 @@ impl fmt::Display for Format {
     }
 }
 
-/// What a reader is told beside the file. What the file says too has to agree.
+/// Values that are given in addition to the file. Values that the file has, too, must agree.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Given {
     /// ρ \[kg/m³\].
@@ -53,7 +53,7 @@ pub struct Given {
     pub depth_m: Option<f64>,
     /// The reference point O \[m\].
     pub reference_m: Option<[f64; 2]>,
-    /// The centre of gravity that the file's stiffness was made with \[m\].
+    /// The centre of gravity that the file's stiffness assumes \[m\].
     pub centre_of_gravity_m: Option<[f64; 2]>,
     /// ρV \[kg\].
     pub displaced_mass_kg: Option<f64>,
@@ -61,18 +61,18 @@ pub struct Given {
     pub unit_length_m: Option<f64>,
     /// What the first column of WAMIT's files holds.
     pub first_column: FirstColumn,
-    /// Which body, where the file has several.
+    /// The body, if the file has several.
     pub body: Option<String>,
 }
 
-/// Coefficients that passed the checks, with what should be known of them.
+/// Coefficients that passed the checks, with warnings.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Reading {
-    /// Whose file it was.
+    /// The file's format.
     pub format: Format,
     /// The coefficients.
     pub hydro: Hydrodynamics,
-    /// What to know.
+    /// Warnings.
     pub warnings: Vec<Warning>,
 }
 
@@ -80,7 +80,7 @@ impl Reading {
     /// Checks coefficients against the conventions of their format.
     ///
     /// # Errors
-    /// A [`HydroError`] that says which is broken.
+    /// A [`HydroError`] that says which convention is violated.
     pub fn new(format: Format, hydro: Hydrodynamics) -> Result<Self, HydroError> {
         let warnings = checks::check(&hydro)?;
         Ok(Self {
@@ -91,12 +91,12 @@ impl Reading {
     }
 }
 
-/// Reads the file of a panel code, whose format is known by its name: Capytaine's `.nc`; one of
-/// WAMIT's `.1`, `.3`, `.2` and `.hst`, with the others of the same name beside it; Nemoh's
-/// `RadiationCoefficients.tec` or the folder that holds it.
+/// Reads the file of a panel code, whose format follows from its name: Capytaine's `.nc`; one of
+/// WAMIT's `.1`, `.3`, `.2` and `.hst`, together with the others of the same name; Nemoh's
+/// `RadiationCoefficients.tec` or the folder that contains it.
 ///
 /// # Errors
-/// A [`HydroError`] if it can not be read or breaks a convention.
+/// A [`HydroError`] if it can not be read or violates a convention.
 pub fn read(path: &Path, given: &Given) -> Result<Reading, HydroError> {
     let extension = path.extension().and_then(|end| end.to_str());
     let extension = extension.map(str::to_ascii_lowercase);
@@ -137,14 +137,14 @@ pub fn read(path: &Path, given: &Given) -> Result<Reading, HydroError> {
     }
 }
 
-/// Nemoh puts its answers into a folder `results` or `Results`.
+/// Nemoh writes its results into a folder `results` or `Results`.
 fn nemoh_folder(path: &Path) -> PathBuf {
     let below = ["results", "Results"].map(|name| path.join(name));
     let found = below.into_iter().find(|folder| folder.is_dir());
     found.unwrap_or_else(|| path.to_owned())
 }
 
-/// The bytes of a file of those that were `asked` for.
+/// The bytes of a file that belongs to the one that was `asked` for.
 fn bytes(asked: &Path, path: &Path) -> Result<Vec<u8>, HydroError> {
     std::fs::read(path).map_err(|error| {
         let mut words = error.to_string();
@@ -153,12 +153,12 @@ fn bytes(asked: &Path, path: &Path) -> Result<Vec<u8>, HydroError> {
     })
 }
 
-/// The text of a file of those that were `asked` for.
+/// The text of a file that belongs to the one that was `asked` for.
 fn text(asked: &Path, path: &Path) -> Result<String, HydroError> {
     String::from_utf8(bytes(asked, path)?).map_err(|_| unreadable(asked, path, "it is not text"))
 }
 
-/// Who asked for a file knows its name; only another one beside it is named.
+/// The message names the file only if it is not the one that was asked for.
 fn unreadable(asked: &Path, path: &Path, words: &str) -> HydroError {
     let name = path.file_name().filter(|_| path != asked);
     HydroError::Unreadable(match name {
@@ -167,8 +167,8 @@ fn unreadable(asked: &Path, path: &Path, words: &str) -> HydroError {
     })
 }
 
-/// The value of the file or of the case, where only one of them has it; where both do they have to
-/// agree to a part.
+/// The value of the file or of the case, if only one of them has it; if both do they have to agree
+/// up to a part.
 fn agreed(
     what: &'static str,
     file: Option<f64>,
@@ -176,7 +176,7 @@ fn agreed(
     part: f64,
 ) -> Result<Option<f64>, HydroError> {
     if let (Some(file), Some(case)) = (file, case) {
-        // Of an infinite depth every other is infinitely far.
+        // A finite depth never agrees with an infinite one.
         let near = (file - case).abs() <= part * case.abs().min(file.abs());
         if file != case && !near {
             return Err(HydroError::Disagreement { what, file, case });
@@ -185,7 +185,7 @@ fn agreed(
     Ok(file.or(case))
 }
 
-/// The water of the file and of the case, checked.
+/// The water by the file and the case, checked.
 fn agreed_water(file: [Option<f64>; 3], given: &Given) -> Result<Water, HydroError> {
     let [density, gravity, depth] = file;
     let need = |what: &'static str, value: Option<f64>| {

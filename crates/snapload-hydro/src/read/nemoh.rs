@@ -14,9 +14,9 @@ use crate::coefficients::{Hydrodynamics, Hydrostatics};
 use crate::error::HydroError;
 use nalgebra::{Complex, Matrix3, Vector3};
 
-/// The freedoms of one body, all six of which the files have.
+/// The degrees of freedom of one body, all six of which are in the files.
 const SIX: usize = 6;
-/// Those that are surge, heave and pitch.
+/// The indices of surge, heave and pitch.
 const PLACES: [usize; 3] = [0, 2, 4];
 
 /// A part of a file: its heading, and its rows of numbers.
@@ -25,7 +25,7 @@ struct Zone<'a> {
     rows: Vec<Vec<f64>>,
 }
 
-/// The coefficients of Nemoh's files, which have neither the water nor the reference point nor the
+/// The coefficients of Nemoh's files, which do not contain the water, the reference point or the
 /// hydrostatics.
 ///
 /// # Errors
@@ -100,7 +100,7 @@ fn along_x<'a, 'b>(
     Ok((directions, headed))
 }
 
-/// What the zones say at one frequency.
+/// The values of the zones at one frequency.
 fn row(motions: &[Zone], waves: &[&Zone], step: usize) -> Row {
     let entry =
         |i: usize, j: usize, part: usize| motions[PLACES[j]].rows[step][1 + 2 * PLACES[i] + part];

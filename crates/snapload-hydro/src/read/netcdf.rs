@@ -1,4 +1,4 @@
-//! netCDF4: HDF5 in which dimensions have names.
+//! netCDF4, which is HDF5 with named dimensions.
 //!
 //! A dimension is a dataset of the attribute CLASS = "DIMENSION_SCALE", whose name is the
 //! dimension's; every other dataset has an attribute DIMENSION_LIST with a reference to one of them
@@ -11,14 +11,14 @@ use hdf5_reader::reference::read_object_references;
 use hdf5_reader::{ByteOrder, Datatype, Hdf5File};
 use std::collections::BTreeMap;
 
-/// Numbers that a variable may hold at most; coefficients of one body are a few thousand.
+/// The most numbers that a variable may hold; the coefficients of one body are a few thousand.
 const LARGEST: u64 = 20_000_000;
 
 impl Dataset {
-    /// Out of the bytes of a netCDF4 file.
+    /// Reads the bytes of a netCDF4 file.
     ///
     /// # Errors
-    /// [`HydroError::Unreadable`] if that is not what they are, or they are damaged.
+    /// [`HydroError::Unreadable`] if the bytes are not of this format, or are damaged.
     pub fn from_netcdf(bytes: &[u8]) -> Result<Self, HydroError> {
         if bytes.starts_with(b"CDF") {
             let words = "it is netCDF 3; save it as netCDF4, as Capytaine does";
@@ -65,7 +65,7 @@ fn dimensions(
         return Ok(Vec::new());
     }
     let Ok(list) = set.attribute("DIMENSION_LIST") else {
-        // A dimension's own values, or an axis without a name.
+        // The values of a dimension itself, or an axis without a name.
         let name = |axis: usize| match axis {
             0 => set.name().to_owned(),
             more => format!("{}_{more}", set.name()),

@@ -1,23 +1,23 @@
-//! Coefficients that come in any order, put in the order of their frequencies.
+//! Coefficients that are read in any order, sorted by their frequencies.
 
 use crate::coefficients::{Excitation, FREEDOMS, Hydrodynamics, Hydrostatics, Water};
 use crate::error::HydroError;
 use nalgebra::{Complex, Matrix3, Vector3};
 
-/// What is known at one frequency.
+/// The values at one frequency.
 #[derive(Clone, Debug)]
 pub(super) struct Row {
     /// ω \[rad/s\], 0 and infinity included.
     pub omega: f64,
     /// A, not symmetric yet: row force, column motion.
     pub added_mass: Matrix3<f64>,
-    /// B; at 0 and at infinity it says nothing.
+    /// B; it has no meaning at 0 and at infinity.
     pub damping: Matrix3<f64>,
     /// X of each direction, in the order of [`Table::directions`].
     pub excitation: Vec<Vector3<Complex<f64>>>,
 }
 
-/// All that a file says.
+/// All values of a file.
 pub(super) struct Table {
     pub rows: Vec<Row>,
     /// +1 for waves to +x, −1 to −x.
@@ -28,7 +28,7 @@ pub(super) struct Table {
 }
 
 impl Table {
-    /// Sorted by frequency, with symmetric matrices.
+    /// The coefficients sorted by frequency, with symmetric matrices.
     pub fn into_hydrodynamics(mut self) -> Result<Hydrodynamics, HydroError> {
         if let Some(row) = self
             .rows
@@ -51,7 +51,7 @@ impl Table {
         let mut finite: Vec<Row> = Vec::new();
         let mut asymmetry: f64 = 0.0;
         for mut row in self.rows {
-            // Two files that were printed to a few digits have the same zero entries.
+            // Entries whose values were printed as zero are no asymmetry.
             asymmetry = asymmetry.max(part_asymmetric(&row.added_mass));
             row.added_mass = symmetric(&row.added_mass);
             let whole = row.added_mass.iter().all(|value| value.is_finite());
@@ -88,7 +88,7 @@ impl Table {
 }
 
 impl Row {
-    /// No number is missing.
+    /// Checks that no number is missing.
     fn check(&self) -> Result<(), HydroError> {
         let matrices = [("added mass", &self.added_mass), ("damping", &self.damping)];
         for (name, matrix) in matrices {

@@ -22,9 +22,9 @@ pub enum FirstColumn {
     /// T \[s\].
     #[default]
     Period,
-    /// ω \[rad/s\]; 0 and below 0 stand for zero and infinite frequency.
+    /// ω \[rad/s\]; zero and negative values stand for zero and infinite frequency.
     Frequency,
-    /// k \[1/m\], of the water's depth; 0 and below 0 likewise.
+    /// k \[1/m\] at the water's depth; zero and negative values as for the frequency.
     WaveNumber,
 }
 
@@ -39,7 +39,7 @@ pub struct WamitText {
     pub hydrostatics: Option<String>,
 }
 
-/// WAMIT's modes that are surge, heave and pitch.
+/// The numbers of surge, heave and pitch among WAMIT's modes.
 const MODES: [usize; 3] = [1, 3, 5];
 
 /// The coefficients of WAMIT's files. ρ, g, the depth and the reference point are not in them.
@@ -89,7 +89,7 @@ struct Units {
 }
 
 impl Units {
-    /// ω of a first column.
+    /// ω from a first column.
     fn omega(&self, first: f64) -> f64 {
         let g = self.water.gravity_m_s2;
         match self.first {
@@ -163,7 +163,7 @@ fn place(mode: usize) -> Option<usize> {
     MODES.iter().position(|known| *known == mode)
 }
 
-/// Whether a mode is a rotation, as a number to count.
+/// 1 for a rotation, else 0.
 fn rotation(mode: usize) -> usize {
     usize::from(mode > 3)
 }
@@ -201,9 +201,9 @@ fn radiation(text: &str, units: &Units) -> Result<Vec<Row>, HydroError> {
     Ok(rows)
 }
 
-/// The row of a frequency, found or made; nothing is known in it but what is written.
+/// The row of a frequency, which is added without values if it is new.
 fn row_at(rows: &mut Vec<Row>, omega: f64) -> &mut Row {
-    // Files go through the frequencies one after the other, so the last row is nearly always it.
+    // Files are ordered by frequency, so that it is nearly always the last row.
     let at = rows.iter().rposition(|row| row.omega == omega);
     let at = at.unwrap_or_else(|| {
         rows.push(Row {
@@ -217,7 +217,7 @@ fn row_at(rows: &mut Vec<Row>, omega: f64) -> &mut Row {
     &mut rows[at]
 }
 
-/// Puts the forces into the rows, and says which directions there are.
+/// Adds the forces to the rows, and returns the directions.
 fn excitation(text: &str, units: &Units, rows: &mut [Row]) -> Result<Vec<f64>, HydroError> {
     let name = "the .3 file";
     let unknown = Vector3::from_element(Complex::new(f64::NAN, f64::NAN));
@@ -265,12 +265,12 @@ fn excitation(text: &str, units: &Units, rows: &mut [Row]) -> Result<Vec<f64>, H
     Ok(directions)
 }
 
-/// MOD and PHA say the same as RE and IM, to the digits that are printed.
+/// Whether MOD and PHA agree with RE and IM, to the digits that are printed.
 fn agree(line: &[f64]) -> Result<(), HydroError> {
     let (modulus, phase) = (line[3], line[4] * PI / 180.0);
     let polar = Complex::from_polar(modulus, phase);
     let plain = Complex::new(line[5], line[6]);
-    // NaN is left to the check of all numbers.
+    // NaN is found by the check of all numbers.
     if (polar - plain).norm() > 1e-2 * modulus.abs() + 1e-12 {
         let found = format!(
             "MOD {modulus}, PHA {} beside RE {}, IM {}",

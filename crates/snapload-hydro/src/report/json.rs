@@ -21,7 +21,7 @@ fn pairs(vector: &Vector3<Complex<f64>>) -> [Pair; 3] {
     std::array::from_fn(|i| [vector[i].re, vector[i].im])
 }
 
-/// What `--json` writes. Complex numbers are `[re, im]`, e^{−iωt}.
+/// The output of `--json`. Complex numbers are `[re, im]`, with e^{−iωt}.
 #[derive(Serialize)]
 pub struct Json<'a> {
     file: &'a str,
@@ -46,7 +46,7 @@ pub struct Json<'a> {
 struct WaterRow {
     density_kg_m3: f64,
     gravity_m_s2: f64,
-    /// None is deep water.
+    /// None stands for deep water.
     depth_m: Option<f64>,
 }
 
@@ -95,18 +95,18 @@ struct ResponseRow {
     direction: f64,
     of_the_file: Vec<[Pair; 3]>,
     of_the_memory: Vec<[Pair; 3]>,
-    /// Of each freedom, between the file's frequencies, too.
+    /// The largest response of each degree of freedom, also between the file's frequencies.
     largest: [PeakRow; 3],
 }
 
 #[derive(Serialize)]
 struct PeakRow {
     freedom: &'static str,
-    /// None where nothing bounds it.
+    /// None if it is unbounded.
     amplitude: Option<f64>,
     omega_rad_s: f64,
     period_s: f64,
-    /// Of a resonance so narrow that its height is only as good as its damping.
+    /// The damping ratio of a resonance so narrow that its height depends on it.
     narrow_damping_ratio: Option<f64>,
 }
 

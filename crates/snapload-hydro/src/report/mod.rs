@@ -1,4 +1,4 @@
-//! What is said of coefficients: in a few lines, as JSON, and as a page with pictures.
+//! Reports on coefficients: in a few lines, as JSON, and as a page with pictures.
 
 mod json;
 mod page;
@@ -23,26 +23,28 @@ use crate::read::{Format, Reading};
 use nalgebra::{Matrix3, Vector3};
 use serde::{Deserialize, Serialize};
 
-/// Damping below this part of critical makes a narrow peak; that of waves in pitch is then not all
-/// that stops the resonance.
+/// Below this part of critical damping a peak counts as narrow; then damping other than that of
+/// waves in pitch may limit the resonance, too.
 const WEAK: f64 = 0.02;
-/// A mass within this part of the displaced one is that of the file's body.
+/// A mass that differs from the displaced one by less than this part counts as that of the file's
+/// body.
 const SAME_MASS: f64 = 0.01;
-/// A peak within this part of the frequency of a natural motion is its resonance.
+/// A peak counts as a resonance if it is this close, relatively, to the frequency of a natural
+/// motion.
 const RESONANT: f64 = 0.02;
 /// A body floats upright if it pitches by less than this, in rad.
 const UPRIGHT: f64 = 0.01;
 /// Damping below this part of critical bounds nothing.
 const UNDAMPED: f64 = 1e-6;
 
-/// A memory that was computed before, as it stands in this program's JSON.
+/// A memory that was computed before, in the form of this program's JSON.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct GivenMemory {
     /// A∞ by rows.
     pub added_mass_inf: [[f64; 3]; 3],
     /// The exponentials.
     pub memory: Vec<TermRow>,
-    /// The reference point that both are about; that of the file where it is not said \[m\].
+    /// The reference point of both; that of the file if not given \[m\].
     pub reference_m: Option<[f64; 2]>,
 }
 
@@ -72,14 +74,15 @@ impl GivenMemory {
     }
 }
 
-/// What is to be said, and of what body.
+/// The options of a report.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Request {
-    /// The body's weight; what is not given is the file's.
+    /// The body's weight; values that are not given are the file's.
     pub weight: Weight,
-    /// Linear damping of each freedom beside that of waves \[N s/m, N s/m, N m s\].
+    /// Linear damping of each degree of freedom in addition to that of waves \[N s/m, N s/m, N m
+    /// s\].
     pub damping: [f64; 3],
-    /// A constant force beside weight and buoyancy \[N, N, N m\].
+    /// A constant force in addition to weight and buoyancy \[N, N, N m\].
     pub force: [f64; 3],
     /// Lines.
     pub lines: Vec<Line>,
@@ -100,13 +103,13 @@ pub struct Floating {
     pub modes: Vec<Mode>,
     /// Response to waves for each direction, by the file and by the exponentials.
     pub responses: Vec<[Response; 2]>,
-    /// The same between the file's frequencies, too, as close as the peaks want it.
+    /// The same also between the file's frequencies, with as many points as the peaks need.
     pub fine: Vec<[Response; 2]>,
-    /// Rest on lines with the small motion about it, if there are lines.
+    /// Rest on lines with the small motions about it, if there are lines.
     pub rest: Option<(Rest, Vec<Natural>, Vec<Mode>)>,
 }
 
-/// Everything that is said.
+/// All results of a report.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Report {
     /// The name of the file.
@@ -117,16 +120,16 @@ pub struct Report {
     pub fit: Fit,
     /// The answers that need weight and stiffness, or why there are none.
     pub floating: Result<Floating, HydroError>,
-    /// What to know, of the file, of the fit, of the answers.
+    /// Warnings about the file, the fit and the answers.
     pub warnings: Vec<Warning>,
 }
 
 impl Report {
-    /// Fits the memory and answers.
+    /// Fits the memory and computes the answers.
     ///
     /// # Errors
-    /// A [`HydroError`] if no memory is found, or lines and weights can not be. A file that lacks
-    /// weight or stiffness has the answers that do not need them.
+    /// A [`HydroError`] if no memory is found, or lines and weights are not possible. If a file
+    /// lacks weight or stiffness, only the answers that do not need them are given.
     pub fn new(name: &str, reading: Reading, request: &Request) -> Result<Self, HydroError> {
         let hydro = &reading.hydro;
         let fit = match (&request.memory, reading.format) {
@@ -158,8 +161,8 @@ impl Report {
     }
 }
 
-/// The mass or the centre of gravity is the user's, and the moment of inertia still that of the
-/// file's body.
+/// A warning if the mass or the centre of gravity is the user's, but the moment of inertia is still
+/// that of the file's body.
 fn inertia_of_another(reading: &Reading, body: &Body, request: &Request) -> Option<Warning> {
     let statics = &reading.hydro.hydrostatics;
     if request.weight.inertia_kg_m2.is_some() {
@@ -232,8 +235,8 @@ impl Floating {
         })
     }
 
-    /// The largest response of each freedom in waves of a direction, by the file's coefficients,
-    /// with the damping ratio of the resonance that it is, if it is a narrow one.
+    /// The largest response of each degree of freedom in waves of a direction, by the file's
+    /// coefficients, with the damping ratio if the peak is a narrow resonance.
     pub fn largest(&self, response: usize) -> [(Peak, Option<f64>); 3] {
         let of = |peak: Peak| {
             let apart = |mode: &&Mode| {
@@ -313,7 +316,7 @@ impl Floating {
             }
         }
         if let Some((rest, ..)) = &self.rest {
-            // ρV over the waterplane: the draft of a body with vertical sides.
+            // ρV over the waterplane, which is the draft of a body with vertical sides.
             let weight = reading.hydro.hydrostatics.displaced_mass_kg.unwrap_or(0.0);
             let draft = weight * reading.hydro.water.gravity_m_s2 / self.body.stiffness[(1, 1)];
             if rest.q[2].abs() > 0.05 || (draft > 0.0 && rest.q[1].abs() > 0.1 * draft) {

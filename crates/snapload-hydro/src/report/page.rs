@@ -1,4 +1,4 @@
-//! The answers as one page of HTML that needs nothing else.
+//! The answers as one self-contained page of HTML.
 
 use super::{Report, plots};
 use crate::coefficients::FREEDOMS;
@@ -26,7 +26,7 @@ struct Period {
     mode: Mode,
 }
 
-/// The page. `command` is the command line that makes it again.
+/// The page. `command` is the command line that reproduces it.
 ///
 /// # Errors
 /// A [`FigureError`] if a picture can not be drawn.

@@ -33,7 +33,7 @@ fn line(points: Vec<Point>, stroke: Stroke, words: &str) -> Layer {
     Layer::Line(vec![points], stroke, words.to_owned())
 }
 
-/// All pictures, in the order in which they are looked at.
+/// All pictures, in the order of the page.
 pub(super) fn all(report: &Report) -> Result<Vec<Picture>, FigureError> {
     let mut pictures = vec![
         draw(
@@ -92,7 +92,7 @@ fn added_mass(report: &Report, i: usize) -> Plot {
         (["*A*₁₁", "*A*₃₃", "*A*₅₅"][i], ["t", "t", "t m²"][i]),
     ];
     let mut plot = plot(FREEDOMS[i], description, axes, layers);
-    // It may differ little from one frequency to another.
+    // The excitation may vary little from one frequency to another.
     plot.y.range = Range::Auto;
     plot
 }
@@ -113,7 +113,7 @@ fn damping(report: &Report, i: usize) -> Plot {
 fn memory(report: &Report, i: usize) -> Plot {
     let hydro = &report.reading.hydro;
     let curve = DampingCurve::new(&hydro.omega_rad_s, &hydro.damping_entry(i, i));
-    // Until most of it is over: a few periods of the middle of the file's range.
+    // Until most of the memory has decayed: a few periods of the middle of the file's range.
     let long = 16.0 * PI / hydro.range_rad_s()[1];
     let times = || (0..=POINTS).map(move |k| long * k as f64 / POINTS as f64);
     let of_damping = times().map(|t| [t, curve.kernel(t) / KILO]).collect();
@@ -160,7 +160,7 @@ fn response(responses: &[[Response; 2]], i: usize) -> Plot {
             .map(|(omega, xi)| [*omega, xi[i].norm() * unit])
             .collect()
     };
-    // One direction is enough for a body that is its own mirror image; the first is drawn.
+    // For a mirror-symmetric body one direction is enough; the first is drawn.
     let layers = responses.iter().take(1).flat_map(|[file, memory]| {
         [
             line(points(file), FILE, "file"),

@@ -1,4 +1,4 @@
-//! The answers in a few lines of text, each a label and its words.
+//! The answers in a few lines of text, each with a label.
 
 use super::{Floating, Report, UNDAMPED};
 use crate::coefficients::FREEDOMS;
@@ -6,7 +6,7 @@ use crate::linear::{Mode, Natural, Peak};
 use crate::memory::{BlockQuality, EntryQuality};
 use std::f64::consts::PI;
 
-/// A body is in balance by itself if it floats within so many metres of where the file has it.
+/// A body counts as balanced if it floats within this many metres of its position in the file.
 const BALANCED: f64 = 0.01;
 
 impl Report {
@@ -79,9 +79,9 @@ impl Report {
 }
 
 impl Floating {
-    /// How it answers the waves from either side.
+    /// The responses to waves from either side.
     fn say_responses(&self, say: &mut impl FnMut(&str, String)) {
-        // A body that is its own mirror image answers alike to waves from either side.
+        // A mirror-symmetric body responds alike to waves from either side.
         let mut told: Vec<(String, Vec<&str>)> = Vec::new();
         for (index, [response, _]) in self.responses.iter().enumerate() {
             let to = if response.direction > 0.0 {
@@ -172,12 +172,14 @@ impl Floating {
     }
 }
 
-/// Zero where it is less than half a unit of the last place that is printed, so that it has no sign.
+/// Replaces a value below half a unit of the last printed place by zero, so that no "-0" is
+/// printed.
 pub(super) fn plain(value: f64, unit: f64) -> f64 {
     if value.abs() < 0.5 * unit { 0.0 } else { value }
 }
 
-/// The largest response of each freedom, and where it is; and of narrow peaks what they hang on.
+/// The largest response of each degree of freedom, and its frequency; for narrow peaks the damping
+/// on which they depend.
 fn largest(peaks: &[(Peak, Option<f64>); 3]) -> String {
     let period = |peak: &Peak| 2.0 * PI / peak.omega_rad_s;
     let of = |i: usize| {
@@ -206,7 +208,7 @@ fn largest(peaks: &[(Peak, Option<f64>); 3]) -> String {
     words
 }
 
-/// A positive number with three digits, as more are not known.
+/// A positive number with three digits, which is its accuracy.
 fn three_digits(value: f64) -> String {
     let before = value.max(1e-9).log10().floor() as i32;
     format!("{value:.*}", (2 - before).clamp(0, 9) as usize)
@@ -215,7 +217,7 @@ fn three_digits(value: f64) -> String {
 /// Natural periods with their damping, in words.
 pub fn periods_in_words(natural: &[Natural], modes: &[Mode]) -> String {
     let one = |(natural, mode): (&Natural, &Mode)| {
-        // The two differ there, as the one has A at the nearest frequency and the other A(∞).
+        // The two differ there, as one uses A at the nearest frequency and the other A(∞).
         let outside = match natural.outside {
             true => " (outside the file's frequencies)",
             false => "",

@@ -1,4 +1,4 @@
-//! Every bad file is refused with words that name what is wrong, and none brings the program down.
+//! Every bad file is refused with a message that names the error, and none causes a panic.
 
 use crate::common::{Spoilt, bytes, dataset, path};
 use snapload_hydro::{
@@ -63,7 +63,7 @@ fn what_is_missing_is_named() {
     says(&refusal(spoilt), &["wave_direction", "degrees"]);
 }
 
-/// Of several bodies one has to be named.
+/// If there are several bodies, one has to be named.
 #[test]
 fn several_bodies_are_asked_for() {
     let mut spoilt = pontoon();
@@ -73,7 +73,7 @@ fn several_bodies_are_asked_for() {
             v.values = Values::Words(names.map(str::to_owned).to_vec());
         });
     }
-    // One body alone is that body; another one's name is refused.
+    // A single body is used without a name; the name of another one is refused.
     let hydro = from_dataset(&spoilt.0, &Given::default()).expect("coefficients");
     assert_eq!(hydro.omega_rad_s.len(), 58);
     let given = Given {
@@ -105,7 +105,7 @@ fn numbers_that_can_not_be_are_named() {
     says(&refusal(spoilt), &["ω = 0.08", "once"]);
     let spoilt = pontoon().numbers("omega", |at, w| if at == 5 { -1.0 } else { w });
     says(&refusal(spoilt), &["ω = -1"]);
-    // Tonnes for kilograms, feet for metres.
+    // Tonnes instead of kilograms, feet instead of metres.
     says(
         &refusal(pontoon().numbers("rho", |_, _| 1.025)),
         &["density", "1.025", "units"],
@@ -118,7 +118,7 @@ fn numbers_that_can_not_be_are_named() {
     );
 }
 
-/// Signs that are wrong are found by the physics.
+/// Wrong signs are detected by physical checks.
 #[test]
 fn broken_conventions_are_named() {
     let spoilt = pontoon().numbers("radiation_damping", |_, b| -b);
@@ -185,7 +185,7 @@ fn other_layouts_are_named() {
     );
 }
 
-/// What file and case both say has to agree.
+/// Values that both the file and the case give have to agree.
 #[test]
 fn the_case_has_to_agree() {
     let with = |density, depth, reference| Given {
@@ -243,7 +243,7 @@ fn bad_files_of_wamit_are_named() {
         ..given.clone()
     };
     says(&wamit_refusal(&files, &no_density), &["density", "missing"]);
-    // e^{−iωt} where e^{+iωt} belongs.
+    // e^{−iωt} instead of e^{+iωt}.
     let mut conjugate = files.clone();
     conjugate.excitation = files
         .excitation
@@ -324,8 +324,8 @@ fn next(state: &mut u64) -> u64 {
     *state
 }
 
-/// Flipped bits, overwritten bytes and files that are cut off: an answer or an error, never a
-/// panic, and where there is an answer, its numbers are finite.
+/// Flipped bits, overwritten bytes and truncated files: a result or an error, never a panic, and
+/// the numbers of a result are finite.
 #[test]
 fn damaged_files_do_no_harm() {
     let whole = bytes("pontoon-deep.nc");
@@ -364,6 +364,6 @@ fn damaged_files_do_no_harm() {
             }
         }
     }
-    // Most damage to names, sizes and addresses is found; bits of single numbers can not be.
+    // Most damage to names, sizes and addresses is detected; bits of single numbers can not be.
     assert!(refused > 600, "{refused}");
 }

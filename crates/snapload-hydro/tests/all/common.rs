@@ -22,7 +22,7 @@ pub fn hydro(name: &str) -> Hydrodynamics {
     reading(name).hydro
 }
 
-/// The dataset of a file, to be spoilt.
+/// The dataset of a file, to be altered.
 pub fn dataset(name: &str) -> Spoilt {
     Spoilt(Dataset::from_netcdf(&bytes(name)).expect(name))
 }

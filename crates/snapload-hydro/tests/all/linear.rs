@@ -32,7 +32,7 @@ pub(crate) fn given(body: &str) -> (Memory, Matrix3<f64>) {
     (Memory::from_rows(&rows).expect("a memory"), inf)
 }
 
-/// The body of a table's case, with its own numbers.
+/// The body of a table's case, with its given values.
 pub(crate) fn body(case: &Value, hydro: &Hydrodynamics) -> Body {
     let number = |name: &str| case[name].as_f64().expect("a number");
     let mut body = Body::new(hydro, &Weight::default()).expect("a body");
@@ -52,7 +52,7 @@ pub(crate) fn near(found: f64, expected: f64, part: f64, what: &str) {
     );
 }
 
-/// Mass matrix, stiffness and constant force of another weight than the file's are those of the
+/// Mass matrix, stiffness and constant force for another weight than the file's agree with the
 /// table.
 #[test]
 fn bodies_follow_from_file_and_weight() {
@@ -87,7 +87,7 @@ fn bodies_follow_from_file_and_weight() {
         );
         let force: [f64; 3] =
             serde_json::from_value(case["constant_force"].clone()).expect("forces");
-        // The table's constant force has loads of the user's in surge and pitch.
+        // The table's constant force includes user loads in surge and pitch.
         let off = (body.constant_force[1] - force[1]).abs();
         assert!(off < 1e-6 * m, "{name}: {}", body.constant_force);
     }
@@ -131,7 +131,7 @@ fn natural_periods_agree() {
         }
         let modes = natural_of_the_memory(&body, &memory, &inf, &natural).expect("modes");
         for (mode, natural) in modes.iter().zip(&natural) {
-            // The table's eigenvalue that is nearest to the undamped motion's.
+            // The table's eigenvalue that is nearest to the undamped frequency.
             let aim = Complex::new(0.0, natural.omega_rad_s);
             let row = rows.iter().map(|row| {
                 let [re, im]: [f64; 2] = serde_json::from_value(row.clone()).expect("a pair");
@@ -178,7 +178,7 @@ fn responses_agree() {
     }
 }
 
-/// With this program's own fit the response is that of the file within the fit's error.
+/// With this program's own fit the response is that of the file within the error of the fit.
 #[test]
 fn the_fit_answers_as_the_file_does() {
     let hydro = hydro("pontoon-deep.nc");
@@ -206,8 +206,9 @@ fn the_fit_answers_as_the_file_does() {
     }
 }
 
-/// Long waves carry the body along: heave with the surface, surge ahead of it by a quarter, and
-/// pitch with its slope. In a sea of a single frequency the root mean square is that of a sinusoid.
+/// Long waves carry the body along: heave follows the surface, surge leads it by a quarter of a
+/// period, and pitch follows its slope. In a sea of a single frequency the root mean square is that
+/// of a sinusoid.
 #[test]
 fn long_waves_carry_the_body() {
     let hydro = hydro("sphere.nc");
@@ -240,12 +241,12 @@ fn long_waves_carry_the_body() {
     let (a, covered) = response.in_a_sea(smooth);
     let (b, _) = long.in_a_sea(smooth);
     assert!(covered > 0.999_999);
-    // Waves from either side are the same to a body that is its own mirror image.
+    // Waves from both sides give the same response of a symmetric body.
     assert!((a[0] - b[0]).abs() < 1e-3 * a[0] && (a[1] - b[1]).abs() < 1e-3 * a[1]);
     assert!(a[1] > 0.9 * variance.sqrt() && a[1] < 2.0 * variance.sqrt());
 }
 
-/// The same coefficients at frequencies so close that every peak is seen.
+/// The same coefficients at frequencies so close that every peak is resolved.
 fn close(hydro: &Hydrodynamics, [low, high]: [f64; 2], count: usize) -> Hydrodynamics {
     let step = (high - low) / (count - 1) as f64;
     let omega: Vec<f64> = (0..count).map(|k| low + step * k as f64).collect();
@@ -262,8 +263,8 @@ fn close(hydro: &Hydrodynamics, [low, high]: [f64; 2], count: usize) -> Hydrodyn
     close
 }
 
-/// A pontoon whose pitch is damped by 0.6 % of critical has a peak that lies between the file's
-/// frequencies: it is found, drawn with enough points, and in the root mean square of a sea.
+/// A pontoon whose pitch is damped by 0.6 % of critical has a peak between the file's frequencies:
+/// it is found, drawn with enough points, and included in the root mean square of a sea.
 #[test]
 fn narrow_peaks_are_found_between_the_frequencies() {
     let hydro = hydro("pontoon-deep.nc");
@@ -314,8 +315,8 @@ fn narrow_peaks_are_found_between_the_frequencies() {
     }
 }
 
-/// The sphere let go from a metre: by the exponentials to rounding, by the damping without them,
-/// and beside the published curves.
+/// The sphere released from a metre: by the exponentials to rounding, by the damping without them,
+/// and against the published curves.
 #[test]
 fn the_sphere_decays_as_others_say() {
     let table = reference("decay.json");
@@ -345,8 +346,8 @@ fn the_sphere_decays_as_others_say() {
         let off = (x - expected[k]).abs();
         assert!(off < 1e-5, "{}: {x} {}", t[k], expected[k]);
     }
-    // As far from each participant's curve as the other program is: they spread by 3 % of the
-    // start, the nearest is within 0.4 % (IEA OES Task 10).
+    // As close to each participant's curve as the other program: they spread by 3 % of the start,
+    // the nearest is within 0.4 % (IEA OES Task 10).
     let published = table["published"]["1 m"].as_object().expect("curves");
     for (name, published) in published {
         let curve = |key: &str| -> Vec<f64> {
@@ -385,7 +386,7 @@ fn the_sphere_decays_as_others_say() {
     );
 }
 
-/// What is needed for a body and is nowhere is asked for; masses that can not be are refused.
+/// Missing values that a body needs are named in the message; impossible masses are refused.
 #[test]
 fn bodies_ask_for_what_they_need() {
     let whole = hydro("sphere.nc");
@@ -405,13 +406,14 @@ fn bodies_ask_for_what_they_need() {
         ..Weight::default()
     };
     assert!(refused(&whole, heavy).contains("above 0"));
-    // No body has the mass and the centre of gravity of this file with less than that about O.
+    // The moment of inertia about O that the mass and the centre of gravity of this file imply at
+    // least.
     let mut bare = whole.clone();
     let inertia = bare.hydrostatics.inertia.as_mut().expect("the file's");
     inertia[(2, 2)] = 1.0;
     bare.hydrostatics.centre_of_mass_m = Some([0.0, bare.reference_m[1] - 3.0]);
     assert!(refused(&bare, Weight::default()).contains("moment of inertia"));
-    // Water that takes more mass away than there is.
+    // An added mass that makes the total mass negative.
     let body = Body::new(&whole, &Weight::default()).expect("a body");
     let refusal = body.with_added_mass(&(body.mass * -2.0));
     assert!(

@@ -1,4 +1,5 @@
-//! Memories fitted to files, against independent fits and against what a memory must be.
+//! Memories fitted to files, against independent fits and against the properties that a memory must
+//! have.
 
 use crate::common::{hydro, reference};
 use nalgebra::{Complex, Matrix3, Vector3};
@@ -33,7 +34,7 @@ fn good_files_are_fitted_within_one_percent() {
         assert_eq!(fit.damping, Matrix3::zeros());
         let size = fit.memory.transform(0.5 * last).map(|k| k.norm()).max();
         assert!(fit.memory.transform(0.0).map(|k| k.norm()).max() < 1e-9 * size);
-        // Heave alone, surge with pitch; nothing between them.
+        // Heave alone, surge with pitch; no coupling between them.
         for (i, j) in [(0, 1), (1, 2)] {
             assert_eq!(fit.memory.kernel(0.3)[(i, j)], 0.0);
         }
@@ -41,8 +42,8 @@ fn good_files_are_fitted_within_one_percent() {
     }
 }
 
-/// Another program's fit of the same files, made by least squares of its own, is the same memory to
-/// what each of them is off by.
+/// Another program's fit of the same files, by its own least squares, is the same memory within the
+/// errors of both fits.
 #[test]
 fn fits_agree_with_another_programs() {
     for (name, file) in [
@@ -67,8 +68,8 @@ fn fits_agree_with_another_programs() {
     }
 }
 
-/// A∞ from the damping: the value that the other program found, and the sphere's exact one
-/// (A33 = 130,900 kg for this sphere; P. McIver and C. M. Linton).
+/// A∞ from the damping: the value of the other program, and the sphere's exact one (A33 = 130,900
+/// kg for this sphere; P. McIver and C. M. Linton).
 #[test]
 fn added_mass_at_infinity_follows_from_the_damping() {
     for (name, file) in [
@@ -90,7 +91,7 @@ fn added_mass_at_infinity_follows_from_the_damping() {
     assert!((sphere[(1, 1)] / 130_900.0 - 1.0).abs() < 5e-4);
 }
 
-/// Poor files are told of, with the frequencies that are off.
+/// There are warnings of poor files, with the outlying frequencies.
 #[test]
 fn poor_files_are_warned_of() {
     let poor = fitted("pontoon-poor.nc");
@@ -112,7 +113,7 @@ fn poor_files_are_warned_of() {
         poor.warnings
     );
     assert!(!about("passivity").is_empty());
-    // With the damping that is added the whole is passive.
+    // With the damping that is added the sum is passive.
     let mut least = f64::INFINITY;
     for step in 1..4000 {
         let omega = 0.005 * f64::from(step);
@@ -126,7 +127,7 @@ fn poor_files_are_warned_of() {
     );
 }
 
-/// A middling file, of finite depth: it is taken, and what it lacks is said.
+/// A file of medium quality, of finite depth, is accepted with warnings.
 #[test]
 fn middling_files_are_taken_with_warnings() {
     let fit = fitted("pontoon.nc");
@@ -140,8 +141,8 @@ fn middling_files_are_taken_with_warnings() {
     assert!(off == 2 && about("fit"), "{:?}", fit.warnings);
     assert!(!about("irregular frequencies") && !about("passivity") && !about("frequency steps"));
     assert!(fit.memory.least_eigenvalue(3.62) > -2e-9);
-    // The same body's memory in deep water lasts for more than 3 s, which frequencies 1.12 rad/s apart
-    // can not show.
+    // The same body's memory in deep water lasts for more than 3 s, which can not be resolved with
+    // frequencies 1.12 rad/s apart.
     let whole = fitted("pontoon-deep.nc");
     let inf = std::array::from_fn(|i| std::array::from_fn(|j| whole.added_mass_inf[(i, j)]));
     let dropped: Vec<usize> = (0..58).filter(|k| k % 14 != 0).collect();
@@ -174,7 +175,7 @@ fn the_transform_is_that_of_the_kernel() {
     }
 }
 
-/// A memory written as JSON and read again is the same to the last digit; bad ones are refused.
+/// A memory written as JSON and read again is identical; bad ones are refused.
 #[test]
 fn memories_are_printed_and_read() {
     let memory = fitted("cylinder.nc").memory;
@@ -212,8 +213,8 @@ fn the_number_of_poles_can_be_chosen() {
 proptest! {
     #![proptest_config(ProptestConfig { cases: 10, ..ProptestConfig::default() })]
 
-    /// Random bodies whose waves take energy out, as sums of band passes v vᵀ s/(s² + 2ζω s + ω²), get
-    /// memories that do so too, and that are near.
+    /// Random bodies whose waves take energy out, as sums of band passes v vᵀ s/(s² + 2ζω s + ω²),
+    /// get memories that are passive, too, and that are close to the exact ones.
     #[test]
     fn memories_of_random_bodies_are_passive(
         heave in prop::array::uniform2((0.2..1.0_f64, 1.0..3.0_f64, 0.2..0.9_f64)),

@@ -1,4 +1,4 @@
-//! Files of three programs come into one type, with one sign of time.
+//! Files of three programs are read into one type, with one sign convention of time.
 
 use crate::common::{dataset, hydro, path, reading};
 use nalgebra::{Complex, Matrix3};
@@ -31,11 +31,11 @@ fn capytaine_is_read() {
     let stiffness = statics.stiffness.expect("a stiffness");
     assert!(close(stiffness[(1, 1)], 804_420.0, 1e-9));
     assert_eq!(statics.centre_of_mass_m, Some([0.0, -0.2]));
-    // A(∞) and A(0) are apart from the others.
+    // A(∞) and A(0) are stored separately.
     let inf = hydro.added_mass_inf.expect("A(∞)");
     assert!(close(inf[(1, 1)], 158_551.4, 1e-5), "{inf}");
     assert!(hydro.added_mass_zero.is_some());
-    // A wave to −x is the mirror image of one to +x: surge and pitch turn round, heave does not.
+    // A wave to −x is the mirror image of one to +x: surge and pitch change sign, heave does not.
     let (plus, minus) = (
         hydro.excitation_to(1.0).expect("+x"),
         hydro.excitation_to(-1.0).expect("-x"),
@@ -49,7 +49,7 @@ fn capytaine_is_read() {
     assert!(hydro.asymmetry < 0.01);
 }
 
-/// Good files pass all checks of signs and phases; a poor one is told apart.
+/// Good files pass all checks of signs and phases; a poor one does not.
 #[test]
 fn good_files_have_no_warning_of_signs() {
     for name in ["pontoon-deep.nc", "sphere.nc", "cylinder.nc"] {
@@ -110,7 +110,7 @@ fn wamit_says_the_same_as_capytaine() {
     assert!((infinite[0] - infinite[1]).amax() < 1e-6 * infinite[1].amax());
 }
 
-/// A model in other units of length: numbers scale as WAMIT's manual says.
+/// A model in other units of length: its numbers scale as WAMIT's manual says.
 #[test]
 fn wamit_scales_with_its_length() {
     let one = read(&path("pontoon-deep.1"), &wamit_given()).expect("a reading");
@@ -118,7 +118,7 @@ fn wamit_scales_with_its_length() {
         unit_length_m: Some(2.0),
         ..wamit_given()
     };
-    // A body twice as large is another one; only the powers of the length are looked at.
+    // A body twice as large is another one; only the powers of the length are tested.
     let two = read(&path("pontoon-deep.1"), &given).expect("a reading");
     let powers = Matrix3::new(8.0, 8.0, 16.0, 8.0, 8.0, 16.0, 16.0, 16.0, 32.0);
     let expected = one.hydro.added_mass[7].component_mul(&powers);
@@ -128,8 +128,8 @@ fn wamit_scales_with_its_length() {
     assert!((force[2] - Complex::new(8.0, 0.0)).norm() < 1e-12);
 }
 
-/// Axes are found by their names, whatever their order; the frequencies may be along another
-/// dimension, and freedoms that are not in the plane are dropped.
+/// Axes are identified by their names, whatever their order; the frequencies may be along another
+/// dimension, and degrees of freedom outside the plane are dropped.
 #[test]
 fn axes_are_found_by_name() {
     let plain = hydro("sphere.nc");
@@ -197,8 +197,8 @@ fn a_section_along_y_is_turned_round() {
     assert_eq!(read.excitation, plain.excitation);
 }
 
-/// Nemoh's files, as its own Fortran writes them. The cylinder of its verification cases, two
-/// frequencies of which are printed here as they are there, four being the least.
+/// Nemoh's files, as its own Fortran writes them: the cylinder of its verification cases, of which
+/// two frequencies are copied; the others are added, as four are the minimum.
 #[test]
 fn nemoh_is_read() {
     let rows = [
@@ -282,7 +282,7 @@ fn nemoh_is_read() {
 }
 
 /// Another reference point: the power of damping is the same for the same motion of the body, and
-/// there and back is where it began.
+/// transforming back gives the original coefficients.
 #[test]
 fn coefficients_follow_the_reference_point() {
     let here = hydro("cylinder.nc");

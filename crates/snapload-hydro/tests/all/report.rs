@@ -1,4 +1,4 @@
-//! What is said of coefficients: nothing is left out, and files that say less have fewer answers.
+//! Reports on coefficients: they are complete, and files with less data give fewer results.
 
 use crate::common::{hydro, reading};
 use snapload_hydro::{EntryQuality, FitOptions, Format, Line, Reading, Report, Request, page};
@@ -56,7 +56,7 @@ fn everything_is_told() {
     assert!(json["water"]["depth_m"].is_null());
 }
 
-/// A file without hydrostatics has a memory and no periods, and says what is missing.
+/// A file without hydrostatics has a memory but no periods, and a message names what is missing.
 #[test]
 fn files_without_hydrostatics_say_so() {
     let mut bare = hydro("sphere.nc");
@@ -75,8 +75,8 @@ fn files_without_hydrostatics_say_so() {
     );
 }
 
-/// The largest response is that of the resonance, between the file's frequencies, and a narrow peak
-/// is said to hang on its damping; JSON has the same.
+/// The largest response is at the resonance, between the file's frequencies, and a narrow peak is
+/// reported to depend on its damping; the JSON has the same.
 #[test]
 fn the_largest_response_is_that_of_the_resonance() {
     let answer = |damping: f64| {
@@ -95,7 +95,7 @@ fn the_largest_response_is_that_of_the_resonance() {
     let floating = &json["floating"];
     let largest = &floating["responses"][0]["largest"][2];
     let of = |name: &str| largest[name].as_f64().expect("a number");
-    // It is where the natural motion is, which none of the file's frequencies is near enough to.
+    // It is at the natural frequency, to which none of the file's frequencies is close enough.
     let mode = &floating["natural"][0];
     assert_eq!(mode["freedom"], "pitch");
     let damped = mode["damped_period_s"].as_f64().expect("a period");
@@ -113,7 +113,7 @@ fn the_largest_response_is_that_of_the_resonance() {
     assert!(!damped.contains("narrow"), "{damped}");
 }
 
-/// A body whose centre of gravity stands above its metacentre turns over, which is told.
+/// A body whose centre of gravity lies above its metacentre turns over, which is reported.
 #[test]
 fn a_body_that_turns_over_is_told() {
     let answer = |z: f64| {
@@ -133,8 +133,8 @@ fn a_body_that_turns_over_is_told() {
     }
 }
 
-/// A mass of one's own with the inertia of the file's body is warned of, in words and in JSON; what
-/// is told is about the point that `--inertia` is given about.
+/// A given mass with the inertia of the file's body causes a warning, in words and in JSON; the
+/// reported inertia is about the same point as `--inertia`.
 #[test]
 fn an_inertia_that_is_not_given_with_a_mass_is_told() {
     let answer = |mass: Option<f64>, inertia: Option<f64>| {

@@ -1,4 +1,5 @@
-//! Rest on lines against results of independent code (`rests.json`): place, tensions, small motion.
+//! Rest on lines against results of independent code (`rests.json`): position, tensions, small
+//! motions.
 
 use crate::common::{hydro, reference};
 use crate::linear::{body, file, given, near};
@@ -22,7 +23,7 @@ fn lines(case: &Value) -> Vec<Line> {
         .collect()
 }
 
-/// The place of rest on lines, tensions, which lines are slack, and small motion about it.
+/// The position of rest on lines, tensions, slack lines, and small motions about it.
 #[test]
 fn rests_agree() {
     for (name, entry) in reference("rests.json").as_object().expect("rests") {
@@ -97,14 +98,15 @@ fn small_motion(
     }
 }
 
-/// No line holds the body in surge, or the weight is more than lines from below can hold: said.
+/// If no line holds the body in surge, or its weight is more than the lines from below can balance,
+/// a message says so.
 #[test]
 fn no_place_of_rest_is_said() {
     let hydro = hydro("sphere.nc");
     let mut body = Body::new(&hydro, &Weight::default()).expect("a body");
     let words = rest(&hydro, &body, &[]).expect_err("a refusal").to_string();
     assert!(words.contains("surge"), "{words}");
-    // Half the weight more than it can carry, and a line from below.
+    // The body is half as heavy again as it can carry, on a line from below.
     body.constant_force[1] = -5.0 * body.stiffness[(1, 1)];
     let line = Line {
         anchor_m: [0.0, -40.0],
@@ -122,8 +124,8 @@ fn no_place_of_rest_is_said() {
     assert!(words.contains("length of line 1"), "{words}");
 }
 
-/// The moment of inertia of the file is one about the body's centre of gravity: it stays what it is
-/// wherever a weight of one's own puts that, and whatever it weighs.
+/// The moment of inertia of the file is that about the body's centre of gravity: it stays the same
+/// wherever a given weight moves that centre, and for any weight.
 #[test]
 fn the_inertia_of_the_file_goes_with_the_centre_of_gravity() {
     let hydro = hydro("pontoon-deep.nc");
@@ -140,7 +142,7 @@ fn the_inertia_of_the_file_goes_with_the_centre_of_gravity() {
                 centre_m: Some(centre),
                 inertia_kg_m2: None,
             });
-            // What is taken off again is as large as m |G|².
+            // The term that is subtracted again is as large as m |G|².
             let square = centre[0] * centre[0] + centre[1] * centre[1];
             let rounding = 1e-14 * mass_kg.unwrap_or(1e5) * square;
             assert!(

@@ -37,8 +37,8 @@ fn sections_agree_with_the_table() {
     }
 }
 
-/// Newman's table 4.3: the square 4.754 and 0.725 (about its centre), and its plate of no
-/// thickness, π and π/8; DNV's coefficients of π a² for rectangles.
+/// Newman's table 4.3: the square 4.754 and 0.725 (about its centre), and a thin plate, π and π/8;
+/// DNV's coefficients of π a² for rectangles.
 #[test]
 fn sections_agree_with_textbooks() {
     let deep = |shape, b, t| added_mass_of_section(shape, Place::Submerged, b, t).expect("one");

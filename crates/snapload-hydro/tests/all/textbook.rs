@@ -1,4 +1,4 @@
-//! Floating bodies of one section, for which no panel code was run.
+//! Floating bodies of one section, without results of a panel code.
 
 use nalgebra::Complex;
 use snapload_hydro::{
@@ -86,8 +86,8 @@ fn long_waves_push_by_their_pressure() {
     assert!(long < 1e-2 && longer < 0.3 * long, "{long} {longer}");
 }
 
-/// Heave swings as ω² = ρg S/(m + A33), and a body that makes no waves has no damping; that is
-/// said.
+/// Heave oscillates with ω² = ρg S/(m + A33), and a body that makes no waves has no damping, which
+/// is reported.
 #[test]
 fn it_swings_without_damping() {
     let body = box_of(2.0, 1.2);
@@ -141,7 +141,7 @@ fn half_a_circle_displaces_half_a_cylinder() {
     let added = reading.hydro.added_mass_inf.expect("A");
     assert!(added[(2, 2)].abs() < 1e-9 * added[(1, 1)] && added[(0, 2)].abs() < 1e-9);
     assert!((added[(1, 1)] - 1025.0 * 30.0 * 0.5 * PI * 4.0).abs() < 1e-6);
-    // ρgI + ρgV z_B is nothing: a circle has its metacentre in its middle.
+    // ρgI + ρgV z_B is zero: the metacentre of a circle is its centre.
     let c55 = reading.hydro.hydrostatics.stiffness.expect("C")[(2, 2)];
     let weight = 1025.0 * 0.5 * PI * 4.0 * 30.0 * 9.81;
     assert!((c55 - weight * 0.2).abs() < 1e-6 * weight, "{c55}");

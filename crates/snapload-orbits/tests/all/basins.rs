@@ -6,13 +6,13 @@ use snapload::analysis::unwatched;
 use snapload::{Parameters, Stop, key_named};
 use snapload_orbits::{Basin, Cell, Erosion, KNEE, Window, basin_in_words, erosion_in_words};
 
-/// Evenly spaced decimals, as a grid of the command has them.
+/// Evenly spaced decimals, as in a grid of the command.
 fn even(axis: &Json) -> (&'static str, Vec<f64>) {
     let key = key_named(axis[0].as_str().unwrap()).unwrap().name;
     let [first, last] = [1, 2].map(|i| number(&axis[i]));
     let count = axis[3].as_u64().unwrap() as usize;
     let value = |k: usize| first + (last - first) * k as f64 / (count - 1) as f64;
-    // The decimals that one would write.
+    // The nearest short decimals.
     let written = |k| (value(k) * 1e12).round() / 1e12;
     (key, (0..count).map(written).collect())
 }
@@ -40,7 +40,7 @@ fn letter(cell: &Cell) -> char {
     }
 }
 
-/// Decided cells agree, and the measures.
+/// Decided cells agree, and so do the measures.
 fn agrees(name: &str, trust: bool) {
     let grid = &reference()["grids"][name];
     let basin = Basin::of(window(grid), trust, &unwatched).unwrap();
@@ -91,8 +91,8 @@ fn cells_are_those_of_the_reference() {
     agrees("circle_f_omega", false);
 }
 
-/// Without waves many cells are not decided, and nearly all of them ended as safe: the knee is that
-/// of the reference all the same, which lies between what these cells may make of it.
+/// Without waves many cells are undecided, and nearly all of them ended as safe: the knee is still
+/// that of the reference, which lies between the bounds from these cells.
 #[test]
 fn the_knee_is_that_of_the_decided_cells() {
     let curve = &reference()["curves"]["circle_xy"];
@@ -103,7 +103,7 @@ fn the_knee_is_that_of_the_decided_cells() {
     let values: Vec<f64> = chosen.iter().map(|point| number(&point["f_o"])).collect();
     let erosion = Erosion::of(&window(curve), "f_o", &values, true, &unwatched).unwrap();
     assert_eq!(erosion.knee(), Some(values[2]));
-    // As a part of all cells the first value's safe part is too large, and the knee comes too
+    // As a part of all cells the first value's safe part is too large, so that the knee is too
     // early.
     let [low, high] = erosion.knee_between().unwrap();
     assert!(low.is_some_and(|low| low < values[2]), "{low:?}");

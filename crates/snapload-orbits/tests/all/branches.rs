@@ -1,4 +1,4 @@
-//! Branches in one key, and what happens along them.
+//! Branches in one key, and the events along them.
 
 use crate::common::{number, parameters, point, reference};
 use serde_json::Value as Json;
@@ -28,7 +28,7 @@ fn name_of(kind: &str) -> &str {
     }
 }
 
-/// Every point of the reference is located, and no other that a body comes to.
+/// Every point of the reference is located, and no other that is admissible.
 fn agrees(reference: &Json, branch: &Branch) {
     for end in &branch.ends {
         println!("ends at {}: {}", end.at, end.because);
@@ -62,7 +62,7 @@ fn agrees(reference: &Json, branch: &Branch) {
             assert!((ours / number(&known["normal_acceleration"]) - 1.0).abs() < 1e-7);
         }
     }
-    // What else is located lies where a cable would have to be longer, and no body comes.
+    // All other located events need a cable longer than its length, and are inadmissible.
     let more = branch.events.iter().filter(|event| {
         let kind = event.kind.name();
         !reference["points"].as_array().unwrap().iter().any(|known| {
@@ -90,7 +90,7 @@ fn branch_b_is_that_of_the_reference() {
     agrees(reference, &branch(reference, start, [0.8, 6.0]));
 }
 
-/// Each end that is one of the range is a point of the branch on its border, and no event lies beyond.
+/// Each end at the range is a point of the branch on its border, and no event lies beyond.
 #[test]
 fn a_branch_ends_on_the_borders_of_its_range() {
     let reference = &reference()["branches"][0];

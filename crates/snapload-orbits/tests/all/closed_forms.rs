@@ -1,5 +1,5 @@
-//! Closed forms: the linear oscillator against a wall, and the ball on a vibrating table, both by the
-//! code that bodies on cables have.
+//! Closed forms: the linear oscillator against a wall, and the ball on a vibrating table, both by
+//! the code for bodies on cables.
 
 use crate::common::{number, reference, relative};
 use crate::wall::{Wall, WallOver};
@@ -74,7 +74,8 @@ fn the_oscillator_against_a_wall_has_its_closed_orbits() {
                 phase: 0.0,
                 periods: n,
             };
-            // The state at t = 0, a little off, from that at the wall by the flow backwards.
+            // The state at t = 0 follows from that at the wall by the flow backwards; Newton's
+            // method starts from it with an error of a thousandth.
             let hit = phase / wall.omega;
             let system = wall.plain(at);
             let struck = [wall.place, 0.0, 0.0, v, 0.0, 0.0];
@@ -88,8 +89,8 @@ fn the_oscillator_against_a_wall_has_its_closed_orbits() {
             assert!((snap.speed - v).abs() < 1e-10);
             let m = &orbit.multipliers.values;
             let trace = m[0][0] + m[1][0];
-            // By difference quotients of the map: the trace of the reference has the sign of one term
-            // wrong, which its own checks of return and determinant do not see.
+            // By difference quotients of the map: in the trace of the reference one term has the
+            // wrong sign, which its own checks of return and determinant do not detect.
             let quotient = trace_by_differences(&system, wall.place, &orbit);
             assert!((trace - quotient).abs() < 1e-6, "{trace} {quotient}");
             assert!(relative(orbit.multipliers.product, number(&solution["det"])) < 1e-10);
@@ -140,17 +141,17 @@ pub fn table(r: f64, omega: f64) -> Moored {
     )
 }
 
-/// The stable bouncing of one snap each n periods, from a start that it attracts.
+/// The stable orbit of one snap each n periods, from a start that it attracts.
 pub fn bouncing(family: &Moored, at: [f64; 2], n: u32) -> Orbit {
     bouncing_from(family, at, n, 0.0)
 }
 
-/// The same from a section at a part of a period.
+/// The same, with the section at a fraction of a period.
 pub fn bouncing_from(family: &Moored, at: [f64; 2], n: u32, phase: f64) -> Orbit {
     let [gamma, e] = at;
     let length = f64::from(n) * family.period(at);
     let u = length / (1.0 + e);
-    // Where v_y is back after a lap, Γ cos Ωt = nπ (1 − e)/(1 + e) at the snap.
+    // v_y returns to its value after a lap: Γ cos Ωt = nπ (1 − e)/(1 + e) at the snap.
     let cosine = f64::from(n) * std::f64::consts::PI * (1.0 - e) / (1.0 + e) / gamma;
     let omega = std::f64::consts::TAU / family.period(at);
     // Of the two phases the one with falling force is stable.
@@ -179,8 +180,8 @@ pub fn bouncing_from(family: &Moored, at: [f64; 2], n: u32, phase: f64) -> Orbit
     found.into_iter().flatten().next().unwrap()
 }
 
-/// Trace and determinant of the vertical part, from which the transverse one is apart as their
-/// product is e² and not 1.
+/// Trace and determinant of the vertical part, which is told from the transverse one by its
+/// determinant e² instead of 1.
 fn vertical(orbit: &Orbit) -> [f64; 2] {
     let m = &orbit.multipliers.values;
     let product = |[a, b]: [f64; 2], [c, d]: [f64; 2]| [a * c - b * d, a * d + b * c];
@@ -247,7 +248,7 @@ fn the_ball_on_a_table_is_born_and_doubles_where_it_must() {
     }
 }
 
-/// The doublings of the ball's bouncing come nearer to each other by Feigenbaum's δ = 4.6692 each
+/// The intervals between the period doublings of the ball shrink by Feigenbaum's δ = 4.6692 each
 /// time (M. J. Feigenbaum, *J. Stat. Phys.* 19 (1978) 25).
 #[test]
 fn the_ball_doubles_its_period_again_and_again() {

@@ -30,7 +30,7 @@ fn curve<F: Family>(family: &F, event: &BranchEvent, ranges: [[f64; 2]; 2], step
     curve
 }
 
-/// Γ where one bounce in each n periods exists from, and where it doubles its period (P. J.
+/// The Γ from which one bounce in each n periods exists, and at which it doubles its period (P. J.
 /// Holmes, *J. Sound Vib.* 84 (1982) 173; J. M. Luck & A. Mehta, *Phys. Rev. E* 48 (1993) 3988).
 fn of_the_table(e: f64, n: u32) -> [f64; 2] {
     let born = f64::from(n) * PI * (1.0 - e) / (1.0 + e);
@@ -59,7 +59,7 @@ fn the_ball_on_a_table_has_its_curves() {
         let worst = off.fold(0.0, f64::max);
         println!("{} off by {worst:e}", kind.name());
         assert!(worst < 1e-10);
-        // It is followed to both sides of the range, and there exactly.
+        // It is followed to both ends of the range, and ends exactly there.
         let mut ends = found.ends.each_ref().map(|end| end.at[1]);
         ends.sort_by(f64::total_cmp);
         assert!(
@@ -76,10 +76,10 @@ fn the_ball_on_a_table_has_its_curves() {
     }
 }
 
-/// Along the branch through a fold the multiplier goes as 1 + 2aξ, ξ how far the orbit is from the
-/// fold; beyond a doubling the two laps are η apart from the orbit with c η² = −1 − μ, μ the
-/// multiplier of the orbit there. The section is half a period off, as the ball strikes at the whole
-/// one where it folds.
+/// Along the branch through a fold the multiplier is 1 + 2aξ, where ξ is the distance of the orbit
+/// from the fold; beyond a doubling the two laps are at distance η from the orbit with c η² = −1 −
+/// μ, where μ is the multiplier of the orbit there. The section is half a period off, as the ball
+/// strikes at a whole period where it folds.
 #[test]
 fn coefficients_are_those_of_the_branches() {
     let family = table(20.0, 3.0);

@@ -87,8 +87,8 @@ fn section(parameters: &Parameters) -> Section {
     Section::of(parameters, &KEPT, &unwatched).unwrap()
 }
 
-/// Two taut cables leave a point mass no deviation, and a rigid body those of its rocking, whose areas
-/// neither grow nor shrink.
+/// Two taut cables leave a point mass no deviation, and a rigid body those of its rocking, which
+/// preserves areas.
 #[test]
 fn taut_cables_close_the_directions_across_them() {
     let point = Parameters {
@@ -114,8 +114,8 @@ fn taut_cables_close_the_directions_across_them() {
     assert!(sum.abs() < 0.1 * error, "{sum} +- {error}");
 }
 
-/// Where a cable sticks in every lap, two exponents are closed, and the others are those of the
-/// multipliers, which are found in the directions that are left.
+/// If a cable sticks in every lap, two exponents are −∞, and the others are those of the
+/// multipliers, which are computed in the remaining directions.
 #[test]
 fn exponents_of_an_orbit_that_sticks_are_those_of_its_multipliers() {
     let parameters = Parameters {
@@ -144,8 +144,8 @@ fn exponents_of_an_orbit_that_sticks_are_those_of_its_multipliers() {
     );
 }
 
-/// The orbit of an attractor is the one that the motion was followed to, also where Newton's method
-/// comes to an unstable orbit beside it first: it attracts, at the rate of the motion.
+/// The orbit of an attractor is the one that the motion converges to, even if Newton's method first
+/// finds an unstable orbit beside it: it attracts at the rate of the motion.
 #[test]
 fn the_orbit_of_an_attractor_is_where_the_motion_goes() {
     for f_o in [1.01, 1.02] {
@@ -175,7 +175,7 @@ fn the_orbit_of_an_attractor_is_where_the_motion_goes() {
     }
 }
 
-/// A cable that is taut in the beginning, and not in the long run, closes nothing of the long run.
+/// A cable that is taut only at the beginning closes no direction of the long motion.
 #[test]
 fn what_was_taut_in_the_beginning_does_not_count() {
     let (_, volley, _) = volley();

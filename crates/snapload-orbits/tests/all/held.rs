@@ -2,8 +2,8 @@
 
 use snapload::{Case, Held, Stop, TautSet, named_case};
 
-/// Every step of a run is one of these motions, forwards and backwards, and its single impacts are
-/// those of this law.
+/// Every step of a run is a motion with given taut cables, forwards and backwards, and its single
+/// impacts follow this law.
 #[test]
 fn the_steps_of_a_run_are_held_motions() {
     let (mut slack, mut taut, mut struck) = (0, 0, 0);
@@ -24,7 +24,7 @@ fn the_steps_of_a_run_are_held_motions() {
                     assert!((a - b).abs() < 1e-12, "{a} {b}");
                 }
             }
-            // The same motion, asked for within.
+            // The same motion at times within the step.
             for (from, z, s) in [
                 (step.t_start, &step.start, s),
                 (step.t_end, &step.before, -s),
@@ -60,7 +60,7 @@ fn the_steps_of_a_run_are_held_motions() {
     );
 }
 
-/// Over many Taylor steps, either way, a path is at any time the motion carried there.
+/// Over many Taylor steps, in either direction, a path agrees at any time with the motion.
 #[test]
 fn a_long_path_is_the_motion_carried_there() {
     let parameters = named_case("sliding-example").unwrap().parameters;

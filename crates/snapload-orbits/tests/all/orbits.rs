@@ -8,7 +8,7 @@ use snapload_orbits::{
     Family, Lap, Moored, Orbit, Point, Stability, Wanted, distance, followed, orbit_in_words,
 };
 
-/// The orbit near the reference's, from 1e-4 beside it.
+/// The orbit near the reference's, from a start at a distance of 1e-4.
 fn found(reference: &Json, beside: f64) -> Orbit {
     let family = Moored::case(parameters(&reference["case"]), [None; 2]);
     let mut start = point(&reference["section_point"]);
@@ -124,7 +124,7 @@ fn the_orbit_whose_cable_would_have_to_push_is_refused() {
     let refused = one("slide_partner_inadmissible");
     assert!(!refused.is_admissible());
     let tension = refused.survey.least_tension.unwrap();
-    // By the rule of Runge and Kutta with 20,000 steps; the reference's own -0.0529 is the least of
+    // By the Runge-Kutta method with 20,000 steps; the reference's own -0.0529 is the least of
     // coarse samples.
     assert!((tension.value + 0.053713013).abs() < 1e-8, "{tension:?}");
     assert!((tension.t - 0.99410).abs() < 1e-4, "{tension:?}");
@@ -175,7 +175,7 @@ fn snaps_that_were_asked_for_and_are_not_there_are_named() {
     }
 }
 
-/// Two laps of an orbit of one period are a theorem, but not that they are one orbit of two.
+/// Two laps of an orbit of one period are proved, but not as an orbit of two periods.
 #[test]
 fn two_laps_are_not_told_as_an_orbit_that_takes_no_fewer_periods() {
     let (family, case, start) = volley();
@@ -203,7 +203,7 @@ fn a_point_mass_is_not_followed_along_its_size() {
     assert_eq!(followed("along", &case, "r").unwrap(), ("r", 1.7));
 }
 
-/// Off the events, so that all residuals take part.
+/// The section is away from the events, so that all residuals take part.
 #[test]
 fn durations_in_turn_and_all_unknowns_together_give_one_step() {
     let (family, ..) = volley();
@@ -228,7 +228,7 @@ fn durations_in_turn_and_all_unknowns_together_give_one_step() {
     assert!((&step - in_turn).amax() < 1e-11 * (1.0 + step.amax()));
 }
 
-/// An orbit tells its section by name and its events in words.
+/// The report on an orbit names its section and describes its events.
 #[test]
 fn an_orbit_is_told_in_words() {
     let (family, ..) = volley();

@@ -1,4 +1,4 @@
-//! Orbits as theorems: what exists is proved where it is, and nothing else is.
+//! Orbits as theorems: existing orbits are proved, and no others.
 
 use crate::common::{number, parameters, point, reference};
 use serde_json::{Value as Json, json};
@@ -36,7 +36,7 @@ fn proved(p: &Parameters, phase: f64, z: &Point, struck: &[usize]) -> Result<Pro
     prove_orbit(&exact(p), &supposed)
 }
 
-/// A decimal as an integer of units of 10⁻³⁰, what is beyond cut off.
+/// A decimal as an integer of units of 10⁻³⁰, truncated.
 fn units(text: &str) -> i128 {
     let (sign, digits) = text.strip_prefix('-').map_or((1, text), |rest| (-1, rest));
     let (whole, fraction) = digits.split_once('.').unwrap_or((digits, ""));
@@ -44,7 +44,7 @@ fn units(text: &str) -> i128 {
     sign * format!("{whole}{fraction}").parse::<i128>().unwrap()
 }
 
-/// Half a unit of the last digit that is written, or more, in units of 10⁻³⁰.
+/// At least half a unit of the last written digit, in units of 10⁻³⁰.
 fn half_a_digit(text: &str) -> i128 {
     let places = text
         .split_once('.')
@@ -110,7 +110,7 @@ fn other_snaps_than_those_of_the_motion_are_not_proved() {
         for other in others {
             assert!(proved(&p, 0.0, &z, &other).is_err(), "{name}: {other:?}");
         }
-        // Nor is the orbit one of another case, of another section, or twice as long.
+        // Neither is it proved for another case, for another section, or for twice its length.
         let stiff = Parameters { e: p.e + 0.05, ..p };
         let shifted = proved(&p, 0.25, &z, &struck);
         assert!(shifted.is_err(), "{name}");
@@ -144,7 +144,8 @@ fn nothing_is_proved_below_a_fold_and_two_orbits_above() {
         };
         assert!(proved(&p, 0.0, &fold.orbit.z, &struck).is_err(), "{below}");
     }
-    // The parabola of the branch through a point on either side gives both at a value between.
+    // The parabola of the branch through a point on either side gives both orbits at a value
+    // between.
     let near = |side: f64| {
         let points = branch
             .points
@@ -166,7 +167,7 @@ fn nothing_is_proved_below_a_fold_and_two_orbits_above() {
     assert!(two[0].is_another_than(&two[1]));
 }
 
-/// Beyond a graze the sequence still closes, but its lap would pass through a cable.
+/// Beyond a graze the sequence still closes, but its lap would violate the constraint of a cable.
 #[test]
 fn nothing_is_proved_beyond_a_graze() {
     let (p, branch) = branch(1, [-0.0086, 0.7632, 0.0, 1.0527, -0.7738, 0.0], [0.8, 1.8]);
@@ -189,7 +190,7 @@ fn nothing_is_proved_beyond_a_graze() {
         let why = tried(graze.value[0] + off).unwrap_err();
         assert!(why.contains("other snaps"), "{why}");
     }
-    // Of the whole branch those points are proved that are told as admissible, and no others.
+    // Exactly those points of the branch are proved that are reported as admissible.
     for point in &branch.points {
         let p = Parameters {
             f_o: point.orbit.at[0],
@@ -233,7 +234,7 @@ fn orbits_found_by_chance_are_proved_and_told_apart() {
     let square = parameters(&json!({"a": 0.3, "b": 0.3, "f_o": 0.5, "omega": 2.5}));
     let mut orbits = find_orbits(&square, &random(200, 1), &Wanted::default(), &unwatched).unwrap();
     assert!(orbits.len() >= 15, "{}", orbits.len());
-    // From the orbits of a case most of those of one beside it are found without any chance.
+    // Most orbits of a case are found from those of a neighbouring one, without random starts.
     let near: Vec<Point> = orbits.iter().map(|orbit| orbit.z).collect();
     let near = Starts {
         near: &near,
@@ -253,7 +254,7 @@ fn orbits_found_by_chance_are_proved_and_told_apart() {
     let twice: Vec<Orbit> = orbits.iter().chain(&orbits).cloned().collect();
     let proofs = prove_all(&mut orbits, &exact(&square), &unwatched).unwrap();
     assert_eq!([proofs.proved, proofs.distinct], [orbits.len(); 2]);
-    // What is listed twice counts once.
+    // An orbit that is listed twice is counted once.
     let mut twice = twice;
     let again = prove_all(&mut twice, &exact(&square), &unwatched).unwrap();
     assert_eq!(
@@ -262,7 +263,8 @@ fn orbits_found_by_chance_are_proved_and_told_apart() {
     );
 }
 
-/// Orbits of two periods are one orbit whichever period they are met in, and none of one period.
+/// An orbit of two periods is found once, from whichever period, and is proved not to have one
+/// period.
 #[test]
 fn orbits_of_two_periods_are_found_once_and_proved_not_to_be_shorter() {
     let square = parameters(&json!({"a": 0.3, "b": 0.3, "f_o": 0.5, "omega": 2.5}));
@@ -280,7 +282,7 @@ fn orbits_of_two_periods_are_found_once_and_proved_not_to_be_shorter() {
         let proof = orbit.proof.as_ref().unwrap().as_ref().unwrap();
         assert!(proof.is_prime());
         assert!(proof.error_of(&orbit.z) < 1e-10);
-        // The same orbit from its second section is no other one.
+        // The same orbit from its second section is not another one.
         let later = Moored::case(square, [None; 2]);
         let period = later.period([0.0; 2]);
         let run = later.simulate([0.0; 2], 0.0, &orbit.z, period).unwrap();
@@ -297,7 +299,7 @@ fn orbits_of_two_periods_are_found_once_and_proved_not_to_be_shorter() {
     }
 }
 
-/// Where a cable stays taut, no proof is claimed.
+/// If a cable stays taut, nothing is proved.
 #[test]
 fn taut_laps_are_said_to_be_beyond_the_proof() {
     for name in ["slide_stable", "rock_circle", "corner_rest_e0"] {

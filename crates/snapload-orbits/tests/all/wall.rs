@@ -10,7 +10,7 @@ pub struct Wall {
     pub restitution: f64,
 }
 
-/// The same over some numbers, with its force.
+/// The same, generic over the number type, with the amplitude of its force.
 pub struct WallOver<T> {
     zeta: T,
     omega: T,

@@ -1,9 +1,9 @@
-//! What the chapter's text claims, checked. No verdict is typed in: each comes out of a
-//! computation.
+//! The claims of the chapter's text, checked. Every verdict is the result of a computation; none is
+//! written down.
 //!
-//! What a claim says, and how its evidence is told, stands in `claims/*.toml` ([`words`]); its
-//! judge stands in the table `JUDGES` of its section here, and answers with a verdict and the
-//! values that the words tell. To add a claim, add one entry to each.
+//! The text of a claim and of its evidence is in `claims/*.toml` ([`words`]); its judge is in the
+//! table `JUDGES` of its section here, and returns a verdict and the values for the text. To add a
+//! claim, add one entry to each.
 
 mod motions;
 mod newton;
@@ -30,7 +30,7 @@ use crate::study::Study;
 /// Checks all claims, in the order of their names.
 ///
 /// # Errors
-/// [`ReportError`] only for a fault of the program.
+/// [`ReportError`] only for an error of the program.
 pub fn claims(study: &Study) -> Result<Vec<Claim>, ReportError> {
     let tabled = runs::Tabled::new(study)?;
     let sections = [

@@ -1,14 +1,14 @@
-//! What is read from a run: its end, its swings, its clear impacts, and what pushes the body.
+//! Quantities of a run: its end, its swings, its clear impacts, and the forces on the body.
 
 use snapload::{End, Impact, State, Stop, System};
 use snapload_verify::Run;
 
-/// Whether a run left the range: rotation limit or upper bound.
+/// Whether a run exceeded the limits: rotation limit or upper bound.
 pub(super) fn exceeds(run: &Run) -> bool {
     run.end().reason.exceeds()
 }
 
-/// Time and θ where the rotation turns back.
+/// Time and θ of the turning points of the rotation.
 pub(super) fn turns(run: &Run) -> Vec<(f64, f64)> {
     let turns =
         |hit: &&Impact| hit.before.vtheta == 0.0 || hit.before.vtheta * hit.after.vtheta < 0.0;
@@ -16,15 +16,15 @@ pub(super) fn turns(run: &Run) -> Vec<(f64, f64)> {
     turning.map(|hit| (hit.t, hit.before.theta)).collect()
 }
 
-/// A swing of the rotation from one turn to the next: time and θ of both.
+/// A swing of the rotation from one turning point to the next: time and θ of both.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Swing {
     pub(super) from: (f64, f64),
     pub(super) to: (f64, f64),
 }
 
-/// A large swing goes from beyond this angle on one side to beyond it on the other \[rad\]: the
-/// chapter's go from near π/2 to near −π/2.
+/// A large swing goes from beyond this angle on one side to beyond it on the other \[rad\]; the
+/// chapter's swings go from near π/2 to near −π/2.
 pub(super) const LARGE: f64 = std::f64::consts::FRAC_PI_4;
 
 impl Swing {
@@ -55,7 +55,7 @@ pub(super) fn rotation(run: &Run) -> f64 {
     run.norms().theta_max
 }
 
-/// The places at times a step apart, from a time to another one, of what is at each time `at`.
+/// The positions at times `step` apart between two times, from the function `at`.
 pub(super) fn places(
     at: impl FnMut(f64) -> State,
     (from, to): (f64, f64),
@@ -67,22 +67,22 @@ pub(super) fn places(
     states.map(|state| [state.x, state.y]).collect()
 }
 
-/// What a printed plot shows of a snap velocity.
+/// The smallest snap velocity that is visible in a printed plot.
 pub(super) const CLEAR: f64 = 1e-2;
 
-/// The impacts that a printed plot shows.
+/// The impacts that are visible in a printed plot.
 pub(super) fn clear(run: &Run) -> impl Iterator<Item = &Impact> + Clone {
     run.impacts().iter().filter(|hit| hit.v_n > CLEAR)
 }
 
-/// The push of the wave at a time on a body in some state, away from the anchor of a cable.
+/// The component of the wave's force on a body in some state, away from the anchor of a cable.
 pub(super) fn push(system: &System, cable: usize, t: f64, state: &State) -> f64 {
     let [nx, ny] = system.cables[cable].normal(state).n.components();
     let [fx, fy] = system.forcing.at(t).components();
     nx * fx + ny * (fy - system.forcing.constant.y)
 }
 
-/// The push of the weight, away from the anchor of a cable.
+/// The component of the weight, away from the anchor of a cable.
 pub(super) fn weight_push(system: &System, cable: usize, state: &State) -> f64 {
     let [_, ny] = system.cables[cable].normal(state).n.components();
     ny * system.forcing.constant.y
@@ -109,8 +109,8 @@ fn how(reason: Stop) -> &'static str {
     }
 }
 
-/// The endings of the runs in many digits, the first of the members; and of each, how many of the
-/// other starts end otherwise, where some do.
+/// The ends of the runs in many digits, which are the first of the members; and for each, the
+/// number of other starts that end differently, if there are any.
 pub(super) fn endings<const N: usize>(members: &[[&Run; N]]) -> String {
     let words = (0..N).map(|k| {
         let own = members[0][k].end();

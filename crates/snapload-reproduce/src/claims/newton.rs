@@ -1,21 +1,21 @@
 //! Newton's second law for a body on taut cables, M q̈ = Q + Σ λ grad g with g̈ = 0 for each of
-//! them. The chapter's equations are measured against it, and so are the tensions −2 λ r that the
-//! engine finds.
+//! them. The chapter's equations are compared with it, and so are the engine's tensions, with −2 λ
+//! r.
 //!
-//! It is a check because it shares nothing with either but the place P of a cable's end, by which
-//! its gap is g = |P − A|² − r². The derivatives of g come from dual numbers, not from a formula of
-//! normals and lever arms.
+//! It is an independent check because it has only the position P of a cable's end in common with
+//! either, by which its gap is g = |P − A|² − r². The derivatives of g come from dual numbers, not
+//! from a formula of normals and lever arms.
 
 use super::numbers::holds;
 use super::verdict::{Finding, Judged};
 use snapload::{Cable, Dual, Motion, Playback, Real, State, TautSet, Trajectory, anchor_height};
 
-/// Cable 1, of the gap g1, and cable 2, of the gap g2, as one sees them in the chapter's figures.
+/// Cable 1, of the gap g1, and cable 2, of the gap g2, as in the chapter's figures.
 pub(super) const RIGHT: usize = 0;
 pub(super) const LEFT: usize = 1;
 pub(super) const BOTH: [usize; 2] = [RIGHT, LEFT];
 
-/// A function of time with its first and second derivative at one moment.
+/// A function of time with its first and second derivative at one time.
 pub(super) type Jet = Dual<Dual<f64, 1>, 1>;
 
 pub(super) fn jet([value, rate, second]: [f64; 3]) -> Jet {
@@ -50,7 +50,7 @@ impl Sizes {
         anchor_height(self.r, self.a)
     }
 
-    /// A cable by its two ends.
+    /// A cable from the positions of its ends.
     pub(super) fn cable<T: Real>(&self, side: usize) -> Cable<T> {
         let x = if side == RIGHT { 1.0 } else { -1.0 };
         let ends = [[x, self.h() + self.b], [x * self.a, self.b]];
@@ -59,18 +59,19 @@ impl Sizes {
     }
 }
 
-/// A body on its two cables at one moment.
+/// A body on its two cables at one time.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Moment {
     pub(super) sizes: Sizes,
     /// x, y, θ and their rates.
     pub(super) place: [f64; 3],
     pub(super) velocity: [f64; 3],
-    /// The wave's force; the weight comes to it.
+    /// The wave's force, without the weight.
     pub(super) force: [f64; 2],
 }
 
-/// What holds a body: the multiplier of each gap, 0 where the cable is slack, and the acceleration.
+/// The solution for a held body: the multiplier of each gap, 0 if the cable is slack, and the
+/// acceleration.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Held {
     pub(super) lambda: [f64; 2],
@@ -78,7 +79,7 @@ pub(super) struct Held {
 }
 
 impl Moment {
-    /// Of a run.
+    /// The state of a run at a time.
     fn of(run: &Trajectory, now: &Motion) -> Self {
         let (system, [x, y, theta, vx, vy, vtheta]) = (run.system(), now.state.components());
         let ([a, b], r) = (
@@ -94,7 +95,7 @@ impl Moment {
         }
     }
 
-    /// Gap, gap rate and g̈ of the body as it moves on from its place at this velocity.
+    /// Gap, gap rate and g̈ of the body if it continues from its position at this velocity.
     fn gap_along(&self, side: usize, velocity: [f64; 3]) -> [f64; 3] {
         let [x, y, theta] = [0, 1, 2].map(|k| jet([self.place[k], velocity[k], 0.0]));
         let zero = Jet::default();
@@ -113,24 +114,24 @@ impl Moment {
             .map(|along| self.gap_along(side, along)[1])
     }
 
-    /// Force and weight over the mass, in x, y and θ.
+    /// Force and weight divided by the mass, in x, y and θ.
     fn free(&self) -> [f64; 3] {
         [self.force[0], self.force[1] - 1.0, 0.0]
     }
 
-    /// g̈ of a gap if no cable pulled.
+    /// g̈ of a gap without any tension.
     pub(super) fn opening(&self, side: usize) -> f64 {
         let [g, free] = [self.gradient(side), self.free()];
         g[0] * free[0] + g[1] * free[1] + self.gap_along(side, self.velocity)[2]
     }
 
-    /// How the pull of one cable changes the gap of another: grad g M⁻¹ grad g.
+    /// The effect of one cable's tension on the gap of another: grad g M⁻¹ grad g.
     pub(super) fn coupling(&self, p: usize, q: usize) -> f64 {
         let [p, q] = [self.gradient(p), self.gradient(q)];
         p[0] * q[0] + p[1] * q[1] + p[2] * q[2] / self.sizes.i
     }
 
-    /// Held by these cables.
+    /// The solution with these cables taut.
     pub(super) fn held(&self, taut: TautSet) -> Held {
         let mut lambda = [0.0; 2];
         let c = BOTH.map(|side| self.opening(side));
@@ -165,10 +166,10 @@ impl Moment {
     }
 }
 
-/// The tensions that a run has while so many cables are taut, 1 or 2, against −2 λ r at the same
-/// states; and at how many times that was looked at.
+/// The largest difference of a run's tensions, while 1 or 2 cables are taut, from −2 λ r at the
+/// same states; and the number of times compared.
 pub(super) fn tension_residual(run: &Trajectory, taut: usize) -> (f64, usize) {
-    /// How many intervals of the run are looked at, and at how many times each.
+    /// The number of intervals of the run that are compared, and of times in each.
     const INTERVALS: usize = 40;
     const TIMES: usize = 20;
     let mut playback = Playback::new(run);
@@ -188,7 +189,7 @@ pub(super) fn tension_residual(run: &Trajectory, taut: usize) -> (f64, usize) {
     (largest(residuals), times)
 }
 
-/// Numbers that look random and are the same everywhere (SplitMix64).
+/// Pseudorandom numbers that are the same everywhere (SplitMix64).
 #[derive(Clone, Debug)]
 pub(super) struct Numbers(u64);
 
@@ -197,7 +198,7 @@ impl Numbers {
         Self(seed)
     }
 
-    /// Evenly from an interval.
+    /// A number, uniform in an interval.
     pub(super) fn between(&mut self, low: f64, high: f64) -> f64 {
         self.0 = self.0.wrapping_add(0x9E37_79B9_7F4A_7C15);
         let mut z = self.0;
@@ -207,7 +208,7 @@ impl Numbers {
         low + (high - low) * (bits as f64 / (1_u64 << 53) as f64)
     }
 
-    /// Sizes of a body of this half-height.
+    /// Random sizes of a body with this half-height.
     pub(super) fn sizes(&mut self, b: f64) -> Sizes {
         Sizes {
             a: self.between(0.05, 0.4),
@@ -217,13 +218,13 @@ impl Numbers {
         }
     }
 
-    /// Nearly normal with this deviation: a sum of twelve even ones.
+    /// An approximately normal number with this deviation: a sum of twelve uniform ones.
     pub(super) fn normal(&mut self, deviation: f64) -> f64 {
         (0..12).map(|_| self.between(-0.5, 0.5)).sum::<f64>() * deviation
     }
 }
 
-/// The largest size among residuals; infinite if one is no number.
+/// The largest magnitude of residuals; infinite if one is NaN.
 pub(super) fn largest(residuals: impl IntoIterator<Item = f64>) -> f64 {
     residuals.into_iter().fold(0.0, |most: f64, r| {
         if r.is_nan() {
@@ -234,7 +235,7 @@ pub(super) fn largest(residuals: impl IntoIterator<Item = f64>) -> f64 {
     })
 }
 
-/// The largest of what an equation leaves over in some states.
+/// The largest residual of an equation over some states.
 pub(super) fn over<S, I: IntoIterator<Item = f64>>(
     states: &[S],
     residual: impl Fn(&S) -> I,
@@ -242,7 +243,7 @@ pub(super) fn over<S, I: IntoIterator<Item = f64>>(
     largest(states.iter().flat_map(residual))
 }
 
-/// Judges an equation by what it leaves over in some states.
+/// Judges an equation by its residuals over some states.
 pub(super) fn identity<S, I: IntoIterator<Item = f64>>(
     states: &[S],
     residual: impl Fn(&S) -> I,
@@ -253,7 +254,7 @@ pub(super) fn identity<S, I: IntoIterator<Item = f64>>(
         .value("states", states.len()))
 }
 
-/// What one side of an equation is more than the other.
+/// The differences of the two sides of an equation.
 pub(super) fn differences<const N: usize>(p: [f64; N], q: [f64; N]) -> [f64; N] {
     std::array::from_fn(|k| p[k] - q[k])
 }
@@ -262,7 +263,7 @@ pub(super) fn length(vector: impl IntoIterator<Item = f64>) -> f64 {
     vector.into_iter().map(|z| z * z).sum::<f64>().sqrt()
 }
 
-/// Sine and cosine as the engine has them.
+/// Sine and cosine by the engine's functions.
 pub(super) fn sin_cos(angle: f64) -> (f64, f64) {
     Real::sin_cos(angle)
 }

@@ -24,14 +24,14 @@ pub(super) fn spearman(points: &[(f64, f64)]) -> f64 {
     }
 }
 
-/// Mean and standard deviation; zero of nothing.
+/// Mean and standard deviation; zero for no values.
 pub(super) fn mean_and_deviation(values: &[f64]) -> (f64, f64) {
     let mean = mean(values.iter().copied());
     let square = values.iter().map(|v| (v - mean).powi(2)).sum::<f64>();
     (mean, (square / values.len().max(1) as f64).sqrt())
 }
 
-/// Mean of values; 0 of none.
+/// Mean of values; 0 for none.
 pub(super) fn mean(values: impl IntoIterator<Item = f64>) -> f64 {
     let (sum, count) = values
         .into_iter()
@@ -39,29 +39,29 @@ pub(super) fn mean(values: impl IntoIterator<Item = f64>) -> f64 {
     if count > 0.0 { sum / count } else { 0.0 }
 }
 
-/// Of how many a statement holds.
+/// The number of items for which a statement holds.
 pub(super) fn count<T>(of: &[T], holds: impl Fn(&T) -> bool) -> usize {
     of.iter().filter(|one| holds(one)).count()
 }
 
-/// The mean of those values that are marked over the mean of the others.
+/// The mean of the marked values divided by the mean of the others.
 pub(super) fn marked_over_others(values: impl IntoIterator<Item = (bool, f64)>) -> f64 {
     let values: Vec<(bool, f64)> = values.into_iter().collect();
     let of = |marked| mean(values.iter().filter(|v| v.0 == marked).map(|v| v.1));
     of(true) / of(false)
 }
 
-/// The least value; infinite of none.
+/// The least value; infinity for none.
 pub(super) fn min(values: impl IntoIterator<Item = f64>) -> f64 {
     values.into_iter().fold(f64::INFINITY, f64::min)
 }
 
-/// The greatest value; minus infinity of none.
+/// The greatest value; minus infinity for none.
 pub(super) fn max(values: impl IntoIterator<Item = f64>) -> f64 {
     values.into_iter().fold(f64::NEG_INFINITY, f64::max)
 }
 
-/// Whether each value is above the one before it; of fewer than two there is nothing to say.
+/// Whether each value is above the one before it; fewer than two values show nothing.
 pub(super) fn rising(values: &[f64]) -> bool {
     values.len() > 1 && values.windows(2).all(|pair| pair[0] < pair[1])
 }
@@ -77,12 +77,12 @@ pub(super) fn list(values: &[f64], digits: usize) -> String {
     words.join(", ")
 }
 
-/// The least and the greatest value in words; one number where they read the same.
+/// The least and the greatest value in words; a single number if both read the same.
 pub(super) fn span(values: impl IntoIterator<Item = f64>, digits: usize) -> String {
     between(values, |v| format!("{v:.digits$}"))
 }
 
-/// The same, each number written as asked.
+/// The same, with each number formatted by a function.
 pub(super) fn between(
     values: impl IntoIterator<Item = f64>,
     written: impl Fn(f64) -> String,
@@ -97,15 +97,15 @@ pub(super) fn between(
     }
 }
 
-/// Residuals below this are rounding.
+/// Residuals below this are only rounding.
 pub(crate) const ROUNDING: f64 = 1e-9;
 
-/// Whether an identity with such residuals holds.
+/// Whether an identity with this residual holds.
 pub(super) fn holds(residual: f64) -> bool {
     residual < ROUNDING
 }
 
-/// A residual in words: rounding by its decade, anything else as it is.
+/// A residual in words: the power of ten if it is rounding, and otherwise its value.
 pub(super) fn residual(residual: f64) -> String {
     if !holds(residual) {
         return format!("{residual:.2}");

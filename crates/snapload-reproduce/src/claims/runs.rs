@@ -1,4 +1,4 @@
-//! Runs of cases and of their neighbours, and what is read from a run.
+//! Runs of cases and of their neighbours, and quantities of a run.
 
 use super::numbers::between;
 use super::verdict::{Finding, Verdict};
@@ -10,7 +10,7 @@ use snapload::analysis::{ForceScan, in_parallel};
 use snapload::{Case, CaseError, Outcome, Parameters, Trajectory, table_6_1};
 use snapload_verify::Run;
 
-/// How far the neighbours of a start are from it.
+/// The distance of neighbours from a start.
 const NEAR: f64 = 1e-12;
 
 /// Directions in x, y and θ in which the neighbours lie.
@@ -25,13 +25,12 @@ const DIRECTIONS: [[f64; 3]; 8] = [
     [-1.0, -1.0, 1.0],
 ];
 
-/// Neighbours where few cases are asked.
+/// The number of neighbours where few cases are run.
 pub(crate) const MANY: usize = 8;
-/// Neighbours where many cases are asked.
+/// The number of neighbours where many cases are run.
 pub(crate) const FEW: usize = 3;
 
-/// The case itself and up to eight `neighbours`, started 1e-12 away in directions that are always
-/// the same.
+/// The case itself and up to eight `neighbours`, whose starts are 1e-12 away in fixed directions.
 pub(super) fn ensemble(parameters: &Parameters, neighbours: usize) -> Vec<Parameters> {
     let directions = DIRECTIONS.iter().take(neighbours);
     let near = directions.map(|[x, y, theta]| Parameters {
@@ -50,7 +49,7 @@ pub(super) fn standard(change: impl FnOnce(&mut Parameters)) -> Parameters {
     case
 }
 
-/// A case that goes on after it has settled.
+/// A case that continues after it has settled.
 pub(super) fn past_settling(case: Parameters) -> Parameters {
     Parameters {
         stop_when_settled: false,
@@ -70,7 +69,7 @@ pub(super) fn chapter(parameters: Parameters) -> Parameters {
     Reading::Chapter.apply(parameters)
 }
 
-/// What becomes of many cases, in their order.
+/// The results for many cases, in their order.
 pub(super) fn each<T: Send>(
     cases: &[Parameters],
     what: impl Fn(&Parameters) -> Result<T, CaseError> + Sync,
@@ -78,7 +77,7 @@ pub(super) fn each<T: Send>(
     in_parallel(cases.len(), |k| what(&cases[k]))
 }
 
-/// What becomes of a case and of its neighbours.
+/// The results for a case and its neighbours.
 pub(super) fn near<T: Send>(
     parameters: &Parameters,
     neighbours: usize,
@@ -87,7 +86,7 @@ pub(super) fn near<T: Send>(
     each(&ensemble(parameters, neighbours), what)
 }
 
-/// What becomes of many cases from each start, the cases' own starts first: `[start][case]`.
+/// The results for many cases from each start, the cases' own starts first: `[start][case]`.
 pub(super) fn from_starts<T: Send>(
     cases: &[Parameters],
     neighbours: usize,
@@ -105,7 +104,7 @@ pub(super) fn run(parameters: &Parameters) -> Result<Trajectory, CaseError> {
     Ok(Case::new(*parameters)?.run())
 }
 
-/// What is asked of the runs of many cases from each start, `[start][case]`, in doubles.
+/// A function of the runs of many cases from each start, `[start][case]`, in doubles.
 pub(super) fn of_runs<T: Send>(
     cases: &[Parameters],
     neighbours: usize,
@@ -114,7 +113,7 @@ pub(super) fn of_runs<T: Send>(
     from_starts(cases, neighbours, |case| Ok(what(&Run::of_doubles(case)?)))
 }
 
-/// The same, of which the first are those of 76 digits.
+/// The same, with the first runs in 76 digits.
 pub(super) fn of_exact_runs<T: Send>(
     cases: &[Parameters],
     neighbours: usize,
@@ -130,9 +129,9 @@ pub(super) fn outcome(parameters: &Parameters) -> Result<Outcome, CaseError> {
     Ok(Outcome::of(&Case::new(*parameters)?))
 }
 
-/// The critical force of a case that never exceeds: above all that do.
+/// A stand-in for the critical force of a case that never exceeds: larger than any real one.
 pub(super) const NEVER: f64 = 9.0;
-/// Two amplitudes of the scan are equal within this.
+/// Two amplitudes of the scan that differ by less than this are equal.
 pub(super) const SAME: f64 = 0.005;
 
 /// The critical force of a case, in hundredths.
@@ -179,8 +178,8 @@ pub(super) fn table_codes() -> Vec<&'static str> {
     codes
 }
 
-/// The cases of Table 6.1 in many digits, with their neighbours in doubles, in the chapter's reading.
-/// The force is that of the code where the printed one differs.
+/// The cases of Table 6.1 in many digits, with their neighbours in doubles, in the chapter's
+/// reading. The force is that of the code if the printed one differs.
 pub(super) struct Tabled<'a> {
     pub(super) study: &'a Study,
     pub(super) codes: Vec<&'static str>,
@@ -231,7 +230,7 @@ impl<'a> Tabled<'a> {
     }
 }
 
-/// Of a statement on a figure of each of some runs, asked from every start.
+/// The finding on a statement about a quantity of each of some runs, from every start.
 pub(super) fn measured<const N: usize>(
     name: &'static str,
     members: &[[&Run; N]],
@@ -242,7 +241,7 @@ pub(super) fn measured<const N: usize>(
     Finding::robust(&figures, holds).by_start(name, figures)
 }
 
-/// A statement of each case by itself, from all starts.
+/// The finding on a statement about each case by itself, from all starts.
 pub(super) fn by_case<const N: usize>(
     members: &[[&Run; N]],
     holds: impl Fn(&Run) -> bool,
@@ -305,7 +304,7 @@ mod tests {
         assert_eq!(ending(runs[0].end()), "settles at 7.246");
         assert!(clear(&runs[0]).all(|hit| hit.v_n > CLEAR));
         assert_eq!(swings(&runs[0]).len() + 1, turns(&runs[0]).len());
-        // The first that exceeds, and nothing below it.
+        // The first amplitude exceeds, and there is no smaller one.
         let scan = ForceScan::new(0.1, 1.0)?;
         let first = first_exceeding(&standard, scan)?;
         assert_eq!(first, Some((0.5, Stop::RotationLimit)));

@@ -1,5 +1,5 @@
-//! Section 6.3: the numbering of the cases and the printed Table 6.1; the stop rules and the start
-//! of the standard case have a file of their own.
+//! Section 6.3: the numbering of the cases and the printed Table 6.1; the claims on the stop rules
+//! and on the start of the standard case are in a file of their own.
 
 mod stops;
 
@@ -47,12 +47,12 @@ impl Table {
         place.and_then(|k| row.get(k)).copied().unwrap_or("")
     }
 
-    /// NaN, which agrees with nothing, where there is no number.
+    /// NaN, which equals nothing, if there is no number.
     fn number(&self, row: &Row, column: &str) -> f64 {
         self.text(row, column).parse().unwrap_or(f64::NAN)
     }
 
-    /// The keys that vary over some rows.
+    /// The keys that vary over the rows.
     fn varied(&self, rows: &[Row]) -> Vec<&'static str> {
         let varies = |column: &&str| {
             let mut values = rows.iter().map(|row| self.text(row, column));
@@ -71,7 +71,7 @@ const PLACES: [&str; 12] = [
     "r", "e", "a", "b", "x", "vx", "y", "vy", "theta", "vtheta", "f_o", "nu",
 ];
 
-/// The case number of values.
+/// The case number for given values.
 fn encode(value: impl Fn(&str) -> f64) -> String {
     let mut code = String::new();
     for key in PLACES {
@@ -126,7 +126,7 @@ fn one_parameter(table: &Table) -> Finding {
             wrong.push(rows);
         }
     }
-    // A grid varies one key at a time all the same, in its parts.
+    // Within each part of a grid, one key varies at a time.
     let shape = |row: &Row| [table.text(row, "a"), table.text(row, "b")];
     let of_one = |p: &Row, q: &Row| shape(p) == shape(q);
     let mut parts = wrong.iter().flat_map(|rows| rows.chunk_by(of_one));

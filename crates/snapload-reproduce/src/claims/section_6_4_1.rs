@@ -1,5 +1,5 @@
-//! Section 6.4.1: how the motion changes with restitution and with the force. The claims on the
-//! region, on rotations and on the frequency have files of their own.
+//! Section 6.4.1: the effect of restitution and force on the motion. The claims on the region, on
+//! rotations and on the frequency are in files of their own.
 
 mod region;
 mod rotation;
@@ -42,7 +42,8 @@ const JUDGES: &Judges<fn(&Tabled) -> Judged> = &[
             .by_start("rho3", of(2)))
     }),
     ("6.4.1-16", |tabled| {
-        /// Where velocities fall the ratio is below this, and where they do not above that.
+        /// Velocities count as falling if their ratio is below the first number, and as not falling
+        /// above the second.
         const FALLS: f64 = 0.5;
         const KEEPS: f64 = 0.8;
         let members = tabled.of(RESTITUTIONS)?;
@@ -51,7 +52,7 @@ const JUDGES: &Judges<fn(&Tabled) -> Judged> = &[
         Ok(finding.values("falls keeps", [FALLS, KEEPS]))
     }),
     ("6.4.1-17", |tabled| {
-        /// So many times as long, if an axis is too short.
+        /// An axis is too short if it should be this many times as long.
         const LONGER: f64 = 2.0;
         let members = tabled.of(RESTITUTIONS)?;
         let longer = |[first, others @ ..]: &[f64; 4]| *first > LONGER * max(*others);
@@ -64,7 +65,8 @@ const JUDGES: &Judges<fn(&Tabled) -> Judged> = &[
         Ok(finding.values("early late end chaos", [early, late, end, CHAOS]))
     }),
     ("6.4.1-36", |tabled| {
-        /// Off the middle, where free motion would meet both boundaries at once for ever.
+        /// The start is off the middle, where a free motion would meet both boundaries at once for
+        /// ever.
         const OFF: f64 = 0.02;
         let elastic = elastic(tabled)?;
         let mut free = chapter(case(tabled.study, RESTITUTIONS[0])?.parameters);
@@ -86,7 +88,7 @@ const JUDGES: &Judges<fn(&Tabled) -> Judged> = &[
             .list("impacts", runs.iter().map(|run| run.snaps() as f64)))
     }),
     ("6.4.1-20", |tabled| {
-        /// Rounding of one impact's energies.
+        /// The rounding error of one impact's energies.
         const ROUNDING: f64 = 1e-14;
         let runs = elastic(tabled)?;
         let lost = |run: &&Run| {
@@ -160,15 +162,15 @@ fn activity(run: &Run) -> [f64; 3] {
     ]
 }
 
-/// Mean snap velocity in the second half of the time over that in the first.
+/// Ratio of the mean snap velocities in the second and the first half of the time.
 fn later_to_earlier(run: &Run) -> f64 {
     let half = run.end().t / 2.0;
     marked_over_others(run.impacts().iter().map(|hit| (hit.t >= half, hit.v_n)))
 }
 
 /// The largest distance of neighbours from the first run in x, y and θ, in the first period of
-/// their motion and in the last (a whole period, for the distance swings, too); and when the first
-/// of them ends.
+/// their motion and in the last (over a whole period, as the distance oscillates); and when the
+/// first of them ends.
 fn apart(runs: &[&Run]) -> [f64; 3] {
     let end = min(runs.iter().map(|run| run.end().t));
     let late = end - TAU / Parameters::STANDARD.omega;
@@ -185,7 +187,7 @@ fn apart(runs: &[&Run]) -> [f64; 3] {
     [first, last, end]
 }
 
-/// A growth of differences that no steady motion has over so short a run.
+/// A growth of differences that no regular motion has over so short a run.
 const CHAOS: f64 = 1e4;
 
 fn settles_sooner(tabled: &Tabled) -> Judged {
@@ -207,7 +209,7 @@ fn settles_sooner(tabled: &Tabled) -> Judged {
 }
 
 /// For each start of the standard case the first of the amplitudes 0.01, 0.02 … that exceeds, if it
-/// does so by rotation.
+/// exceeds by rotation.
 fn first_rotating() -> Result<Vec<Option<f64>>, CaseError> {
     near(&chapter(Parameters::STANDARD), MANY, |start| {
         let first = first_exceeding(start, ForceScan::default())?;
@@ -229,7 +231,7 @@ fn settles_above_critical(tabled: &Tabled) -> Judged {
         .value("exceeding", exceeding()))
 }
 
-/// The amplitudes up to 1 of which it is proved that they exceed, in hundredths, as intervals.
+/// The amplitudes up to 1 that are proved to exceed, in hundredths, as intervals.
 fn exceeding() -> String {
     let forces: Vec<(f64, bool)> = over_force()
         .map(|(f_o, proved)| (f_o, proved.is_some_and(|proved| proved.reason.exceeds())))
@@ -239,8 +241,8 @@ fn exceeding() -> String {
     words.collect::<Vec<_>>().join(", ")
 }
 
-/// What the rows of Table 6.1 with a force below a half come to: those of the series f_o, and all;
-/// and the rows of shapes, at 0.3 as their number says, and at 0.5 as it is printed.
+/// The results for the rows of Table 6.1 with a force below a half: those of the series f_o, and
+/// all; and for the rows of shapes, at 0.3 by their number, and at 0.5 as printed.
 fn below_a_half(tabled: &Tabled) -> Judged {
     let settles = |runs: &[Run], k: usize| runs[k].end().reason == Stop::Settled;
     let weak = |k: &usize| tabled.cases[*k].f_o < 0.5;
@@ -269,13 +271,13 @@ fn below_a_half(tabled: &Tabled) -> Judged {
         .value("count", not.len()))
 }
 
-/// Whether it is the loss that keeps a case within the limits: those that lose the least exceed, and
-/// none that loses more.
+/// Whether the loss of energy keeps a case within the limits: the cases with the least loss exceed,
+/// and none with a larger loss does.
 fn loss_holds() -> Judged {
     let [_, steps] = restitutions();
     let cases: Vec<Parameters> = steps.into_iter().map(with_restitution).collect();
     let mut exceeding = of_runs(&cases, MANY, exceeds)?;
-    // The first are those of the motion itself.
+    // The first are the proved ends of the motion itself.
     let proved = cases.iter().map(Proved::kept);
     exceeding[0] = proved
         .map(|proved| proved.is_some_and(|proved| proved.reason.exceeds()))

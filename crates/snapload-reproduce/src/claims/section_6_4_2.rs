@@ -1,4 +1,4 @@
-//! Section 6.4.2: the critical force. The claims on its curves, Figs 6.27-6.30, have a file of
+//! Section 6.4.2: the critical force. The claims on its curves, Figs 6.27-6.30, are in a file of
 //! their own.
 
 mod curves;
@@ -62,21 +62,21 @@ const JUDGES: &Judges<fn(&Table) -> Judged> = &[
     ("6.4.2-20", published_exceed),
 ];
 
-/// The steps of Table 6.2 to the next larger size of a family.
+/// The number of steps in Table 6.2 to the next larger size of a family.
 const STEPS: usize = 12;
 
-/// Whether something may be so, but need not.
+/// Whether a statement holds for some but not for all.
 fn some_but_not_all(holds: &[bool]) -> bool {
     holds.contains(&true) && holds.contains(&false)
 }
 
-/// Whether there are exceptions to a rule: there are none to one that fails itself.
+/// Whether a rule has exceptions: a rule that does not hold has none.
 fn to_the_rule(rule: Verdict, exceptions: &[usize]) -> Verdict {
     let some = Verdict::robust(exceptions.iter().map(|count| *count > 0));
     Verdict::all([rule, some])
 }
 
-/// Whether the first amplitude that exceeds does so by rotation, as it is proved of each entry.
+/// Whether the first amplitude that exceeds does so by rotation, from the proof of each entry.
 fn by_rotation(firsts: impl Iterator<Item = Option<Stop>>) -> Verdict {
     let rotates = |stop: Option<Stop>| Verdict::of(stop == Some(Stop::RotationLimit));
     Verdict::families(firsts.map(rotates))
@@ -127,7 +127,7 @@ fn values(table: &Table) -> Judged {
     )
 }
 
-/// Whether the published amplitudes exceed the limits, as it is proved.
+/// Whether the published amplitudes are proved to exceed the limits.
 fn published_exceed(table: &Table) -> Judged {
     let ends = table
         .entries
@@ -172,7 +172,7 @@ fn growth(table: &Table) -> Judged {
         .found("of_the_published", grows(&table.published)))
 }
 
-/// Judges a tendency by how often it is met in the published table, from which it was read.
+/// Judges a tendency by whether it occurs as often as in the published table.
 fn as_often_as_published<'a>(table: &Table<'a>, count: fn(&Table<'a>, &Column) -> usize) -> Judged {
     let counts = table.columns.iter().map(|of| count(table, of) as f64);
     let published = count(table, &table.published);
@@ -195,7 +195,7 @@ fn of_standard_case(table: &Table, r: f64, published: f64) -> Judged {
         .values("slides_on alone", [slides_on, alone].map(shown)))
 }
 
-/// The area in which the standard body may be without rotation, down from the anchors' level.
+/// The area, down from the anchors' level, in which the standard body can be without rotation.
 fn area(r: f64) -> f64 {
     let (a, steps) = (Parameters::STANDARD.a, 20_000);
     let h = anchor_height(r, a);
@@ -216,11 +216,12 @@ fn over_cable_length() -> Judged {
         .value("forces", words.join("; by other starts ")))
 }
 
-/// The critical forces by connection points, of the circle and of the square as wide, and by moment
-/// of inertia, of a circle and of a square.
+/// The critical forces by connection points, those of the circle and of the square of the same
+/// width, and by moment of inertia, of a circle and of a square.
 type Crossed = [[f64; 2]; 2];
 
-/// Those of bodies of a half-width, from each start; those of the table's own first as proved.
+/// The critical forces of bodies of a half-width, from each start; the table's own are the proved
+/// ones and come first.
 fn crossed(table: &Table, r: f64, a: f64) -> Result<Vec<Crossed>, ReportError> {
     let with = |b: f64, inertia: Option<f64>| {
         let values = (r, a, b, inertia);
@@ -239,7 +240,7 @@ fn crossed(table: &Table, r: f64, a: f64) -> Result<Vec<Crossed>, ReportError> {
     Ok((0..=FEW).map(of_start).collect())
 }
 
-/// Of the pairs that differ in one thing only: in how many the circle's connection points have the
+/// Among the pairs that differ in one property: in how many the circle's connection points have the
 /// lower force, and in how many its inertia has.
 fn lower_by(found: &[Crossed]) -> [usize; 2] {
     let count = |lower: fn(&Crossed, usize) -> bool| {
@@ -252,10 +253,10 @@ fn lower_by(found: &[Crossed]) -> [usize; 2] {
     ]
 }
 
-/// Of how many of some pairs one would say that it is as a rule so.
+/// The least part of pairs that counts as a rule.
 const AS_A_RULE: f64 = 0.75;
 
-/// Whether connection points make the difference, as a rule and more often than inertia does.
+/// Whether connection points determine the difference, as a rule and more often than inertia does.
 fn points_decide([points, inertia]: [usize; 2], pairs: usize) -> bool {
     points as f64 >= AS_A_RULE * pairs as f64 && points > inertia
 }

@@ -1,5 +1,5 @@
 //! Section 6.4.3: the norms over the force amplitude. The claims on the swings of the rotation, and
-//! the comparison with the point mass, have files of their own.
+//! the comparison with the point mass, are in files of their own.
 
 mod energy;
 mod point_mass;
@@ -148,7 +148,7 @@ const JUDGES: &Judges<fn(&Sweeps) -> Judged> = &[
     }),
     ("6.4.3-16", |sweeps| {
         let differ = |run: &Swept| (run.norms.rho3 - run.norms.rho2).abs() / run.norms.rho3;
-        /// A difference that a plot does not show, in parts of ρ3.
+        /// A difference that is not visible in a plot, as a part of ρ3.
         const ALIKE: f64 = 0.05;
         let alike = |sweep: &[Swept]| share(sweep, |run| differ(run) < ALIKE) >= USUAL;
         let most = |sweep: &[Swept]| 100.0 * max(sweep.iter().map(differ));
@@ -157,22 +157,22 @@ const JUDGES: &Judges<fn(&Sweeps) -> Judged> = &[
     }),
 ];
 
-/// A rank correlation that one sees as growth.
+/// The least rank correlation that counts as growth.
 const GROWTH: f64 = 0.9;
 
-/// What is asked of one run.
+/// The quantities of one run.
 #[derive(Clone)]
 struct Swept {
     f_o: f64,
     norms: Norms,
     reason: Stop,
     t: f64,
-    /// Which impact is the largest snap, from 1.
+    /// The number of the impact that is the largest snap, from 1.
     strongest: usize,
     largest_swing: f64,
-    /// How often the rotation turns back, per unit of time.
+    /// Turning points of the rotation per unit of time.
     turns: f64,
-    /// The sizes of those swings of θ that are large.
+    /// The sizes of the large swings of θ.
     large_swings: Vec<f64>,
     /// Energy lost in its impacts.
     lost: f64,
@@ -183,7 +183,7 @@ impl Swept {
         let swings = swings(run);
         let large = swings.iter().filter(|swing| swing.is_large());
         Self {
-            // The force of the start.
+            // The force at the start.
             f_o: run.system().forcing.at(0.0).x,
             norms: *run.norms(),
             reason: run.end().reason,
@@ -206,7 +206,8 @@ fn strongest(impacts: &[Impact]) -> usize {
 /// Runs over f_o = 0.01 .. f_cr.
 type Sweep = Vec<Swept>;
 
-/// The sweeps from all starts, the case itself in many digits first, with the shorter and with the longer cables.
+/// The sweeps from all starts, the case itself in many digits first, with the shorter and with the
+/// longer cables.
 struct Sweeps<'a> {
     study: &'a Study,
     short: Vec<Sweep>,
@@ -217,7 +218,7 @@ struct Sweeps<'a> {
 }
 
 impl Sweeps<'_> {
-    /// With cables of this length.
+    /// The sweeps with cables of this length.
     fn of(study: &Study, r: f64) -> Result<Vec<Sweep>, CaseError> {
         let curves = study.norms.iter().filter(|norms| norms.r == r);
         let forces = curves.flat_map(|norms| norms.points.chapter.iter().map(|p| p.0));
@@ -225,7 +226,7 @@ impl Sweeps<'_> {
         of_exact_runs(&cases.collect::<Vec<_>>(), MANY, Swept::new)
     }
 
-    /// A statement of the runs at either length, from all starts.
+    /// The finding on a statement about the runs at either length, from all starts.
     fn judge(&self, holds: impl Fn(&[Swept]) -> bool) -> Finding {
         let all = self.short.iter().chain(&self.long);
         Finding::new(Verdict::robust(all.map(|sweep| holds(sweep))))
@@ -243,17 +244,17 @@ impl Finding {
     }
 }
 
-/// All but the last, which exceeds.
+/// All runs but the last, which exceeds.
 fn below_critical(sweep: &[Swept]) -> &[Swept] {
     &sweep[..sweep.len().saturating_sub(1)]
 }
 
-/// A figure of each run.
+/// A quantity of each run.
 fn figure(sweep: &[Swept], figure: impl Fn(&Swept) -> f64) -> Vec<f64> {
     sweep.iter().map(figure).collect()
 }
 
-/// A figure over the force amplitude.
+/// A quantity over the force amplitude.
 fn over_force(sweep: &[Swept], figure: impl Fn(&Swept) -> f64) -> Vec<(f64, f64)> {
     sweep.iter().map(|run| (run.f_o, figure(run))).collect()
 }
@@ -261,37 +262,37 @@ fn over_force(sweep: &[Swept], figure: impl Fn(&Swept) -> f64) -> Vec<(f64, f64)
 /// ρ2 and ρ3.
 const SUMS: [fn(&Swept) -> f64; 2] = [|run| run.norms.rho2, |run| run.norms.rho3];
 
-/// A deviation that one calls constant, in parts of the mean.
+/// The largest deviation that counts as constant, as a part of the mean.
 const CONSTANT: f64 = 0.05;
 
-/// Whether values of such a mean and deviation are constant.
+/// Whether values with this mean and deviation count as constant.
 fn is_constant((mean, deviation): (f64, f64)) -> bool {
     deviation <= CONSTANT * mean
 }
 
-/// Mean and deviation of a figure at the lower and at the higher amplitudes below f_cr.
+/// Mean and deviation of a quantity at the lower and at the higher amplitudes below f_cr.
 fn halves(sweep: &[Swept], of: impl Fn(&Swept) -> f64) -> [(f64, f64); 2] {
     let values = figure(below_critical(sweep), of);
     let (low, high) = values.split_at(values.len() / 2);
     [mean_and_deviation(low), mean_and_deviation(high)]
 }
 
-/// A share that one would call usual: four of five.
+/// The least share that counts as usual: four of five.
 const USUAL: f64 = 0.8;
 
 fn share(sweep: &[Swept], holds: impl Fn(&Swept) -> bool) -> f64 {
     count(sweep, holds) as f64 / sweep.len().max(1) as f64
 }
 
-/// Range over mean of ρ1 that one calls constant.
+/// The largest ratio of range to mean of ρ1 that counts as constant.
 const STEADY: f64 = 0.1;
 
-/// Range over mean.
+/// The ratio of range to mean.
 fn spread(values: impl Iterator<Item = f64> + Clone) -> f64 {
     (max(values.clone()) - min(values.clone())) / mean(values)
 }
 
-/// Force amplitudes up to this are weak.
+/// The largest force amplitude that counts as weak.
 const WEAK: f64 = 0.055;
 
 /// Whether the body rises above its start.
@@ -299,7 +300,8 @@ fn rises(run: &Swept) -> bool {
     run.norms.y_max > Parameters::STANDARD.y + 1e-9
 }
 
-/// Of a statement on how many amplitudes below the critical one lift the body above its start.
+/// The finding on a statement about the number of amplitudes below the critical one that lift the
+/// body above its start.
 fn height(starts: &[Sweep], holds: impl Fn(usize) -> bool) -> Finding {
     let rising = |sweep: &Sweep| count(below_critical(sweep), rises);
     let first = starts[0].iter().find(|run| rises(run));
@@ -310,8 +312,8 @@ fn height(starts: &[Sweep], holds: impl Fn(usize) -> bool) -> Finding {
         .value("first", first.unwrap_or_default())
 }
 
-/// The impacts that are about the first, and the fewest of the five figures in which the largest snap
-/// is one of these.
+/// The number of impacts that count as the first ones, and the least number of the five figures in
+/// which the largest snap is one of them.
 const FIRST: usize = 3;
 const FIGURES: usize = 4;
 
@@ -339,22 +341,22 @@ fn first_is_largest(sweeps: &Sweeps) -> Judged {
         ))
 }
 
-/// The place of the greatest value (1) or of the least (-1) among `from..to`.
+/// The index of the greatest value (1) or of the least (-1) among `from..to`.
 fn place(values: &[f64], from: usize, to: usize, sign: f64) -> Option<usize> {
     (from..to).max_by(|p, q| (sign * values[*p]).total_cmp(&(sign * values[*q])))
 }
 
-/// A change that one sees in a plot, in parts of the smaller value.
+/// The least change that is visible in a plot, as a part of the smaller value.
 const CHANGE: f64 = 0.05;
 
-/// Whether values fall from the first on, rise and fall again, each time by what one sees.
+/// Whether values fall at first, rise and fall again, each time by a visible amount.
 fn falls_rises_falls(values: &[f64]) -> bool {
     let last = values.len().saturating_sub(1);
     let check = || {
         let low = place(values, 1, last, -1.0)?;
         let high = place(values, low + 1, last, 1.0)?;
         let more = |p: usize, q: usize| values[p] > (1.0 + CHANGE) * values[q];
-        // Nothing on the way down is above the start.
+        // While falling, no value is above the first.
         let falls = values[..low]
             .iter()
             .all(|v| *v <= (1.0 + CHANGE) * values[0]);

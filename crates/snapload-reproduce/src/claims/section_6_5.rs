@@ -1,5 +1,5 @@
-//! Section 6.5: the three kinds of motion, and rocking. What is said of slides in many runs stands
-//! in sections 6.5.1, of rocking in 6.5.2.2; its two examples have files of their own.
+//! Section 6.5: the three kinds of motion, and rocking. The claims on slides in many runs are in
+//! section 6.5.1, those on rocking in 6.5.2.2; the two examples have files of their own.
 
 mod example;
 mod slides;
@@ -39,7 +39,7 @@ pub(super) fn claims(study: &Study) -> Result<Vec<Claim>, ReportError> {
     )
 }
 
-/// The amplitudes under which all shapes are looked at, and until when.
+/// The amplitudes under which all shapes are run, and the end of these runs.
 fn forces() -> Vec<f64> {
     (1..=14).map(|k| f64::from(k) / 20.0).collect()
 }
@@ -50,7 +50,7 @@ struct Material<'a> {
     study: &'a Study,
     /// All shapes under these amplitudes, `[start][case]`.
     sweeps: Vec<Vec<Trajectory>>,
-    /// What slides come to in them, by start.
+    /// The counts of slides in them, by start.
     slides: Vec<Slides>,
     /// The standard case at f_o = 0.4 and its neighbours.
     forced: Vec<Trajectory>,
@@ -142,21 +142,21 @@ fn kind(mode: &ModeInterval) -> &'static str {
     mode.taut.mode().name()
 }
 
-/// How often some kinds of motion follow each other.
+/// How often a sequence of kinds of motion occurs.
 fn count(run: &Trajectory, kinds: &[&str]) -> usize {
     let same = |modes: &&[ModeInterval]| modes.iter().map(kind).eq(kinds.iter().copied());
     run.modes().windows(kinds.len()).filter(same).count()
 }
 
 impl Material<'_> {
-    /// How often some kinds of motion follow each other over all shapes and amplitudes, by start.
+    /// How often a sequence of kinds of motion occurs over all shapes and amplitudes, by start.
     fn count(&self, kinds: &[&str]) -> Vec<f64> {
         let of_runs = |runs: &Vec<Trajectory>| runs.iter().map(|run| count(run, kinds)).sum();
         let counts = self.sweeps.iter().map(of_runs);
         counts.map(|count: usize| count as f64).collect()
     }
 
-    /// What was found, with the runs in which.
+    /// Adds the numbers of starts and runs to the finding.
     fn told(&self, finding: Finding) -> Finding {
         let (starts, runs) = (self.sweeps.len(), self.sweeps.first().map_or(0, Vec::len));
         let forces = span(forces(), 2);
@@ -187,29 +187,29 @@ fn slack_is_taut(of: &Material) -> Judged {
         .found("slack", nearest < 0.0))
 }
 
-/// A slide shorter than this moves nothing that one could see.
+/// A shorter slide moves the body by nothing visible.
 const SHORTEST: f64 = 1e-3;
 
-/// A part that is few: nearly all are otherwise.
+/// The largest part that counts as few.
 const FEW_OTHERS: f64 = 0.2;
 
-/// How a rocking begins.
+/// The beginning of a rocking motion.
 #[derive(Clone, Copy, Debug)]
 struct Begin {
     /// How long the body slid just before; 0 if it did not.
     slid: f64,
-    /// Where its centre is.
+    /// The height of its centre.
     y: f64,
 }
 
-/// How the rockings of many runs begin, counted.
+/// The counts of the ways in which the rocking of many runs begins.
 #[derive(Clone, Copy, Debug, Default)]
 struct Begins {
     all: usize,
-    /// After a slide, and after one that moves nothing.
+    /// After a slide, and after a slide too short to be visible.
     long: usize,
     short: usize,
-    /// Low, and out of bouncing.
+    /// At a small height, and after bouncing.
     settling: usize,
 }
 
@@ -232,7 +232,7 @@ impl Begins {
         self.all - self.long - self.settling
     }
 
-    /// Whether both ways are met, and few begin otherwise.
+    /// Whether both ways occur, and few rockings begin otherwise.
     fn in_two_ways(&self) -> bool {
         let few = self.neither() as f64 <= FEW_OTHERS * self.all as f64;
         self.long > 0 && self.settling > 0 && few
@@ -240,7 +240,7 @@ impl Begins {
 }
 
 impl Material<'_> {
-    /// How the rocking of all shapes and amplitudes begins, each time, by start.
+    /// The ways in which each rocking of all shapes and amplitudes begins, by start.
     fn rocking_begins(&self) -> Vec<Begins> {
         let of_run = |run: &Trajectory| {
             let mut playback = Playback::new(run);
@@ -264,7 +264,7 @@ impl Material<'_> {
     }
 }
 
-/// How often a run rocks and then slides, and how often it climbs in that slide.
+/// How often a run rocks and then slides, and how often it rises in that slide.
 fn climbs(run: &Trajectory) -> [usize; 2] {
     let mut playback = Playback::new(run);
     let mut y = |t: f64| playback.at(t).state.y;
@@ -281,7 +281,7 @@ fn climbs(run: &Trajectory) -> [usize; 2] {
     })
 }
 
-/// The standard case that goes on after it has settled, under each amplitude up to a half, with the
+/// The standard case, continued after it has settled, under each amplitude up to a half, with the
 /// forcing on an ellipse or along a line.
 fn up_to_a_half(nu: f64) -> Vec<Parameters> {
     let forces = (1..=50).map(|k| f64::from(k) / 100.0);
@@ -303,7 +303,7 @@ fn lasting() -> Judged {
         .list("high", of(1)))
 }
 
-/// Whether a body comes out of rocking under more amplitudes if the force turns on an ellipse.
+/// Whether a body leaves rocking under more amplitudes if the force is on an ellipse.
 fn ellipse_frees() -> Judged {
     let freed = |nu: f64| {
         let found = from_starts(&up_to_a_half(nu), FEW, |case| {

@@ -1,6 +1,6 @@
 //! 6.5.1.1: the equations of sliding, as printed, against Newton's law with a multiplier. The
-//! equations of the right cable (6.45-6.56) are told from those of the left one (6.5-6.27) by the
-//! side. What is said of the tension has a file of its own.
+//! equations of the right cable (6.45-6.56) differ from those of the left one (6.5-6.27) in the
+//! argument `side`. The claims on the tension are in a file of their own.
 
 mod tension;
 
@@ -95,7 +95,7 @@ const JUDGES: &Judges<fn(&Material) -> Judged> = &[
     }),
 ];
 
-/// A body on one taut cable, by the symbols of the chapter.
+/// A body on one taut cable, in the symbols of the chapter.
 struct Sliding {
     side: usize,
     m: Sizes,
@@ -134,7 +134,8 @@ impl Sliding {
         };
         let held = moment.held(TautSet::only(side));
         let [ax, ay, atheta] = held.acceleration;
-        // θ̈ tells β̈; what ẍ and ÿ then still lack is α̈ along the cable's turning.
+        // θ̈ gives β̈; the remaining part of ẍ and ÿ is α̈ times the derivative of the position by
+        // α.
         let bdd = if side == LEFT { atheta } else { -atheta };
         let [x, y, _] = moving([alpha, ad, 0.0], [beta, bd, bdd]).map(|z| z[2]);
         let [dx, dy, _] = moving([alpha, 1.0, 0.0], [beta, 0.0, 0.0]).map(|z| z[1]);
@@ -157,7 +158,7 @@ impl Sliding {
         [self.alpha, self.beta, self.beta - self.alpha].map(sin_cos)
     }
 
-    /// 6.6, 6.8, 6.10; 6.46, 6.48, 6.50: the rates, less the true ones.
+    /// 6.6, 6.8, 6.10; 6.46, 6.48, 6.50: the rates minus the true ones.
     fn rates(&self, side: usize) -> [f64; 3] {
         let (Sizes { a, b, r, .. }, &Self { ad, bd, .. }) = (self.m, self);
         let [(sa, ca), (sb, cb), _] = self.turns();
@@ -167,7 +168,7 @@ impl Sliding {
         differences([sign * across, y, sign * bd], self.moment.velocity)
     }
 
-    /// 6.11-6.14; 6.51-6.54: α, β and their rates by x, y and θ, less the true ones.
+    /// 6.11-6.14; 6.51-6.54: α, β and their rates by x, y and θ, minus the true ones.
     fn round_trip(&self) -> [f64; 4] {
         let (Sizes { a, b, r, .. }, h) = (self.m, self.m.h());
         let ([x, y, theta], [vx, _, vtheta]) = (self.moment.place, self.moment.velocity);
@@ -189,7 +190,7 @@ impl Sliding {
         differences(printed, [self.alpha, self.beta, self.ad, self.bd])
     }
 
-    /// 6.18, the kinetic energy in α and β, less 6.17, that in x, y and θ.
+    /// 6.18, the kinetic energy in α and β, minus 6.17, that in x, y and θ.
     fn kinetic(&self) -> f64 {
         let (Sizes { a, b, r, i }, &Self { ad, bd, .. }) = (self.m, self);
         let ([.., (s, c)], [vx, vy, vtheta]) = (self.turns(), self.moment.velocity);
@@ -199,7 +200,7 @@ impl Sliding {
             - 0.5 * (vx * vx + vy * vy + i * vtheta * vtheta)
     }
 
-    /// 6.20, the potential energy in α and β, less the height y.
+    /// 6.20, the potential energy in α and β, minus the height y.
     fn potential(&self) -> f64 {
         let [(_, ca), (sb, cb), _] = self.turns();
         self.m.h() - self.m.r * ca - self.m.a * cb - self.m.b * sb - self.moment.place[1]
@@ -216,7 +217,7 @@ impl Sliding {
         ]
     }
 
-    /// The same less the virtual work of the force along the derivatives of 6.5 and 6.7 (6.45,
+    /// The same minus the virtual work of the force along the derivatives of 6.5 and 6.7 (6.45,
     /// 6.47).
     fn virtual_work(&self) -> [f64; 2] {
         let [fx, fy] = self.moment.force;
@@ -241,20 +242,20 @@ impl Sliding {
         (matrix, right_sides)
     }
 
-    /// What 6.28 and 6.29 leave over, as printed.
+    /// The residuals of 6.28 and 6.29 as printed.
     fn motion(&self) -> [f64; 2] {
         let ([a11, a12, a22], [b1, b2]) = self.equations(self.m.b, self.forces());
         let &Self { add, bdd, .. } = self;
         [a11 * add + a12 * bdd - b1, a12 * add + a22 * bdd - b2]
     }
 
-    /// What 6.29 leaves over once 6.35 has the term it lacks: the part of the weight's moment that
-    /// a box has for its height.
+    /// The residual of 6.29 with the term that is missing in 6.35: the part of the weight's moment
+    /// that is due to the height of a box.
     fn mended(&self) -> f64 {
         self.motion()[1] - self.m.b * sin_cos(self.beta).1
     }
 
-    /// α̈ and β̈ by Cramer's rule, with the term that 6.35 lacks, less the true ones.
+    /// α̈ and β̈ by Cramer's rule, with the term that is missing in 6.35, minus the true ones.
     fn solved(&self) -> [f64; 2] {
         let (matrix, [b1, b2]) = self.equations(self.m.b, self.forces());
         let mended = b2 + self.m.b * sin_cos(self.beta).1;
@@ -280,14 +281,14 @@ impl Sliding {
         self.m.a * s - self.m.b * c
     }
 
-    /// Whether 6.44 says that tension is lost.
+    /// Whether tension is lost according to 6.44.
     fn said_lost(&self) -> bool {
         self.bdd * self.bracket() > 0.0
     }
 
-    /// What the virtual work of all forces comes to on a double pendulum that moves by 6.28 and
-    /// 6.29 without height and forcing: a massless leg r at the angle α, a leg a at β, at its end a
-    /// mass 1 with a moment of inertia (d'Alembert's principle).
+    /// The virtual work of all forces on a double pendulum that moves by 6.28 and 6.29 without
+    /// height and forcing: a massless leg r at the angle α, a leg a at β, at its end a mass 1 with
+    /// a moment of inertia (d'Alembert's principle).
     fn pendulum(&self) -> [f64; 2] {
         let (matrix, right_sides) = self.equations(0.0, [0.0; 2]);
         let [add, bdd] = cramer(matrix, right_sides);
@@ -314,7 +315,7 @@ fn cramer([a11, a12, a22]: [f64; 3], [b1, b2]: [f64; 2]) -> [f64; 2] {
     [a22 * b1 - a12 * b2, a11 * b2 - a12 * b1].map(|numerator| numerator / determinant)
 }
 
-/// The least determinant of 6.28 and 6.29, in parts of the product of its diagonal.
+/// The least determinant of 6.28 and 6.29, relative to the product of its diagonal.
 fn least_determinant(states: &[Sliding]) -> f64 {
     min(states.iter().map(|q| {
         let ([a11, a12, a22], _) = q.equations(q.m.b, [0.0; 2]);
@@ -322,8 +323,8 @@ fn least_determinant(states: &[Sliding]) -> f64 {
     }))
 }
 
-/// The angle below a quarter turn with this sine: Newton's method, which from the sine itself only
-/// ever comes nearer.
+/// The angle below 90° with this sine: Newton's method, which converges monotonically if it starts
+/// from the sine itself.
 fn arcsin(sine: f64) -> f64 {
     (0..40).fold(sine, |angle, _| {
         let (s, c) = sin_cos(angle);
@@ -331,9 +332,9 @@ fn arcsin(sine: f64) -> f64 {
     })
 }
 
-/// So many random bodies.
+/// The number of random bodies.
 const BODIES: usize = 300;
-/// Deviation of the forces: as large as the weight, so that cables lose their tension, too.
+/// Deviation of the forces: as large as the weight, so that some cables lose their tension.
 const FORCE: f64 = 1.0;
 /// The seed of the random states.
 const SEED: u64 = 6_511;
@@ -354,7 +355,7 @@ fn random_states(side: usize) -> Vec<Sliding> {
     (0..BODIES).map(|_| state()).collect()
 }
 
-/// Where the sliding example first hits its other cable's boundary while it slides.
+/// The state at which the sliding example first reaches its other cable's boundary while it slides.
 fn first_hit(run: &Trajectory) -> Option<State> {
     let mut hits = run.impacts().iter().filter(|hit| hit.v_n > 0.0);
     let hit = hits.find(|hit| {
@@ -399,7 +400,7 @@ mod tests {
         let work = |q: &Sliding| q.virtual_work().to_vec();
         assert_eq!(verdict(&left, &rates)?, Verdict::Reproduced);
         assert_eq!(verdict(&left, &work)?, Verdict::Reproduced);
-        // 6.6 by the signs of 6.46, and forces a little too large.
+        // 6.6 with the signs of 6.46, and forces that are slightly too large.
         let other = |q: &Sliding| q.rates(RIGHT).to_vec();
         let larger = |q: &Sliding| [work(q), q.forces().map(|f| 1e-6 * f).to_vec()].concat();
         assert_eq!(verdict(&left, &other)?, Verdict::NotReproduced);

@@ -25,13 +25,13 @@ pub(super) fn claims(study: &Study) -> Result<Vec<Claim>, ReportError> {
     Ok(all)
 }
 
-/// The study, and what each shape of Table 6.2 does over all amplitudes.
+/// The study, and the results for each shape of Table 6.2 over all amplitudes.
 type Material<'a> = (&'a Study, Vec<Shape>);
 
 const JUDGES: &Judges<fn(&Material) -> Judged> = &[
     ("6.5.1.2-01", table_6_1),
     ("6.5.1.2-02", |(_, shapes)| {
-        // Whether it holds somewhere in each class.
+        // Whether a statement holds somewhere in each class.
         let everywhere = |holds: fn(&Shape) -> bool| {
             let of_class = |of: &Shape| shapes.iter().any(|s| s.class == of.class && holds(s));
             shapes.iter().all(of_class)
@@ -49,7 +49,8 @@ const JUDGES: &Judges<fn(&Material) -> Judged> = &[
             .values("shapes robust", [shapes.len(), robust]))
     }),
     ("6.5.1.2-03", |(_, shapes)| {
-        /// Intervals that no simple rule gives, and so many shapes may have fewer.
+        /// The least number of intervals that no simple rule explains, and the number of shapes
+        /// that may have fewer.
         const SCATTERED: usize = 2;
         const BUT: usize = 2;
         let all = shapes.len();
@@ -104,13 +105,13 @@ fn table_6_1((study, _): &Material) -> Judged {
         .value("others", others.join(", ")))
 }
 
-/// What a shape of Table 6.2 does over all amplitudes.
+/// The results for a shape of Table 6.2 over all amplitudes.
 struct Shape {
     /// Its outline, and whether its cables are the longer ones.
     class: (&'static str, bool),
-    /// How many amplitudes slide, and in how many intervals, from each start.
+    /// The number of amplitudes with slides, and of their intervals, from each start.
     counts: Vec<[usize; 2]>,
-    /// Whether all starts slide at one amplitude.
+    /// Whether all starts slide at one of the amplitudes.
     robust: bool,
 }
 
@@ -134,7 +135,7 @@ impl Shape {
     }
 }
 
-/// How many amplitudes slide, and in how many intervals.
+/// The number of amplitudes with slides, and of their intervals.
 fn sliding(slides: &[bool]) -> [usize; 2] {
     let intervals = slides.chunk_by(|p, q| p == q).filter(|part| part[0]);
     [
@@ -144,10 +145,10 @@ fn sliding(slides: &[bool]) -> [usize; 2] {
 }
 
 fn dying_snaps() -> Judged {
-    /// A difference of times that no plot shows.
+    /// A difference of times that is not visible in a plot.
     const SAME: f64 = 1e-3;
-    /// Velocities at which a cable is taken to stick. If the snaps die out there, it does not
-    /// matter which.
+    /// Two velocities below which a cable is taken to stick. If the snaps die out, the result does
+    /// not depend on which is used.
     const STICKS: [f64; 2] = [1e-6, 1e-8];
     let forces = [0.2, 0.27, 0.4, 0.44];
     let starts = in_parallel(forces.len(), |k| {
@@ -175,7 +176,7 @@ fn sticks(case: &Parameters) -> Result<Option<f64>, CaseError> {
     Ok(stuck.then_some(run.end().t))
 }
 
-/// Why a run stops that has slid, and with how many taut cables.
+/// Why a run that has slid stops, and the number of taut cables then.
 fn end_if_slid(parameters: &Parameters) -> Result<Option<(Stop, usize)>, CaseError> {
     let mut simulation = Case::new(*parameters)?.simulation();
     let mut slid = false;
@@ -188,12 +189,13 @@ fn end_if_slid(parameters: &Parameters) -> Result<Option<(Stop, usize)>, CaseErr
     Ok(end.filter(|_| slid))
 }
 
-/// Whether each of the ways to end is met.
+/// Whether each kind of end occurs.
 fn all_met(ways: [usize; 3]) -> bool {
     !ways.contains(&0)
 }
 
-/// How runs end that slide: settled, at the rotation limit, rocking; at the upper bound, and not yet.
+/// The ends of runs that slide: settled, at the rotation limit, rocking; at the upper bound, and
+/// not yet.
 type Ends = [usize; 5];
 
 fn counted(ends: &[Option<(Stop, usize)>]) -> Ends {

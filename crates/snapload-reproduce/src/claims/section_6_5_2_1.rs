@@ -22,7 +22,7 @@ pub(super) fn claims(study: &Study) -> Result<Vec<Claim>, ReportError> {
     ask(&[JUDGES], &material)
 }
 
-/// Circles that rock, at random angles; and as many anywhere, by which the gaps are compared.
+/// Circles that rock, at random angles; and as many in any position, for comparing the gaps.
 struct Material<'a> {
     study: &'a Study,
     rocking: Vec<Moment>,
@@ -42,7 +42,7 @@ const JUDGES: &Judges<fn(&Material) -> Judged> = &[
         identity(&of.rocking, |state| eq_6_59_gaps(&state.sizes, state.place))
     }),
     ("6.5.2.1-03", |of| {
-        /// Sine of the angle between the gradients of gaps that depend on each other.
+        /// Gaps are dependent if the sine of the angle between their gradients is below this.
         const DEPENDENT: f64 = 1e-9;
         let least = min(of.rocking.iter().map(|state| {
             let [p, q] = BOTH.map(|side| state.gradient(side));
@@ -71,8 +71,8 @@ const JUDGES: &Judges<fn(&Material) -> Judged> = &[
         let compression = over(&of.rocking, |state| {
             let lambda = state.held_by_both().lambda;
             let factors = eq_6_66_factors(&state.sizes, state.place);
-            // Of a force relative to its size, which has no bound where the cables are nearly in
-            // line.
+            // The residual relative to the size of the force, which is unbounded where the cables
+            // are nearly in line.
             BOTH.map(|side| {
                 let force = factors[side].map(|factor| factor * lambda[side]);
                 let size = 2.0 * lambda[side].abs() * state.sizes.r;
@@ -120,7 +120,7 @@ fn eq_6_63_second(m: &Sizes, theta: f64, rate: f64, force: [f64; 2]) -> f64 {
     (generalized - dy - bend) / (m.i + dx * dx + dy * dy)
 }
 
-/// What multiplies λ1 and λ2 in 6.66, 6.67, 6.68.
+/// The factors of λ1 and λ2 in 6.66, 6.67, 6.68.
 fn eq_6_66_factors(m: &Sizes, [x, y, theta]: [f64; 3]) -> [[f64; 3]; 2] {
     let (s, c) = sin_cos(theta);
     let (a, h) = (m.a, m.h());
@@ -138,7 +138,7 @@ fn eq_6_66_factors(m: &Sizes, [x, y, theta]: [f64; 3]) -> [[f64; 3]; 2] {
     ]
 }
 
-/// So many random states.
+/// The number of random states.
 const STATES: usize = 600;
 /// Their seed.
 const SEED: u64 = 6_521;
@@ -172,7 +172,7 @@ fn cross(p: [f64; 3], q: [f64; 3]) -> [f64; 3] {
     ]
 }
 
-/// The cables that the signs of λ1 and λ2 leave taut.
+/// The cables that stay taut by the signs of λ1 and λ2.
 fn by_signs(state: &Moment) -> TautSet {
     let lambda = state.held_by_both().lambda;
     BOTH.into_iter()
@@ -180,8 +180,8 @@ fn by_signs(state: &Moment) -> TautSet {
         .collect()
 }
 
-/// The cables that stay taut: no cable pushes, no gap opens past its cable, and each pulls or goes
-/// slack. Of the four choices the one that fails least.
+/// The cables that stay taut: no cable pushes, no gap becomes positive, and each cable pulls or
+/// goes slack. Of the four possible sets the one with the least violation.
 fn complementary(state: &Moment) -> TautSet {
     let w = |p, q| state.coupling(p, q);
     let opening = BOTH.map(|side| state.opening(side));
@@ -203,9 +203,9 @@ fn complementary(state: &Moment) -> TautSet {
     best.unwrap_or(TautSet::SLACK)
 }
 
-/// The same state under the wave force that takes the tension of one cable to just below zero.
+/// The same state under the wave force for which the tension of one cable is just below zero.
 fn at_loss(state: &Moment, side: usize) -> Option<Moment> {
-    /// λ of the cable that has just lost its tension.
+    /// λ of a cable that has just lost its tension.
     const JUST: f64 = 1e-6;
     let [_, fy] = state.force;
     let with = |fx| Moment {
@@ -216,12 +216,12 @@ fn at_loss(state: &Moment, side: usize) -> Option<Moment> {
     let start = of(&with(0.0))[side];
     let slope = of(&with(1.0))[side] - start;
     let lost = with((JUST - start) / slope);
-    // The other one must pull, and by more than rounding.
+    // The other one must pull by more than rounding.
     (slope.abs() > 1e-3 && of(&lost)[1 - side] < -1e-3).then_some(lost)
 }
 
-/// Of the losses of tension of a run that rocks: how many, and after how many the run goes on with
-/// the cable that still pulls.
+/// The losses of tension of a run that rocks: their number, and after how many the motion continues
+/// with the cable that still pulls.
 fn losses_of(run: &Trajectory) -> (usize, usize) {
     let mut playback = Playback::new(run);
     let pairs = run.modes().windows(2).filter(|pair| pair[0].taut.len() > 1);
@@ -236,9 +236,9 @@ fn losses_of(run: &Trajectory) -> (usize, usize) {
     (agree.len(), agree.iter().filter(|agree| **agree).count())
 }
 
-/// How long a run rocks, and the largest gap of a cable in that.
+/// How long a run rocks, and the largest gap of a cable during that.
 fn rocked(run: &Trajectory) -> [f64; 2] {
-    /// Times of a rocking at which it is looked at.
+    /// The number of times at which a rocking is evaluated.
     const TIMES: i32 = 200;
     let mut playback = Playback::new(run);
     let rocking = run.modes().iter().filter(|mode| mode.taut.len() > 1);
@@ -256,12 +256,12 @@ fn rocked(run: &Trajectory) -> [f64; 2] {
     [time, widest]
 }
 
-/// Whether a rocking was followed: it lasts, and no gap opens.
+/// Whether a rocking was computed: it lasts, and no gap opens.
 fn is_solved([time, widest]: [f64; 2]) -> bool {
     time > 0.0 && holds(widest)
 }
 
-/// Whether a body with a height rocks in a way that can not be solved.
+/// Whether the rocking of a body with a height can not be computed.
 fn rocking_square() -> Judged {
     let case = past_settling(standard(|p| {
         (p.a, p.b, p.f_o, p.t_end) = (0.2, 0.2, 0.1, 30.0);

@@ -1,12 +1,12 @@
-//! What is found of claims, and claims with their verdicts.
+//! The findings of judges, and claims with their verdicts.
 
 use super::words::{Value, tell};
 use crate::ReportError;
 pub use crate::verdict::Verdict;
 use std::collections::BTreeMap;
 
-/// What the judge of a claim found: the verdict, the values that the claim's words tell, and
-/// whether that is so on which a remark hangs.
+/// The finding of a claim's judge: the verdict, the values for the claim's text, and whether the
+/// conditions of its remarks hold.
 #[derive(Clone, Debug)]
 pub(super) struct Finding {
     pub(super) verdict: Verdict,
@@ -23,12 +23,13 @@ impl Finding {
         }
     }
 
-    /// Of a statement that either holds or does not.
+    /// The finding on a statement that either holds or does not.
     pub(super) fn of(holds: bool) -> Self {
         Self::new(Verdict::of(holds))
     }
 
-    /// Of a statement on a number that each member of an ensemble has. Gives those numbers, too.
+    /// The finding on a statement about a number of each member of an ensemble, with those numbers
+    /// as a value.
     pub(super) fn measured(
         name: &'static str,
         members: impl IntoIterator<Item = f64>,
@@ -38,18 +39,18 @@ impl Finding {
         Self::robust(&members, |member| holds(*member)).list(name, members)
     }
 
-    /// Of a statement that is asked of each member of an ensemble.
+    /// The finding on a statement about each member of an ensemble.
     pub(super) fn robust<T>(members: &[T], holds: impl Fn(&T) -> bool) -> Self {
         Self::new(Verdict::robust(members.iter().map(holds)))
     }
 
-    /// Gives a value for the place of this name.
+    /// Adds a value for the place of this name in the text.
     pub(super) fn value(mut self, name: &'static str, value: impl Into<Value>) -> Self {
         self.values.insert(name, value.into());
         self
     }
 
-    /// Gives values for several places, whose names are apart by blanks.
+    /// Adds values for several places, whose names are separated by blanks.
     pub(super) fn values<T: Into<Value>, const N: usize>(
         self,
         names: &'static str,
@@ -59,8 +60,8 @@ impl Finding {
         pairs.fold(self, |finding, (name, value)| finding.value(name, value))
     }
 
-    /// Gives numbers of which there is one list by start: each is told as it is where all starts
-    /// agree on the digits that its place asks for, and else from the least to the greatest.
+    /// Adds numbers, as one list for each start: each number is shown as it is if all starts agree
+    /// to the digits that its place shows, and otherwise as a range from the least to the greatest.
     pub(super) fn by_start<I>(self, name: &'static str, starts: impl IntoIterator<Item = I>) -> Self
     where
         I: IntoIterator<Item = f64>,
@@ -69,28 +70,28 @@ impl Finding {
         self.value(name, Value::ByStart(starts.collect()))
     }
 
-    /// Gives several numbers for one place.
+    /// Adds several numbers for one place.
     pub(super) fn list(self, name: &'static str, list: impl IntoIterator<Item = f64>) -> Self {
         self.value(name, Value::Numbers(list.into_iter().collect()))
     }
 
-    /// Decides whether that is so on which the remark of this name hangs.
+    /// Says whether the condition of the remark of this name holds.
     pub(super) fn found(mut self, name: &'static str, holds: bool) -> Self {
         self.conditions.insert(name, holds);
         self
     }
 }
 
-/// What a judge answers.
+/// The answer of a judge.
 pub(super) type Judged = Result<Finding, ReportError>;
 
 /// Judges of the kind `F`, each with the id of its claim.
 pub(super) type Judges<F> = [(&'static str, F)];
 
-/// A judge that rests on the material `M`.
+/// A judge whose evidence is the material `M`.
 type Judge<M> = fn(&M) -> Judged;
 
-/// Asks the judges of a section, which may stand in several tables.
+/// Asks the judges of a section, which may be in several tables.
 pub(super) fn ask<M: ?Sized>(
     tables: &[&Judges<Judge<M>>],
     material: &M,
@@ -101,21 +102,21 @@ pub(super) fn ask<M: ?Sized>(
         .collect()
 }
 
-/// A claim of the chapter and what became of it.
+/// A claim of the chapter with its verdict.
 #[derive(Clone, Debug)]
 pub struct Claim {
-    /// A name that stays, such as `6.4.1-03`.
+    /// A permanent name, such as `6.4.1-03`.
     pub id: &'static str,
     /// The chapter's section.
     pub section: &'static str,
     /// The claim in our words.
     pub claim: &'static str,
-    /// What the computation says.
+    /// The verdict of the computation.
     pub verdict: Verdict,
-    /// The figures on which the verdict rests.
+    /// The numbers on which the verdict is based.
     pub evidence: String,
-    /// By which measure, threshold and range, where that is a choice.
+    /// The measure, threshold and range of the judgement, where these are a choice.
     pub judged: String,
-    /// Why we disagree, as far as it can be known; empty where we agree.
+    /// Why we disagree, if that is known; empty where we agree.
     pub remark: String,
 }

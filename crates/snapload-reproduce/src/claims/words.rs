@@ -1,4 +1,4 @@
-//! The words of the claims, which stand in `claims/*.toml`. Each claim has a table there:
+//! The texts of the claims, which are in `claims/*.toml`. Each claim has a table there:
 //!
 //! ```toml
 //! ["6.4.1-27"]
@@ -7,12 +7,13 @@
 //! not_reproduced.ends = "It holds of the ends of the range; steps the other way: {back} of 4."
 //! ```
 //!
-//! A key `judged` says, where that is a choice, by which measure, threshold and range it is judged.
+//! A key `judged` gives the measure, threshold and range of the judgement, where these are a
+//! choice.
 //!
-//! `{rotations:.3}` shows what the judge of the claim gives under that name, with three decimals.
-//! The last line is a remark: it stands beside the verdict "not reproduced", and only where the
-//! judge found that `ends` is so. Hence no remark outlives the figures from which it was written.
-//! One that is called `always` hangs on the verdict alone.
+//! `{rotations:.3}` shows the value that the judge of the claim gives under that name, with three
+//! decimals. The last line is a remark: it is shown with the verdict "not reproduced", and only if
+//! the judge found that the condition `ends` holds. So no remark remains if the numbers change from
+//! which it was written. A remark called `always` depends on the verdict alone.
 
 use super::numbers::{between, residual};
 use super::verdict::{Claim, Finding, Verdict};
@@ -21,7 +22,7 @@ use serde::Deserialize;
 use std::collections::BTreeMap;
 use std::sync::LazyLock;
 
-/// The words of all claims, section by section.
+/// The texts of all claims, section by section.
 const FILES: [&str; 8] = [
     include_str!("../../claims/6.3.toml"),
     include_str!("../../claims/6.4.1.toml"),
@@ -33,20 +34,20 @@ const FILES: [&str; 8] = [
     include_str!("../../claims/6.5.2.1.toml"),
 ];
 
-/// The name of a remark that hangs on the verdict alone.
+/// The name of a remark that depends on the verdict alone.
 const ALWAYS: &str = "always";
 
-/// The words of one claim.
+/// The texts of one claim.
 #[derive(Debug, Deserialize)]
 struct Entry {
     /// The claim in our words.
     claim: String,
-    /// What was found, with a place for each value.
+    /// The evidence, with a place for each value.
     evidence: String,
-    /// By which measure, threshold and range it is judged, where that is a choice.
+    /// The measure, threshold and range of the judgement, where these are a choice.
     #[serde(default)]
     judged: String,
-    /// Remarks beside a verdict, by the name of what they take for granted.
+    /// Remarks for each verdict, by the name of their condition.
     #[serde(flatten)]
     remarks: BTreeMap<Verdict, BTreeMap<String, String>>,
 }
@@ -56,20 +57,20 @@ type Entries = BTreeMap<String, Entry>;
 static ENTRIES: LazyLock<Result<Entries, toml::de::Error>> =
     LazyLock::new(|| toml::from_str(&FILES.join("\n")));
 
-/// A value as a judge gives it.
+/// A value that a judge gives.
 #[derive(Clone, Debug)]
 pub(super) enum Value {
     Text(String),
     Numbers(Vec<f64>),
-    /// A list by start.
+    /// One list for each start.
     ByStart(Vec<Vec<f64>>),
 }
 
 impl Value {
-    /// The value as the format of its place asks for it: `.2` and `.2e` numbers with so many
-    /// decimals, as a list where there are several; `span.2` the least and the greatest of them, or
-    /// one number where the two read the same; `residual` the size of a rounding error. Nothing if
-    /// there is no such format.
+    /// The value in the format of its place: `.2` and `.2e` numbers with this many decimals, as a
+    /// list if there are several; `span.2` the least and the greatest of them, or one number if
+    /// both read the same; `residual` the size of a rounding error. None if there is no such
+    /// format.
     fn show(&self, format: &str) -> Option<String> {
         let numbers = match self {
             Self::Text(text) => return format.is_empty().then(|| text.clone()),
@@ -119,10 +120,10 @@ impl From<String> for Value {
     }
 }
 
-/// The claim of this name with what was found of it.
+/// The claim of this name with its finding.
 ///
 /// # Errors
-/// [`ReportError::Claim`] where words and finding do not fit each other.
+/// [`ReportError::Claim`] if texts and finding do not match.
 pub(super) fn tell(id: &str, finding: &Finding) -> Result<Claim, ReportError> {
     let fault = |what: String| ReportError::Claim(format!("claim {id}: {what}"));
     let entries = ENTRIES.as_ref().map_err(|error| fault(error.to_string()))?;
@@ -141,10 +142,10 @@ pub(super) fn tell(id: &str, finding: &Finding) -> Result<Claim, ReportError> {
     })
 }
 
-/// Whether exactly those claims have been judged that have words.
+/// Checks that exactly the claims that have texts have been judged.
 ///
 /// # Errors
-/// [`ReportError::Claim`] with the first that has not, or that was judged twice.
+/// [`ReportError::Claim`] with the first claim that has not, or that was judged twice.
 pub(super) fn check_all(judged: &[&str]) -> Result<(), ReportError> {
     let fault = |id: &str, what: &str| Err(ReportError::Claim(format!("claim {id}: {what}")));
     let mut ids = ENTRIES.iter().flatten().map(|(id, _)| id.as_str());
@@ -158,7 +159,7 @@ pub(super) fn check_all(judged: &[&str]) -> Result<(), ReportError> {
 }
 
 impl Entry {
-    /// The evidence of a finding, how it is judged, and the remarks.
+    /// The evidence of a finding, how it was judged, and the remarks.
     fn tell(&self, finding: &Finding) -> Result<[String; 3], String> {
         self.check(finding)?;
         let is_so = |name: &str| name == ALWAYS || finding.conditions.get(name) == Some(&true);
@@ -170,8 +171,8 @@ impl Entry {
         Ok([evidence?, judged?, remarks.join(" ")])
     }
 
-    /// Whether every value that the judge gives is told, and every remark but those that stand
-    /// always is decided.
+    /// Checks that every value of the judge is used in the texts, and that the condition of every
+    /// remark, except those that always apply, is decided.
     fn check(&self, finding: &Finding) -> Result<(), String> {
         let remarks = || self.remarks.values().flatten();
         let text = remarks().map(|(_, text)| &**text).collect::<String>();

@@ -24,11 +24,11 @@ pub(super) struct Curve {
 pub(super) struct Key {
     symbol: String,
     name: String,
-    /// The command that counts its values.
+    /// The shell command that counts its values in hundredths.
     hundredths: String,
 }
 
-/// What a figure of norms shows.
+/// The contents of a figure of norms.
 #[derive(Deserialize)]
 pub(super) struct Norms {
     what: String,
@@ -127,7 +127,7 @@ impl Curve {
             // With room for a whole marker at the top.
             y: Axis::new(&figure.axis, Range::AtLeast(0.0, 1.08 * largest)),
             layers,
-            // The figures of both lengths are compared.
+            // The marker size is common to the figures of both lengths, which are compared.
             markers: study
                 .norms
                 .iter()
@@ -154,9 +154,9 @@ impl Curve {
         ReportError::Missing(format!("the curve of {} for r = {}", self.of, self.r))
     }
 
-    /// A command for each of some values, which are counted in hundredths: so the shell hands the
-    /// program the very decimals of the report. Sums such as 0.3 + 68 · 0.01 miss them in the last
-    /// bit, which is enough to change a critical force.
+    /// A command for each of some values, which are counted in hundredths, so that the program
+    /// receives exactly the decimals of the report. Sums such as 0.3 + 68 · 0.01 differ from them
+    /// in the last bit, which is enough to change a critical force.
     fn for_each(&self, verb: &str, hundredths: &str, key: &str, reading: Reading) -> String {
         let (r, option) = (self.r, reading.option());
         format!(
@@ -165,8 +165,8 @@ impl Curve {
     }
 }
 
-/// A line at the critical force of each reading, which is the last amplitude; one where both are the
-/// same.
+/// A line at the critical force of each reading, which is the last amplitude; one line if both are
+/// the same.
 fn critical_lines(points: &Both<Vec<(f64, Outcome)>>, top: f64) -> impl Iterator<Item = Layer> {
     let last = |reading| points.of(reading).last().map(|(f_cr, _)| *f_cr);
     let same = last(Reading::Chapter) == last(Reading::SlidingOn);
@@ -190,8 +190,8 @@ fn critical_lines(points: &Both<Vec<(f64, Outcome)>>, top: f64) -> impl Iterator
     Reading::BOTH.into_iter().filter_map(line)
 }
 
-/// The readings agree at most amplitudes: such a point is drawn once, or the second would hide the
-/// first.
+/// The readings agree at most amplitudes: such a point is drawn once, as the second marker would
+/// hide the first.
 fn markers(symbol: &str, shape: Shape, values: [Vec<Point>; 2]) -> impl Iterator<Item = Layer> {
     let [chapter, mut sliding_on] = values;
     let (both, ends): (Vec<_>, Vec<_>) =

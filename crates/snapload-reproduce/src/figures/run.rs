@@ -13,13 +13,13 @@ use snapload_figures::{Inset, Layer, Mark, Plot, Range, RunPlot, RunPlots};
 pub(super) struct RunFigure {
     case: String,
     view: View,
-    /// The size of a path's window, in that of Figs 6.1-6.6.
+    /// The size of a path's window, relative to that of Figs 6.1-6.6.
     #[serde(default = "one")]
     window: f64,
     /// Whether the time axis differs from that of the row.
     #[serde(default)]
     own_time_axis: bool,
-    /// Whether the motion fills so little of the window that it is shown enlarged, too.
+    /// Whether the motion fills so little of the window that it is shown enlarged as well.
     #[serde(default)]
     enlarged: bool,
     #[serde(default)]
@@ -39,7 +39,7 @@ enum View {
 }
 
 impl View {
-    /// Where its points and its picture stand among what `snapload run --out` writes.
+    /// The names of its points and its picture among the files of `snapload run --out`.
     fn place(self) -> &'static str {
         match self {
             Self::Path => "x and y in motion.csv; trajectory.svg",
@@ -52,12 +52,12 @@ impl View {
 /// The window that Figs 6.1-6.6 share: x from, x to, y from, y to.
 const WINDOW: [f64; 4] = [-0.8, 0.8, -0.05, 0.8];
 
-/// How far the axes of the figures of a row reach at least.
+/// The least ranges of the axes of the figures of a row.
 #[derive(Clone, Copy)]
 pub(super) struct Axes {
     t: f64,
     v_n: f64,
-    /// The most snaps of a figure, by which the size of markers is chosen.
+    /// The largest number of snaps of a figure, which determines the size of markers.
     snaps: usize,
 }
 
@@ -147,8 +147,8 @@ impl RunFigure {
     }
 }
 
-/// A path by itself, with the letters of the plot, which then has none; the boundaries bear their names
-/// outside.
+/// A path as an inset, with the letters of the plot, which then has none; the boundaries keep their
+/// names outside the inset.
 fn enlarged(plot: &mut Plot) -> Inset {
     let mut whole = plot.clone();
     plot.layers
@@ -168,7 +168,7 @@ fn enlarged(plot: &mut Plot) -> Inset {
 #[derive(Deserialize)]
 pub(super) struct Example {
     case: String,
-    /// What the chapter calls it.
+    /// Its name in the chapter.
     chapter: String,
 }
 
@@ -208,12 +208,12 @@ impl Example {
     }
 }
 
-/// Where S, G and R lie on one place of the path, that place enlarged so that they are told apart.
+/// An enlargement of the place where S, G and R almost coincide, so that they can be distinguished.
 fn apart(plot: &Plot) -> Option<Inset> {
-    /// What is shown around the place, in parts of its size: so little that S and G, of which the one
-    /// soon follows the other, are two dots.
+    /// The margin around that place, as a part of its size: so small that S and G, which follow
+    /// each other closely, are two dots.
     const MARGIN: f64 = 0.2;
-    /// A place: so small a part of the distance of all letters.
+    /// Letters almost coincide within this part of the distance of all letters.
     const ONE_PLACE: f64 = 1e-2;
     let marks = plot.layers.iter().find_map(|layer| match layer {
         Layer::Letters(marks) => Some(marks),
@@ -242,7 +242,7 @@ fn apart(plot: &Plot) -> Option<Inset> {
     })
 }
 
-/// What is said of a picture of which a part is past the horizon of its run.
+/// A remark on a picture that is partly past the horizon of its run.
 fn beyond(known: &Known) -> String {
     match known.horizon {
         Some(t) => format!(

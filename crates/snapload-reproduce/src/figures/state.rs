@@ -1,4 +1,4 @@
-//! The chapter's drawn configurations, Figs 6.39-6.42 and 6.44, from real states.
+//! The chapter's drawings of configurations, Figs 6.39-6.42 and 6.44, from computed states.
 
 use super::{About, Source};
 use crate::ReportError;
@@ -13,19 +13,19 @@ use std::f64::consts::{FRAC_PI_2, TAU};
 #[derive(Deserialize)]
 pub(super) struct StateFigure {
     case: String,
-    /// Another force amplitude than the case's own.
+    /// A force amplitude other than the case's own.
     f_o: Option<f64>,
     at: Instant,
     marks: Marks,
-    /// What it shows.
+    /// Its caption.
     what: String,
-    /// Whether the case stands in for a box of Table 6.1, none of which may slide with this cable
-    /// taut.
+    /// Whether the case is used in place of a box of Table 6.1, because none of them may slide with
+    /// this cable taut.
     #[serde(default)]
     stands_in: bool,
 }
 
-/// When the run is looked at.
+/// The time in the run that is drawn.
 #[derive(Clone, Copy, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 enum Instant {
@@ -37,7 +37,7 @@ enum Instant {
     LargestRotation,
 }
 
-/// What is marked beside body and cables.
+/// The marks beside body and cables.
 #[derive(Clone, Copy, Deserialize, PartialEq)]
 #[serde(rename_all = "lowercase")]
 enum Marks {
@@ -88,7 +88,7 @@ impl StateFigure {
         let run = &known.run;
         let t = self.at.of(run);
         let t = t.ok_or_else(|| ReportError::Missing(format!("a slide in the run of {case}")))?;
-        // A time that one would write.
+        // The time is rounded to a readable number.
         let t = (1000.0 * t).round() / 1000.0;
         let drawing = Drawing {
             system: run.system(),
@@ -131,7 +131,7 @@ impl StateFigure {
         Ok((plot, about))
     }
 
-    /// Whether a box of Table 6.1 slides so in a run of ours.
+    /// Whether a box of Table 6.1 slides like this in one of our runs.
     fn tabled(&self, study: &Study) -> bool {
         let boxes = study.cases.iter().filter(|case| case.parameters.b > 0.0);
         let mut modes = boxes.flat_map(|case| case.runs.sliding_on.run.modes());
@@ -148,7 +148,7 @@ const ARROW: Stroke = Stroke::new(Colour::VERMILION, 1.0, Dash::Solid);
 /// Length of an arrow per unit of force.
 const PER_FORCE: f64 = 0.5;
 
-/// Body and cables as they stand.
+/// The drawing of body and cables.
 struct Drawing<'a> {
     system: &'a System,
     half_sizes: [f64; 2],
@@ -159,7 +159,7 @@ impl Drawing<'_> {
     fn layers(&self, marks: Marks) -> Vec<Layer> {
         let mut layers = Vec::new();
         if marks == Marks::Angles {
-            // Under the lines that they name.
+            // Drawn below the lines that they name.
             layers.extend(self.sizes());
         }
         layers.push(ink(vec![self.outline()], BODY, "body"));
@@ -225,7 +225,7 @@ impl Drawing<'_> {
         trace(72, |k| self.placed([a * turn(k).cos(), a * turn(k).sin()]))
     }
 
-    /// Forces and displacements: name, from where, by how much.
+    /// Forces and displacements: name, origin, and vector.
     fn arrows(&self, marks: Marks) -> Vec<(&'static str, Point, Point)> {
         let forcing = &self.system.forcing;
         let constant = forcing.constant.y * PER_FORCE;
@@ -273,12 +273,12 @@ impl Drawing<'_> {
         angles.into_iter().flat_map(angle).collect()
     }
 
-    /// r, a and b along the lines that have these lengths.
+    /// r, a and b beside the lines that have these lengths.
     fn sizes(&self) -> Vec<Layer> {
         let [_, b] = self.half_sizes;
         let (anchor, fairlead) = self.ends(self.taut());
         let top = self.placed([0.0, b]);
-        // Each names its line in the middle or away from the fairlead, where V or W and β stand.
+        // Each name is at the middle of its line or away from the fairlead, where V or W and β are.
         let part = |from: Point, to: Point, [p, q]: [f64; 2]| {
             let by = [to[0] - from[0], to[1] - from[1]];
             vec![plus(from, by, p), plus(from, by, q)]
@@ -307,12 +307,12 @@ fn plus(from: Point, by: Point, part: f64) -> Point {
     [from[0] + part * by[0], from[1] + part * by[1]]
 }
 
-/// The points of a curve that is cut into so many pieces.
+/// The points of a curve that is divided into some pieces.
 fn trace(pieces: i32, point: impl Fn(f64) -> Point) -> Vec<Point> {
     (0..=pieces).map(f64::from).map(point).collect()
 }
 
-/// An arc of a circle, by the direction at each part of it.
+/// An arc of a circle, from the direction at each part of it.
 fn arc(centre: Point, radius: f64, direction: impl Fn(f64) -> f64) -> Vec<Point> {
     trace(24, |k| {
         let (sine, cosine) = direction(k / 24.0).sin_cos();

@@ -22,7 +22,7 @@ impl Page<'_> {
                 tbody {
                     tr { th colspan="19" scope="rowgroup" { "Series " (symbols(series[0].0)) } }
                     @for case in series.iter().filter_map(|(_, code)| study.case(code)) {
-                        // One line where both readings come to the same, else two.
+                        // One line if both readings have the same result, else two.
                         @if same(case) {
                             (self.outcome(case, "none", &Reading::BOTH))
                         } @else {
@@ -108,7 +108,7 @@ impl Page<'_> {
     }
 }
 
-/// Up to where the numbers of a row are known.
+/// The end of the known part of a row's numbers.
 fn known_to(case: &CaseRuns, reading: Reading) -> String {
     match (case.proved.of(reading), case.runs.of(reading).horizon) {
         (None, Some(t)) => format!("t = {}", decimals(t, 2)),
@@ -116,7 +116,7 @@ fn known_to(case: &CaseRuns, reading: Reading) -> String {
     }
 }
 
-/// How many of the published values each convention gives.
+/// The number of published values that each convention reproduces.
 pub(super) fn agreement(study: &Study) -> Markup {
     let rows = study.critical.iter();
     let mut counts = vec![0; END_TIMES.len() + 2];

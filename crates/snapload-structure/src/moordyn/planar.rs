@@ -1,21 +1,21 @@
-//! The things of a MoorDyn file: types, the body, points; and whether they lie in one vertical
+//! The objects of a MoorDyn file: types, the body, points; and whether they lie in one vertical
 //! plane.
 
 use super::sections::{Row, Section, Sections};
 use snapload::CaseError;
 use std::collections::BTreeMap;
 
-/// Places closer to the plane than this are in it \[m\].
+/// The largest distance of a point from the plane \[m\].
 const OFF_PLANE_M: f64 = 1e-6;
 
-/// What a point is made fast to.
+/// The object to which a point is attached.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Holds {
     Ground,
     Body,
 }
 
-/// A point, in the frame of the earth.
+/// A point, in earth-fixed coordinates.
 #[derive(Clone, Debug)]
 pub(super) struct Point {
     pub(super) holds: Holds,
@@ -32,8 +32,8 @@ pub(super) struct Body<'a> {
     pub(super) place_m: [f64; 3],
 }
 
-/// What lines straight from anchors to one body can not be: the section, what errors call it, what
-/// is allowed and what to do.
+/// Sections that can not be represented as straight lines from anchors to one body: the section,
+/// its name in errors, what is allowed and advice.
 const UNSUPPORTED: [(Section, &str, &str, &str); 4] = [
     (
         Section::Rods,
@@ -62,7 +62,7 @@ const UNSUPPORTED: [(Section, &str, &str, &str); 4] = [
     ),
 ];
 
-/// Refuses what is not supported.
+/// Refuses sections that are not supported.
 pub(super) fn refuse_unsupported(sections: &Sections<'_>) -> Result<(), CaseError> {
     for (section, name, allowed, hint) in UNSUPPORTED {
         if let Some(row) = sections.rows(section).next() {
@@ -72,7 +72,7 @@ pub(super) fn refuse_unsupported(sections: &Sections<'_>) -> Result<(), CaseErro
     Ok(())
 }
 
-/// The one body; none where points are coupled to one that is not in the file.
+/// The only body; none if points are coupled to one that is not in the file.
 pub(super) fn body<'a>(sections: &'a Sections<'a>) -> Result<Option<Body<'a>>, CaseError> {
     let mut rows = sections.rows(Section::Bodies);
     let Some(row) = rows.next() else {
@@ -115,7 +115,7 @@ pub(super) fn points<'a>(
             return Err(row.refuse("ID", id, "a number that no other point has", ""));
         }
         let point = point(row, body)?;
-        // Shorter rows are MoorDyn's to refuse.
+        // Rows that are too short are left to MoorDyn to refuse.
         let given = [(5, "Mass"), (6, "Volume"), (7, "CdA")].into_iter();
         for (index, column) in given.filter(|(index, _)| row.words.len() > *index) {
             let hint = "give mass and volume of a point on the body to the body";
@@ -160,7 +160,7 @@ fn point(row: &Row<'_>, body: Option<&Body<'_>>) -> Result<Point, CaseError> {
     Ok(Point { holds, place_m })
 }
 
-/// Refuses what does not lie in the plane of the rest, y = const.
+/// Refuses objects outside the plane of the others, y = const.
 pub(super) fn refuse_off_plane<'a>(
     body: Option<&Body<'_>>,
     used: impl Iterator<Item = &'a (&'a Row<'a>, Point)>,

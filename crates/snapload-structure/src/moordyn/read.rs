@@ -8,28 +8,29 @@ use crate::schema::STRUCTURE;
 use snapload::{CaseError, Entries, Value};
 use std::f64::consts::PI;
 
-/// Lines of a file's front matter that begin so are keys of a case that MoorDyn has no place for.
+/// Lines of a file's front matter that begin with this are keys of a case that have no equivalent
+/// in MoorDyn.
 const KEY_LINE: &str = "snapload:";
 /// MoorDyn's own defaults \[m/s²\], \[kg/m³\].
 const GRAVITY: f64 = 9.81;
 const WATER_DENSITY: f64 = 1025.0;
 
-/// The keys that a file gives, and what of it they do not hold.
+/// The keys that a file gives, and notes on what they do not represent.
 #[derive(Clone, Debug)]
 pub struct Reading {
     /// The keys.
     pub entries: Entries,
-    /// What was left out or taken otherwise, a sentence each.
+    /// What was left out or changed, one sentence each.
     pub notes: Vec<String>,
 }
 
-/// Reads a MoorDyn v2 input file as a planar structure; `name` is what errors call it.
+/// Reads a MoorDyn v2 input file as a planar structure; `name` is the file's name in errors.
 ///
-/// The file has no waves, no restitution and no width of the body: [`Entries::missing`] says what
-/// is still to be given.
+/// The file has no waves, no restitution and no width of the body: [`Entries::missing`] lists what
+/// still has to be given.
 ///
 /// # Errors
-/// A [`CaseError`] that names line, object and column, what is allowed there and what to do.
+/// A [`CaseError`] that names line, object and column, what is allowed there and advice.
 pub fn read(name: &str, text: &str) -> Result<Reading, CaseError> {
     let sections = Sections::parse(name, text)?;
     for (section, header) in [
@@ -105,7 +106,7 @@ impl Reader {
         self.entries.give(table, index, key, value, &row.origin)
     }
 
-    /// Depth, density and gravity; the other options are about MoorDyn's computation.
+    /// Depth, density and gravity; the other options concern MoorDyn's computation.
     fn options(&mut self, sections: &Sections<'_>) -> Result<(), CaseError> {
         let mut defaults = vec![("gravity", GRAVITY), ("water_density", WATER_DENSITY)];
         for row in sections.rows(Section::Options) {
@@ -169,7 +170,7 @@ impl Reader {
         let added: Value = match row.numbers(13, "Ca")?[..] {
             [every] => (every * displaced).into(),
             [x, _, z] if x == z => (z * displaced).into(),
-            // Of the rotation MoorDyn is told nothing then.
+            // Then MoorDyn is given no added mass for the rotation.
             [x, _, z] => [x * displaced, z * displaced, 0.0].into(),
             _ => return Err(row.refuse("Ca", row.words[13], "one number or Cax|Cay|Caz", "")),
         };
@@ -227,7 +228,7 @@ impl Reader {
         Ok(ends)
     }
 
-    /// EA, of which MoorDyn has several forms; none where it stands in a file.
+    /// EA, for which MoorDyn has several notations; none if it is in a separate file.
     fn stiffness(&mut self, kind: &Row<'_>, line: usize) -> Result<Option<f64>, CaseError> {
         let word = kind.word(3, "EA")?;
         let parts: Option<Vec<f64>> = word.split('|').map(number).collect();
@@ -278,7 +279,7 @@ fn drag(row: &Row<'_>) -> Result<[f64; 2], CaseError> {
     }
 }
 
-/// The anchor and the fairlead of a line, whichever way round it is written.
+/// The anchor and the fairlead of a line, in whichever order they are written.
 fn ends<'a>(row: &Row<'_>, points: &'a Points<'a>) -> Result<Ends<'a>, CaseError> {
     let find = |index: usize, column: &str| {
         let id = row.word(index, column)?;

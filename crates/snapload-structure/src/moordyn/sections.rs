@@ -16,12 +16,12 @@ pub(super) enum Section {
     Loads,
     Options,
     Outputs,
-    /// One whose header is not known.
+    /// A section with an unknown header.
     Other,
 }
 
-/// What a row of each section describes, and words of its header, in capitals; the first section of
-/// which a header has a word is the one that it begins.
+/// What a row of each section describes, and words of its header, in capitals; a header belongs to
+/// the first section of which it contains a word.
 const SECTIONS: &[(Section, &str, &[&str])] = &[
     (
         Section::LineTypes,
@@ -74,7 +74,7 @@ impl Section {
         begun.map(|(section, ..)| *section)
     }
 
-    /// What one row of it describes.
+    /// What one of its rows describes.
     fn noun(self) -> &'static str {
         let found = SECTIONS.iter().find(|(section, ..)| *section == self);
         found.map_or("row", |(_, noun, _)| noun)
@@ -94,13 +94,13 @@ impl Section {
 pub(super) struct Row<'a> {
     /// `FILE, line N`.
     pub(super) origin: String,
-    /// What errors call the thing it describes: `point 3`.
+    /// The name of the object in errors: `point 3`.
     pub(super) what: String,
     pub(super) words: Vec<&'a str>,
 }
 
 impl Row<'_> {
-    /// The word of a column; `column` is what errors call it.
+    /// The word in a column; `column` is its name in errors.
     pub(super) fn word(&self, index: usize, column: &str) -> Result<&str, CaseError> {
         self.words.get(index).copied().ok_or_else(|| {
             let allowed = format!(
@@ -111,20 +111,20 @@ impl Row<'_> {
         })
     }
 
-    /// The number of a column.
+    /// The number in a column.
     pub(super) fn number(&self, index: usize, column: &str) -> Result<f64, CaseError> {
         let word = self.word(index, column)?;
         number(word).ok_or_else(|| self.refuse(column, word, "a number", ""))
     }
 
-    /// The numbers of a column, which bars separate.
+    /// The numbers in a column, separated by bars.
     pub(super) fn numbers(&self, index: usize, column: &str) -> Result<Vec<f64>, CaseError> {
         let word = self.word(index, column)?;
         let numbers: Option<Vec<f64>> = word.split('|').map(number).collect();
         numbers.ok_or_else(|| self.refuse(column, word, "numbers, with | between them", ""))
     }
 
-    /// The place in the three columns from one on.
+    /// The position in three consecutive columns.
     pub(super) fn place(&self, index: usize, columns: [&str; 3]) -> Result<[f64; 3], CaseError> {
         let [x, y, z] = columns;
         Ok([
@@ -134,7 +134,7 @@ impl Row<'_> {
         ])
     }
 
-    /// Refuses anything but zeros in a column.
+    /// Refuses nonzero numbers in a column.
     pub(super) fn zero(
         &self,
         index: usize,
@@ -152,7 +152,7 @@ impl Row<'_> {
         }
     }
 
-    /// An error on a column, with words on what to do, if they are not empty.
+    /// An error about a column, with advice unless it is empty.
     pub(super) fn refuse(
         &self,
         column: &str,
@@ -177,7 +177,7 @@ pub(super) fn number(word: &str) -> Option<f64> {
     word.parse().ok().filter(|number: &f64| number.is_finite())
 }
 
-/// A file, cut into its sections.
+/// A file, divided into its sections.
 #[derive(Debug, Default)]
 pub(super) struct Sections<'a> {
     /// Lines before the first section, with their origins.
@@ -187,7 +187,7 @@ pub(super) struct Sections<'a> {
 }
 
 impl<'a> Sections<'a> {
-    /// Cuts a file; `name` is what errors call it.
+    /// Divides a file into sections; `name` is its name in errors.
     pub(super) fn parse(name: &str, text: &'a str) -> Result<Self, CaseError> {
         let mut sections = Self::default();
         let mut now: Option<(Section, usize)> = None;
@@ -241,7 +241,7 @@ impl<'a> Sections<'a> {
     }
 }
 
-/// The columns of version 1 stand in another order; its names give it away.
+/// Refuses a file of version 1, whose columns have another order, by the names of its columns.
 fn refuse_first_version(origin: &str, line: &str) -> Result<(), CaseError> {
     let old = ["NodeAnch", "NodeFair", "MassDenInAir", "MassDen"];
     let is_old = |word: &&str| old.iter().any(|old| word.eq_ignore_ascii_case(old));

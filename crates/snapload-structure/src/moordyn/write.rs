@@ -11,7 +11,7 @@ use std::f64::consts::PI;
 /// Internal damping of lines of several segments, as a part of the critical damping of a segment:
 /// the value of MoorDyn's own examples.
 const SEGMENT_DAMPING: f64 = 0.8;
-/// The time step over the time in which a wave runs along a segment.
+/// The ratio of the time step to the time in which a wave travels along a segment.
 const COURANT: f64 = 0.2;
 
 #[derive(Template)]
@@ -27,15 +27,15 @@ struct File<'a> {
     segments: u32,
     /// Ca, by axis where it differs.
     added_mass: String,
-    /// Whether there is more of the added mass than a Ca.
+    /// Whether the added mass has parts besides a Ca.
     own_added_mass: bool,
     /// Diameter, mass per length, stiffness and damping of each line.
     types: Vec<[f64; 4]>,
     step_s: f64,
 }
 
-/// The keys of the project with their texts, on one line each and without what would end a text in
-/// quotes.
+/// The keys of the project with their texts, each on one line and without characters that would end
+/// a text in quotes.
 fn project(structure: &Structure) -> Vec<(&str, String)> {
     let plain = |text: &str| -> String {
         let one_line = text.chars().filter(|c| !c.is_control() && *c != '\\');
@@ -45,14 +45,14 @@ fn project(structure: &Structure) -> Vec<(&str, String)> {
     rows.map(|[key, _, text]| (key, plain(text))).collect()
 }
 
-/// A structure's case for MoorDyn, each line in `segments` segments.
+/// A structure's case in MoorDyn's format, each line in `segments` segments.
 ///
-/// What a structure leaves out is made to vanish: lines displace as much as they weigh, and have
-/// neither drag nor added mass. A line of one segment is then the spring of `docs/elastic.md`, with
-/// the damper of the restitution as BA; in lines of several segments that damper would be far too
-/// stiff for the masses between, and they get MoorDyn's customary 0.8 of critical instead. The keys
-/// that MoorDyn has no place for stand in the front matter, from which [`super::read()`] takes
-/// them.
+/// Effects that a structure does not include are set to zero: lines displace as much as they weigh,
+/// and have neither drag nor added mass. A line of one segment is then the spring of
+/// `docs/elastic.md`, with the damper of the restitution as BA; in lines of several segments that
+/// damper would be far too stiff for the masses between, and they get MoorDyn's customary 0.8 of
+/// critical instead. Keys without an equivalent in MoorDyn are written into the front matter, from
+/// which [`super::read()`] reads them.
 ///
 /// # Errors
 /// A [`CaseError`] unless the segments are of [`SEGMENTS`], if a line has no stiffness or mass, or the structure rests nowhere.
@@ -90,7 +90,7 @@ pub fn write(name: &str, structure: &Structure, segments: u32) -> Result<String,
     Ok(file.to_string() + "\n")
 }
 
-/// A type a line.
+/// One type for each line.
 fn types(prepared: &Prepared, segments: u32) -> Result<Vec<[f64; 4]>, CaseError> {
     let (structure, scales) = (&prepared.structure, &prepared.model.scales);
     let unit = scales.force_n / scales.length_m * scales.time_s;

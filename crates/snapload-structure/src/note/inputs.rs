@@ -1,4 +1,4 @@
-//! What a note lists as its inputs.
+//! The inputs that a note lists.
 
 use crate::structure::{Outline, Structure, Water};
 use crate::words::{digits, kilo, tenths};
@@ -10,7 +10,7 @@ struct Inputs<'a> {
     structure: &'a Structure,
 }
 
-/// The section of a page that lists what the case says of body, site, water, run and lines.
+/// The section of a page that lists the case's data of body, site, water, run and lines.
 pub fn inputs(structure: &Structure) -> String {
     Inputs { structure }.to_string()
 }
@@ -19,7 +19,7 @@ fn place([x, z]: &[f64; 2]) -> String {
     format!("({x}, {z})")
 }
 
-/// What the water does to a body that moves through it.
+/// The drag and damping of the water on a moving body.
 pub(super) fn resistance(structure: &Structure) -> Vec<String> {
     let body = &structure.body;
     let parts = [

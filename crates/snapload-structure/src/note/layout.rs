@@ -9,10 +9,10 @@ use std::f64::consts::TAU;
 
 /// Corners of the polygon that a circle is drawn as.
 const CORNERS: u32 = 90;
-/// The water and the floor reach so far past the outermost things, in parts of the width.
+/// The drawing extends past the outermost objects by this part of the width.
 const MARGIN: f64 = 0.08;
 
-/// So much above the still water is drawn, in parts of its depth.
+/// The drawing extends above the still water by this part of its depth.
 const AIR: f64 = 0.06;
 
 /// The structure at rest in still water, in metres.
@@ -22,7 +22,7 @@ pub(super) fn of(prepared: &Prepared) -> Result<Picture, FigureError> {
         label: label.to_owned(),
         ..Axis::default()
     };
-    // So that the still water does not lie on the frame.
+    // Without this margin the still water would coincide with the frame.
     let air = AIR * prepared.structure.site.depth_m;
     let plot = Plot {
         description: description.to_owned(),
@@ -76,7 +76,7 @@ fn layers(prepared: &Prepared) -> Vec<Layer> {
     layers
 }
 
-/// Where a point of the unturned body, about its centre, is at rest.
+/// The position at rest of a point of the unturned body, given about its centre.
 fn placed(prepared: &Prepared, [x, z]: Point) -> Point {
     let rest = &prepared.rest;
     let (sine, cosine) = rest.theta_rad.sin_cos();

@@ -1,5 +1,5 @@
-//! The answer as a page for a design note: one file of HTML that needs nothing else. Its words
-//! stand in `templates/`.
+//! The results as a page for a design note: one self-contained file of HTML. Its texts are in
+//! `templates/`.
 
 mod inputs;
 mod layout;
@@ -28,17 +28,17 @@ use std::fmt;
 
 /// Readable on a phone, in print, in light and dark.
 const STYLE: &str = include_str!("../../templates/note.css");
-/// The number of the hardest snaps that are listed.
+/// The number of the hardest snaps in the list.
 const LISTED: usize = 12;
-/// Snaps that differ by less than this part are told as one.
+/// Snaps that differ by less than this part are listed once.
 const ALIKE: f64 = 1e-3;
 
-/// Where a note comes from.
+/// The origin of a note.
 #[derive(Clone, Copy, Debug)]
 pub struct Source<'a> {
     /// The name of the case.
     pub name: &'a str,
-    /// The command line that makes the note again.
+    /// The command line that reproduces the note.
     pub command: &'a str,
     /// SHA-256 of the case's file, as `sha256sum` prints it; none where there is no file.
     pub sha256: Option<&'a str>,
@@ -60,10 +60,10 @@ struct NotePage<'a> {
     verdict: Verdict,
     utilisations: Vec<Option<f64>>,
     end: &'static str,
-    /// Path, snaps, tension, rotation and the water's surface, in this time.
+    /// Path, snaps, tension, rotation and the water's surface, in the time shown.
     plots: Vec<Picture>,
     window: [f64; 2],
-    /// The hardest snaps that are judged, out of `all`, each with how many are like it.
+    /// The hardest judged snaps out of `all`, each with the number of equal ones.
     hardest: Vec<(&'a Snap, usize)>,
     all: usize,
     horizon_s: f64,
@@ -104,7 +104,8 @@ pub fn page(
     let verdict = assessment.verdict();
     let mut hardest: Vec<&Snap> = assessment.judged().collect();
     let all = hardest.len();
-    // What governs is the peak, where it is known; in front of it, what part of its own line it is.
+    // Snaps are sorted by their peak, if it is known, and before that by its part of the line's own
+    // breaking load.
     let governs = |snap: &Snap| (snap.utilisation, snap.peak_n, snap.effective_speed_m_s);
     hardest.sort_by(|a, b| {
         governs(b)
@@ -143,8 +144,8 @@ pub fn page(
     Ok(page.to_string())
 }
 
-/// The first of all snaps that a regular motion repeats, and how many there are of each: those next
-/// to each other of one line, the same within the digits that are told.
+/// The first of each group of equal snaps, as a regular motion repeats them, and their number:
+/// consecutive snaps of one line that are equal within the digits shown.
 fn alike<'a>(snaps: &[&'a Snap]) -> Vec<(&'a Snap, usize)> {
     let near = |a: Option<f64>, b: Option<f64>| match (a, b) {
         (Some(a), Some(b)) => (a - b).abs() <= ALIKE * a.abs().max(b.abs()),

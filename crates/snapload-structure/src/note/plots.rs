@@ -18,9 +18,9 @@ use snapload_figures::{
 const POINTS: u32 = 12_000;
 /// Points of the water's surface over time.
 const SURFACE: u32 = 1200;
-/// Stretches of time of which only the hardest snap of each line is drawn.
+/// The number of intervals of time, in each of which only the hardest snap of each line is drawn.
 const STRETCHES: usize = 400;
-/// The number of wave periods in a closer look.
+/// The number of wave periods in the detailed plots.
 const CLOSE: f64 = 6.0;
 /// An axis from zero on.
 const FROM_ZERO: Range = Range::AtLeast(0.0, 0.0);
@@ -61,7 +61,8 @@ fn extend(pieces: &mut Vec<Vec<Point>>, joined: bool, point: Point) {
     }
 }
 
-/// A few periods about the hardest snap that is judged, or the last few \[s\].
+/// The time interval of the detailed plots: a few periods about the hardest judged snap, or the
+/// last few \[s\].
 pub fn window(assessment: &Assessment) -> [f64; 2] {
     let end = assessment.outcome.end_s;
     let period = match assessment.prepared.structure.water {
@@ -93,7 +94,7 @@ pub(super) fn of_run(assessment: &Assessment) -> Result<Vec<Picture>, FigureErro
         .collect()
 }
 
-/// Looks at the motion within a window of seconds.
+/// Calls `see` with the motion at times within an interval in seconds.
 fn looks(assessment: &Assessment, [from, to]: [f64; 2], mut see: impl FnMut(f64, &Motion)) {
     let mut playback = Playback::new(&assessment.run);
     let unit = assessment.prepared.model.scales.time_s;
@@ -132,9 +133,9 @@ fn path(assessment: &Assessment, window: [f64; 2]) -> Plot {
     plot
 }
 
-/// How hard each snap is, as it is drawn: its tension \[kN\], over the line's own breaking load
-/// where those differ, or the speed where a line has no stiffness. With it where lines break, if
-/// that is known, and the label of the axis.
+/// The measure of a snap that is drawn: its tension \[kN\], or its part of the line's own breaking
+/// load if those differ, or its speed if a line has no stiffness. Also the value at which lines
+/// break, if it is known, and the label of the axis.
 fn hardness(assessment: &Assessment) -> (fn(&Snap) -> f64, Option<f64>, &'static str) {
     let lines = &assessment.prepared.structure.lines;
     let loads: Vec<_> = lines
@@ -180,7 +181,7 @@ fn peaks(assessment: &Assessment) -> Plot {
     }
     layers.extend(limit.map(|load| horizontal(load, "breaks")));
     let t = Range::AtLeast(0.0, assessment.outcome.end_s);
-    // The line at which one breaks is within the plot, whatever they carry.
+    // The axis includes the value at which a line breaks, however small the tensions are.
     let from_zero = Range::AtLeast(0.0, limit.unwrap_or(0.0));
     let axes = [("*t* (s)", t), (label, from_zero)];
     let mut plot = plot("Estimated tension of each snap against time", axes, layers);
@@ -190,7 +191,7 @@ fn peaks(assessment: &Assessment) -> Plot {
     plot
 }
 
-/// The highest point of each stretch of time, so that points of hours do not cover each other.
+/// The highest point of each interval of time, so that the points of hours do not cover each other.
 fn hardest_of_each(points: impl Iterator<Item = Point>, end: f64) -> Vec<Point> {
     let mut highest: Vec<Option<Point>> = vec![None; STRETCHES];
     for point in points {
@@ -243,7 +244,7 @@ fn rotation(assessment: &Assessment, window: [f64; 2]) -> Plot {
     plot("Rotation of the body against time", axes, layers)
 }
 
-/// The surface of the water above the place of rest, in the waves of the case.
+/// The surface of the water above the position of rest, in the waves of the case.
 fn surface(assessment: &Assessment, [from, to]: [f64; 2]) -> Plot {
     let waves = &assessment.prepared.model.waves;
     let height = |t: f64| -> f64 {
@@ -294,8 +295,8 @@ pub(super) fn of_scan(scan: &Scan, structure: &Structure) -> Result<Picture, Fig
     draw("scan", Width::Column, &[plot])
 }
 
-/// Largest tensions on Gumbel's paper, where his distribution is a straight line, and how often
-/// tensions are exceeded; speeds where tensions are not known.
+/// Largest tensions on Gumbel paper, where his distribution is a straight line, and how often
+/// tensions are exceeded; speeds if tensions are not known.
 pub(super) fn of_seas(seas: &Seas) -> Result<[Picture; 2], FigureError> {
     let peaks = seas.largest_n();
     let (all, fit, unit, label) = match &peaks {
@@ -320,7 +321,7 @@ pub(super) fn of_seas(seas: &Seas) -> Result<[Picture; 2], FigureError> {
         Colour::BLUE,
         "records".to_owned(),
     )];
-    // The fit is for three hours; on this paper it stands where the records are.
+    // The fit is for three hours; on this paper it is drawn for the duration of the records.
     let structure = &seas.prepared.structure;
     let judged = structure.duration_s - structure.transient_s;
     if let Some(fit) = fit.map(|fit| fit.over_times(judged / THREE_HOURS_S)) {
@@ -341,7 +342,7 @@ pub(super) fn of_seas(seas: &Seas) -> Result<[Picture; 2], FigureError> {
     ])
 }
 
-/// How many of all snaps are harder than a value.
+/// The part of all snaps that exceed a value.
 fn exceedance(seas: &Seas, all: &[f64], unit: f64, label: &str) -> Plot {
     let three_hours = seas.judged_s() / THREE_HOURS_S;
     let harder = |(below, value): (usize, &f64)| {

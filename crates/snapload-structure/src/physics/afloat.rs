@@ -1,9 +1,9 @@
 //! A floating body on its lines: from the coefficients of a panel code to the engine's units, and
-//! where it rests (docs/floating.md).
+//! its position of rest (docs/floating.md).
 //!
-//! The centre of the engine's picture is the mean place, where the coefficients were computed, and
-//! not the place of rest. The units are M = m + A33(∞), F = M g and T = sqrt(L/g), as the net
-//! buoyancy may be nothing.
+//! The origin of the engine's axes is the mean position, for which the coefficients were computed,
+//! and not the position of rest. The units are M = m + A33(∞), F = M g and T = sqrt(L/g), as the
+//! net buoyancy may be zero.
 
 use super::equilibrium::{Equilibrium, pushed_away};
 use super::model::{Groups, Model, Scales, cable, drag, rules, shape, waves};
@@ -17,13 +17,13 @@ use snapload::{
 };
 use snapload_hydro::{HydroError, Line, Mode, Natural, Term, rest, rest_adrift};
 
-/// Waves outside the file's frequencies may have this part of the sea's energy.
+/// The largest part of the sea's energy that waves outside the file's frequencies may have.
 const OUTSIDE: f64 = 0.01;
 
-/// Less is no displacement \[m, rad\].
+/// A smaller displacement counts as zero \[m, rad\].
 const ROUNDING: f64 = 1e-12;
 
-/// The natural motions that taut lines leave to a floating body, without damping and with it.
+/// A natural motion of a floating body that its taut lines allow, without damping and with it.
 pub type HeldMotion = (Natural, Mode);
 
 fn rows<T: Copy, U>(matrix: &Matrix3<T>, of: impl Fn(T) -> U) -> [[U; 3]; 3] {
@@ -36,7 +36,7 @@ fn units(structure: &Structure, length_m: f64) -> FloatingUnits {
     FloatingUnits::new(length_m, structure.site.gravity_m_s2, mass_kg)
 }
 
-/// The structure in the engine's units, about the mean place of the body's centre.
+/// The structure in the engine's units, about the mean position of the body's centre.
 pub(super) fn model(structure: &Structure, afloat: &Afloat) -> Result<Model, CaseError> {
     let origin_m = structure.body.position_m;
     let scales = Scales::new(structure, origin_m);
@@ -187,7 +187,7 @@ fn excitation(
     Ok(waves.iter().filter_map(one).collect())
 }
 
-/// The part of the waves' energy that is left out, as the file has no coefficients there.
+/// The part of the waves' energy that is left out because the file has no coefficients there.
 pub(super) fn left_out(structure: &Structure, afloat: &Afloat) -> f64 {
     let [low, high] = afloat.report.reading.hydro.range_rad_s();
     let outside = |omega: f64| f64::from(u8::from(!(low..=high).contains(&omega)));

@@ -1,12 +1,13 @@
-//! Where the body rests in still water.
+//! The position of rest in still water.
 //!
-//! Lines pull only where they are taut, so the place of rest is the least potential energy −F·(x, z),
-//! F the buoyancy and whatever else does not change, within reach of all lines, g_i ≤ 0. There the conditions of Karush, Kuhn and Tucker hold (J.
-//! Nocedal and S. Wright, *Numerical Optimization* (2006), theorems 12.1, 12.5 and 12.6): tensions
-//! T_i ≥ 0, zero where a line is slack, that balance buoyancy, and curvature Σ T_i ∇(n_i, s_i) that
-//! is not negative along the motions that keep the taut lines taut. Each set of one to three lines
-//! is tried, as three hold a body in the plane, from several places and rotations; of all that
-//! pass, that of the least energy is the answer, which is the highest where buoyancy is all there is.
+//! Lines pull only where they are taut, so the position of rest is the minimum of the potential
+//! energy −F·(x, z), F the buoyancy and all other constant forces, within reach of all lines, g_i ≤
+//! 0. There the Karush-Kuhn-Tucker conditions hold (J. Nocedal and S. Wright, *Numerical
+//! Optimization* (2006), theorems 12.1, 12.5 and 12.6): tensions T_i ≥ 0, zero where a line is
+//! slack, that balance buoyancy, and curvature Σ T_i ∇(n_i, s_i) that is not negative along the
+//! motions that keep the taut lines taut. Each set of one to three lines is tried, as three hold a
+//! body in the plane, from several positions and rotations; of all solutions the one of least
+//! energy is taken, which is the highest if buoyancy is the only force.
 
 use super::model::Model;
 use crate::structure::Structure;
@@ -14,17 +15,17 @@ use nalgebra::{DMatrix, DVector, Matrix3, Vector3};
 use snapload::{CaseError, State, System};
 use std::f64::consts::FRAC_PI_2;
 
-/// A closed gap, and a balance of forces, holds to this in the engine's units.
+/// The tolerance of a closed gap and of a balance of forces, in the engine's units.
 const BALANCED: f64 = 1e-9;
-/// A line is taut at rest where its gap is within this of closed, which is 0.1 µm on a line of 100
-/// m.
+/// A line counts as taut at rest if its gap is within this of zero, which is 0.1 µm on a line of
+/// 100 m.
 const TOUCHING: f64 = 1e-9;
-/// Steps of Newton's method.
+/// The most steps of Newton's method.
 const STEPS: usize = 30;
-/// Step of the differences that stand for derivatives of the normals.
+/// Step of the difference quotients for the derivatives of the normals.
 const DIFFERENCE: f64 = 1e-6;
 
-/// The place of rest.
+/// The position of rest.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Equilibrium {
     /// Centre `[x, z]` \[m\].
@@ -38,18 +39,19 @@ pub struct Equilibrium {
     pub rests: bool,
     /// The lines that are just taut, by index, a slack one that touches included.
     pub taut: Vec<usize>,
-    /// Whether more lines are taut than the body has freedoms for, so that their stiffness decides
-    /// who carries what; without stiffness the tensions are then those of the least sum of squares.
+    /// Whether more lines are taut than the body has degrees of freedom, so that the distribution
+    /// of the load depends on their stiffness; if that is not known the tensions are those of the
+    /// least sum of squares.
     pub indeterminate: bool,
-    /// Where lengths within the stretch of the lines change who carries how much: `tension_n` are then
-    /// those by stiffness.
+    /// Set if the stretch of the lines changes the distribution of the load: `tension_n` are then
+    /// the tensions by stiffness.
     pub shared: Option<Shared>,
-    /// What the lines of a floating body carry as they stretch, where that is another load and the
-    /// lines share it alike \[N\].
+    /// The tensions of a floating body's lines as they stretch, if their sum differs and the lines
+    /// share it in the same proportions \[N\].
     pub relaxed_n: Option<Vec<f64>>,
 }
 
-/// What lines that do not stretch would carry, and where those that do hold the body.
+/// The tensions on lines that do not stretch, and the position on lines that do.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Shared {
     /// The tensions of lines that do not stretch \[N\].
@@ -58,10 +60,10 @@ pub struct Shared {
     pub place_m: [f64; 2],
 }
 
-/// Finds where the body rests.
+/// Finds the position of rest.
 ///
 /// # Errors
-/// A [`CaseError`] if there is no such place below the surface.
+/// A [`CaseError`] if there is no such position below the surface.
 pub fn equilibrium(structure: &Structure) -> Result<Equilibrium, CaseError> {
     let model = Model::about(structure, structure.body.position_m, &[]);
     let system = &model.still();
@@ -110,7 +112,7 @@ fn touching(system: &System, at: &State) -> Vec<usize> {
         .collect()
 }
 
-/// The tension of each line, of which those that are taut pull so hard \[N\].
+/// The tension of each line, from those of the taut ones \[N\].
 fn of_all(model: &Model, taut: &[usize], pulls: &[f64]) -> Vec<f64> {
     let mut tension_n = vec![0.0; model.system.cables.len()];
     for (line, pull) in taut.iter().zip(pulls) {
@@ -120,8 +122,8 @@ fn of_all(model: &Model, taut: &[usize], pulls: &[f64]) -> Vec<f64> {
 }
 
 impl Equilibrium {
-    /// Lets more lines than hold a floating body share its load with the least sum of squares, as
-    /// those of a submerged one do.
+    /// Distributes the load of a floating body that is held by more lines than necessary with the
+    /// least sum of squares, as for a submerged one.
     pub(super) fn share_evenly(&mut self, model: &Model) {
         let at = model.at_rest(self.place_m, self.theta_rad);
         let taut = touching(&model.system, &at);
@@ -133,8 +135,8 @@ impl Equilibrium {
     }
 }
 
-/// The force on a body at rest that its lines have to balance: constant forces, and of one that
-/// floats what hydrostatics take of them.
+/// The force on a body at rest that its lines have to balance: constant forces, reduced by the
+/// hydrostatic ones if it floats.
 fn load(system: &System, at: &State) -> Vector3<f64> {
     let constant = system.forcing.constant;
     let load = Vector3::new(constant.x, constant.y, 0.0);
@@ -145,7 +147,8 @@ fn load(system: &System, at: &State) -> Vector3<f64> {
     load + Vector3::from(water.constant) - stiffness * Vector3::new(at.x, at.y, at.theta)
 }
 
-/// That a body rests nowhere under its steady loads, if without them it would.
+/// The error of a body without a position of rest under its steady loads, if it would have one
+/// without them.
 pub(super) fn pushed_away(
     structure: &Structure,
     rests: impl FnOnce(&Structure) -> bool,
@@ -158,7 +161,7 @@ pub(super) fn pushed_away(
     found.filter(|_| rests(&calm))
 }
 
-/// That a steady load is not allowed, if there is one.
+/// The error that a steady load is not allowed, if there is one.
 pub(super) fn load_at_fault(structure: &Structure, allowed: &str) -> Option<CaseError> {
     let (key, shown) = match (structure.body.constant_force_n, structure.site.current_m_s) {
         ([0.0, 0.0], 0.0) => return None,
@@ -197,7 +200,8 @@ fn sets(count: usize) -> Vec<Vec<usize>> {
     sets
 }
 
-/// Where the search begins: the place drawn, beside it and turned, and above each line's anchor.
+/// Starting points of the search: the position drawn, positions beside it and turned, and above
+/// each line's anchor.
 fn starts(structure: &Structure, unit_m: f64) -> Vec<State> {
     let drawn = structure.body.position_m[0];
     let anchors = structure.lines.iter().map(|line| line.anchor_m[0]);
@@ -219,7 +223,7 @@ fn row(system: &System, line: usize, at: &State) -> Vector3<f64> {
     Vector3::new(normal.n.x, normal.n.y, normal.arm)
 }
 
-/// A state with its place moved by a step.
+/// A state with its position changed by a step.
 pub(super) fn moved(at: &State, step: &Vector3<f64>) -> State {
     State {
         x: at.x + step[0],
@@ -229,7 +233,7 @@ pub(super) fn moved(at: &State, step: &Vector3<f64>) -> State {
     }
 }
 
-/// How the row of a line changes with x, y and θ, by differences.
+/// The derivatives of the row of a line by x, y and θ, by differences.
 fn row_gradient(system: &System, line: usize, at: &State) -> Matrix3<f64> {
     let mut gradient = Matrix3::zeros();
     for k in 0..3 {
@@ -242,8 +246,8 @@ fn row_gradient(system: &System, line: usize, at: &State) -> Matrix3<f64> {
     gradient
 }
 
-/// A stable place of rest with just these lines pulling, or none from this start: Newton's method
-/// on
+/// A stable position of rest at which exactly these lines pull, or none from this start: Newton's
+/// method on
 ///
 /// ```text
 /// Σ T_i (n_i, s_i) = (F, 0),    g_i/(2r) = 0
@@ -277,8 +281,7 @@ fn rest(system: &System, set: &[usize], start: State) -> Option<State> {
         if !entries.all(|entry: &f64| entry.is_finite()) {
             return None;
         }
-        // A body that may turn freely makes the matrix singular; the shortest step does not turn
-        // it.
+        // If the body can turn freely the matrix is singular; the shortest step does not turn it.
         let step = matrix.svd(true, true).solve(&-residual, 1e-10).ok()?;
         let shorter = (0.5 / step.rows(0, 3).norm()).min(1.0);
         at = moved(&at, &(Vector3::new(step[0], step[1], step[2]) * shorter));
@@ -305,8 +308,8 @@ pub(super) struct SmallMotions {
 }
 
 impl SmallMotions {
-    /// Of a body at a place, where these lines pull so hard; those with next to no tension hold
-    /// nothing.
+    /// The small motions of a body at a position, on lines with these tensions; lines with almost
+    /// no tension are left out.
     pub(super) fn new(system: &System, lines: &[usize], tension: &[f64], at: &State) -> Self {
         let mut curvature = Matrix3::zeros();
         let mut held = Matrix3::zeros();
@@ -326,7 +329,7 @@ impl SmallMotions {
         }
     }
 
-    /// The free motions, one a column.
+    /// The free motions, one in each column.
     pub(super) fn basis(&self) -> DMatrix<f64> {
         DMatrix::from_fn(3, self.free.len(), |i, j| self.free[j][i])
     }
@@ -342,11 +345,11 @@ impl SmallMotions {
     }
 }
 
-/// The tensions ≥ 0 of least sum of squares that balance the load, and what is left unbalanced.
+/// The tensions ≥ 0 of least sum of squares that balance the load, and the largest residual.
 fn tensions(system: &System, taut: &[usize], at: &State) -> (Vec<f64>, f64) {
     let rows: Vec<Vector3<f64>> = taut.iter().map(|&line| row(system, line, at)).collect();
     let load = load(system, at);
-    // Least squares, and again without the lines that would push.
+    // Least squares, repeated without the lines that would push.
     let mut kept: Vec<usize> = (0..taut.len()).collect();
     loop {
         if kept.is_empty() {

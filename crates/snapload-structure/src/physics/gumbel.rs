@@ -1,4 +1,4 @@
-//! The distribution of the largest of many: Gumbel's, fitted by L-moments.
+//! Gumbel's distribution of extreme values, fitted by L-moments.
 
 use serde::Serialize;
 
@@ -14,7 +14,7 @@ pub struct Gumbel {
     pub scale: f64,
     /// Size of the sample.
     pub count: usize,
-    /// ln k, for the largest of k as many as the sample's: the location moves on by α ln k.
+    /// ln k, for the largest of k samples: the location is shifted by α ln k.
     pub log_times: f64,
 }
 
@@ -29,7 +29,7 @@ pub struct Estimate {
 }
 
 impl Gumbel {
-    /// A smaller sample is not fitted.
+    /// The size of the smallest sample that is fitted.
     pub const FEWEST: usize = 3;
 
     /// The fit to a sample of at least three values that are not all equal:
@@ -60,7 +60,7 @@ impl Gumbel {
         })
     }
 
-    /// The value that a part `p` of all stays below, with the asymptotic standard error of the fit:
+    /// The p-quantile, with the asymptotic standard error of the fit:
     ///
     /// ```text
     /// x = ξ + α y,    var x = α²/n (1.1128 + 0.4574 y + 0.8046 y²),    y = −ln(−ln p) + ln k
@@ -72,7 +72,7 @@ impl Gumbel {
         self.at(reduced_variate(p))
     }
 
-    /// The value at a reduced variate of the sample's own distribution, beyond ln k.
+    /// The value at a reduced variate, which is increased by ln k.
     fn at(&self, y: f64) -> Estimate {
         let y = y + self.log_times;
         let variance = 1.1128 + 0.4574 * y + 0.8046 * y * y;

@@ -1,8 +1,7 @@
 //! From SI to the engine's units and back (docs/model.md section 10, docs/structures.md).
 //!
-//! The engine's picture is upside down: x_e = (x − x_0)/L, y_e = −(z − z_0)/L, and, a reflection
-//! being one, θ_e = −θ. The centre (x_0, z_0) of the engine's picture is where the body rests in
-//! still water.
+//! The engine's y points down: x_e = (x − x_0)/L, y_e = −(z − z_0)/L, and, as this is a reflection,
+//! θ_e = −θ. The origin (x_0, z_0) of the engine's axes is the position of rest in still water.
 
 use super::sea::components;
 use super::wave::LinearWave;
@@ -17,17 +16,18 @@ use std::f64::consts::FRAC_PI_2;
 /// (docs/model.md section 6).
 const V_STICK: f64 = 1e-6;
 
-/// The frequency of the part of the water's velocity that does not change.
+/// The frequency that stands for the constant part of the water's velocity.
 pub(super) const CURRENT: f64 = 0.0;
 
-/// Anchors that stand closer together than this part of the longest line do not make a scale.
+/// Anchors that are closer together than this part of the longest line do not define the length
+/// scale.
 const LEAST_SPREAD: f64 = 0.02;
 
 /// The units of the engine in SI.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Scales {
-    /// L: half the horizontal distance between the outermost anchors; the longest line where they
-    /// have none \[m\].
+    /// L: half the horizontal distance between the outermost anchors; the longest line if that is
+    /// too small \[m\].
     pub length_m: f64,
     /// M: mass with the added mass of heave \[kg\].
     pub mass_kg: f64,
@@ -35,13 +35,13 @@ pub struct Scales {
     pub force_n: f64,
     /// T = sqrt(M L/F) \[s\].
     pub time_s: f64,
-    /// The centre of the engine's picture \[m\].
+    /// The origin of the engine's axes \[m\].
     #[serde(skip)]
     pub origin_m: [f64; 2],
 }
 
 impl Scales {
-    /// Of a structure, about a place.
+    /// The scales of a structure, about a position.
     pub fn new(structure: &Structure, origin_m: [f64; 2]) -> Self {
         let anchors = || structure.lines.iter().map(|line| line.anchor_m[0]);
         let wide =
@@ -76,7 +76,7 @@ impl Scales {
         self.force_n * self.length_m
     }
 
-    /// A place `[x, z]` in the engine's picture.
+    /// A position `[x, z]` in the engine's coordinates.
     pub fn to_engine(&self, place_m: [f64; 2]) -> [f64; 2] {
         [
             (place_m[0] - self.origin_m[0]) / self.length_m,
@@ -84,7 +84,7 @@ impl Scales {
         ]
     }
 
-    /// The place `[x, z]` of a point of the engine's picture \[m\].
+    /// The position `[x, z]` of a point in the engine's coordinates \[m\].
     pub fn to_si(&self, [x, y]: [f64; 2]) -> [f64; 2] {
         [
             self.origin_m[0] + x * self.length_m,
@@ -93,7 +93,7 @@ impl Scales {
     }
 }
 
-/// The nondimensional groups of a structure; those of the wave where it is regular.
+/// The nondimensional groups of a structure, with those of the wave if it is regular.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Groups {
     /// r/L of each line.
@@ -124,8 +124,8 @@ pub struct Model {
 }
 
 impl Model {
-    /// Of a structure about the place `[x, z]` with which the engine's picture is centred. Lines of
-    /// `taut` are taut by construction where the body's centre is there and the body is upright.
+    /// The model of a structure about the position `[x, z]` at the origin of the engine's axes.
+    /// Lines of `taut` are taut by construction when the upright body's centre is there.
     pub fn about(structure: &Structure, origin_m: [f64; 2], taut: &[usize]) -> Self {
         let scales = Scales::new(structure, origin_m);
         let waves = waves(structure, origin_m[1]);
@@ -160,8 +160,7 @@ impl Model {
         }
     }
 
-    /// The state of a body at rest at a place, turned by θ counter-clockwise in the picture with z
-    /// up.
+    /// The state of a body at rest at a position, turned by θ counter-clockwise in axes with z up.
     pub fn at_rest(&self, place_m: [f64; 2], theta_rad: f64) -> State {
         let [x, y] = self.scales.to_engine(place_m);
         State {
@@ -172,7 +171,7 @@ impl Model {
         }
     }
 
-    /// The system in still water, with what the current drags with among the constant forces, so that
+    /// The system in still water, with the drag of the current among the constant forces, so that
     /// the body rests where they and the cables are in balance.
     pub(super) fn still(&self) -> System {
         let mut still = self.system.clone();
@@ -225,7 +224,7 @@ pub(super) fn rules(structure: &Structure, scales: &Scales) -> Rules {
 }
 
 impl Groups {
-    /// Those of body and lines.
+    /// The groups of body and lines.
     pub(super) fn of_body(structure: &Structure, scales: &Scales, inertia: f64) -> Self {
         let (body, l) = (&structure.body, scales.length_m);
         let lines = structure.lines.iter();
@@ -263,7 +262,8 @@ fn groups(structure: &Structure, scales: &Scales, waves: &[LinearWave]) -> Group
 }
 
 /// The body with its mass matrix, diag(m + A11, m + A33, I + A55) in units of m + A33; it does not
-/// turn with the body. The same in x and z it is the unit mass, for which flight has a closed form.
+/// turn with the body. If the masses in x and z are equal it is the unit mass, for which flight has
+/// a closed form.
 fn body(structure: &Structure, shape: Shape, inertia: f64) -> Body {
     let [surge, heave] = structure.body.moving_mass_kg();
     let matrix = [
@@ -276,13 +276,14 @@ fn body(structure: &Structure, shape: Shape, inertia: f64) -> Body {
     unlike.unwrap_or_else(|| Body::rigid(shape, inertia))
 }
 
-/// Froude-Krylov force with added mass over the water's acceleration in x and in z, ρV + m_a \[kg\].
+/// Froude-Krylov force plus that of added mass, divided by the water's acceleration in x and in z:
+/// ρV + m_a \[kg\].
 pub fn force_per_acceleration(structure: &Structure) -> [f64; 2] {
     let added = &structure.body.added_mass;
     [added.surge_kg, added.heave_kg].map(|added| structure.displaced_mass_kg() + added)
 }
 
-/// The waves of a structure as they are at the body's level.
+/// The waves of a structure at the body's level.
 pub(super) fn waves(structure: &Structure, z_m: f64) -> Vec<LinearWave> {
     let of = |amplitude_m: f64, omega_rad_s: f64, phase_rad: f64| LinearWave {
         phase_rad,
@@ -301,7 +302,7 @@ pub(super) fn waves(structure: &Structure, z_m: f64) -> Vec<LinearWave> {
 }
 
 /// A vector that is `per` times the water's acceleration in a wave, along x and along z, in the
-/// engine's picture.
+/// engine's axes.
 ///
 /// With the surface η = A sin(ωt + ε) above the body, of a wave that goes to +x, linear theory
 /// gives
@@ -311,8 +312,8 @@ pub(super) fn waves(structure: &Structure, z_m: f64) -> Vec<LinearWave> {
 /// ```
 ///
 /// so the force is f_x = f_o cos(Ωt + ε), and f_y = ν f_o sin(Ωt + ε) as y points down: for ε = 0
-/// the ellipse of docs/model.md section 3, begun when the horizontal acceleration is greatest. A
-/// wave that goes to −x turns the sign of u̇. The phase is given as \[sin ε, cos ε\].
+/// the ellipse of docs/model.md section 3, beginning at the largest horizontal acceleration. For a
+/// wave that goes to −x the sign of u̇ is reversed. The phase is given as \[sin ε, cos ε\].
 fn sinusoid(
     structure: &Structure,
     scales: &Scales,

@@ -1,14 +1,14 @@
-//! Natural periods: small undamped motions about the place of rest in still water.
+//! Natural periods: small undamped motions about the position of rest in still water.
 //!
 //! ```text
 //! M q̈ + K q = 0,    K = Σ T_i ∇(n_i, s_i)  +  Σ k_i (n_i, s_i)ᵀ (n_i, s_i)
 //! ```
 //!
-//! over q = (x, y, θ), with the mass matrix M, the added mass included, and T_i and k_i the tension
-//! at rest and the spring rate of line i. The first sum is what the tension does as the lines turn,
-//! the second what the springs do. On lines that do not stretch the second is left out, and q is
-//! only along the motions that keep taut every line that pulls. From K v = ω² M v follow ω² and the
-//! mode v (L. Meirovitch, *Elements of Vibration Analysis* (1986), section 4.3).
+//! over q = (x, y, θ), with the mass matrix M, which includes the added mass, and T_i and k_i the
+//! tension at rest and the spring rate of line i. The first sum is the stiffness of the tension as
+//! the lines turn, the second that of the springs. On lines that do not stretch the second is left
+//! out, and q is restricted to the motions that keep taut every line that pulls. From K v = ω² M v
+//! follow ω² and the mode v (L. Meirovitch, *Elements of Vibration Analysis* (1986), section 4.3).
 
 use super::afloat::HeldMotion;
 use super::elastic::{Spring, undamped};
@@ -19,35 +19,35 @@ use nalgebra::{DMatrix, Matrix3};
 use serde::Serialize;
 use snapload_hydro::{Body, HydroError, natural_of_the_file, natural_of_the_memory};
 
-/// A freedom that nothing brings back has less than this, in the engine's units.
+/// Below this ω², in the engine's units, a degree of freedom counts as having no restoring force.
 const LEAST_OMEGA_SQUARED: f64 = 1e-7;
-/// What counts in the name of a mode: this part of its kinetic energy, and more.
+/// A component is part of a mode's name if it has at least this part of its kinetic energy.
 const NAMED: f64 = 0.2;
 
-/// A small motion in which the body swings by itself.
+/// A natural small motion of the body.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct NaturalMode {
-    /// Its period; none where nothing brings the body back \[s\].
+    /// Its period; none if there is no restoring force \[s\].
     pub period_s: Option<f64>,
-    /// Which way it goes: surge, heave, pitch, or two or three of them.
+    /// Its direction: surge, heave, pitch, or two or three of them.
     pub motion: String,
     /// Its surge \[m\], heave \[m\] and pitch \[rad\], the largest of the three numbers being 1.
     #[serde(rename = "surge_heave_pitch")]
     pub mode: [f64; 3],
 }
 
-/// The natural periods on either model of a line, the longest first.
+/// The natural periods for both models of a line, the longest first.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct NaturalPeriods {
-    /// On lines that do not stretch: one for each freedom that the taut lines leave.
+    /// On lines that do not stretch: one for each degree of freedom that the taut lines allow.
     pub inextensible: Vec<NaturalMode>,
-    /// On lines that stretch, where their stiffness is known and the body rests on them.
+    /// On lines that stretch, if their stiffness is known and the body rests on them.
     pub elastic: Option<Vec<NaturalMode>>,
 }
 
 impl NaturalPeriods {
-    /// Of a submerged structure at rest in still water; the stiffness of a floating one is the
-    /// water's, too.
+    /// Of a submerged structure at rest in still water; a floating one also has the water's
+    /// stiffness.
     pub fn of(prepared: &Prepared) -> Option<Self> {
         if prepared.structure.afloat.is_some() {
             return None;
@@ -64,8 +64,7 @@ impl NaturalPeriods {
 }
 
 impl Prepared {
-    /// The small motions of a floating body on its lines as they stretch, where their stiffness is
-    /// known.
+    /// The small motions of a floating body on stretching lines, if their stiffness is known.
     pub fn on_lines_that_stretch(&self) -> Vec<HeldMotion> {
         let afloat = self.structure.afloat.as_deref();
         let found = afloat.map(|afloat| afloat_on_springs(self, afloat));
@@ -86,7 +85,7 @@ fn afloat_on_springs(prepared: &Prepared, afloat: &Afloat) -> Result<Vec<HeldMot
     let Ok(stiffness) = sprung else {
         return Ok(Vec::new());
     };
-    // A length for each rotation, and y up.
+    // A factor of a length for each rotation, and y up.
     let scales = &prepared.model.scales;
     let unit = [1.0, -1.0, scales.length_m];
     let per = scales.force_n / scales.length_m;
@@ -137,7 +136,7 @@ fn modes(prepared: &Prepared, stiffness: &Matrix3<f64>, basis: &DMatrix<f64>) ->
     }
     let mass = mass_matrix(prepared);
     let within = |matrix: &Matrix3<f64>| basis.transpose() * matrix * basis;
-    // M = R Rᵀ makes of K v = ω² M v the eigenvalues of the symmetric R⁻¹ K R⁻ᵀ.
+    // With M = R Rᵀ, K v = ω² M v becomes the eigenvalue problem of the symmetric R⁻¹ K R⁻ᵀ.
     let Some(root) = within(&mass).cholesky() else {
         return Vec::new();
     };
@@ -170,7 +169,7 @@ fn mass_matrix(prepared: &Prepared) -> Matrix3<f64> {
     inverse.try_inverse().unwrap_or_else(Matrix3::zeros)
 }
 
-/// A mode in metres and radians with z up, its largest part 1.
+/// A mode in metres and radians with z up, scaled so that its largest component is 1.
 fn in_si([x, y, theta]: [f64; 3], length_m: f64) -> [f64; 3] {
     let all = [x * length_m, -y * length_m, -theta];
     let largest = all.into_iter().max_by(|a, b| a.abs().total_cmp(&b.abs()));
@@ -178,7 +177,7 @@ fn in_si([x, y, theta]: [f64; 3], length_m: f64) -> [f64; 3] {
     all.map(|part| part / unit)
 }
 
-/// The freedoms that hold a part of a mode's kinetic energy.
+/// The degrees of freedom that have an appreciable part of a mode's kinetic energy.
 fn motion(mass: &Matrix3<f64>, mode: [f64; 3]) -> String {
     let energy = |k: usize| mass[(k, k)] * mode[k] * mode[k];
     let all: f64 = (0..3).map(energy).sum();

@@ -1,4 +1,4 @@
-//! A structure with its place of rest and its model, ready to run.
+//! A structure with its position of rest and its model, ready to run.
 
 use super::afloat::{HeldMotion, model, rest_afloat};
 use super::elastic::undamped;
@@ -8,42 +8,43 @@ use crate::structure::{IrregularSea, Structure, Water};
 use snapload::{CaseError, Simulation, StartError, State, Stop};
 use snapload_hydro::periods_in_words;
 
-/// A body that is turned by less than this at rest is upright: its gaps are then off by rounding
-/// only \[rad\].
+/// A body turned by less than this at rest is upright: the resulting errors of its gaps are only
+/// rounding \[rad\].
 const UPRIGHT: f64 = 1e-12;
 
-/// Tensions at rest that differ by more than this part of the largest are shared otherwise.
+/// Tensions at rest count as differently distributed if they differ by more than this part of the
+/// largest.
 const SHARED: f64 = 0.05;
 
-/// Structure, place of rest and model, ready to run.
+/// Structure, position of rest and model, ready to run.
 #[derive(Clone, Debug)]
 pub struct Prepared {
     /// The structure.
     pub structure: Structure,
-    /// Where it rests.
+    /// Its position of rest.
     pub rest: Equilibrium,
     /// The same in the engine's units.
     pub model: Model,
-    /// The small motions that the taut lines leave a floating body where it rests.
+    /// The small motions about the position of rest that the taut lines of a floating body allow.
     pub held: Vec<HeldMotion>,
     start: State,
 }
 
 impl Prepared {
-    /// Finds where the structure rests and makes its model.
+    /// Finds the structure's position of rest and makes its model.
     ///
     /// # Errors
-    /// A [`CaseError`] if it rests nowhere or can not start where it should.
+    /// A [`CaseError`] if it has no position of rest or the start is not possible.
     pub fn new(structure: Structure) -> Result<Self, CaseError> {
         let prepared = Self::at_rest(structure)?;
         prepared.begin(1.0)?;
         Ok(prepared)
     }
 
-    /// The same for lines that stretch, which a start of the case may have stretched already.
+    /// The same for lines that stretch, which may already be stretched at the start of the case.
     ///
     /// # Errors
-    /// A [`CaseError`] if it rests nowhere or can not start where it should.
+    /// A [`CaseError`] if it has no position of rest or the start is not possible.
     pub fn for_springs(structure: Structure) -> Result<Self, CaseError> {
         let prepared = Self::at_rest(structure)?;
         match prepared.simulation(1.0) {
@@ -57,7 +58,7 @@ impl Prepared {
         self.simulation(1.0).is_ok()
     }
 
-    /// With its place of rest and its model, its start unchecked.
+    /// With its position of rest and its model, but its start unchecked.
     fn at_rest(structure: Structure) -> Result<Self, CaseError> {
         let (mut rest, held) = match &structure.afloat {
             Some(afloat) => rest_afloat(&structure, afloat)?,
@@ -77,8 +78,8 @@ impl Prepared {
         Ok(prepared)
     }
 
-    /// Takes the tensions at rest from the stiffness of the lines where that is known and lines that
-    /// do not stretch would share the load otherwise.
+    /// Takes the tensions at rest from the stiffness of the lines if that is known and lines that
+    /// do not stretch would distribute the load differently.
     fn share_by_stiffness(&mut self) {
         let sprung = undamped(self, 1.0).and_then(|springs| self.on_springs(&springs));
         let Ok(sprung) = sprung else {
@@ -96,7 +97,7 @@ impl Prepared {
         }
     }
 
-    /// A structure with its place of rest and the model about it, at its start.
+    /// A structure with its position of rest and the model about it, at its start.
     pub(super) fn starting(structure: Structure, rest: Equilibrium, model: Model) -> Self {
         let start = match structure.start_m {
             Some(place) => model.at_rest(place, 0.0),
@@ -111,7 +112,7 @@ impl Prepared {
         }
     }
 
-    /// The same structure in another sea; where it rests stays.
+    /// The same structure in another sea; its position of rest does not change.
     ///
     /// # Errors
     /// A [`CaseError`] if a floating body has no coefficients for it.
@@ -127,7 +128,8 @@ impl Prepared {
         })
     }
 
-    /// The same structure with another coefficient of restitution; where it rests stays.
+    /// The same structure with another coefficient of restitution; its position of rest does not
+    /// change.
     #[must_use]
     pub(crate) fn with_restitution(&self, restitution: f64) -> Self {
         let mut other = self.clone();
@@ -136,7 +138,7 @@ impl Prepared {
         other
     }
 
-    /// The motion at its start, in waves that are so many times as high.
+    /// The motion at its start, in waves `height` times as high.
     ///
     /// # Errors
     /// A [`CaseError`] on the start, which [`Prepared::new`] has excluded.
@@ -163,7 +165,7 @@ impl Prepared {
         Simulation::new(system, self.model.rules, 0.0, self.start)
     }
 
-    /// What is to be known of a floating body beside its motion, a label and its words; nothing of a
+    /// Facts about a floating body besides its motion, each a label and its text; empty for a
     /// submerged one.
     pub fn words_afloat(&self) -> Vec<(&'static str, String)> {
         let Some(afloat) = &self.structure.afloat else {
@@ -228,9 +230,9 @@ impl Prepared {
     }
 }
 
-/// Whether lines share the load at rest otherwise than those that do not stretch, whose tensions
-/// come first. The water carries what the lines of a floating body lose as they stretch, so of one
-/// it is their parts of all that they carry that count.
+/// Whether the distribution of the load at rest differs from that on lines that do not stretch,
+/// whose tensions come first. For a floating body the water carries the load that stretching lines
+/// lose, so that the parts of the lines' total load are compared.
 fn shared_otherwise(structure: &Structure, tensions_n: [&[f64]; 2]) -> bool {
     let units = match structure.afloat {
         Some(_) => tensions_n.map(|pulls| pulls.iter().sum::<f64>().max(f64::MIN_POSITIVE)),
@@ -248,8 +250,8 @@ fn differ(rigid: &[f64], by_stiffness: &[f64], [one, other]: [f64; 2]) -> bool {
     rigid.iter().zip(by_stiffness).any(apart)
 }
 
-/// The model about the place of rest. The lines of a turned body are as long as their gaps say;
-/// those that hold an upright one are exactly taut there.
+/// The model about the position of rest. For a turned body the lengths of the lines give their
+/// gaps; the lines that hold an upright one are exactly taut there.
 fn model_at_rest(structure: &Structure, rest: &Equilibrium) -> Result<Model, CaseError> {
     if let Some(afloat) = &structure.afloat {
         return model(structure, afloat);

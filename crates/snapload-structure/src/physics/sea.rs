@@ -1,11 +1,11 @@
-//! Irregular seas: a spectrum, and the sinusoids that stand for it.
+//! Irregular seas: a spectrum, and the sinusoids that represent it.
 
 use crate::structure::{IrregularSea, SpectrumShape};
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::{Rng, SeedableRng};
 use std::f64::consts::PI;
 
-/// The band of frequencies that is kept, in peak frequencies. Above it lie 0.2 % of a
+/// The band of frequencies that is kept, in units of the peak frequency. Above it lie 0.2 % of a
 /// Pierson-Moskowitz spectrum's m0 and less of a JONSWAP spectrum's; below it nothing.
 const BAND: [f64; 2] = [0.4, 5.0];
 /// Equal steps of the band in which the spectrum is integrated.
@@ -31,7 +31,7 @@ pub struct Component {
 }
 
 impl Spectrum {
-    /// Of a sea, scaled so that its m0 over the band that is kept is Hs²/16.
+    /// The spectrum of a sea, scaled so that its m0 over the band that is kept is Hs²/16.
     pub fn new(sea: &IrregularSea) -> Self {
         let mut spectrum = Self {
             shape: sea.shape,
@@ -84,7 +84,7 @@ impl Spectrum {
         low + (high - low) * step as f64 / STEPS as f64
     }
 
-    /// The integral from the lower end of the band up to each step.
+    /// The integral from the lower end of the band to each step.
     fn cumulative(&self, weight: impl Fn(f64) -> f64) -> Vec<f64> {
         let width = self.frequency(1) - self.frequency(0);
         let value = |step: usize| {
@@ -106,13 +106,14 @@ impl Spectrum {
 
 /// The sinusoids of a sea.
 ///
-/// The spectrum is cut into `components` bins of equal energy, so that every amplitude is sqrt(2
-/// m0/N) and the energy is where the frequencies are dense. The frequency of each is drawn within
-/// its bin in proportion to the energy there, its phase evenly in \[0, 2π): then no frequencies are
-/// multiples of one another and the record does not repeat, and every linear response keeps its
-/// variance on average over seeds, ∑ A²R(ω)/2 → ∫ S R dω, whatever its transfer function R
-/// (stratified sampling). Frequencies evenly spaced by Δω, which a Fourier transform wants, would
-/// repeat after 2π/Δω. The generator is ChaCha with 8 rounds: the same sea on every platform.
+/// The spectrum is divided into `components` bins of equal energy, so that every amplitude is
+/// sqrt(2 m0/N) and frequencies are dense where the energy is. The frequency of each is drawn
+/// within its bin with the energy as its density, its phase uniformly in \[0, 2π): then no
+/// frequencies are multiples of one another and the record does not repeat, and every linear
+/// response has its variance on average over seeds, ∑ A²R(ω)/2 → ∫ S R dω, for any transfer
+/// function R (stratified sampling). Frequencies evenly spaced by Δω, which a Fourier transform
+/// needs, would repeat after 2π/Δω. The generator is ChaCha with 8 rounds: the same sea on every
+/// platform.
 pub fn components(sea: &IrregularSea) -> Vec<Component> {
     let spectrum = Spectrum::new(sea);
     let cumulative = spectrum.cumulative(|_| 1.0);
@@ -145,7 +146,7 @@ pub fn components(sea: &IrregularSea) -> Vec<Component> {
         .collect()
 }
 
-/// A random number, evenly in \[0, 1): 53 random bits.
+/// A random number, uniform in \[0, 1): 53 random bits.
 pub(crate) fn uniform(generator: &mut ChaCha8Rng) -> f64 {
     (generator.next_u64() >> 11) as f64 / (1u64 << 53) as f64
 }

@@ -1,9 +1,9 @@
-//! How hard a snap pulls.
+//! The tension in a snap.
 //!
 //! An inextensible line stops the body at once: the law of impact gives an impulse and a loss of
-//! energy, never a force. A force needs what the engine leaves out, the line's elasticity and its
-//! mass. It is estimated from the impulses of one instant, J_i = p_i/(1 + e) without what the
-//! rebound adds, and does not enter the motion:
+//! energy, but no force. A force depends on the line's elasticity and mass, which the engine does
+//! not include. It is estimated from the impulses of one instant, J_i = p_i/(1 + e), without the
+//! part of the rebound, and has no effect on the motion:
 //!
 //! ```text
 //! taken:   E_i = max( J_i v_i/2,  min( J_i² w_i/2M,  Σ J_j v_j/2 ) )
@@ -13,33 +13,33 @@
 //! ```
 //!
 //! with v_i the closing speed, M/w_i the effective mass of the body along the line (w = G M⁻¹ Gᵀ in
-//! the engine's units, which is 1 + s²/I of docs/model.md section 5 where all directions weigh the
-//! same), T_0 the tension at rest, or of a line that was taut the one it had. P = T_0 is the load
-//! that pulls on while a slack line stretches to where it carries that load; a line that was taut
-//! carries it already, P = 0. A line that closes by itself takes up all of the closing energy, J v/2 = M
-//! v²/2w, and stops m = M/w at u = v. Lines that close together share it as they share the impulse.
-//! A line that was taut, v_i = 0, and has a jolt passed on to it takes up the energy that J_i alone
-//! would give it, and no more than there is.
+//! the engine's units, which is 1 + s²/I of docs/model.md section 5 if the masses in all directions
+//! are equal), T_0 the tension at rest, or for a line that was taut its tension before the snap. P
+//! = T_0 is the load that continues to act while a slack line stretches until it carries that load;
+//! a line that was taut carries it already, P = 0. A line that closes by itself takes up all of the
+//! closing energy, J v/2 = M v²/2w, and stops m = M/w at u = v. Lines that close together share it
+//! as they share the impulse. A line that was taut, v_i = 0, and has a jolt passed on to it takes
+//! up the energy that J_i alone would give it, up to the energy available.
 //!
-//! The spring is that of docs/model.md section 10 under the load P, exact for a mass on a spring; the
-//! front is the momentum balance of an elastic bar
-//! struck at its end (K. F. Graff, *Wave Motion in Elastic Solids* (1975), section 2.4). The peak
-//! is the sum of both, with the line's own mass added to what it stops: of the exact elastic line,
-//! fixed at one end and pulled at the other by a mass at a speed and by a load, it is at most 6 %
-//! short or over where the mass is three times that of the line or more, and at most 19 % short and
-//! 13 % over down to a tenth of it. That is found by following the waves to and fro in ten thousand
-//! cases (a test), and of the kind that S. Timoshenko & J. N. Goodier, *Theory of Elasticity*, give
-//! for the longitudinal impact of bars.
+//! The spring is that of docs/model.md section 10 under the load P, exact for a mass on a spring;
+//! the front is the momentum balance of an elastic bar struck at its end (K. F. Graff, *Wave Motion
+//! in Elastic Solids* (1975), section 2.4). The peak is the sum of both, with the line's own mass
+//! added to the mass that it stops. Compared with the exact elastic line, fixed at one end and
+//! pulled at the other by a moving mass and by a load, its error is at most 6 % if the mass is
+//! three times that of the line or more, and at most −19 % and +13 % down to a tenth of it. This
+//! was found by following the waves along the line in ten thousand cases (a test), with the method
+//! by which S. Timoshenko & J. N. Goodier, *Theory of Elasticity*, treat the longitudinal impact of
+//! bars.
 
 use super::prepared::Prepared;
 use crate::structure::LineSi;
 use serde::{Serialize, Serializer};
 use snapload::{Impact, Simulation, Step};
 
-/// A slower snap is the line settling down, not a load: it is neither counted nor listed \[m/s\].
+/// A slower snap is the settling of the line, not a load: it is neither counted nor listed \[m/s\].
 pub const SLOWEST_M_S: f64 = 0.01;
 
-/// A line snapping taut, or the jolt that another one's snap passes on to a taut line.
+/// A line snapping taut, or the jolt that another line's snap passes on to a taut line.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Snap {
     /// When \[s\].
@@ -50,32 +50,32 @@ pub struct Snap {
     /// Whether the line was taut, and the snap of another was passed on to it.
     #[serde(rename = "jolt")]
     pub is_jolt: bool,
-    /// Closing speed v; 0 of a line that was taut \[m/s\].
+    /// Closing speed v; 0 for a line that was taut \[m/s\].
     pub speed_m_s: f64,
     /// Impulse in the line \[N s\].
     pub impulse_n_s: f64,
     /// Energy lost \[J\].
     pub energy_lost_j: f64,
-    /// What the line has to stop, m \[kg\].
+    /// The effective mass m that the line stops \[kg\].
     pub effective_mass_kg: f64,
-    /// At which speed that comes, u \[m/s\]; v where one line snaps by itself.
+    /// The speed u of that mass \[m/s\]; v if one line snaps by itself.
     pub effective_speed_m_s: f64,
     /// Peak tension of the spring; none without a stiffness \[N\].
     pub energy_peak_n: Option<f64>,
-    /// v sqrt(k M), the formula of handbooks, which leaves out the tension before and takes all of
+    /// v sqrt(k M), the formula of handbooks, which leaves out the tension before and uses all of
     /// the mass that moves in heave; none without a stiffness \[N\].
     pub formula_n: Option<f64>,
     /// Tension of the first instant; none without stiffness and mass per length \[N\].
     pub front_n: Option<f64>,
-    /// Peak tension of the line with its mass, where that is known, else of the spring \[N\].
+    /// Peak tension of the line with its mass, if that is known, else of the spring \[N\].
     pub peak_n: Option<f64>,
-    /// The peak over the breaking load.
+    /// The peak divided by the breaking load.
     pub utilisation: Option<f64>,
 }
 
 impl Snap {
-    /// Whether it is a load, and not a line that settles down: what it stops comes at 1 cm/s or
-    /// more.
+    /// Whether it counts as a load, and not as the settling of a line: its effective speed is 1
+    /// cm/s or more.
     pub fn counts(&self) -> bool {
         self.effective_speed_m_s >= SLOWEST_M_S
     }
@@ -107,8 +107,8 @@ pub(crate) fn snaps_of_step(
     })
 }
 
-/// The snaps that the impacts of one instant are. `held` are the tensions there of the cables that
-/// were taut before it, in the engine's units; none of the others.
+/// The snaps in the impacts of one instant. `held` are the tensions there of the cables that were
+/// taut before it, in the engine's units; none for the others.
 pub fn snaps(
     prepared: &Prepared,
     impacts: &[Impact],
@@ -177,7 +177,7 @@ fn snap(
 }
 
 /// Spring, front and peak of a line that stops a mass at a speed, with the tension before and the
-/// load that pulls on. EA μ is the product of k = EA/length and the line's mass.
+/// load that continues to act. EA μ is the product of k = EA/length and the line's mass.
 fn peaks(
     line: &LineSi,
     [before_n, load_n]: [f64; 2],

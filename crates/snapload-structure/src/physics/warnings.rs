@@ -1,5 +1,5 @@
-//! What is outside the range in which the theory holds: rules of thumb, each with its numbers. The
-//! words stand in `templates/warnings.txt`.
+//! Warnings of conditions outside the range of the theory: rules of thumb, each with its numbers.
+//! The texts are in `templates/warnings.txt`.
 
 use super::afloat::left_out;
 use super::equilibrium::Equilibrium;
@@ -18,38 +18,40 @@ use std::f64::consts::PI;
 const HIGHEST: f64 = 1.86;
 /// Above this Ursell number waves are not sinusoidal.
 const URSELL: f64 = 26.0;
-/// Above this Keulegan-Carpenter number drag counts beside inertia.
+/// Above this Keulegan-Carpenter number drag matters besides inertia.
 const KEULEGAN: f64 = 5.0;
-/// A body larger than this part of the wave length changes the waves.
+/// A body larger than this part of the wave length scatters the waves.
 const DIFFRACTION: f64 = 0.2;
-/// Lines with more than this part of the mass that moves are not massless.
+/// Lines with more than this part of the moving mass are not massless.
 const LIGHT: f64 = 0.1;
-/// A body is so many times as long across the plane as it is wide, or as wide as it is long, at most.
+/// The largest plausible ratio of the body's length across the plane and its width, or the reverse.
 const PROPORTION: f64 = 100.0;
-/// A line may be so many times as long as its ends are apart where the case has the body.
+/// The largest plausible ratio of a line's length to the distance of its ends with the body at the
+/// case's position.
 const LONG: f64 = 3.0;
 /// Linear hydrostatics hold for less pitch than this \[degrees\].
 const LARGE_PITCH: f64 = 15.0;
-/// A body that turns further than this is held back by the water round it \[degrees\].
+/// The rotation of a body beyond this would be resisted by the water \[degrees\].
 const FREE_TURN: f64 = 60.0;
-/// Records that are judged for less than one part in so many of three hours say little of them.
+/// Records whose judged time is less than three hours divided by this say little about three hours.
 const SHORT: f64 = 12.0;
-/// A phase of the wave that is off by this much is no longer small \[rad\].
+/// A change of the wave's phase of this much is no longer small \[rad\].
 const MOST_PHASE: f64 = 0.3;
 
-/// A rule that a case breaks and can be computed all the same.
+/// A rule of thumb that a case violates, although it can be computed.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Warning {
     /// The rule's name.
     pub rule: &'static str,
-    /// What is the matter, with the numbers.
+    /// The message, with the numbers.
     pub message: String,
-    /// Where tensions of inextensible lines are not to be relied on, the command that decides.
+    /// The command that decides, if the tensions of inextensible lines are not reliable.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub decided_by: Option<&'static str>,
 }
 
-/// What decides where a rule is broken that the tensions of inextensible lines hang on.
+/// The command that decides if a rule is violated on which the tensions of inextensible lines
+/// depend.
 fn decided_by(rule: &str) -> Option<&'static str> {
     match rule {
         "instant snap" | "shared loads" => Some("snapload elastic"),
@@ -66,7 +68,7 @@ struct Message<'a> {
     words: &'a str,
 }
 
-/// The warning of a rule with its two numbers and words, where it is broken.
+/// The warning of a rule with its two numbers and its text, if it is violated.
 fn broken(is: bool, rule: &'static str, [a, b]: [f64; 2], words: &str) -> Option<Warning> {
     let message = Message { rule, a, b, words };
     is.then(|| Warning {
@@ -76,12 +78,12 @@ fn broken(is: bool, rule: &'static str, [a, b]: [f64; 2], words: &str) -> Option
     })
 }
 
-/// The warning of a rule that a number be below a limit.
+/// The warning of a rule that a number has to be below a limit.
 fn above(limit: f64, value: f64, rule: &'static str, words: &str) -> Option<Warning> {
     broken(value > limit, rule, [value, limit], words)
 }
 
-/// The rules that a structure breaks, as it rests.
+/// The rules that a structure violates at rest.
 pub fn warnings(prepared: &Prepared) -> Vec<Warning> {
     let (structure, rest) = (&prepared.structure, &prepared.rest);
     if let Some(afloat) = &structure.afloat {
@@ -105,7 +107,7 @@ pub fn warnings(prepared: &Prepared) -> Vec<Warning> {
     found.into_iter().flatten().collect()
 }
 
-/// Lines that weigh something beside what moves.
+/// The warning that the mass of lines is not negligible.
 fn heavy_lines(structure: &Structure) -> Option<Warning> {
     let lines = structure.lines.iter();
     let masses = lines.filter_map(|line| Some(line.mass_per_length_kg_m? * line.length_m));
@@ -114,8 +116,8 @@ fn heavy_lines(structure: &Structure) -> Option<Warning> {
     above(LIGHT, part, "light lines", "")
 }
 
-/// The rules of a floating body: those of its coefficients, of the place where it rests, of the waves
-/// and of the lines. That it is in the surface and makes waves is what the coefficients are for.
+/// The rules of a floating body: those of its coefficients, of its position of rest, of the waves
+/// and of the lines. That it is at the surface and makes waves is covered by its coefficients.
 fn warnings_afloat(prepared: &Prepared, afloat: &Afloat) -> Vec<Warning> {
     let (structure, rest) = (&prepared.structure, &prepared.rest);
     let report = &afloat.report;
@@ -145,7 +147,7 @@ fn warnings_afloat(prepared: &Prepared, afloat: &Afloat) -> Vec<Warning> {
         broken(lost > 0.0, "frequencies left out", [lost, 0.0], ""),
     ];
     if let Some((highest, wave)) = governing_wave(structure, body.position_m[1].min(0.0)) {
-        // What a file's coefficients are for, a textbook's leave out.
+        // The effects of waves that a file's coefficients include are missing in a textbook's.
         let all = in_waves(prepared, f64::INFINITY, highest, &wave).into_iter();
         found.extend(all.filter(|found| {
             found
@@ -158,7 +160,7 @@ fn warnings_afloat(prepared: &Prepared, afloat: &Afloat) -> Vec<Warning> {
     of_file.chain(found.into_iter().flatten()).collect()
 }
 
-/// Where the motion of a floating body left what linear theory covers.
+/// The warnings where the motion of a floating body left the range of linear theory.
 pub(crate) fn limits_afloat(
     structure: &Structure,
     seen: Option<&Waterline>,
@@ -192,7 +194,7 @@ pub(crate) fn limits_afloat(
     found.into_iter().flatten().collect()
 }
 
-/// The warning that the inextensible line does not know who carries how much at rest.
+/// The warning that inextensible lines do not determine the distribution of the load at rest.
 fn shared_loads(rest: &Equilibrium) -> Option<Warning> {
     let words = rest.shared.as_ref().map(|shared| {
         format!(
@@ -207,7 +209,7 @@ fn shared_loads(rest: &Equilibrium) -> Option<Warning> {
     broken(is, "shared loads", [0.0; 2], &words.unwrap_or_default())
 }
 
-/// The warning that the lines of a floating body carry another load as they stretch.
+/// The warning that the lines of a floating body carry a different load when they stretch.
 fn stretch_at_rest(rest: &Equilibrium) -> Option<Warning> {
     let relaxed = rest.relaxed_n.as_ref()?;
     let words = format!(
@@ -224,7 +226,7 @@ fn each_kilo(tensions_n: &[f64]) -> String {
     each.collect::<Vec<_>>().join("/")
 }
 
-/// What can be computed and is hardly meant.
+/// The warnings of data that can be computed but are probably wrong.
 fn implausible(structure: &Structure) -> [Option<Warning>; 3] {
     let body = &structure.body;
     let (length, size) = (body.length_m(), body.width_m.max(body.height_m));
@@ -247,7 +249,7 @@ fn implausible(structure: &Structure) -> [Option<Warning>; 3] {
     ]
 }
 
-/// The same in waves, of which the highest is so high.
+/// The rules in waves, given the height of the highest one.
 fn in_waves(
     prepared: &Prepared,
     top: f64,
@@ -288,8 +290,8 @@ fn in_waves(
 }
 
 /// The engine's snap takes no time; a line of spring rate k takes half a period, π sqrt(m/k) with
-/// the mass m that it has to stop. Those lines for which that is more than a tenth of the waves'
-/// period, in words.
+/// the effective mass m that it stops. Lists the lines for which that is more than a tenth of the
+/// waves' period.
 fn soft_lines(prepared: &Prepared, period_s: f64) -> String {
     let lines = prepared.structure.lines.iter().enumerate();
     let soft = lines.filter_map(|(index, line)| {
@@ -300,8 +302,8 @@ fn soft_lines(prepared: &Prepared, period_s: f64) -> String {
     soft.collect::<Vec<_>>().join(", ")
 }
 
-/// The warning that a body moves so far that the wave's phase where it is differs from that where
-/// it rests.
+/// The warning that a body moves so far that the wave's phase at its position differs from that at
+/// its position of rest.
 pub(crate) fn phase_warning(structure: &Structure, z_m: f64, excursion_m: f64) -> Option<Warning> {
     let (_, wave) = governing_wave(structure, z_m)?;
     let phase = wave.wave_number_1_m * excursion_m;
@@ -309,14 +311,15 @@ pub(crate) fn phase_warning(structure: &Structure, z_m: f64, excursion_m: f64) -
     broken(phase > MOST_PHASE, "phase", numbers, "")
 }
 
-/// The warning that a distribution in three hours rests on records of much less.
+/// The warning that a distribution in three hours is based on much shorter records.
 pub(crate) fn short_records(structure: &Structure) -> Option<Warning> {
     let judged_s = structure.duration_s - structure.transient_s;
     let times = THREE_HOURS_S / judged_s.max(1.0);
     broken(times > SHORT, "short records", [judged_s, times], "")
 }
 
-/// The warning that a body turns so far that what resists its rotation counts, and nothing does.
+/// The warning that a body turns so far that a resistance to its rotation matters, and the case has
+/// none.
 pub(crate) fn turning_warning(structure: &Structure, turned_rad: f64) -> Option<Warning> {
     let (damped, key) = match &structure.afloat {
         Some(afloat) => {

@@ -1,21 +1,25 @@
-//! How a floating body lies in the still water, against the limits of linear hydrostatics.
+//! The position of a floating body relative to the still water, and the limits of linear
+//! hydrostatics.
 
 use crate::structure::{Outline, Structure};
 use serde::Serialize;
 
-/// How a floating body lay in the still water along its run, at the end of each step of it.
+/// The extreme positions of a floating body relative to the still water, over the ends of the steps
+/// of a run.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Waterline {
-    /// The lowest and the highest place of the centre, from where its coefficients were computed \[m\].
+    /// The lowest and the highest position of the centre, relative to the position for which its
+    /// coefficients were computed \[m\].
     pub heave_m: [f64; 2],
-    /// The lowest that an edge of the deck came \[m\].
+    /// The lowest position of an edge of the deck \[m\].
     pub deck_m: f64,
-    /// The highest that a lower edge came \[m\].
+    /// The highest position of a lower edge \[m\].
     pub bilge_m: f64,
 }
 
 impl Waterline {
-    /// Before anything was seen of a floating body; none of a submerged one.
+    /// The initial value for a floating body, before any position is included; none for a submerged
+    /// one.
     pub(crate) fn before(structure: &Structure) -> Option<Self> {
         structure.afloat.as_ref().map(|_| Self {
             heave_m: [f64::INFINITY, f64::NEG_INFINITY],
@@ -24,7 +28,7 @@ impl Waterline {
         })
     }
 
-    /// Takes in another.
+    /// The extremes of both.
     #[must_use]
     pub(crate) fn with(self, other: &Self) -> Self {
         let ([low, high], [other_low, other_high]) = (self.heave_m, other.heave_m);
@@ -35,8 +39,8 @@ impl Waterline {
         }
     }
 
-    /// Of a body whose centre is at a level, turned by θ: the deck's edges are at z + h/2 cos θ ± b/2
-    /// sin θ.
+    /// The position of a body whose centre is at a level, turned by θ: the deck's edges are at z +
+    /// h/2 cos θ ± b/2 sin θ.
     pub(crate) fn at(structure: &Structure, z_m: f64, theta_rad: f64) -> Self {
         let body = &structure.body;
         let (sine, cosine) = theta_rad.sin_cos();

@@ -1,9 +1,9 @@
-//! One of the waves that a structure meets, at the place of the body.
+//! A single wave at the position of the body.
 
 use crate::structure::Site;
 use snapload_hydro::{water_acceleration, wave_number};
 
-/// One sinusoidal wave at the place of the body.
+/// One sinusoidal wave at the position of the body.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct LinearWave {
     /// Angular frequency ω \[rad/s\].
@@ -12,7 +12,7 @@ pub struct LinearWave {
     pub wave_number_1_m: f64,
     /// Amplitude of the surface A \[m\].
     pub amplitude_m: f64,
-    /// Phase ε at the place of the body, where the surface is A sin(ωt + ε) \[rad\].
+    /// Phase ε at the position of the body, where the surface is A sin(ωt + ε) \[rad\].
     pub phase_rad: f64,
     /// Amplitude of the water's horizontal acceleration at the depth of the body \[m/s²\].
     pub a_x_m_s2: f64,
@@ -21,8 +21,8 @@ pub struct LinearWave {
 }
 
 impl LinearWave {
-    /// Of phase 0, an amplitude and a frequency ω > 0, at the level `z_m` < 0: docs/model.md
-    /// section 10 with A = H/2.
+    /// The wave of phase 0, an amplitude and a frequency ω > 0, at the level `z_m` < 0:
+    /// docs/model.md section 10 with A = H/2.
     pub fn new(site: &Site, amplitude_m: f64, omega_rad_s: f64, z_m: f64) -> Self {
         let k = wave_number(omega_rad_s, site.depth_m, site.gravity_m_s2);
         let wave = [amplitude_m, omega_rad_s];

@@ -1,23 +1,23 @@
-//! Waves of tension: the crests and troughs of what a line carries.
+//! Waves of tension: the crests and troughs of a line's tension.
 //!
-//! A wave of tension runs from one rise through the tension at rest to the next, as a wave of the sea
-//! runs from one rise through the still water to the next. Its crest is the largest tension within it,
-//! that of a snap included, its trough the smallest, 0 where the line goes slack.
+//! A wave of tension lasts from one upcrossing of the tension at rest to the next, as a wave of the
+//! sea lasts from one upcrossing of the still water to the next. Its crest is the largest tension
+//! within it, including that of a snap, its trough the smallest, 0 if the line goes slack.
 
 use super::equilibrium::Equilibrium;
 
-/// Finds the waves of one line as its tension is told stretch by stretch.
+/// Finds the waves of one line from its tension, which is passed interval by interval.
 #[derive(Clone, Debug)]
 pub(crate) struct WavesOfTension {
     rest_n: f64,
-    /// Whether the tension has been below that at rest since the last rise through it.
+    /// Whether the tension has been below that at rest since the last upcrossing.
     below: bool,
-    /// Crest and trough since the last rise; none before the first.
+    /// Crest and trough since the last upcrossing; none before the first.
     now: Option<[f64; 2]>,
 }
 
 impl WavesOfTension {
-    /// Of every line of a body at rest.
+    /// For every line of a body at rest.
     pub(crate) fn of_lines(rest: &Equilibrium) -> Vec<Self> {
         rest.tension_n
             .iter()
@@ -25,7 +25,7 @@ impl WavesOfTension {
             .collect()
     }
 
-    /// Of a line with this tension at rest.
+    /// For a line with this tension at rest.
     fn new(rest_n: f64) -> Self {
         Self {
             rest_n,
@@ -34,15 +34,15 @@ impl WavesOfTension {
         }
     }
 
-    /// Takes note of a stretch within which the tension was between two values, or of an instant;
-    /// tells crest and trough of a wave that ends there.
+    /// Takes in an interval within which the tension was between two values, or an instant; returns
+    /// crest and trough of a wave that ends there.
     pub(crate) fn see(&mut self, [least, largest]: [f64; 2]) -> Option<[f64; 2]> {
         let rises = self.below && largest > self.rest_n;
         let mut ended = None;
         if rises {
             ended = self.now.replace([largest, f64::INFINITY]);
         }
-        // What a stretch that rises has below the rest belongs to the wave before.
+        // In a rising interval the values below the tension at rest belong to the wave before.
         let least = if rises { least.max(self.rest_n) } else { least };
         self.below = least < self.rest_n || (self.below && !rises);
         if let Some([crest, trough]) = &mut self.now {
@@ -57,7 +57,7 @@ impl WavesOfTension {
 mod tests {
     use super::WavesOfTension;
 
-    /// A tension of 2 + sin t, told in short stretches, has crests of 3 and troughs of 1.
+    /// A tension of 2 + sin t, passed in short intervals, has crests of 3 and troughs of 1.
     #[test]
     fn a_sinusoid_has_its_crests_and_troughs() {
         let mut waves = WavesOfTension::new(2.0);
@@ -68,14 +68,16 @@ mod tests {
                 waves.see([a.min(b), a.max(b)])
             })
             .collect();
-        // 40/2π is 6.4 periods: the first rise is at 2π, as it begins above the rest.
+        // 40/2π is 6.4 periods: the first upcrossing is at 2π, as the tension begins above that at
+        // rest.
         assert_eq!(ended.len(), 5);
         for [crest, trough] in ended {
             assert!((crest - 3.0).abs() < 1e-4 && (trough - 1.0).abs() < 1e-4);
         }
     }
 
-    /// A line that goes slack and snaps has a trough of nothing and the peak of its snap for a crest.
+    /// A line that goes slack and snaps has a trough of zero, and the peak of its snap as its
+    /// crest.
     #[test]
     fn a_snap_is_a_crest() {
         let mut waves = WavesOfTension::new(1.0);

@@ -1,4 +1,4 @@
-//! The answers as JSON: SI units, each in the name of its key.
+//! The answers as JSON: SI units, each unit in the name of its key.
 
 use super::verdict::end_words;
 use crate::physics::elastic::damping_ratio;
@@ -16,7 +16,7 @@ use serde_json::{Value, json};
 use snapload::Stop;
 use snapload_hydro::{FREEDOMS, Mode, Natural};
 
-/// What moves, and where what the case does not give is from.
+/// The moving mass, and the source of values that the case does not give.
 fn body(structure: &Structure) -> Value {
     let (body, added) = (&structure.body, &structure.body.added_mass);
     json!({
@@ -28,7 +28,7 @@ fn body(structure: &Structure) -> Value {
     })
 }
 
-/// Natural periods of a floating body, and how it lay in the water; none of a submerged one.
+/// Natural periods of a floating body, and its extreme positions; none for a submerged one.
 fn afloat(prepared: &Prepared, seen: Option<&Waterline>) -> Option<Value> {
     let afloat = prepared.structure.afloat.as_ref()?;
     let motion = |(natural, mode): (&Natural, &Mode)| {
@@ -56,7 +56,7 @@ fn afloat(prepared: &Prepared, seen: Option<&Waterline>) -> Option<Value> {
     }))
 }
 
-/// What a line comes to as far as it is judged: null where nothing is.
+/// The results of a line that exist only for judged time; null without it.
 const JUDGED: [&str; 4] = [
     "snaps",
     "fastest_snap_m_s",
@@ -64,7 +64,7 @@ const JUDGED: [&str; 4] = [
     "slack_fraction",
 ];
 
-/// What a line comes to.
+/// The results of a line.
 fn judged(outcome: &Outcome, line: usize) -> Value {
     let mut row = json!(outcome.lines[line]);
     if outcome.is_unjudged() {
@@ -74,7 +74,7 @@ fn judged(outcome: &Outcome, line: usize) -> Value {
 }
 
 impl Assessment {
-    /// All of it; `name` is that of the case.
+    /// All results; `name` is that of the case.
     pub fn to_json(&self, name: &str) -> Value {
         let structure = &self.prepared.structure;
         let (rest, groups) = (&self.prepared.rest, &self.prepared.model.groups);
@@ -91,7 +91,7 @@ impl Assessment {
             row["breaking_load_n"] = json!(line.breaking_load_n);
             row["rest_tension_n"] = json!(known(rest.tension_n[index]));
             row["utilisation"] = json!(utilisations[index]);
-            // What remains of its strength; infinite, and so null, where nothing pulls.
+            // The ratio of strength to load; infinite, and so null, if nothing pulls.
             row["safety_factor"] = json!(utilisations[index].map(f64::recip));
             row
         };
@@ -139,7 +139,7 @@ impl Assessment {
 }
 
 impl Seas {
-    /// All of it; `name` is that of the case.
+    /// All results; `name` is that of the case.
     pub fn to_json(&self, name: &str) -> Value {
         let gumbel = |fit: Gumbel| {
             json!({
@@ -190,7 +190,7 @@ impl Seas {
 }
 
 impl BothModels {
-    /// All of it; `name` is that of the case.
+    /// All results; `name` is that of the case.
     pub fn to_json(&self, name: &str) -> Value {
         let structure = &self.prepared.structure;
         let lines = self.springs.iter().enumerate().map(|(index, spring)| {

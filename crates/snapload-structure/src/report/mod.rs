@@ -1,4 +1,4 @@
-//! What is said of a run: the verdict, a few lines of text, JSON.
+//! Reports on a run: the verdict, a few lines of text, JSON.
 
 mod json;
 mod summary;

@@ -57,17 +57,17 @@ struct SeasText<'a> {
 struct ElasticText<'a> {
     name: &'a str,
     both: &'a BothModels,
-    /// What ended it before its time.
+    /// What ended it early.
     end: Option<&'static str>,
     e: f64,
     zeta: f64,
-    /// Spring rate, damping, part of the time slack, and peak of each line; slack if it did not
-    /// stretch.
+    /// Spring rate, damping, part of the time slack, and peak of each line; and its part of the
+    /// time slack if it did not stretch.
     lines: Vec<([f64; 4], Option<f64>)>,
     rows: Vec<String>,
-    /// How many snaps there are of lines that do not stretch.
+    /// The number of snaps of lines that do not stretch.
     snaps: usize,
-    /// The hardest of them with all that is estimated, the line's own mass included \[N\].
+    /// The hardest of them by the complete estimate, the line's own mass included \[N\].
     hardest_n: Option<f64>,
     all: usize,
 }
@@ -96,7 +96,7 @@ impl Assessment {
         })
     }
 
-    /// What the verdict would rest on with less and with more restitution, in words.
+    /// The numbers behind the verdict with less and with more restitution, in words.
     pub fn rebound_words(&self) -> String {
         let rows = self.by_restitution();
         let utilisations: Vec<_> = rows.iter().map(|row| row.largest_utilisation).collect();
@@ -178,7 +178,7 @@ impl BothModels {
     }
 }
 
-/// Where a body rests, and how far turned.
+/// The position and rotation of a body at rest.
 fn rest_words(rest: &Equilibrium) -> String {
     let [x, z] = rest.place_m.map(|coordinate| decimals(&coordinate, 3));
     if !rest.rests {
@@ -191,7 +191,7 @@ fn rest_words(rest: &Equilibrium) -> String {
     format!("x = {x} m, z = {z} m, turned by {turned} degrees")
 }
 
-/// The troughs of all waves of tension: how many of them are slack, and how low the others go.
+/// The troughs of all waves of tension: how many of them are slack, and the lowest of the others.
 fn troughs_words(sorted_n: &[f64]) -> String {
     let slack = slack_part(sorted_n);
     let mut words = Vec::new();
@@ -200,7 +200,7 @@ fn troughs_words(sorted_n: &[f64]) -> String {
     }
     let told = [(0.5, "half below"), (0.01, "99 % above")];
     for (value, what) in told.map(|(part, what)| (quantile(sorted_n, part), what)) {
-        // Of those that are slack all is said.
+        // Of the slack ones everything is said already.
         if let Some(value) = value.filter(|value| *value > 0.0) {
             words.push(format!("{what} {} kN", kilo(&value, 0)));
         }

@@ -1,4 +1,4 @@
-//! The answer in words, and how far it can be trusted.
+//! The verdict in words, and how far it can be trusted.
 
 use crate::physics::gumbel::Gumbel;
 use crate::physics::snap::SLOWEST_M_S;
@@ -16,7 +16,7 @@ use snapload::Stop;
 use snapload::analysis::{HorizonCause, Share, Trust};
 use std::cmp::Ordering;
 
-/// How it stands.
+/// The kind of verdict.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Standing {
@@ -28,13 +28,13 @@ pub enum Standing {
     Exceeds,
     /// A tension or a breaking load is not known.
     Unknown,
-    /// A rule is broken that tensions hang on: another command decides. Or a line would break
-    /// before anything is judged, and only then.
+    /// A rule is violated on which the tensions depend, so that another command has to decide. Or a
+    /// line would break only before the judged time.
     Open,
 }
 
 impl Standing {
-    /// As a reader knows it.
+    /// The word that is shown.
     pub fn words(self) -> &'static str {
         match self {
             Self::Holds => "holds",
@@ -46,7 +46,7 @@ impl Standing {
     }
 }
 
-/// The answer.
+/// The verdict.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Verdict {
     /// In one word.
@@ -55,7 +55,7 @@ pub struct Verdict {
     pub words: String,
 }
 
-/// Why a run stopped, as an engineer would say it.
+/// Why a run stopped, in an engineer's words.
 pub fn end_words(stop: Stop) -> &'static str {
     match stop {
         Stop::EndTime => "ran to the end of the time",
@@ -66,7 +66,7 @@ pub fn end_words(stop: Stop) -> &'static str {
     }
 }
 
-/// Fewer neighbours do not tell what 90 % of them do.
+/// With fewer neighbours, no statement about 90 % of them is made.
 const FEW: usize = 10;
 
 #[derive(Template)]
@@ -83,9 +83,9 @@ struct VerdictWords<'a> {
     worst: (usize, f64),
     transient_s: f64,
     early: Option<Early>,
-    /// The rules that leave it open, and what decides.
+    /// The violated rules that leave the verdict open, and the command that decides.
     open: Option<(String, &'static str)>,
-    /// Whether the run ended before anything is judged.
+    /// Whether the run ended before the judged time.
     unjudged: bool,
     stretching: bool,
 }
@@ -98,7 +98,7 @@ struct TrustWords<'a> {
     spread_kn: Option<[f64; 3]>,
     /// Whether no line snaps in any of the neighbours.
     snapless: bool,
-    /// Whether the neighbours' peaks differ by more than rounding would have them.
+    /// Whether the neighbours' peaks differ by more than rounding.
     scattered: bool,
     count: usize,
     failing: usize,
@@ -108,7 +108,7 @@ struct TrustWords<'a> {
 #[derive(Template)]
 #[template(path = "seas-words.txt")]
 struct SeasWords {
-    /// Records in which a line would break only in the time that is not judged.
+    /// The number of records in which a line would break only in the time that is not judged.
     early: usize,
     transient_s: f64,
     fit: Option<Gumbel>,
@@ -121,13 +121,13 @@ struct SeasWords {
     fastest_m_s: f64,
     median_m_s: f64,
     failing: Option<Share>,
-    /// The rules that leave it open, and what decides.
+    /// The violated rules that leave the verdict open, and the command that decides.
     open: Option<(String, &'static str)>,
-    /// Whether there are too few records for a fit, whatever they hold.
+    /// Whether there are too few records for a fit, whatever their values.
     few: bool,
 }
 
-/// The broken rules that tensions hang on, and what decides.
+/// The violated rules on which tensions depend, and the command that decides.
 fn left_open(warnings: &[Warning]) -> Option<(String, &'static str)> {
     let deciding = warnings
         .iter()
@@ -136,17 +136,17 @@ fn left_open(warnings: &[Warning]) -> Option<(String, &'static str)> {
     Some((rules.join(" and "), *commands.first()?))
 }
 
-/// A load that is not judged, as the transient is not over.
+/// A load within the transient, which is not judged.
 struct Early {
     line: usize,
     how: EarlyLoad,
-    /// 0 of what is held.
+    /// 0 for the tension of a taut line.
     speed_m_s: f64,
     peak_n: Option<f64>,
     utilisation: Option<f64>,
 }
 
-/// What kind of load that is.
+/// The kind of load.
 #[derive(PartialEq)]
 enum EarlyLoad {
     Snap,
@@ -155,7 +155,7 @@ enum EarlyLoad {
 }
 
 impl Early {
-    /// The largest load of each line while it is held taut or snaps, where tensions are known.
+    /// The largest early load of each line, held taut or in a snap, if tensions are known.
     fn held<'a>(structure: &'a Structure, outcome: &'a Outcome) -> impl Iterator<Item = Self> {
         let lines = outcome.lines.iter().zip(&structure.lines).enumerate();
         let loaded =
@@ -169,7 +169,7 @@ impl Early {
         })
     }
 
-    /// The part of its line's breaking load, else its size, else its speed.
+    /// The order of loads: the part of the line's breaking load, else the tension, else the speed.
     fn governs(&self) -> (Option<f64>, Option<f64>, f64) {
         (self.utilisation, self.peak_n, self.speed_m_s)
     }
@@ -179,7 +179,7 @@ impl Early {
         self.utilisation.is_some_and(|part| part >= 1.0)
     }
 
-    /// The hardest of them, where it is harder than all that is judged.
+    /// The hardest of them, if it is harder than all judged loads.
     fn hardest(
         all: impl Iterator<Item = Self>,
         structure: &Structure,
@@ -197,8 +197,8 @@ impl Early {
     }
 }
 
-/// Whether the lines go slack, how hard they snap, and whether one breaks; `stretching` is whether
-/// they are lines that stretch.
+/// The verdict: whether the lines go slack, how hard they snap, and whether one breaks;
+/// `stretching` says whether the lines stretch.
 fn verdict(
     structure: &Structure,
     outcome: &Outcome,
@@ -304,7 +304,7 @@ impl Assessment {
             peak_n: snap.peak_n,
             utilisation: snap.utilisation,
         });
-        // Of equal loads the snap is told, which has a speed.
+        // Of equal loads the snap is named, as it has a speed.
         let early = Early::held(structure, outcome).chain(early);
         let early = Early::hardest(early, structure, outcome);
         verdict(structure, outcome, &self.warnings, early, false)
@@ -327,12 +327,12 @@ impl Assessment {
 }
 
 impl Seas {
-    /// Whether a rule is broken that tensions hang on.
+    /// Whether a rule is violated on which tensions depend.
     pub fn is_open(&self) -> bool {
         left_open(&self.warnings).is_some()
     }
 
-    /// The time that is judged, as a beginning of a sentence.
+    /// The judged time, as the beginning of a sentence.
     pub(crate) fn judged_words(&self) -> String {
         let from = self.prepared.structure.transient_s;
         match self.records.len() {

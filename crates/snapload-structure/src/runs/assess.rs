@@ -1,5 +1,4 @@
-//! One structure, from its case to what an engineer asks: do the lines go slack, how hard do they
-//! snap, do they break?
+//! The assessment of one structure: do the lines go slack, how hard do they snap, do they break?
 
 use super::design::{Check, checks};
 use super::outcome::{Outcome, Tally};
@@ -20,31 +19,31 @@ use snapload::analysis::{
 use snapload::{Playback, Trajectory};
 use std::ops::ControlFlow;
 
-/// A state is known while its standard deviation is below this, in the engine's units.
+/// A state counts as known while its standard deviation is below this, in the engine's units.
 const TOLERANCE: f64 = 1e-3;
-/// Neighbours are so far from the run, in parts of the waves' height.
+/// The distance of neighbours from the run, as a part of the waves' height.
 pub const NEIGHBOUR: f64 = 1e-6;
-/// The restitution of a line is hardly known better than this.
+/// By this the restitution is varied, as it is rarely known more accurately.
 const RESTITUTION: f64 = 0.2;
-/// Times between the start and the end at which the place of the body is looked at.
+/// Times between the start and the end at which the position of the body is evaluated.
 const LOOKS: u32 = 20_000;
 
 /// A structure that was run.
 #[derive(Clone, Debug)]
 pub struct Assessment {
-    /// Structure, place of rest, model.
+    /// Structure, position of rest, model.
     pub prepared: Prepared,
-    /// Rules of thumb that the case breaks.
+    /// Rules of thumb that the case violates.
     pub warnings: Vec<Warning>,
-    /// In which it swings by itself, submerged; of a floating body [`Prepared`] tells.
+    /// The natural periods of a submerged body; those of a floating one are in [`Prepared`].
     pub periods: Option<NaturalPeriods>,
     /// The motion.
     pub run: Trajectory,
-    /// How far it can be trusted.
+    /// How far the run can be trusted.
     pub trust: Trust,
     /// Every snap, the slow ones included.
     pub snaps: Vec<Snap>,
-    /// What it comes to.
+    /// Its outcome.
     pub outcome: Outcome,
     /// The same with less and with more restitution, each with its coefficient; empty without
     /// neighbours.
@@ -53,18 +52,18 @@ pub struct Assessment {
     pub neighbours: Vec<Outcome>,
 }
 
-/// What the verdict would rest on with some restitution.
+/// The numbers behind the verdict for one coefficient of restitution.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct ByRestitution {
     /// e.
     pub restitution: f64,
-    /// The largest utilisation of any line; none where that of one is not known.
+    /// The largest utilisation of any line; none if that of one is not known.
     pub largest_utilisation: Option<f64>,
-    /// The fastest snap of any line; none where nothing is judged \[m/s\].
+    /// The fastest snap of any line; none without judged time \[m/s\].
     pub fastest_snap_m_s: Option<f64>,
 }
 
-/// As many neighbours as there are where nothing else is said.
+/// The number of neighbours unless given.
 pub const DEFAULT_NEIGHBOURS: u32 = 40;
 
 /// Runs a structure with its neighbours.
@@ -82,12 +81,12 @@ pub fn assess(
     let prepared = Prepared::new(structure)?;
     let others = Others::new(&prepared, neighbours);
     let counter = Counter::new("runs", 0, 1 + others.len() as u64, on_progress);
-    // Within a run nothing is counted, but it may be cancelled.
+    // Progress within a run is not counted, but the run may be cancelled.
     let within = |_: Progress| match counter.add(0) {
         Ok(()) => ControlFlow::Continue(()),
         Err(_) => ControlFlow::Break(()),
     };
-    // The run that is followed takes the longest, and is the first to begin.
+    // The run of the case takes longest, and therefore begins first.
     let runs = in_parallel(1 + others.len(), |index| {
         let run = match index.checked_sub(1) {
             None => Run::Followed(Box::new(Followed::new(&prepared, &within)?)),
@@ -118,7 +117,7 @@ enum Run {
     Other(Outcome),
 }
 
-/// The run of the case, with all that is kept of it.
+/// The run of the case, with everything that is recorded of it.
 struct Followed {
     run: Trajectory,
     trust: Trust,
@@ -145,11 +144,11 @@ impl Followed {
     }
 }
 
-/// The runs beside that of the case: with less and with more restitution, and then its neighbours.
+/// The runs besides that of the case: with less and with more restitution, and its neighbours.
 struct Others<'a> {
     prepared: &'a Prepared,
     restitutions: Vec<f64>,
-    /// None in still water, where there are no waves to vary.
+    /// Zero in still water, where there are no waves to vary.
     neighbours: usize,
 }
 
@@ -180,7 +179,8 @@ impl<'a> Others<'a> {
         Ok(outcome)
     }
 
-    /// Those with another restitution, each with its own, and the neighbours.
+    /// Separates the outcomes with another restitution, each with its coefficient, from those of
+    /// the neighbours.
     fn part(&self, mut outcomes: Vec<Outcome>) -> (Vec<(f64, Outcome)>, Vec<Outcome>) {
         let neighbours = outcomes.split_off(self.restitutions.len());
         let restitutions = self.restitutions.iter().copied().zip(outcomes);
@@ -188,7 +188,7 @@ impl<'a> Others<'a> {
     }
 }
 
-/// Less and more restitution than that of the case, as far as there is.
+/// A smaller and a larger restitution than that of the case, within the values allowed.
 fn restitutions_about(restitution: f64) -> Vec<f64> {
     let others = [-RESTITUTION, RESTITUTION].map(|more| (restitution + more).clamp(0.0, 1.0));
     others
@@ -197,7 +197,7 @@ fn restitutions_about(restitution: f64) -> Vec<f64> {
         .collect()
 }
 
-/// Evenly in [−1, 1), for each neighbour its own.
+/// A number, uniform in [−1, 1), for each neighbour.
 fn side(index: u32) -> f64 {
     let mut generator = ChaCha8Rng::seed_from_u64(1);
     generator.set_stream(u64::from(index));
@@ -238,7 +238,8 @@ impl Assessment {
         assessment
     }
 
-    /// What is seen once it has moved: how far it went, how far it turned, how it lay in the water.
+    /// The warnings that follow from the motion: its extent, its rotation, its extreme positions in
+    /// the water.
     fn warnings_of_the_run(&self) -> Vec<Warning> {
         let structure = &self.prepared.structure;
         let ([x, z], [sides, _]) = (self.prepared.rest.place_m, self.reach_m());
@@ -250,7 +251,7 @@ impl Assessment {
         phase.into_iter().chain(turning).chain(limits).collect()
     }
 
-    /// The same with so many neighbours, and with less and with more restitution.
+    /// The same with `count` neighbours, and with less and with more restitution.
     ///
     /// # Errors
     /// Those of [`assess`].
@@ -276,7 +277,7 @@ impl Assessment {
         self.trust.horizon.map(|horizon| horizon.t * time)
     }
 
-    /// What the verdict would rest on with less and with more restitution, the least first.
+    /// The numbers behind the verdict with less and with more restitution, the least first.
     pub fn by_restitution(&self) -> Vec<ByRestitution> {
         let structure = &self.prepared.structure;
         let of = |restitution: f64, outcome: &Outcome| {
@@ -310,14 +311,14 @@ impl Assessment {
         own.map(with_count).collect()
     }
 
-    /// The snaps that are judged: those that count, after the transient.
+    /// The judged snaps: those that count, after the transient.
     pub fn judged(&self) -> impl Iterator<Item = &Snap> {
         let transient_s = self.prepared.structure.transient_s;
         let snaps = self.snaps.iter();
         snaps.filter(move |snap| snap.is_judged(transient_s))
     }
 
-    /// The extremes of the place of the centre \[m\]: `[[x, x], [z, z]]`.
+    /// The extreme positions of the centre \[m\]: `[[x, x], [z, z]]`.
     pub fn reach_m(&self) -> [[f64; 2]; 2] {
         let mut playback = Playback::new(&self.run);
         let mut reach = [[f64::INFINITY, f64::NEG_INFINITY]; 2];
@@ -332,8 +333,8 @@ impl Assessment {
         reach
     }
 
-    /// 5 %, 50 % and 95 % of the neighbours' largest tension in a snap; none where there is none,
-    /// or one of them ended before anything is judged \[N\].
+    /// 5 %, 50 % and 95 % quantiles of the neighbours' largest tension in a snap; none if there is
+    /// none, or one of them ended before the judged time \[N\].
     pub fn spread(&self) -> Option<[f64; 3]> {
         let unjudged = self.neighbours.iter().any(Outcome::is_unjudged);
         if unjudged || !self.prepared.structure.tensions_known() {

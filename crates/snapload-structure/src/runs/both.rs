@@ -14,21 +14,21 @@ use std::time::Instant;
 /// The same case on both models of a line.
 #[derive(Clone, Debug)]
 pub struct BothModels {
-    /// Structure, place of rest, model.
+    /// Structure, position of rest, model.
     pub prepared: Prepared,
-    /// Lines were taken this many times as stiff as they are.
+    /// The factor by which the lines' stiffness was multiplied.
     pub stiffer: f64,
     /// The lines that stretch.
     pub springs: Vec<Spring>,
-    /// The same about its place of rest on them.
+    /// The same about its position of rest on these lines.
     pub sprung: Prepared,
     /// The motion on them.
     pub elastic: ElasticRun,
-    /// What it comes to.
+    /// Its outcome.
     pub outcome: Outcome,
     /// Time that its computation took \[s\].
     pub elastic_took_s: f64,
-    /// The same on lines that do not stretch; none where the case starts beyond their reach.
+    /// The same on lines that do not stretch; none if the case starts beyond their reach.
     pub inextensible: Option<Inextensible>,
 }
 
@@ -43,8 +43,9 @@ pub struct Inextensible {
     pub took_s: f64,
 }
 
-/// Runs a structure on lines `stiffer` times as stiff as they are, from its place of rest on them
-/// unless the case starts elsewhere, and on lines that do not stretch; the motion on the former is kept every `every_s` seconds.
+/// Runs a structure on lines `stiffer` times as stiff as they are, from its position of rest on
+/// them unless the case gives a start, and on lines that do not stretch; the motion on the former
+/// is kept every `every_s` seconds.
 ///
 /// # Errors
 /// A [`CaseError`] unless `stiffer` is of [`STIFFER`], if a line has no stiffness, or the integrator gives up, and
@@ -83,7 +84,7 @@ impl BothModels {
         checks(&self.sprung, &self.outcome, false)
     }
 
-    /// Rules of thumb that the case breaks, but for those that lines that stretch decide.
+    /// Rules of thumb that the case violates, except those that are decided by lines that stretch.
     pub fn warnings(&self) -> Vec<Warning> {
         let (structure, run) = (&self.sprung.structure, &self.elastic);
         warnings(&self.sprung)

@@ -1,4 +1,4 @@
-//! Checks by the rule that a user designs by.
+//! Checks by the user's design rule.
 //!
 //! ```text
 //! strength:          (γ_pret T_0 + γ_env (T_max − T_0))/S_C ≤ 1,    S_C = strength_factor × breaking load
@@ -7,11 +7,11 @@
 //! wave force:        max |f_z|/F ≤ force_share
 //! ```
 //!
-//! T_0 is a line's tension at rest, T_max the larger of what it holds and the peak of its snaps, T_min
-//! its least tension, 0 where it goes slack; f_z is the vertical force of the waves on the body at
-//! rest and F its net buoyancy. The forms are those of DNV-OS-E301 (position mooring), of DNV-ST-0119
-//! (tension legs of floating wind turbines) and of DNV-RP-N103 (slings); their factors are the
-//! user's, as editions and classes differ.
+//! T_0 is a line's tension at rest, T_max the larger of its largest tension while taut and the peak
+//! of its snaps, T_min its least tension, 0 if it goes slack; f_z is the vertical force of the
+//! waves on the body at rest and F its net buoyancy. The forms are those of DNV-OS-E301 (position
+//! mooring), of DNV-ST-0119 (tension legs of floating wind turbines) and of DNV-RP-N103 (slings);
+//! the factors are the user's, as editions and classes differ.
 
 use super::outcome::Outcome;
 use super::quantile::{quantile, sorted};
@@ -20,22 +20,22 @@ use crate::structure::{Structure, Water};
 use serde::Serialize;
 use snapload::Harmonic;
 
-/// What is checked.
+/// The criterion of a check.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Criterion {
-    /// The factored tension over the characteristic strength.
+    /// The factored tension divided by the characteristic strength.
     Strength,
-    /// The least tension over that at rest.
+    /// The least tension divided by that at rest.
     NoSlack,
-    /// The least tension, with factors, over the tension at rest.
+    /// The least tension, with factors, divided by the tension at rest.
     FactoredLeast,
-    /// The vertical force of the waves over the net buoyancy.
+    /// The vertical force of the waves divided by the net buoyancy.
     WaveForce,
 }
 
 impl Criterion {
-    /// As a reader knows it.
+    /// The words that are shown.
     pub fn words(self) -> &'static str {
         match self {
             Self::Strength => "factored tension over strength, at most",
@@ -53,7 +53,7 @@ impl Criterion {
     }
 }
 
-/// How a check came out.
+/// The result of a check.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Answer {
@@ -61,14 +61,14 @@ pub enum Answer {
     Passes,
     /// It fails.
     Fails,
-    /// A rule of thumb is broken that the tensions hang on.
+    /// A rule of thumb is violated on which the tensions depend.
     Open,
-    /// A tension, a strength or a force is not known, or nothing is judged.
+    /// A tension, a strength or a force is not known, or there is no judged time.
     Unknown,
 }
 
 impl Answer {
-    /// As a reader knows it.
+    /// The words that are shown.
     pub fn words(self) -> &'static str {
         match self {
             Self::Passes => "passes",
@@ -91,20 +91,20 @@ impl Answer {
 /// One criterion of one line, or of the body.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Check {
-    /// What is checked.
+    /// The criterion.
     pub criterion: Criterion,
     /// The line, by number from 1; none for the body.
     pub line: Option<usize>,
-    /// What it comes to.
+    /// The value that is compared with the limit.
     pub value: Option<f64>,
-    /// What it is held against.
+    /// The limit.
     pub limit: f64,
-    /// How it came out.
+    /// The result.
     pub answer: Answer,
 }
 
 impl Check {
-    /// Of a value; `open` is whether it is not to be relied on.
+    /// The check of a value; `open` says that the value is not reliable.
     fn new(
         criterion: Criterion,
         line: Option<usize>,
@@ -128,7 +128,7 @@ impl Check {
     }
 }
 
-/// The checks of the lines and of the waves' force by what a run comes to.
+/// The checks of the lines and of the waves' force, from the outcome of a run.
 pub(crate) fn checks(prepared: &Prepared, outcome: &Outcome, open: bool) -> Vec<Check> {
     let lines = line_checks(prepared, outcome, open).into_iter();
     lines.chain(force_check(prepared)).collect()
@@ -137,14 +137,14 @@ pub(crate) fn checks(prepared: &Prepared, outcome: &Outcome, open: bool) -> Vec<
 /// One criterion over many records.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct RecordsCheck {
-    /// The check of the record in which it comes out worst.
+    /// The check of the record with the worst value.
     #[serde(flatten)]
     pub worst: Check,
-    /// Its value in the middle one of all records.
+    /// The median of its values over all records.
     pub median: Option<f64>,
-    /// The records in which it passes.
+    /// The number of records in which it passes.
     pub passing: usize,
-    /// All of them.
+    /// The number of all records.
     pub of: usize,
 }
 
@@ -155,7 +155,7 @@ impl RecordsCheck {
         (0..count).map(|index| Self::of(records, index)).collect()
     }
 
-    /// As a reader knows it.
+    /// The words that are shown.
     pub(crate) fn words(&self) -> String {
         match self.worst.answer {
             Answer::Open | Answer::Unknown => self.worst.answer.words().to_owned(),
@@ -190,8 +190,8 @@ impl RecordsCheck {
     }
 }
 
-/// The checks of the lines by what a run comes to; `open` is whether its tensions are not to be
-/// relied on.
+/// The checks of the lines from the outcome of a run; `open` says that its tensions are not
+/// reliable.
 pub(crate) fn line_checks(prepared: &Prepared, outcome: &Outcome, open: bool) -> Vec<Check> {
     let structure = &prepared.structure;
     let rule = structure.design;
@@ -223,16 +223,16 @@ pub(crate) fn line_checks(prepared: &Prepared, outcome: &Outcome, open: bool) ->
     (0..structure.lines.len()).flat_map(of_line).collect()
 }
 
-/// The check of the waves' force on the body, where there is one and there are waves.
+/// The check of the waves' force on the body, if a rule asks for it and there are waves.
 pub(crate) fn force_check(prepared: &Prepared) -> Option<Check> {
     let share = prepared.structure.design.force_share?;
     let value = wave_force_part(prepared);
-    // On lines that stretch much the body rests higher, where the waves are larger.
+    // On lines that stretch considerably the body rests higher, where the waves are larger.
     let open = prepared.rest.shared.is_some();
     Some(Check::new(Criterion::WaveForce, None, value, share, open))
 }
 
-/// What one line carries.
+/// The tensions of one line.
 struct Tensions {
     /// None where no place of rest is known.
     rest_n: Option<f64>,
@@ -244,7 +244,7 @@ impl Tensions {
     fn new(prepared: &Prepared, outcome: &Outcome, line: usize) -> Self {
         let of_line = &outcome.lines[line];
         Self {
-            // Both of lines that do not stretch, where those would share the load otherwise.
+            // Both of lines that do not stretch, if those would share the load differently.
             rest_n: match &prepared.rest.shared {
                 Some(shared) => Some(shared.unstretched_n[line]),
                 None => prepared.rest.rests.then_some(prepared.rest.tension_n[line]),
@@ -265,14 +265,14 @@ impl Tensions {
         Some(factored / (strength * load_n?))
     }
 
-    /// T_min/T_0; none of a line that carries nothing at rest.
+    /// T_min/T_0; none for a line without tension at rest.
     fn least_part(&self) -> Option<f64> {
         let rest_n = self.rest_n.filter(|rest_n| *rest_n > 0.0)?;
         self.least_n.map(|least| least / rest_n)
     }
 }
 
-/// Times at which the force of a sea is looked at in each of its peak periods.
+/// The times, per peak period of a sea, at which its force is evaluated.
 const LOOKS: f64 = 40.0;
 
 /// max |f_z|/F of the waves within the time that is judged; none in still water. A floating body,

@@ -1,5 +1,5 @@
-//! What is run: one case with its neighbours, many records of a sea, other waves, both models of a
-//! line.
+//! The kinds of runs: one case with its neighbours, many records of a sea, other waves, both models
+//! of a line.
 
 pub(crate) mod assess;
 pub(crate) mod both;

@@ -3,7 +3,7 @@
 use super::assess::Assessment;
 use snapload::Playback;
 
-/// Place, rotation and tensions at one time.
+/// Position, rotation and tensions at a time.
 #[derive(Clone, Debug, PartialEq)]
 pub struct MotionSi {
     /// Centre `[x, z]` \[m\].
@@ -15,7 +15,7 @@ pub struct MotionSi {
 }
 
 impl Assessment {
-    /// The motion at times within the run; times rise, or the run is looked through again \[s\].
+    /// The motion at times within the run, most quickly for increasing times \[s\].
     pub fn motion_at(&self, times_s: &[f64]) -> Vec<MotionSi> {
         let scales = &self.prepared.model.scales;
         let lines = self.prepared.structure.lines.len();

@@ -1,4 +1,4 @@
-//! What one run comes to.
+//! The outcome of one run.
 
 use crate::physics::prepared::Prepared;
 use crate::physics::snap::{Snap, snaps_of_step};
@@ -8,15 +8,15 @@ use crate::structure::Structure;
 use serde::Serialize;
 use snapload::{CaseError, Simulation, Step, Stop};
 
-/// What one run comes to for one line.
+/// The outcome of one run for one line.
 #[derive(Clone, Debug, Default, PartialEq, Serialize)]
 pub struct LineOutcome {
-    /// Snaps of [`crate::SLOWEST_M_S`] and above, after the transient as all that follows.
+    /// Snaps of [`crate::SLOWEST_M_S`] and above; this and all that follows is after the transient.
     pub snaps: u64,
     /// The fastest \[m/s\].
     #[serde(rename = "fastest_snap_m_s")]
     pub speed_m_s: f64,
-    /// Jolts that snaps of other lines passed on to it while it was taut, as far as they count.
+    /// Jolts that snaps of other lines passed on to it while it was taut, if they count.
     #[serde(skip)]
     pub jolts: u64,
     /// The largest estimate of tension in a snap or a jolt \[N\].
@@ -25,21 +25,19 @@ pub struct LineOutcome {
     /// The largest tension while the line stays taut \[N\].
     #[serde(rename = "held_tension_n")]
     pub held_n: f64,
-    /// The smallest tension, 0 where it goes slack; none where the run ends before anything is
-    /// judged \[N\].
+    /// The smallest tension, 0 if it goes slack; none if the run ends before the judged time \[N\].
     #[serde(rename = "least_tension_n")]
     pub least_n: Option<f64>,
-    /// The part of the whole time without tension.
+    /// The part of the whole time in which it has no tension.
     pub slack_fraction: f64,
-    /// The largest tension before anything is judged, held or in a snap as far as that is known
-    /// \[N\].
+    /// The largest tension before the judged time, while taut or in a snap if that is known \[N\].
     #[serde(skip)]
     pub early_n: f64,
 }
 
 impl LineOutcome {
-    /// The larger of what it holds and what it carries in a snap; none where it snaps and that is
-    /// not known, or nothing is judged \[N\].
+    /// The larger of its tension while taut and in a snap; none if it snaps and that tension is not
+    /// known, or without judged time \[N\].
     pub fn largest_n(&self) -> Option<f64> {
         self.least_n?;
         let no_snap = (self.snaps + self.jolts == 0).then_some(0.0);
@@ -47,7 +45,7 @@ impl LineOutcome {
     }
 }
 
-/// What one run comes to.
+/// The outcome of one run.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Outcome {
     /// By line.
@@ -58,11 +56,13 @@ pub struct Outcome {
     pub end_s: f64,
     /// The largest rotation on either side \[rad\].
     pub turned_rad: f64,
-    /// How far it is from where it rests, to either side, where its stretches of motion end \[m\].
+    /// The largest horizontal distance from the position of rest at the ends of its stretches of
+    /// motion \[m\].
     pub excursion_m: f64,
-    /// How a floating body lay in the still water; none of a submerged one.
+    /// The extreme positions of a floating body relative to the still water; none for a submerged
+    /// one.
     pub waterline: Option<Waterline>,
-    /// Peak tensions of all snaps that count \[N\].
+    /// Peak tensions of all counted snaps \[N\].
     pub peaks_n: Vec<f64>,
     /// Their speeds \[m/s\].
     pub speeds_m_s: Vec<f64>,
@@ -71,7 +71,7 @@ pub struct Outcome {
 }
 
 impl Outcome {
-    /// Runs a structure in waves so many times as high and keeps what it comes to.
+    /// Runs a structure in waves `height` times as high and keeps the outcome.
     ///
     /// # Errors
     /// A [`CaseError`] if it can not start.
@@ -91,8 +91,7 @@ impl Outcome {
         peaks.reduce(f64::max)
     }
 
-    /// The largest tension of any line, in a snap as far as that is known or while it is taut
-    /// \[N\].
+    /// The largest tension of any line, while taut or in a snap if that is known \[N\].
     pub fn largest_n(&self) -> f64 {
         let held = self.lines.iter().map(|line| line.held_n);
         held.fold(self.peak_n().unwrap_or(0.0), f64::max)
@@ -104,8 +103,7 @@ impl Outcome {
         speeds.fold(0.0, f64::max)
     }
 
-    /// Whether the run ended before anything of it is judged: what its lines come to is then
-    /// nothing that could be told.
+    /// Whether the run ended before the judged time: then its lines have no results.
     pub fn is_unjudged(&self) -> bool {
         self.lines.iter().all(|line| line.least_n.is_none())
     }
@@ -115,7 +113,7 @@ impl Outcome {
         self.lines.iter().map(|line| line.snaps).sum()
     }
 
-    /// Whether a line would break before anything is judged.
+    /// Whether a line would break before the judged time.
     pub fn breaks_early(&self, structure: &Structure) -> bool {
         let mut lines = self.lines.iter().zip(&structure.lines);
         lines.any(|(outcome, line)| {
@@ -124,7 +122,7 @@ impl Outcome {
         })
     }
 
-    /// The largest tension of each line over its breaking load, where that is known.
+    /// The largest tension of each line divided by its breaking load, if that is known.
     pub fn utilisations(&self, structure: &Structure) -> Vec<Option<f64>> {
         let one = |(outcome, line): (&LineOutcome, &crate::structure::LineSi)| {
             Some(outcome.largest_n()? / line.breaking_load_n?)
@@ -144,7 +142,7 @@ pub(super) struct Tally<'a> {
     waterline: Option<Waterline>,
     peaks_n: Vec<f64>,
     speeds_m_s: Vec<f64>,
-    /// The wave of tension that each line is in, and those that are over.
+    /// The current wave of tension of each line, and the finished ones.
     waves: Vec<WavesOfTension>,
     waves_n: Vec<[f64; 2]>,
 }
@@ -166,7 +164,7 @@ impl<'a> Tally<'a> {
         }
     }
 
-    /// Takes note of a step; returns the snaps at its end.
+    /// Takes in a step; returns the snaps at its end.
     pub(super) fn follow(&mut self, simulation: &Simulation, step: &Step) -> Vec<Snap> {
         add_slack(&mut self.slack, step);
         self.turned_rad = simulation.theta_max();
@@ -182,7 +180,7 @@ impl<'a> Tally<'a> {
         let is_judged = step.t_end * scales.time_s >= transient_s;
         let ranges = simulation.tension_ranges(step);
         for ((line, wave), range) in self.lines.iter_mut().zip(&mut self.waves).zip(ranges) {
-            // A line that is taut is not pushed: a tension below zero is rounding.
+            // A taut line can not push: a negative tension is rounding.
             let [least, largest] = range.map(|tension| tension.max(0.0) * scales.force_n);
             if is_judged {
                 self.waves_n.extend(wave.see([least, largest]));
@@ -204,7 +202,7 @@ impl<'a> Tally<'a> {
         snaps
     }
 
-    /// Counts a snap that is judged.
+    /// Counts a judged snap.
     fn count(&mut self, snap: &Snap) {
         let line = &mut self.lines[snap.line];
         if snap.is_jolt {
@@ -221,7 +219,7 @@ impl<'a> Tally<'a> {
         }
     }
 
-    /// What the run comes to that ended at a time, in the engine's units.
+    /// The outcome of a run that ended at a time, in the engine's units.
     pub(super) fn finish(mut self, end: f64, stop: Stop) -> Outcome {
         for (line, slack) in self.lines.iter_mut().zip(&self.slack) {
             line.slack_fraction = if end > 0.0 { slack / end } else { 0.0 };
@@ -232,7 +230,7 @@ impl<'a> Tally<'a> {
         Outcome {
             lines: self.lines,
             stop,
-            // As it was asked for, not as it comes back from the engine's units.
+            // The duration as it was given, not converted back from the engine's units.
             end_s: match stop {
                 Stop::EndTime => structure.duration_s,
                 _ => end * model.scales.time_s,

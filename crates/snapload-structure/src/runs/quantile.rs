@@ -1,6 +1,6 @@
-//! Values in order, and the parts of them that stay below one.
+//! Sorted values, and their quantiles.
 
-/// The values in order.
+/// The values sorted in rising order.
 pub(crate) fn sorted(values: impl Iterator<Item = f64>) -> Vec<f64> {
     let mut values: Vec<f64> = values.collect();
     values.sort_by(f64::total_cmp);
@@ -16,7 +16,7 @@ pub fn quantile(sorted: &[f64], part: f64) -> Option<f64> {
     Some(sorted[low] + (sorted[high] - sorted[low]) * (at - low as f64))
 }
 
-/// The part of some tensions in order in which the line is slack.
+/// The part of sorted tensions in which the line is slack.
 pub(crate) fn slack_part(sorted_n: &[f64]) -> f64 {
     let slack = sorted_n.partition_point(|tension| *tension <= 0.0);
     slack as f64 / sorted_n.len().max(1) as f64

@@ -5,7 +5,7 @@ use crate::physics::prepared::Prepared;
 use crate::structure::{Structure, Water, Wave};
 use snapload::analysis::{Cancelled, Counter, OnProgress, in_parallel};
 
-/// Heights and periods that are tried, in parts of the case's.
+/// The range of heights and periods, as parts of the case's.
 const HEIGHTS: [f64; 2] = [0.5, 1.25];
 const PERIODS: [f64; 2] = [2.0 / 3.0, 7.0 / 6.0];
 /// The number of heights, and of periods.
@@ -13,22 +13,22 @@ const STEPS: u32 = 10;
 /// The number of periods of each wave that are computed.
 pub const LENGTH: f64 = 60.0;
 
-/// What the structure does in waves about those of its case.
+/// The results of the structure in waves about those of its case.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Scan {
     /// Periods \[s\].
     pub periods_s: Vec<f64>,
     /// Heights \[m\].
     pub heights_m: Vec<f64>,
-    /// For the first period all heights, then for the next: the largest utilisation, or the fastest
-    /// snap \[m/s\] where that is not known; none where the body turned over or touched the floor.
+    /// All heights for the first period, then for the next: the largest utilisation, or the fastest
+    /// snap \[m/s\] if that is not known; none if the body turned over or touched the floor.
     pub cells: Vec<Option<f64>>,
 }
 
 /// Scans heights and periods; none unless the case has a regular wave.
 ///
 /// # Errors
-/// [`Cancelled`] if the work is to end before.
+/// [`Cancelled`] if the work is cancelled.
 pub fn scan(structure: &Structure, on_progress: OnProgress) -> Result<Option<Scan>, Cancelled> {
     let Water::Wave(wave) = structure.water else {
         return Ok(None);

@@ -1,4 +1,4 @@
-//! Many records of one sea: how hard the lines snap in it, as a distribution.
+//! Many records of one sea: the distribution of the lines' loads in it.
 
 use super::design::{Check, RecordsCheck, checks};
 use super::outcome::Outcome;
@@ -16,7 +16,7 @@ use snapload::analysis::{Counter, OnProgress, Progress, Share, Unfinished, in_pa
 use snapload::{CaseError, Stop};
 use std::ops::ControlFlow;
 
-/// What one record comes to.
+/// The outcome of one record.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SeaOutcome {
     /// Its seed.
@@ -27,16 +27,16 @@ pub struct SeaOutcome {
     pub checks: Vec<Check>,
 }
 
-/// What many records come to.
+/// The outcomes of many records.
 #[derive(Clone, Debug)]
 pub struct Seas {
-    /// The structure, with the first seed, about its place of rest on these lines.
+    /// The structure, with the first seed, about its position of rest on these lines.
     pub prepared: Prepared,
-    /// Rules of thumb that the case breaks.
+    /// Rules of thumb that the case violates.
     pub warnings: Vec<Warning>,
     /// The model of the lines.
     pub lines: Lines,
-    /// By seed.
+    /// The outcomes in the order of the seeds.
     pub records: Vec<SeaOutcome>,
 }
 
@@ -44,14 +44,14 @@ pub struct Seas {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Lines {
-    /// They do not stretch, and snap.
+    /// Inextensible lines, which snap.
     Inextensible,
-    /// They are springs.
+    /// Lines that stretch, as springs.
     Elastic,
 }
 
-/// Runs a structure in `count` records of its sea, with the seed of the case and those that follow
-/// it.
+/// Runs a structure in `count` records of its sea, with the seed of the case and the following
+/// ones.
 ///
 /// # Errors
 /// A [`CaseError`] unless the count is of [`SEEDS`], if the case has no sea, the structure rests nowhere, or lines that stretch have no
@@ -74,20 +74,20 @@ pub fn seas(
         Lines::Inextensible => Prepared::new(structure)?,
         Lines::Elastic => Prepared::for_springs(structure)?,
     };
-    // What is told of lines that stretch is of where the body rests on them.
+    // For lines that stretch, the position of rest on them is reported.
     let told = match lines {
         Lines::Inextensible => prepared.clone(),
         Lines::Elastic => prepared.on_springs(&springs(&prepared, 1.0)?)?,
     };
     let mut warnings = warnings(&told);
-    // What lines that stretch decide they have decided.
+    // Rules that are decided by lines that stretch do not apply to them.
     warnings.retain(|warning| lines == Lines::Inextensible || warning.decided_by.is_none());
     let open = warnings.iter().any(|warning| warning.decided_by.is_some());
     let counter = Counter::new("records", 0, count.into(), on_progress);
     let records = in_parallel(count as usize, |index| {
         let seed = sea.seed + index as u64;
         let record = prepared.in_sea(IrregularSea { seed, ..sea })?;
-        // Within a record nothing is counted, but it may be cancelled.
+        // Progress within a record is not counted, but the record may be cancelled.
         let within = |_: Progress| match counter.add(0) {
             Ok(()) => ControlFlow::Continue(()),
             Err(_) => ControlFlow::Break(()),
@@ -115,7 +115,7 @@ pub fn seas(
     })
 }
 
-/// The warnings that the motion in all records gives.
+/// The warnings that follow from the motion in all records.
 fn seen_in(told: &Prepared, records: &[SeaOutcome]) -> Vec<Warning> {
     let structure = &told.structure;
     let outcomes = || records.iter().map(|record| &record.outcome);
@@ -139,13 +139,13 @@ impl Seas {
         RecordsCheck::of_records(&records)
     }
 
-    /// What every record comes to.
+    /// The outcome of every record.
     fn outcomes(&self) -> impl Iterator<Item = &Outcome> {
         self.records.iter().map(|record| &record.outcome)
     }
 
-    /// The largest tension of each record, in a snap or held; none if tensions of snaps are not known
-    /// \[N\].
+    /// The largest tension of each record, in a snap or while taut; none if tensions of snaps are
+    /// not known \[N\].
     pub fn largest_n(&self) -> Option<Vec<f64>> {
         let largest = self.outcomes().map(Outcome::largest_n);
         let known = self.prepared.structure.tensions_known();
@@ -157,8 +157,8 @@ impl Seas {
         self.outcomes().map(Outcome::speed_m_s).collect()
     }
 
-    /// The distribution of the largest tension in three hours, if the records are long enough to
-    /// have snaps in all of them \[N\].
+    /// The distribution of the largest tension in three hours, if all records are long enough to
+    /// have snaps \[N\].
     pub fn peak_in_three_hours(&self) -> Option<Gumbel> {
         self.in_three_hours(&self.largest_n()?)
     }
@@ -168,7 +168,7 @@ impl Seas {
         self.in_three_hours(&self.speeds_m_s())
     }
 
-    /// Records that ended before their time, of whatever reason.
+    /// The number of records that ended early, for any reason.
     pub(crate) fn cut_short(&self) -> usize {
         self.outcomes()
             .filter(|outcome| outcome.stop != Stop::EndTime)
@@ -182,8 +182,8 @@ impl Seas {
             .count()
     }
 
-    /// A fit to records without snaps would be one to zeros, and one to records that ended early is
-    /// of less time.
+    /// A fit to records without snaps would be a fit to zeros, and one to records that ended early
+    /// would be for a shorter time.
     fn in_three_hours(&self, largest: &[f64]) -> Option<Gumbel> {
         let structure = &self.prepared.structure;
         let judged = structure.duration_s - structure.transient_s;
@@ -211,7 +211,8 @@ impl Seas {
         Some(outcome.stop.exceeds() || all?.into_iter().any(|u| u >= 1.0))
     }
 
-    /// Records in which a line would break before anything is judged, and none does from then on.
+    /// The number of records in which a line would break before the judged time, and none after
+    /// that.
     pub fn breaking_only_early(&self) -> usize {
         let structure = &self.prepared.structure;
         self.outcomes()
@@ -240,7 +241,7 @@ impl Seas {
         snaps as f64 * THREE_HOURS_S / self.judged_s().max(f64::MIN_POSITIVE)
     }
 
-    /// The time of all records together that is judged \[s\].
+    /// The judged time of all records together \[s\].
     pub fn judged_s(&self) -> f64 {
         let transient = self.prepared.structure.transient_s;
         self.outcomes()

@@ -1,4 +1,4 @@
-//! What one run on lines that stretch comes to.
+//! The outcome of one run on lines that stretch.
 
 use super::outcome::{LineOutcome, Outcome};
 use crate::physics::elastic::{ElasticRun, run_elastic, springs};
@@ -8,8 +8,8 @@ use snapload::Stop;
 use snapload::analysis::{OnProgress, Unfinished};
 
 impl Outcome {
-    /// Runs a structure on lines that stretch, from its place of rest on them, and keeps what it
-    /// comes to, with the structure about that place.
+    /// Runs a structure on lines that stretch, from its position of rest on them, and returns the
+    /// outcome, with the structure about that position.
     ///
     /// # Errors
     /// A [`snapload::CaseError`] if a line has no stiffness or the body rests nowhere on them, and
@@ -25,7 +25,7 @@ impl Outcome {
         Ok((sprung, outcome))
     }
 
-    /// What a motion on lines that stretch comes to. A snap is a pull that begins at
+    /// The outcome of a motion on lines that stretch. A snap is a pull that begins at
     /// [`SLOWEST_M_S`] or more.
     pub(super) fn of_pulls(sprung: &Prepared, run: &ElasticRun) -> Self {
         let transient_s = sprung.structure.transient_s;

@@ -1,34 +1,34 @@
-//! The water that moves with a submerged body, along each axis and about its centre.
+//! The added mass of a submerged body, along each axis and about its centre.
 //!
 //! ```text
 //! circle       A11 = A33 = ρV (C_a = 1),    A55 = 0
 //! rectangle    A11 = c₁ ρ T² ℓ,    A33 = c₃ ρ b² ℓ,    A55 = c₅ ρ b⁴ ℓ
 //! ```
 //!
-//! b is half the width, T half the height, ℓ the length across the plane, volume over outline. The
-//! coefficients are those of two-dimensional potential flow far from surface and floor
-//! ([`snapload_hydro::added_mass_of_section`]); DNV-RP-C205, *Environmental Conditions and
-//! Environmental Loads* (October 2010), appendix D, table D-1, prints them in two digits: 1, and
-//! for b/T from 1 to 10 C_A = 1.51 to 1.14 of π ρ b². What flows round the ends makes all of it
-//! smaller.
+//! b is half the width, T half the height, ℓ the length across the plane, volume divided by the
+//! area of the outline. The coefficients are those of two-dimensional potential flow far from
+//! surface and floor ([`snapload_hydro::added_mass_of_section`]); DNV-RP-C205, *Environmental
+//! Conditions and Environmental Loads* (October 2010), appendix D, table D-1, prints them in two
+//! digits: 1, and for b/T from 1 to 10 C_A = 1.51 to 1.14 of π ρ b². The flow round the ends
+//! reduces all of it.
 
 use super::Outline;
 use snapload_hydro::{HydroError, Place, Shape, added_mass_of_section};
 
-/// Mass and moment of inertia of the water that moves with a body.
+/// The added mass and moment of inertia of a body.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct AddedMass {
     /// A11 \[kg\].
     pub surge_kg: f64,
     /// A33 \[kg\].
     pub heave_kg: f64,
-    /// A55 about the body's centre, as far as its moment of inertia does not hold it \[kg m²\].
+    /// A55 about the body's centre, if its moment of inertia does not include it \[kg m²\].
     pub pitch_kg_m2: f64,
-    /// Which of it the case leaves to the textbook.
+    /// The part that the case leaves to the textbook.
     pub by_default: ByDefault,
 }
 
-/// What of the added mass a case leaves to the textbook.
+/// The part of the added mass that a case leaves to the textbook.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum ByDefault {
     /// Nothing.
@@ -40,7 +40,7 @@ pub enum ByDefault {
 }
 
 impl AddedMass {
-    /// As a case gives it.
+    /// The added mass that a case gives.
     pub(super) fn given([surge_kg, heave_kg, pitch_kg_m2]: [f64; 3]) -> Self {
         Self {
             surge_kg,
@@ -50,7 +50,8 @@ impl AddedMass {
         }
     }
 
-    /// Of an outline of so many metres across, ℓ = `length_m` and so much water displaced.
+    /// The added mass of an outline of these sizes, with ℓ = `length_m` and the displaced mass of
+    /// water.
     ///
     /// # Errors
     /// A [`HydroError`] if a rectangle is more than ten times as long as it is wide, or the
@@ -78,7 +79,7 @@ impl AddedMass {
         })
     }
 
-    /// Where the numbers are from that the case does not give; none where it gives them all.
+    /// The source of the numbers that the case does not give; none if it gives them all.
     pub fn source(&self, outline: Outline) -> Option<&'static str> {
         let flow = match outline {
             Outline::Circle => "two-dimensional flow about a circle, C_a = 1",
@@ -89,7 +90,7 @@ impl AddedMass {
         };
         match self.by_default {
             ByDefault::Nothing => None,
-            // A circle turns in the water without moving it.
+            // A turning circle does not move the water.
             ByDefault::Rotation if self.pitch_kg_m2 == 0.0 => None,
             ByDefault::Rotation | ByDefault::All => Some(flow),
         }

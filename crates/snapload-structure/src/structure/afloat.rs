@@ -1,4 +1,4 @@
-//! What `[float]` says: the coefficients of a body that floats, with the memory of the waves it makes.
+//! The table `[float]`: the coefficients of a floating body, with the memory of the waves it makes.
 
 use super::{BodySi, Outline, Site};
 use nalgebra::Vector3;
@@ -9,39 +9,40 @@ use snapload_hydro::{
 };
 use std::path::{Path, PathBuf};
 
-/// The file's displaced mass and the case's volume differ by no more than this part.
+/// The largest relative difference of the file's displaced mass and the case's volume.
 const SAME_VOLUME: f64 = 0.01;
-/// A circle is half immersed if its centre is within this part of its width of the still water.
+/// A circle counts as half immersed if its centre is within this part of its width of the still
+/// water.
 const HALF_IMMERSED: f64 = 0.01;
-/// What is allowed for a key that names a file, where a case has no folder that files are in.
+/// The message for a key that names a file in a case that has no folder for files.
 pub const READS_NO_FILES: &str = "nothing in a case that is read by itself, without the files beside \
                                   it; without it a body floats on textbook values of its section";
-/// What stands for the name of a file where there is none.
+/// The name that is shown if there is no file.
 const SECTION: &str = "textbook values of its section";
 
-/// What the water does to a floating body, about the body's centre.
+/// The forces of the water on a floating body, about the body's centre.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Afloat {
-    /// Coefficients, memory, and what follows without lines. Its warnings are also those of the case.
+    /// Coefficients, memory, and results without lines. Its warnings are also those of the case.
     pub report: Report,
     /// The body's weight, stiffness and damping.
     pub body: snapload_hydro::Body,
-    /// A moment that does not change, counter-clockwise \[N m\].
+    /// A constant moment, counter-clockwise \[N m\].
     pub constant_moment_n_m: f64,
 }
 
 impl Afloat {
-    /// What acts on the body at its mean place, whatever the water and the lines do: in surge, heave
-    /// and pitch, which counts clockwise \[N, N m\].
+    /// The constant loads on the body at its mean position, besides those of water and lines: in
+    /// surge, heave and pitch, which is clockwise \[N, N m\].
     pub(crate) fn steady(&self) -> Vector3<f64> {
         self.body.constant_force - Vector3::new(0.0, 0.0, self.constant_moment_n_m)
     }
 
-    /// Reads the coefficients beside a case file and fits their memory; without a folder it may name
-    /// no files.
+    /// Reads the coefficients from files beside a case file and fits their memory; without a folder
+    /// the case may not name files.
     ///
     /// # Errors
-    /// A [`CaseError`] that says what is wrong with the file or what it lacks.
+    /// A [`CaseError`] that says what is wrong with the file or missing in it.
     pub(super) fn read(
         entries: &Entries,
         folder: Option<&Path>,
@@ -60,7 +61,7 @@ impl Afloat {
         }
         let mut reading = coefficients(entries, file.as_deref(), site, body)?;
         let bad = |error: HydroError| refused(fields, &error);
-        // A memory that does not say what it is about is about what the file is.
+        // A memory without a reference point has that of the file.
         let memory = read_memory(fields, memory.as_deref())?.map(|memory| GivenMemory {
             reference_m: memory.reference_m.or(Some(reading.hydro.reference_m)),
             ..memory
@@ -94,7 +95,7 @@ impl Afloat {
     }
 }
 
-/// Where the file is that a key names, if it does.
+/// The path of the file that a key names, if it names one.
 fn path(
     fields: Fields<'_>,
     key: &str,
@@ -109,7 +110,7 @@ fn path(
     }
 }
 
-/// The coefficients of a file, or of the textbook where there is none.
+/// The coefficients of a file, or of the textbook if there is none.
 fn coefficients(
     entries: &Entries,
     file: Option<&Path>,
@@ -127,7 +128,7 @@ fn coefficients(
     Ok(reading)
 }
 
-/// That coefficients are not those of this body.
+/// The error of coefficients that do not fit this body.
 fn refused(fields: Fields<'_>, error: &HydroError) -> CaseError {
     let given = fields.given("file");
     let shown = given.map_or("(left out)".to_owned(), ToString::to_string);
@@ -135,7 +136,7 @@ fn refused(fields: Fields<'_>, error: &HydroError) -> CaseError {
     fields.refuse("file", shown, allowed)
 }
 
-/// The keys that only a file has something for.
+/// The keys that only have a meaning with a file.
 const OF_A_FILE: [&str; 8] = [
     "deep_water",
     "pairs",
@@ -147,7 +148,7 @@ const OF_A_FILE: [&str; 8] = [
     "name",
 ];
 
-/// The textbook's coefficients of a body whose outline is its section, where no file is named.
+/// The textbook's coefficients of a body whose outline is its section, if no file is named.
 fn section(fields: Fields<'_>, site: &Site, body: &BodySi) -> Result<Reading, CaseError> {
     for key in OF_A_FILE {
         if let Some(value) = fields.given(key) {
@@ -191,7 +192,7 @@ fn section(fields: Fields<'_>, site: &Site, body: &BodySi) -> Result<Reading, Ca
         .map_err(|error| refuse(format!("a file for such a body; {error}")))
 }
 
-/// What the file is told of the case.
+/// The values of the case that are given to the reader of the file.
 fn given(fields: Fields<'_>, site: &Site) -> Result<Given, CaseError> {
     let deep = fields.get("deep_water")?.unwrap_or(false);
     Ok(Given {
@@ -211,7 +212,7 @@ fn given(fields: Fields<'_>, site: &Site) -> Result<Given, CaseError> {
     })
 }
 
-/// Refuses keys that the file leaves nothing to do.
+/// Refuses keys that would have no effect with this file.
 fn idle(fields: Fields<'_>, reading: &Reading) -> Result<(), CaseError> {
     for key in ["unit_length", "first_column"] {
         if let Some(value) = fields
@@ -233,7 +234,8 @@ fn idle(fields: Fields<'_>, reading: &Reading) -> Result<(), CaseError> {
     }
 }
 
-/// Gives the coefficients the case's displaced volume where the file has none, and refuses another.
+/// Adds the case's displaced volume to coefficients whose file has none, and refuses a different
+/// one.
 fn same_volume(
     own: Fields<'_>,
     site: &Site,
@@ -254,7 +256,7 @@ fn same_volume(
     Err(own.refuse("displaced_volume", body.displaced_volume_m3, allowed))
 }
 
-/// Three numbers; one is refused, as it would be of which freedom?
+/// Three numbers; a single number is refused, as its degree of freedom would be unclear.
 fn three(fields: Fields<'_>, key: &str) -> Result<Option<[f64; 3]>, CaseError> {
     match fields.given(key) {
         None => Ok(None),

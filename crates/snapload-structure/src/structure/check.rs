@@ -1,15 +1,15 @@
-//! What is refused of a structure whose keys, each by itself, are what they may be.
+//! Checks of conditions between the keys of a structure, each of which is valid by itself.
 
 use crate::structure::Structure;
 use snapload::CaseError;
 
-/// A line may fall short of the drawn fairlead by this part of its length, as drawings are rounded;
-/// the body then rests a little lower.
+/// The part of its length by which a line may be too short for the drawn fairlead, as drawings are
+/// rounded; the body then rests a little lower.
 const ROUNDED: f64 = 0.02;
-/// A body that is so much harder to move along one axis than along the other is a slip.
+/// A larger ratio of the masses along the two axes is refused as a typing error.
 const UNLIKE: f64 = 1e6;
 
-/// Refuses a current that would do nothing.
+/// Refuses a current that would have no effect.
 fn check_current(structure: &Structure) -> Result<(), CaseError> {
     let (body, current) = (&structure.body, structure.site.current_m_s);
     if current == 0.0 || body.drag_area_m2 + body.linear_damping_n_s_m > 0.0 {
@@ -20,7 +20,7 @@ fn check_current(structure: &Structure) -> Result<(), CaseError> {
         .with_hint("give body.drag_area, C_d times the area that the current meets"))
 }
 
-/// Refuses what can not be of a floating body.
+/// Refuses impossible data of a floating body.
 fn check_afloat(structure: &Structure) -> Result<(), CaseError> {
     let body = &structure.body;
     let ([x, z], half) = (body.position_m, body.height_m / 2.0);
@@ -55,7 +55,7 @@ fn check_anchors(structure: &Structure) -> Result<(), CaseError> {
     }
 }
 
-/// Refuses masses that do not go together.
+/// Refuses masses that contradict each other.
 fn check_masses(structure: &Structure) -> Result<(), CaseError> {
     let body = &structure.body;
     let [surge, heave] = body.moving_mass_kg();
@@ -73,7 +73,7 @@ fn check_masses(structure: &Structure) -> Result<(), CaseError> {
     Ok(())
 }
 
-/// Refuses what can not be.
+/// Refuses impossible data.
 pub(super) fn check(structure: &Structure) -> Result<(), CaseError> {
     check_current(structure)?;
     match structure.afloat {
@@ -82,7 +82,7 @@ pub(super) fn check(structure: &Structure) -> Result<(), CaseError> {
     }
 }
 
-/// Refuses what can not be of a submerged body.
+/// Refuses impossible data of a submerged body.
 fn check_submerged(structure: &Structure) -> Result<(), CaseError> {
     let body = &structure.body;
     let depth = structure.site.depth_m;

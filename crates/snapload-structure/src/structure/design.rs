@@ -1,9 +1,9 @@
-//! What `[project]` and `[design]` say.
+//! The tables `[project]` and `[design]`.
 
 use crate::structure::{DesignRule, Project};
 use snapload::{CaseError, Entries, Fields};
 
-/// What stands at the head of a note.
+/// The head of a note.
 pub(super) fn read_project(entries: &Entries) -> Result<Project, CaseError> {
     if entries.count("project") == 0 {
         return Ok(Project::default());
@@ -18,7 +18,7 @@ pub(super) fn read_project(entries: &Entries) -> Result<Project, CaseError> {
     })
 }
 
-/// The checks whose factors are given; factors that go together are given together.
+/// The checks whose factors are given; factors that belong together have to be given together.
 pub(super) fn read_design(entries: &Entries) -> Result<DesignRule, CaseError> {
     if entries.count("design") == 0 {
         return Ok(DesignRule::default());
@@ -42,7 +42,7 @@ pub(super) fn read_design(entries: &Entries) -> Result<DesignRule, CaseError> {
     })
 }
 
-/// Values of which either all are given or none.
+/// Values that are either all given or none.
 fn together<const N: usize>(
     fields: Fields<'_>,
     keys: [&'static str; N],

@@ -1,4 +1,4 @@
-//! How a structure comes out of the keys of a case.
+//! Reads a structure from the keys of a case.
 
 use crate::catalogue::{GRADES, Section, TYPES, is_chain, section};
 use crate::schema::STRUCTURE;
@@ -12,15 +12,15 @@ use snapload::{CaseError, Entries, Fields, MAX_CABLES};
 use std::path::Path;
 use std::sync::Arc;
 
-/// So many periods of a regular wave are computed by default.
+/// The number of periods of a regular wave that are computed by default.
 const PERIODS: f64 = 100.0;
-/// So many periods the motion is given to forget its start.
+/// The number of periods of the transient by default.
 const TRANSIENT: f64 = 10.0;
 /// Time that is computed in still water by default \[s\].
 const STILL_S: f64 = 60.0;
 
 impl Structure {
-    /// Reads a case file; `name` is what errors call it.
+    /// Reads a case file; `name` is its name in errors.
     ///
     /// # Errors
     /// A [`CaseError`] that names the line, the key, its value and what is allowed.
@@ -28,7 +28,7 @@ impl Structure {
         Self::from_entries(&Entries::parse(&STRUCTURE, name, text)?)
     }
 
-    /// From the keys that a case gives, none of which may name a file: no file is read.
+    /// Reads the keys that a case gives, which may not name files: no file is read.
     ///
     /// # Errors
     /// A [`CaseError`] that names the key, its value and what is allowed.
@@ -36,7 +36,7 @@ impl Structure {
         read(entries, None).map_err(|error| entries.locate(error))
     }
 
-    /// The same, where files that the case names are beside one in this folder.
+    /// The same, with files that the case names in this folder.
     ///
     /// # Errors
     /// As above, and if a file can not be read or used.
@@ -45,7 +45,7 @@ impl Structure {
     }
 }
 
-/// Reads and checks a structure; without a folder it may name no files.
+/// Reads and checks a structure; without a folder the case may not name files.
 fn read(entries: &Entries, folder: Option<&Path>) -> Result<Structure, CaseError> {
     let site = read_site(entries.table("site", 0))?;
     let floats = entries.count("float") > 0;
@@ -159,9 +159,9 @@ fn read_body(fields: Fields<'_>, site: &Site, floats: bool) -> Result<BodySi, Ca
     })
 }
 
-/// The water that moves with a body: three numbers are given as they are, one is that of either
-/// axis. Then a moment of inertia that is given holds the water's, and one that is not has it from
-/// the textbook, as has a body whose added mass is left out.
+/// The added mass: three numbers are used as given, a single one is for both axes. With a single
+/// one a given moment of inertia includes the water's; if none is given, the water's is the
+/// textbook's, as is all of it if the added mass is left out.
 fn read_added_mass(
     fields: Fields<'_>,
     site: &Site,
@@ -217,8 +217,7 @@ fn read_line(fields: Fields<'_>) -> Result<LineSi, CaseError> {
     })
 }
 
-/// The name of a line of a type and a diameter, and what such lines are like; none where neither is
-/// given.
+/// The name of a line of a type and a diameter, and its section; none if neither is given.
 fn read_section(fields: Fields<'_>) -> Result<Option<(String, Option<Section>)>, CaseError> {
     let kind = fields.get::<String>("type")?;
     let diameter = fields.get::<f64>("diameter")?;

@@ -1,4 +1,4 @@
-//! The water that moves with a body: by axis, and in rotation.
+//! The added mass of a body: along each axis, and in rotation.
 
 use crate::verdicts::source;
 use snapload::analysis::unwatched;
@@ -24,8 +24,8 @@ fn upright(more: &str, run: &str) -> Structure {
     Structure::parse("pontoon", &text).unwrap()
 }
 
-/// What table D-1 of DNV-RP-C205 prints for b/T = 2: C_A = 1.70 of π ρ T² in x, 1.36 of π ρ b² in z,
-/// and 0.15 of π ρ b⁴ in rotation.
+/// What table D-1 of DNV-RP-C205 prints for b/T = 2: C_A = 1.70 of π ρ T² in x, 1.36 of π ρ b² in
+/// z, and 0.15 of π ρ b⁴ in rotation.
 #[test]
 fn a_rectangle_has_its_added_mass_from_the_table() {
     let structure = upright("", "restitution = 0.5");
@@ -52,8 +52,8 @@ fn a_rectangle_has_its_added_mass_from_the_table() {
     assert!(page.contains("DNV-RP-C205"));
 }
 
-/// One number is that of both axes, and the moment of inertia given beside it holds the water's; three
-/// numbers say the same in another way, to the last bit.
+/// A single number is the added mass along both axes, and the moment of inertia given with it
+/// includes that of the water; three numbers give the same structure, to the last bit.
 #[test]
 fn one_number_serves_both_axes() {
     let system = |more: &str| {
@@ -64,7 +64,7 @@ fn one_number_serves_both_axes() {
     let one = system("added_mass = 2e5\nmoment_of_inertia = 4e5");
     let three = system("added_mass = [2e5, 2e5, 1e5]\nmoment_of_inertia = 3e5");
     assert_eq!(one, three);
-    // Left out, the moment of inertia is the body's and the water's.
+    // If left out, the moment of inertia is that of the body plus that of the water.
     let structure = upright("added_mass = 2e5", "restitution = 0.5");
     let body = &structure.body;
     let own = 90000.0 * 20.0 / 12.0;
@@ -87,8 +87,8 @@ fn period(run: &ElasticRun, coordinate: impl Fn(&snapload::State) -> f64) -> f64
     2.0 * (zeros[zeros.len() - 1] - zeros[0]) / (zeros.len() - 1) as f64
 }
 
-/// On upright elastic lines the body swings up and down with 2k on m + A33, to and fro with F/r on
-/// m + A11, and turns with 2k s² on I + A55 (and F on its short way round), each by itself.
+/// On upright elastic lines the body heaves with 2k on m + A33, surges with F/r on m + A11, and
+/// pitches with 2k s² on I + A55 (plus F times its short lever), each by itself.
 #[test]
 fn each_freedom_swings_with_its_own_mass() {
     let structure = upright("", "restitution = 1\nduration = 30");
@@ -124,7 +124,7 @@ fn each_freedom_swings_with_its_own_mass() {
     assert!((found / known - 1.0).abs() < 2e-3, "{found} {known}");
 }
 
-/// Inextensible lines: let go one metre below, the body rises by F over m + A33, and each of two
+/// Inextensible lines: released one metre below, the body rises by F over m + A33, and each of two
 /// upright lines stops half of that mass.
 #[test]
 fn a_snap_stops_the_mass_of_its_direction() {
@@ -147,8 +147,8 @@ fn a_snap_stops_the_mass_of_its_direction() {
     assert!(heights > 0.0);
 }
 
-/// What it does to a verdict: the pontoon in waves on polyester, with one number for both axes, that
-/// of surge or that of heave, and with each its own.
+/// The effect on a verdict: the pontoon in waves on polyester, with one number for both axes, that
+/// of surge or that of heave, and with a number for each axis.
 #[test]
 fn one_number_misses_the_peak_of_a_pontoon() {
     let line = |side: f64| {
@@ -176,13 +176,13 @@ fn one_number_misses_the_peak_of_a_pontoon() {
     let of_surge = peak(&format!("added_mass = 109199\n{own_inertia}"));
     let of_heave = peak(&format!("added_mass = 351300\n{own_inertia}"));
     let each = peak("");
-    // Polyester of 100 mm breaks at 1705 kN: one number for both axes decides whether it does.
+    // Polyester of 100 mm breaks at 1705 kN: one number for both axes changes whether it breaks.
     let breaks = 170_466e3 * 0.1 * 0.1;
     assert_eq!([of_surge.0, each.0], [None, None]);
     assert!(
         of_surge.1 < breaks && breaks < each.1,
         "{of_surge:?} {each:?}"
     );
-    // With that of heave for both the body is thrown onto the floor.
+    // With the number of heave for both axes the body is thrown onto the floor.
     assert_eq!(of_heave.0, Some(Stop::UpperBound));
 }

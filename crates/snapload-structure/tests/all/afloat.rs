@@ -47,7 +47,7 @@ pub(crate) fn structure(text: &str) -> Structure {
     parsed(text).expect("a structure")
 }
 
-/// The same pontoon put together by hand about the file's own reference point.
+/// The same pontoon, built in this test about the file's own reference point.
 pub(crate) fn by_hand() -> (Report, snapload_hydro::Body) {
     let reading = read(&folder().join("pontoon.nc"), &Given::default()).unwrap();
     let request = Request {
@@ -65,7 +65,7 @@ pub(crate) fn by_hand() -> (Report, snapload_hydro::Body) {
 }
 
 /// With the body's centre at the file's reference point the structure rests and moves as the same
-/// system put together by hand does, unit by unit.
+/// system built in this test, in other units.
 #[test]
 fn a_structure_afloat_is_the_system_by_hand() {
     let wave = "[wave]\nheight = 1.2\nperiod = 5";
@@ -88,7 +88,7 @@ fn a_structure_afloat_is_the_system_by_hand() {
     ] {
         assert!((ours - theirs).abs() < 1e-10, "{ours} {theirs}");
     }
-    // Units of another length and mass than the structure takes.
+    // Other units of length and mass than the structure's.
     let fit = &report.fit;
     let units = FloatingUnits::new(8.0, 9.81, 2e5);
     let array =
@@ -151,7 +151,7 @@ fn a_structure_afloat_is_the_system_by_hand() {
     assert_eq!(compared, 6);
 }
 
-/// Without a taut line heave is what the frequency domain says, in size and phase; on lines that
+/// Without a taut line heave has the amplitude and phase of the frequency domain; on lines that
 /// stretch and stay slack the motion is the same.
 #[test]
 fn slack_lines_leave_the_response_of_the_frequency_domain() {
@@ -193,8 +193,7 @@ fn slack_lines_leave_the_response_of_the_frequency_domain() {
                 .scales
                 .to_si([motion.state().x, motion.state().y]);
             let (sine, cosine) = (omega * t).sin_cos();
-            // Re 0.2 i ξ e^{−iωt}, about where weight and buoyancy, equal to a newton, are in
-            // balance.
+            // Re 0.2 i ξ e^{−iωt}, about the height at which weight and buoyancy are in balance.
             let still = afloat.body.constant_force[1] / afloat.body.stiffness[(1, 1)];
             let heave = still + 0.2 * (xi[1].re * sine - xi[1].im * cosine);
             assert!((z - heave).abs() < 1e-6, "{t} {z} {heave}");
@@ -209,7 +208,7 @@ fn slack_lines_leave_the_response_of_the_frequency_domain() {
     for look in &elastic.looks {
         let state = playback.at(look.t_s / prepared.model.scales.time_s).state;
         for (a, b) in state.components().into_iter().zip(look.state.components()) {
-            // Between the steps to the seventh order only.
+            // Between the steps the solution is only of the seventh order.
             assert!((a - b).abs() < 1e-6, "{} {a} {b}", look.t_s);
         }
     }
@@ -227,7 +226,7 @@ fn stretched_lines_share_the_load_with_the_water() {
     let law = springs(&prepared, 1.0).unwrap();
     let sprung = prepared.on_springs(&law).unwrap();
     let rise = sprung.rest.place_m[1] + 0.2;
-    // Down from buoyancy's surplus by ρ g A per metre of rise.
+    // The surplus of buoyancy falls by ρ g A per metre of rise.
     let left = (98400.0 - 80000.0) * 9.81 - 804_420.0 * rise;
     let up: f64 = (0..2)
         .map(|line| {
@@ -238,7 +237,7 @@ fn stretched_lines_share_the_load_with_the_water() {
     assert!((up / left - 1.0).abs() < 1e-4, "{up} {left}");
     let [stiff, soft] = [&prepared, &sprung].map(|p| p.rest.tension_n[0]);
     assert!(soft < stiff && soft > 0.5 * stiff, "{stiff} {soft}");
-    // In still water it stays there, and neighbours without waves do.
+    // In still water it stays there, and so do neighbours without waves.
     let mut motion = prepared.begin(0.0).unwrap();
     while motion.step().is_some() {}
     let end = prepared
@@ -248,7 +247,7 @@ fn stretched_lines_share_the_load_with_the_water() {
     assert!((end[1] - prepared.rest.place_m[1]).abs() < 1e-9);
 }
 
-/// A mirrored sea mirrors the motion of a body that is its own mirror image.
+/// A mirrored sea mirrors the motion of a symmetric body.
 #[test]
 fn waves_from_either_side_are_mirror_images() {
     let peaks = |direction: &str| {

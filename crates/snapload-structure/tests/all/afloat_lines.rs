@@ -1,5 +1,5 @@
-//! Lines under a body that floats: how they share what the water leaves them, and how they answer
-//! small waves as they stretch.
+//! Lines under a floating body: how they share the load, and the response to small waves as they
+//! stretch.
 
 use crate::afloat::{by_hand, case, parsed, structure};
 use nalgebra::{Complex, Matrix3, Vector3};
@@ -40,7 +40,7 @@ fn taut_springs_answer_small_waves_as_the_frequency_domain_does() {
     };
     let wave = format!("[wave]\nheight = {height}\nperiod = {}", 2.0 * PI / omega);
     let text = case(-0.2, 2.0, 9.666, &wave, "duration = 300\ntransient = 0");
-    // Surge is damped, so that its free swing has died away at the end.
+    // Surge is damped, so that its free oscillation has decayed at the end.
     let text = text.replace("pairs = 6", "pairs = 6\ndamping = [2e5, 1e4, 2e5]");
     let text = text.replacen("length = 9.666", "length = 9.6", 1);
     let structure = structure(&text.replace("stiffness = 1.2e8", "stiffness = 2e7"));
@@ -76,8 +76,8 @@ fn taut_springs_answer_small_waves_as_the_frequency_domain_does() {
     let force = hydro.excitation_to(1.0).unwrap().force[k] * Complex::new(height / 2.0, 0.0);
     let answer = impedance.lu().solve(&force).unwrap();
 
-    // What is of the second order in the waves has other frequencies, and is fitted beside the
-    // answer.
+    // Terms of the second order in the waves have other frequencies, and are fitted together with
+    // the linear response.
     let run = run_elastic(&sprung, &law, 0.2, &unwatched).unwrap();
     let looks: Vec<_> = run.looks.iter().filter(|look| look.t_s > 240.0).collect();
     let columns = nalgebra::DMatrix::from_fn(looks.len(), 5, |row, column| {
@@ -116,7 +116,7 @@ fn taut_springs_answer_small_waves_as_the_frequency_domain_does() {
     }
 }
 
-/// A body whose water the textbook has, on one upright line at its centre.
+/// A body on one upright line at its centre, whose water forces are from textbook values.
 fn of_its_section(more: &str, line: &str) -> String {
     format!(
         "[body]\nshape = \"rectangle\"\nwidth = 4\nheight = 2\nmass = 90000\ndisplaced_volume = 96\n\
@@ -145,7 +145,7 @@ fn a_body_without_a_file_has_the_water_of_its_section() {
     assert!((natural.omega_rad_s / omega - 1.0).abs() < 1e-9);
     let ratio = 3e4 / (2.0 * f64::sqrt((c33 + k) * (90000.0 + a33)));
     assert!((mode.damping_ratio / ratio - 1.0).abs() < 1e-6);
-    // It rests where waterplane and line balance the lift of what it displaces too much.
+    // At rest waterplane and line balance the surplus of buoyancy.
     let lift = (1025.0 * 96.0 - 90000.0) * 9.81;
     let sprung = prepared
         .on_springs(&springs(&prepared, 1.0).unwrap())
@@ -182,8 +182,8 @@ fn a_body_without_a_file_has_the_water_of_its_section() {
     }
 }
 
-/// Where the body floats by itself a moment heels it by M/C₅₅ counter-clockwise; on taut lines it
-/// begins heeled and stays so. A moment that turns it over is refused by its name.
+/// A body that floats freely heels by M/C₅₅ counter-clockwise under a moment; on taut lines it
+/// begins heeled and stays so. A moment that turns it over is refused, and the message names it.
 #[test]
 fn a_constant_moment_heels_the_body() {
     let with =
@@ -218,7 +218,8 @@ fn a_constant_moment_heels_the_body() {
     );
 }
 
-/// A short line holds the body 0.2 m below where its section is that of the textbook's values.
+/// A short line holds the body 0.2 m below the height for which the textbook values of its section
+/// hold.
 #[test]
 fn a_place_of_rest_below_the_given_one_is_told_as_below() {
     let text = of_its_section("", "length = 9.6");
@@ -236,9 +237,8 @@ fn a_place_of_rest_below_the_given_one_is_told_as_below() {
     );
 }
 
-/// Four lines, two on each side of which one is 2 mm shorter than the other: by their stiffness
-/// they share what the water leaves them as springs do, and without a stiffness the verdict is
-/// open.
+/// Four lines, two on each side, of which one is 2 mm shorter than the other: with stiffnesses they
+/// share the load as springs do, and without a stiffness the verdict is open.
 #[test]
 fn more_lines_than_hold_a_floating_body_share_by_stiffness() {
     let text = case(
@@ -304,8 +304,8 @@ fn more_lines_than_hold_a_floating_body_share_by_stiffness() {
     assert_eq!(shared.is_some(), long < 0.9 * short, "{short} {long}");
 }
 
-/// A memory is about the reference point that its file says, and is carried to the body's centre:
-/// as Jᵀ(·)J there, and as good a fit as it was.
+/// A memory is about the reference point of its file, and is transformed to the body's centre: it
+/// equals Jᵀ(·)J there, and the quality of the fit is the same.
 #[test]
 fn a_memory_is_carried_to_the_centre() {
     let (report, _) = by_hand();
@@ -331,8 +331,8 @@ fn a_memory_is_carried_to_the_centre() {
     assert!(warned.is_none(), "{warned:?}");
 }
 
-/// Thrown about by its lines as they stretch, with the memory of the waves it makes, the pontoon
-/// pulls at them when and as hard as another program has it.
+/// In waves, with snaps on lines that stretch and with the memory, the pontoon's lines pull at the
+/// times and with the tensions that another program computed.
 #[test]
 fn snaps_on_springs_are_those_of_another_program() {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR"));
@@ -361,7 +361,7 @@ fn snaps_on_springs_are_those_of_another_program() {
         assert_eq!(pull.line + 1, line as usize);
         let off = (pull.from_s - from).abs().max((pull.to_s - to).abs());
         assert!(off < 1e-6, "{pull:?} {known}");
-        // The largest tension is looked at sixteen times a step.
+        // The largest tension is sampled sixteen times a step.
         assert!((pull.peak_n / peak - 1.0).abs() < 1e-5, "{pull:?} {known}");
     }
 }

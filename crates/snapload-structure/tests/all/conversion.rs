@@ -1,4 +1,4 @@
-//! SI and the engine's units.
+//! Conversion between SI and the engine's units.
 
 use snapload::{Case, Parameters, Simulation, Trajectory};
 use snapload_structure::{LinearWave, Model, Structure, wave_number};
@@ -8,8 +8,7 @@ const RHO: f64 = 1025.0;
 const G: f64 = 9.806_65;
 
 /// The thesis's standard case as a structure: half the anchors' distance L, a net buoyancy and a
-/// mass are chosen, and all else follows backwards from r, a, f_o, ν and Ω (docs/model.md section
-/// 10).
+/// mass are chosen, and all other values follow from r, a, f_o, ν and Ω (docs/model.md section 10).
 fn disguised(p: &Parameters) -> String {
     let (l, volume, mass, depth) = (15.0, 10.0, 4000.0, 40.0);
     let force = (RHO * volume - mass) * G;
@@ -38,8 +37,8 @@ fn disguised(p: &Parameters) -> String {
     )
 }
 
-/// The same groups, and the same impacts until rounding, which grows tenfold in a few impacts, has
-/// grown too far.
+/// The same groups, and the same impacts until rounding has grown too far, as it grows tenfold in a
+/// few impacts.
 #[test]
 fn thesis_in_disguise_is_the_thesis() {
     let p = Parameters::STANDARD;
@@ -80,7 +79,7 @@ fn thesis_in_disguise_is_the_thesis() {
 }
 
 /// A cylinder of 3 m in 10 m of water, its axis 3.5 m down, under waves of 2 m and 6 s: values
-/// worked apart from this code, from linear theory.
+/// computed independently from linear theory.
 #[test]
 fn cylinder_feels_what_linear_theory_says() {
     let text = include_str!("../../../../docs/examples/cylinder.toml");

@@ -1,4 +1,4 @@
-//! Loads that do not change: a current, mean drift.
+//! Constant loads: a current, mean drift.
 
 use snapload::Playback;
 use snapload::analysis::unwatched;
@@ -16,7 +16,8 @@ fn pendulum(body: &str, site: &str, run: &str) -> Structure {
     Structure::parse("pendulum", &text).unwrap()
 }
 
-/// The line leans so that T sin α = ½ ρ C_d A U² + b U + F_x and T cos α = F + F_z, stiff or elastic.
+/// The line leans so that T sin α = ½ ρ C_d A U² + b U + F_x and T cos α = F + F_z, stiff or
+/// elastic.
 #[test]
 fn a_current_leans_the_line() {
     for (current, push, lift) in [(0.8, 0.0, 0.0), (-1.1, 300.0, -150.0), (0.4, -90.0, 200.0)] {
@@ -40,7 +41,7 @@ fn a_current_leans_the_line() {
             assert!((z + 20.0 - length * up / pull).abs() < 1e-7 * length);
             assert!((rest.tension_n[0] / pull - 1.0).abs() < 1e-7);
         }
-        // It stays there, and the neighbours of a run are in the same current.
+        // The body stays there, and the neighbours of a run have the same current.
         let mut motion = prepared.begin(1.5).unwrap();
         while motion.step().is_some() {}
         let end = prepared
@@ -53,7 +54,7 @@ fn a_current_leans_the_line() {
     }
 }
 
-/// What drags on a body that drifts with the current is nothing.
+/// A body that drifts with the current has no drag.
 #[test]
 fn only_the_water_past_the_body_drags() {
     let text = EXAMPLE
@@ -74,7 +75,7 @@ fn only_the_water_past_the_body_drags() {
     );
 }
 
-/// A mirrored current mirrors the run, and its words are with every answer.
+/// A mirrored current mirrors the run, and every answer names the current.
 #[test]
 fn a_current_is_told_and_has_a_side() {
     let run = |side: f64| {

@@ -1,4 +1,4 @@
-//! Natural periods against closed forms, and checks by the rule against their formulas.
+//! Natural periods against closed forms, and checks by the design rule against their formulas.
 
 use crate::verdicts::{source, structure};
 use snapload::analysis::unwatched;
@@ -10,8 +10,8 @@ use std::f64::consts::TAU;
 
 const CYLINDER: &str = include_str!("../../../../docs/examples/cylinder.toml");
 
-/// A body of 800 kg with its water, straight above its anchor, on two lines of 15 m that lie on each
-/// other and end `below` its centre.
+/// A body of 800 kg with its water, straight above its anchor, on two lines of 15 m that lie on
+/// each other and end `below` its centre.
 fn tethered(below: f64) -> Prepared {
     let (fairlead, anchor) = (-5.0 - below, -20.0 - below);
     let line = format!(
@@ -28,8 +28,8 @@ fn periods_s(modes: &[snapload_structure::NaturalMode]) -> Vec<Option<f64>> {
     modes.iter().map(|mode| mode.period_s).collect()
 }
 
-/// Held at its centre the body is a pendulum that hangs upwards, ω² = F/(M r), and may turn as it
-/// likes; on springs it also heaves at ω² = 2k/M, and the pendulum is longer by its stretch.
+/// Held at its centre the body is an inverted pendulum under buoyancy, ω² = F/(M r), and turns
+/// freely; on springs it also heaves at ω² = 2k/M, and the pendulum is longer by their stretch.
 #[test]
 fn a_body_held_at_its_centre_is_a_pendulum() {
     let prepared = tethered(0.0);
@@ -88,8 +88,8 @@ fn a_body_held_below_its_centre_is_a_double_pendulum() {
     }
 }
 
-/// The example's periods on its chains, found by a mooring engineer with a program of their own, and
-/// on lines a hundred thousand times as stiff that on lines that do not stretch.
+/// The example's periods on its chains, as a mooring engineer computed them with another program;
+/// with lines a hundred thousand times as stiff, those on lines that do not stretch.
 #[test]
 fn the_cylinder_swings_as_others_found() {
     let prepared = Prepared::new(structure(CYLINDER)).expect("a start");
@@ -99,7 +99,7 @@ fn the_cylinder_swings_as_others_found() {
         (elastic[0].expect("a period") - 3.231).abs() < 5e-4,
         "{elastic:?}"
     );
-    // In heave both lines do the same, each with k n_z² + (T/l) n_x².
+    // In heave both lines act alike, each with k n_z² + (T/l) n_x².
     let springs = springs(&prepared, 1.0).expect("springs");
     let sprung = prepared.on_springs(&springs).expect("a place of rest");
     let line = &prepared.structure.lines[0];
@@ -150,7 +150,7 @@ fn checks_are_what_their_formulas_say() {
         };
         let outcome = &assessment.outcome.lines[line - 1];
         let rest = assessment.prepared.rest.tension_n[line - 1];
-        // This line goes slack, so that its least tension is nothing.
+        // This line goes slack, so that its least tension is zero.
         assert!(outcome.slack_fraction > 0.0 && outcome.least_n == Some(0.0));
         let (known, passes) = match check.criterion {
             Criterion::Strength => {
@@ -170,7 +170,7 @@ fn checks_are_what_their_formulas_say() {
     }
 }
 
-/// Without factors nothing is checked; a slack line fails the check that it be never slack.
+/// Without factors no tension is checked; a slack line fails the check that it never goes slack.
 #[test]
 fn only_what_is_asked_for_is_checked() {
     let text = format!("{CYLINDER}\nduration = 60\n");
@@ -200,7 +200,7 @@ fn only_what_is_asked_for_is_checked() {
     assert_eq!(answers, [Answer::Passes, Answer::Passes, Answer::Unknown]);
 }
 
-/// On lines too soft to be taken as inextensible a check of tensions is left open.
+/// On lines that are too soft to be inextensible a check of tensions is left open.
 #[test]
 fn checks_of_soft_lines_are_open() {
     let soft = CYLINDER.replace("type = \"studless chain\"", "type = \"polyester\"");
@@ -234,8 +234,8 @@ fn factors_that_go_together_are_given_together() {
     }
 }
 
-/// The checks of lines that stretch, by hand from what they hold, and of many records, of which
-/// each has those of its own run.
+/// The checks of lines that stretch, recomputed from their tensions, and those of many records,
+/// each of which has the checks of its own run.
 #[test]
 fn springs_and_records_are_checked_by_the_same_rule() {
     let rule = "[design]\npretension_factor = 1.2\nenvironment_factor = 1.5\nstrength_factor = 0.95\n\
@@ -302,7 +302,7 @@ fn springs_and_records_are_checked_by_the_same_rule() {
     }
 }
 
-/// How long a snap lasts is π sqrt(m/k) with the mass that the line has to stop, turning included:
+/// The duration of a snap is π sqrt(m/k) with the effective mass at the line, rotation included:
 /// 1/m = n_x²/M_x + n_z²/M_z + s²/I.
 #[test]
 fn a_snap_lasts_as_long_as_its_effective_mass_says() {
@@ -329,7 +329,8 @@ fn a_snap_lasts_as_long_as_its_effective_mass_says() {
     assert!(told.message.contains(&words), "{} {words}", told.message);
 }
 
-/// A load that the lines do not hold the body against is what is wrong, and not their lengths.
+/// If the lines can not hold the body against a load, the message names the load and not their
+/// lengths.
 #[test]
 fn loads_that_push_it_away_are_named() {
     let pushed = CYLINDER.replace("position =", "constant_force = [4e6, -6e5]\nposition =");

@@ -1,4 +1,4 @@
-//! Lines that stretch: motions that are known, and the limit in which they do not.
+//! Lines that stretch: known motions, and the limit of stiff lines.
 
 use serde_json::Value;
 use snapload::Limit;
@@ -80,7 +80,7 @@ fn a_spring_stops_a_body_as_energy_says() {
     let rise = speed / (force / mass);
     let known = force + (force * force + rate * mass * speed * speed).sqrt();
     let omega = (rate / mass).sqrt();
-    // δ = F/k (1 − cos ωt) + v/ω sin ωt, back at zero after twice its way to the top.
+    // δ = F/k (1 − cos ωt) + v/ω sin ωt, which is zero again after twice the time to the top.
     let contact = 2.0 * (std::f64::consts::PI - (speed * rate / (omega * force)).atan()) / omega;
     let [first, second, ..] = &motion.pulls[..] else {
         panic!("two lines pull: {:?}", motion.pulls);
@@ -98,15 +98,15 @@ fn a_spring_stops_a_body_as_energy_says() {
     assert!((first.rebound_m_s.expect("it lets go") - speed).abs() < 1e-8);
 }
 
-/// A damper that is chosen for e throws the body back at e times its speed, the more exactly the
-/// less the buoyancy does within the contact.
+/// A damper that is chosen for e throws the body back at e times its speed, more exactly if the
+/// buoyancy changes the speed less during the contact.
 #[test]
 fn the_damper_gives_the_restitution() {
     for e in [0.9, 0.5, 0.2, 0.1] {
         let prepared = vertical(e, -6.0);
         let mut last = f64::INFINITY;
         for stiffer in [1e2, 1e4, 1e6] {
-            // Both lines stop the body together, so each has half of it to stop.
+            // Both lines stop the body together, so that each stops half of its mass.
             let law: Vec<Spring> = springs(&prepared, stiffer)
                 .expect("springs")
                 .into_iter()
@@ -136,14 +136,14 @@ fn damping_ratios_of_known_restitutions() {
     assert!((damping_ratio(e) - small).abs() < 1e-10);
 }
 
-/// The same case, both ways: as the lines get stiffer, the times and speeds of the snaps go to
-/// those of lines that do not stretch, and the more so the shorter the contact, which lasts as
-/// 1/sqrt(k).
+/// The same case on both kinds of lines: as the lines get stiffer, the times and speeds of the
+/// snaps tend to those of lines that do not stretch, with an error proportional to the duration of
+/// the contact, which is as 1/sqrt(k).
 #[test]
 fn stiff_lines_are_lines_that_do_not_stretch() {
     let mut prepared = prepared(
         CYLINDER,
-        // Dampers have their e at one effective mass; without them e is 1 at all.
+        // A damper gives its e for one effective mass only; without dampers e is 1 for any.
         &[
             "run.restitution=1",
             "run.duration=9",
@@ -177,7 +177,7 @@ fn stiff_lines_are_lines_that_do_not_stretch() {
     assert!(last < 2e-3, "{last}");
 }
 
-/// Without waves and drag, springs keep what energy there is, and dampers only ever take.
+/// Without waves and drag, springs conserve energy, and dampers only reduce it.
 #[test]
 fn energy_is_kept_or_lost() {
     for (e, lost) in [(1.0, false), (0.6, true)] {
@@ -203,13 +203,13 @@ fn energy_is_kept_or_lost() {
         let mut now = first;
         for look in &motion.looks {
             let next = energy(&look.state);
-            // Looks lie on the dense output, which is less exact than the steps.
+            // Samples are from the dense output, which is less exact than the steps.
             assert!(next <= now + 1e-7, "{} at {}", next - now, look.t_s);
             now = next;
         }
         let end = energy(&motion.end);
         assert!(end <= first + 1e-9, "{}", end - first);
-        // To the end, or to the quarter turn at which it stops.
+        // To the end, or to the quarter turn at which the run stops.
         assert!(
             (motion.end_s - 20.0).abs() < 1e-9 || motion.end.theta.abs() >= 1.57,
             "{} s",
@@ -220,8 +220,8 @@ fn energy_is_kept_or_lost() {
     }
 }
 
-/// A line that nothing disturbs holds the body at rest, as long as asked: δ = T_0/k, all the time,
-/// and the run has no end before its own.
+/// A line holds an undisturbed body at rest for any time: δ = T_0/k throughout, and the run ends
+/// with its time.
 #[test]
 fn a_body_at_rest_stays() {
     let prepared = prepared(CYLINDER, &["wave.height=0", "run.duration=30"]);
@@ -234,8 +234,8 @@ fn a_body_at_rest_stays() {
     }
 }
 
-/// In still water a body that begins at its place of rest on springs stays there, and each line
-/// holds what balances the buoyancy: on two lines alike half of it each, over the cosine of their
+/// In still water a body that begins at its position of rest on springs stays there, and the lines
+/// balance the buoyancy: each of two equal lines carries half of it, over the cosine of their
 /// slope.
 #[test]
 fn it_begins_where_it_rests_on_springs() {
@@ -257,7 +257,7 @@ fn it_begins_where_it_rests_on_springs() {
         for tension in &rest.tension_n {
             assert!((tension / known - 1.0).abs() < 1e-9, "{tension} {known}");
         }
-        // As long as the force makes it.
+        // The force determines its length.
         let stretched = line.length_m + known / (line.spring_rate_n_m().unwrap() * stiffer);
         assert!((along[0].hypot(along[1]) - stretched).abs() < 1e-9);
         for (line, peak) in motion.peaks_n.iter().enumerate() {
@@ -268,8 +268,8 @@ fn it_begins_where_it_rests_on_springs() {
     }
 }
 
-/// Four lines of which two are a hair short: which carries how much follows from their stiffness,
-/// and hardly from the hair.
+/// Four lines of which two are slightly shorter: their shares of the load follow from their
+/// stiffness, and hardly from the difference in length.
 #[test]
 fn lines_share_what_they_hold_by_their_stiffness() {
     let line = |side: f64, length: f64, rate: f64| {
@@ -298,11 +298,11 @@ fn lines_share_what_they_hold_by_their_stiffness() {
     };
     let (even, short) = (case(0.0), case(3e-5));
     let buoyancy = even.structure.net_buoyancy_n();
-    // Beside each other they stretch alike, and share as 4 to 1.
+    // Side by side they stretch equally, and share as 4 to 1.
     for (line, part) in [0.4, 0.1, 0.4, 0.1].into_iter().enumerate() {
         assert!((even.rest.tension_n[line] / (part * buoyancy) - 1.0).abs() < 1e-6);
         let hair = short.rest.tension_n[line] - even.rest.tension_n[line];
-        // A hair of 0.03 mm on 1e5 N/m is 3 N, of some kN.
+        // A difference of 0.03 mm on 1e5 N/m is 3 N, compared with some kN.
         assert!(hair.abs() < 3.0, "{hair}");
     }
 }
@@ -335,8 +335,8 @@ fn a_slack_line_has_the_damper_of_its_mass() {
     }
 }
 
-/// A body that goes down on its lines ends where it touches the floor, as it does on lines that do not
-/// stretch.
+/// A body that goes down on its lines ends where it touches the floor, as it does on lines that do
+/// not stretch.
 #[test]
 fn the_floor_ends_a_run() {
     let waves = [
@@ -368,8 +368,9 @@ fn the_floor_ends_a_run() {
     assert!(below.clone().all(|look| look.t_s > last), "{last}");
 }
 
-/// A start at the place of rest on lines that stretch, out of reach of those that do not, is one:
-/// in still water the body stays there, and there is nothing to compare it with.
+/// The position of rest on lines that stretch may be out of reach of those that do not: it is a
+/// legal start, from which the body does not move in still water, and there is nothing to compare
+/// it with.
 #[test]
 fn it_may_start_where_the_lines_have_stretched() {
     let still = CYLINDER.replace("[wave]\nheight = 2\nperiod = 6\n", "");
@@ -397,8 +398,8 @@ fn it_may_start_where_the_lines_have_stretched() {
     assert!(floor.to_string().contains("above the floor"), "{floor}");
 }
 
-/// Each pull of the lines as MoorDyn 2.7.2 has it with its steps made so small that its peaks do
-/// not hang on them, to 0.1 % and to a few of its steps (bench/moordyn).
+/// Each pull of the lines agrees with MoorDyn 2.7.2, with steps so small that its peaks do not
+/// depend on them, to 0.1 % and to a few of its steps (bench/moordyn).
 #[test]
 fn the_pulls_are_those_of_moordyn() {
     let results = include_str!("../../../../bench/moordyn/results.json");

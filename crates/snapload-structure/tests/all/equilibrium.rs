@@ -1,4 +1,4 @@
-//! Where bodies rest: known places, and the conditions of a minimum for random moorings.
+//! Positions of rest: known ones, and the conditions of a minimum for random moorings.
 
 use proptest::prelude::*;
 use proptest::test_runner::RngSeed;
@@ -21,8 +21,8 @@ fn case(position: [f64; 2], lines: &[([f64; 2], [f64; 2], f64)]) -> String {
     text
 }
 
-/// The example's fairleads are drawn 0.6 mm short of the lines' ends, so it rests that little
-/// higher, by symmetry upright with half the buoyancy's share in each line: T = F/(2 cos), the
+/// The example's fairleads are drawn 0.6 mm short of the lines' ends, so that it rests higher by
+/// that, upright by symmetry, with half of the buoyancy carried by each line: T = F/(2 cos), the
 /// lines 25 degrees from vertical.
 #[test]
 fn symmetric_pair_shares_the_buoyancy() {
@@ -56,8 +56,8 @@ fn single_tether_stands_upright() {
     assert!((rest.tension_n[0] / structure.net_buoyancy_n() - 1.0).abs() < 1e-9);
 }
 
-/// Four equal vertical tethers, two at each end: three freedoms, four lines, and each carries a
-/// quarter.
+/// Four equal vertical tethers, two at each end: three degrees of freedom, four lines, and each
+/// carries a quarter.
 #[test]
 fn statically_indeterminate_lines_share_evenly() {
     let tether = |x: f64| ([x, -30.0], [x, -12.0], 18.0);
@@ -100,8 +100,8 @@ proptest! {
         ..ProptestConfig::with_cases(60)
     })]
 
-    /// For random moorings of two to four lines: the forces balance, slack lines carry nothing and
-    /// taut ones pull, and no place near by that all lines reach lies higher.
+    /// For random moorings of two to four lines: the forces balance, slack lines have no tension
+    /// and taut ones a positive one, and no position nearby that all lines reach lies higher.
     #[test]
     fn rest_is_a_minimum(
         lines in prop::collection::vec((-20.0..20.0f64, -1.0..1.0f64, -1.0..1.0f64, 0.0..1.0f64), 2..5),
@@ -113,7 +113,7 @@ proptest! {
             ([x, -30.0], fairlead, reach + more)
         }).collect();
         let structure = Structure::parse("random", &case([0.0, -14.0], &lines)).unwrap();
-        // Moorings that hold no body are not few, but the test is one of many that do.
+        // Many moorings hold no body, but the test needs many that do.
         let rest = equilibrium(&structure);
         prop_assume!(rest.is_ok());
         let rest = rest.unwrap();

@@ -1,4 +1,5 @@
-//! What is judged of a run, and what is said where nothing is, or where the worst is not.
+//! Which part of a run the verdict judges, and what is reported if that part is empty or lacks the
+//! largest loads.
 
 use crate::verdicts::{source, structure};
 use snapload::analysis::unwatched;
@@ -8,13 +9,13 @@ use snapload_structure::{Answer, Lines, Prepared, Standing, Warning, assess, bot
 const EXAMPLE: &str = include_str!("../../../../docs/examples/cylinder.toml");
 const SEA: &str = include_str!("../../../../docs/examples/cylinder-sea.toml");
 
-/// On one line, as the text breaks where it likes.
+/// The text on one line, as its line breaks do not matter.
 fn flat(text: &str) -> String {
     text.split_whitespace().collect::<Vec<_>>().join(" ")
 }
 
-/// Waves of 12 m throw the body onto the floor before anything is judged: no number is told of what
-/// the lines come to, in words, in JSON or on the page.
+/// Waves of 12 m throw the body onto the floor before the judged part begins: no number on the
+/// lines is reported, in words, in JSON or on the page.
 #[test]
 fn where_nothing_is_judged_no_numbers_are_told() {
     let text = EXAMPLE.replace("height = 2\n", "height = 12\n");
@@ -64,7 +65,7 @@ fn where_nothing_is_judged_no_numbers_are_told() {
     assert!(!note.contains("No line snaps at 1 cm/s or more"));
 }
 
-/// The same of lines that stretch, and of records.
+/// The same for lines that stretch, and for records.
 #[test]
 fn nothing_judged_is_told_of_springs_and_records() {
     let text = EXAMPLE.replace("height = 2\n", "height = 12\n");
@@ -97,9 +98,9 @@ fn nothing_judged_is_told_of_springs_and_records() {
     assert!(seas_page(source("case"), &records).is_ok());
 }
 
-/// What is not judged would break a line that holds from then on: it is told with its part of the
-/// breaking load, and the verdict is open, in words, in JSON and in the colour of the page. Where
-/// the beginning is judged, the line breaks.
+/// A tension before the judged part would break a line that holds from then on: it is reported as a
+/// part of the breaking load, and the verdict is open, in words, in JSON and in the colour of the
+/// page. If the beginning is judged, the line breaks.
 #[test]
 fn a_line_that_breaks_before_it_is_judged_leaves_the_verdict_open() {
     let assessment = assess(structure(EXAMPLE), 2, &unwatched).unwrap();
@@ -128,7 +129,7 @@ fn a_line_that_breaks_before_it_is_judged_leaves_the_verdict_open() {
     let all = EXAMPLE.replace("[run]", "[run]\ntransient = 0");
     let all = assess(structure(&all), 0, &unwatched).unwrap();
     assert_eq!(all.verdict().standing, Standing::Breaks);
-    // Lines that stretch are told of alike.
+    // The same is reported of lines that stretch.
     let short = EXAMPLE.replace("[run]", "[run]\nduration = 12");
     let prepared = Prepared::for_springs(structure(&short)).unwrap();
     let both = both_models(prepared, 1.0, f64::INFINITY, &unwatched).unwrap();
@@ -140,7 +141,8 @@ fn a_line_that_breaks_before_it_is_judged_leaves_the_verdict_open() {
         verdict.words
     );
     assert!(verdict.words.contains("snapload seas --elastic"));
-    // Where it would not break, the line holds, and what is not judged is told with its part.
+    // If it would not break the line, the line holds, and the tension before the judged part is
+    // reported.
     let strong = EXAMPLE.replace("diameter = 0.038", "diameter = 0.038\nbreaking_load = 4e6");
     let strong = assess(structure(&strong), 0, &unwatched).unwrap().verdict();
     assert_eq!(strong.standing, Standing::Holds);
@@ -152,8 +154,9 @@ fn a_line_that_breaks_before_it_is_judged_leaves_the_verdict_open() {
     assert!(!strong.words.contains("It would break"));
 }
 
-/// Records of a sea tell in how many a line breaks before anything is judged. From its first second
-/// on a line breaks in a record just where it breaks before it is judged, or from then on.
+/// The report on a sea says in how many records a line breaks only before the judged part. If
+/// records are judged from their first second, a line breaks in a record exactly if it breaks
+/// before the later judged part or within it.
 #[test]
 fn records_tell_what_breaks_before_they_are_judged() {
     for lines in [Lines::Inextensible, Lines::Elastic] {
@@ -194,8 +197,8 @@ fn records_tell_what_breaks_before_they_are_judged() {
     }
 }
 
-/// A body that swings far out of where the wave was told is warned of alike by one run, by lines that
-/// stretch, and by records.
+/// A body that swings far from where the wave is evaluated is warned of by one run, by lines that
+/// stretch, and by records, in the same words.
 #[test]
 fn far_swings_are_warned_of_by_every_answer() {
     let swinging = "[body]\nshape = \"circle\"\nwidth = 1\ndisplaced_volume = 0.785398\nmass = 100\n\
@@ -214,7 +217,7 @@ fn far_swings_are_warned_of_by_every_answer() {
     let prepared = Prepared::for_springs(structure(swinging)).unwrap();
     let both = both_models(prepared, 1.0, f64::INFINITY, &unwatched).unwrap();
     assert!(told(&both.warnings()));
-    // In a calm sea nothing of the kind is told.
+    // In a calm sea there is no such warning.
     let calm = swinging.replace("hs = 0.6", "hs = 0.02");
     for lines in [Lines::Inextensible, Lines::Elastic] {
         let records = seas(structure(&calm), 2, lines, &unwatched).unwrap();
@@ -222,7 +225,8 @@ fn far_swings_are_warned_of_by_every_answer() {
     }
 }
 
-/// Where nothing snaps, in a run and beside it, no tension of snaps is told, in one sentence.
+/// If nothing snaps, in a run and its neighbours, one sentence says so and no tension of snaps is
+/// reported.
 #[test]
 fn without_snaps_no_tension_of_snaps_is_told() {
     let calm = EXAMPLE.replace("height = 2\n", "height = 0.1\n");
@@ -246,8 +250,8 @@ fn without_snaps_no_tension_of_snaps_is_told() {
     );
 }
 
-/// One snap has one tension: the table beside the lines that stretch says what its numbers leave
-/// out, and tells the one that the assessment has.
+/// A snap has a single tension: the table with the lines that stretch says what its numbers leave
+/// out, and gives the same tension as the assessment.
 #[test]
 fn the_hardest_snap_is_told_alike_beside_springs() {
     let short = EXAMPLE.replace("[run]", "[run]\nduration = 12");
@@ -279,7 +283,7 @@ fn the_columns_of_pulls_are_explained() {
         .lines()
         .skip_while(|row| !row.starts_with("  line  from s"));
     let (names, first) = (rows.next().unwrap(), rows.next().unwrap());
-    // Numbers end where their names do.
+    // Numbers are aligned with the ends of the names of their columns.
     for name in ["line", "from s", "to s", "m/s", "kN", "back m/s"] {
         let end = names.find(name).unwrap() + name.len();
         let cell = first[..end].split_whitespace().last().unwrap();

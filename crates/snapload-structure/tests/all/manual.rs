@@ -1,4 +1,4 @@
-//! The manual's tables are the schema's.
+//! The manual's tables are those of the schema.
 
 use proptest::prelude::*;
 use snapload::{Bounds, DefaultValue, Entries, Kind};
@@ -84,12 +84,12 @@ pub fn values(kind: Kind) -> Vec<String> {
     }
 }
 
-/// A note tells of these tables at its head, under its checks, and of the floating body; and of
-/// `max_snaps` where that ended the run.
+/// A note has these tables at its head, under its checks, and with the floating body; and
+/// `max_snaps` if that ended the run.
 const TOLD_ELSEWHERE: [&str; 3] = ["project", "design", "float"];
 
-/// No key is accepted and ignored: with another value the structure is another, or is refused. And
-/// the inputs that a note lists are others.
+/// No key is ignored: with another value the structure is another, or is refused, and the inputs
+/// that a note lists are others.
 #[test]
 fn every_key_makes_a_difference() {
     let wave = include_str!("../../../../docs/examples/cylinder.toml");
@@ -228,8 +228,8 @@ fn set_changes_one_line_or_all() {
 proptest! {
     #![proptest_config(ProptestConfig::with_cases(150))]
 
-    /// Whatever stands in a file is read or refused in words, and what is read has a place of rest
-    /// or is refused.
+    /// Any text is either read or refused with a message, and a structure that is read has a
+    /// position of rest or is refused.
     #[test]
     fn anything_is_read_or_refused(text in any::<String>(), broken in "(\\[?\\[[a-z]{1,5}\\]?\\]|[a-z]{1,6} = [-0-9.e\\[\\]\"]{0,5}|\n){0,12}") {
         for text in [text, broken] {

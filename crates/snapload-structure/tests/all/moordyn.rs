@@ -53,8 +53,8 @@ fn near(a: f64, b: f64) -> bool {
 }
 
 pub fn the_same(a: &Structure, b: &Structure) {
-    // Numbers that pass through a product or a sum come back but for rounding, all others as they
-    // were; a line's name is that of a catalogue, which MoorDyn does not have.
+    // Numbers that pass through a product or a sum are equal up to rounding, all others exactly; a
+    // line's name is that of a catalogue, which MoorDyn does not have.
     let mut b = b.clone();
     let (own, other) = (a.body.added_mass, b.body.added_mass);
     for (own, other) in [
@@ -64,7 +64,7 @@ pub fn the_same(a: &Structure, b: &Structure) {
     ] {
         assert!(near(own, other), "{own} {other}");
     }
-    // Numbers that were defaults are given once they are written.
+    // Values that were defaults are given explicitly in a written file.
     b.body.added_mass = own;
     for (own, other) in a.lines.iter().zip(&mut b.lines) {
         assert_eq!(other.name, "");
@@ -101,7 +101,7 @@ fn what_is_written_is_read_as_it_was() {
             assert_eq!(reading.notes, Vec::<String>::new());
             assert_eq!(reading.entries.missing(), Vec::<String>::new());
             the_same(&before, &Structure::from_entries(&reading.entries).unwrap());
-            // The same once more by way of the file.
+            // The same by way of the file.
             the_same(&before, &structure(&reading.entries.to_toml(), &[]));
         }
     }
@@ -185,7 +185,7 @@ fn a_file_by_hand_is_read() {
     );
 }
 
-/// Points that another program moves: the body is left for the user to describe.
+/// Points that another program moves: the user has to describe the body.
 #[test]
 fn coupled_points_are_those_of_a_body_to_be_given() {
     let without: String = BY_HAND
@@ -376,7 +376,8 @@ fn a_case_that_moordyn_can_not_have_is_refused() {
 proptest! {
     #![proptest_config(ProptestConfig::with_cases(400))]
 
-    /// Lines cut short, doubled, left out or with words exchanged are read or refused in words.
+    /// Lines cut short, doubled, left out or with words exchanged are read, or refused with a
+    /// message.
     #[test]
     fn mangled_files_are_read_or_refused(
         changes in prop::collection::vec((0usize..40, 0u8..5, 0usize..100, "[-0-9a-zA-Z|.#é°\"]{0,9}"), 1..6),
@@ -405,8 +406,7 @@ proptest! {
         match moordyn::read("lines.txt", &lines.join("\n")) {
             Err(error) => prop_assert!(error.to_string().starts_with("lines.txt"), "{}", error),
             Ok(reading) => {
-                // What is read is a case that can be written and read again, or be refused in
-                // words.
+                // A case that is read can be written and read again, or is refused with a message.
                 let again = Entries::parse(&STRUCTURE, "again", &reading.entries.to_toml());
                 prop_assert!(again.is_ok(), "{:?}", again.err());
                 if let Err(error) = Structure::from_entries(&reading.entries) {
@@ -424,7 +424,8 @@ proptest! {
     }
 }
 
-/// Texts that look like something else come back as texts; what would end them does not stand in them.
+/// Texts that resemble other values are read back as texts; characters that would end a text are
+/// not written.
 #[test]
 fn texts_of_a_project_come_back() {
     let sets = [

@@ -1,11 +1,11 @@
-//! What a case keeps on its way through a file for MoorDyn.
+//! What a case keeps when it is written for MoorDyn and read again.
 
 use crate::manual::values;
 use crate::moordyn::the_same;
 use snapload::Entries;
 use snapload_structure::{STRUCTURE, Structure, moordyn};
 
-/// With any value of any key, a case comes back as it was, if it is written at all.
+/// With any value of any key, a case is read back unchanged, if it is written at all.
 #[test]
 fn no_key_is_lost() {
     let wave = include_str!("../../../../docs/examples/cylinder.toml");

@@ -38,7 +38,7 @@ fn wave_force_and_drag_follow_from_the_potential() {
         let inertia = 1025.0 * 141.37 + 144_904.0;
         let scales = prepared.model.scales;
         let drag = prepared.model.system.drag.as_ref().expect("it resists");
-        // Up at 0.2 m/s, to the left at 0.3, and turning; in the engine's picture y points down.
+        // Upwards at 0.2 m/s, to the left at 0.3, and turning; in the engine's axes y points down.
         let (v, turning) = ([-0.3, 0.2], 0.1);
         let state = State {
             vx: v[0] / scales.speed_m_s(),
@@ -74,7 +74,7 @@ fn wave_force_and_drag_follow_from_the_potential() {
     }
 }
 
-/// u sqrt(k m), of which the peak by energy is made with the load P: P + sqrt(P² + u² k m).
+/// u sqrt(k m), from which the peak by energy is computed with the load P: P + sqrt(P² + u² k m).
 fn without_load(snap: &Snap, load_n: f64) -> f64 {
     let stretched = snap.energy_peak_n.unwrap() - load_n;
     (stretched * stretched - load_n * load_n).sqrt()
@@ -153,13 +153,13 @@ fn energy_peak_is_that_of_a_body_on_a_spring() {
             place[i] += dt * velocity[i];
         }
     }
-    // The estimate without its load, which this motion has not.
+    // The estimate without its load, which this motion does not have.
     let estimate = without_load(&snap, prepared.rest.tension_n[0]);
     assert!((estimate / peak - 1.0).abs() < 2e-3, "{estimate} {peak}");
 }
 
-/// Four lines that are not symmetric, in waves: no line is ever longer than it is, and what is
-/// reported is of each.
+/// Four lines without symmetry, in waves: no line is ever longer than its length, and the report is
+/// of each line.
 #[test]
 fn four_lines_are_never_longer_than_they_are() {
     let text = "[body]\nmass = 72452\ndisplaced_volume = 141.37\nwidth = 3\nposition = [0, -4]\n\
@@ -203,10 +203,10 @@ fn four_lines_are_never_longer_than_they_are() {
 }
 
 /// An elastic line of unit impedance, fixed at one end and pulled taut at the other by a body of
-/// `ratio` times its mass at speed 1, and by a load: its largest tension, at either end, by the waves
-/// that run to and fro until the line goes slack at the body, or for a period of the body on it. With
-/// the body's speed v and the wave f' that it sends out, v(t) = f'(t) − f'(t − 2); the pull on it is
-/// f'(t) + f'(t − 2), and at the fixed end it is 2 f'(t − 1).
+/// `ratio` times its mass at speed 1, and by a load: its largest tension, at either end, by the
+/// waves that run to and fro until the line goes slack at the body, or for a period of the body on
+/// it. With the body's speed v and the wave f' that it sends out, v(t) = f'(t) − f'(t − 2); the
+/// pull on it is f'(t) + f'(t − 2), and at the fixed end it is 2 f'(t − 1).
 fn exact_peak_of_a_line(ratio: f64, load: f64, steps: usize) -> f64 {
     let dt = 2.0 / steps as f64;
     let (mut sent, mut v, mut peak) = (Vec::<f64>::new(), 1.0, 0.0_f64);
@@ -228,9 +228,9 @@ fn exact_peak_of_a_line(ratio: f64, load: f64, steps: usize) -> f64 {
     peak
 }
 
-/// Under no load the estimated peak is that of the exact elastic line to about 1 % below and 10 %
-/// above, whatever the masses. At first the wave doubles at the fixed end, all that a light body
-/// comes to; a heavy one pulls as on a spring.
+/// Without load the estimated peak is from about 1 % below to 10 % above that of the exact elastic
+/// line, whatever the masses. At first the wave doubles at the fixed end, which is the peak for a
+/// light body; a heavy body pulls as on a spring.
 #[test]
 fn peak_is_that_of_the_exact_line_or_a_little_above() {
     assert!((exact_peak_of_a_line(0.1, 0.0, 4000) - 2.0).abs() < 1e-12);
@@ -244,8 +244,8 @@ fn peak_is_that_of_the_exact_line_or_a_little_above() {
     }
 }
 
-/// The estimate as it is computed, against the exact line under a load: ten thousand masses and loads
-/// at random, and in units of the line's impedance, mass and length.
+/// The estimate of the program against the exact line under a load: ten thousand random masses and
+/// loads, in units of the line's impedance, mass and length.
 #[test]
 fn peak_under_a_load_is_near_that_of_the_exact_line() {
     let mut state = 20_u64;
@@ -260,7 +260,7 @@ fn peak_under_a_load_is_near_that_of_the_exact_line() {
     for _ in 0..10_000 {
         let ratio = 10_f64.powf(uniform(-1.0, 3.0));
         let load = 10_f64.powf(uniform(-2.0, 1.5)) * ratio.sqrt();
-        // What a light body does is over in a few of the waves' ways, each of many steps.
+        // With a light body all is over after a few passages of the wave, each of many steps.
         let steps = if ratio < 3.0 { 400 } else { 80 };
         let exact = exact_peak_of_a_line(ratio, load, steps);
         let estimate = load + 1.0 + load.hypot((ratio + 1.0).sqrt());
@@ -274,12 +274,12 @@ fn peak_under_a_load_is_near_that_of_the_exact_line() {
     }
     assert!(all[0] > 0.81 && all[1] < 1.13, "{all:?}");
     assert!(heavy[0] > 0.94 && heavy[1] < 1.06, "{heavy:?}");
-    // v sqrt(k M) alone is never on the safe side, and can be almost nothing of the peak.
+    // v sqrt(k M) alone is never conservative, and can be a small part of the peak.
     assert!(handbook[1] < 1.0 && handbook[0] < 0.05, "{handbook:?}");
 }
 
-/// What lines that snap together, and lines to which a snap is passed on, take up: against springs
-/// of their stiffness, integrated step by step.
+/// The energies that lines take up which snap together, or to which a snap is passed on: against
+/// springs of their stiffness, integrated step by step.
 #[test]
 fn lines_that_share_a_snap_share_its_energy() {
     let text = |more: &str| {
@@ -328,8 +328,8 @@ fn lines_that_share_a_snap_share_its_energy() {
     }
 }
 
-/// Every line doubled, in waves in which all go slack: the run goes on to its end, and each line of
-/// a pair does what the other does.
+/// Every line doubled, in waves in which all go slack: the run reaches its end, and both lines of a
+/// pair have the same results.
 #[test]
 fn double_lines_run_to_the_end_and_share_evenly() {
     let line = |side: f64| {

@@ -1,4 +1,5 @@
-//! What is said of a structure that an inextensible line does not describe, or that is hardly meant.
+//! The reports on structures that inextensible lines do not describe, or whose values are probably
+//! mistakes.
 
 use snapload::analysis::unwatched;
 use snapload_structure::note::Source;
@@ -7,7 +8,7 @@ use snapload_structure::{Lines, Prepared, Standing, Structure, Water, assess, bo
 const EXAMPLE: &str = include_str!("../../../../docs/examples/cylinder.toml");
 const SEA: &str = include_str!("../../../../docs/examples/cylinder-sea.toml");
 
-/// Where a page of the tests comes from.
+/// The source that a page of the tests names.
 pub(crate) fn source(name: &str) -> Source<'_> {
     Source {
         name,
@@ -56,9 +57,9 @@ fn a_sea_has_the_warnings_of_a_wave() {
     let text = soft(SEA).replace("[run]", "[run]\nduration = 300");
     let result = seas(structure(&text), 3, Lines::Inextensible, &unwatched).unwrap();
     let assessment = assess(structure(&text), 0, &unwatched).unwrap();
-    // That of the phase is known from one motion alone.
+    // The rule of the phase needs a single motion.
     let assessed = assessment.warnings.iter().filter(|w| w.rule != "phase");
-    // And one record is not asked what three hours hold.
+    // The rule of short records needs many records.
     let of_sea = result.warnings.iter().filter(|w| w.rule != "short records");
     assert!(assessed.eq(of_sea) && result.is_open());
     assert!(result.warnings.iter().any(|w| w.rule == "short records"));
@@ -71,7 +72,7 @@ fn a_sea_has_the_warnings_of_a_wave() {
     assert_eq!(json["warnings"][0]["rule"], result.warnings[0].rule);
 }
 
-/// A record whose largest tension is held, and not that of a snap, counts with it.
+/// If the largest tension of a record is a held one and not that of a snap, it is counted, too.
 #[test]
 fn what_a_line_holds_is_among_the_largest() {
     let text = SEA.replace("[run]", "[run]\nduration = 600");
@@ -83,7 +84,7 @@ fn what_a_line_holds_is_among_the_largest() {
         assert_eq!(each.fold(0.0, f64::max), largest);
         assert!(largest >= record.outcome.peak_n().unwrap_or(0.0));
     }
-    // Without waves that make lines slack there is no snap, and all is held.
+    // Without waves that make lines slack there is no snap, and all tensions are held.
     let calm = text.replace("hs = 1.2", "hs = 0.05");
     let calm = seas(structure(&calm), 4, Lines::Inextensible, &unwatched).unwrap();
     let held = calm.largest_n().unwrap();
@@ -121,7 +122,8 @@ fn what_is_hardly_meant_is_told() {
             .iter()
             .any(|rule| ["proportions", "fairleads", "long lines"].contains(rule))
     );
-    // A comma in the wrong place: a body of 3 mm, which is then twenty thousand kilometres long.
+    // A decimal point in the wrong place: a body of 3 mm, which is then twenty thousand kilometres
+    // long.
     let thin = EXAMPLE.replace("width = 3 ", "width = 0.003 ");
     let told = rules(&thin);
     assert!(
@@ -143,7 +145,8 @@ fn a_run_that_ends_at_once_says_so() {
     );
 }
 
-/// Soft lines as springs decide what inextensible ones leave open; the records are the same seas.
+/// Lines as springs decide a verdict that inextensible ones leave open; the records are the same
+/// seas.
 #[test]
 fn a_sea_on_lines_that_stretch_decides() {
     let text = soft(SEA).replace("[run]", "[run]\nduration = 300");
@@ -165,7 +168,7 @@ fn a_sea_on_lines_that_stretch_decides() {
     assert!(*crests.last().unwrap() <= largest && troughs[0] >= 0.0);
 }
 
-/// Where a line is slack in most troughs that is what is told, and not that they are above nothing.
+/// If a line is slack in most troughs, this is reported, and not that the troughs are above zero.
 #[test]
 fn slack_troughs_are_told_as_slack() {
     let told = |height: &str| {
@@ -200,8 +203,7 @@ fn slack_troughs_are_told_as_slack() {
     );
 }
 
-/// Numbers that stand beside each other may be of three hours, of all records or of one: each says
-/// so.
+/// Neighbouring numbers may be for three hours, for all records or for one: each line says which.
 #[test]
 fn every_line_of_a_sea_names_what_it_is_of() {
     let text = SEA.replace("[run]", "[run]\nduration = 600");
@@ -236,7 +238,7 @@ fn every_line_of_a_sea_names_what_it_is_of() {
     );
 }
 
-/// The verdict's run with the case's own restitution stands among those with less and more.
+/// The run with the case's own restitution is listed among those with lower and higher ones.
 #[test]
 fn the_restitution_is_varied() {
     let text = EXAMPLE.replace("[run]", "[run]\nduration = 120");
@@ -252,8 +254,8 @@ fn the_restitution_is_varied() {
     assert_eq!(rigid.by_restitution().len(), 2);
 }
 
-/// Two lines side by side, one of them 5 mm shorter, carry by their stiffness what two springs do:
-/// s₁ = s₂ + δ and k₁ s₁ + k₂ s₂ = F. Lines that do not stretch would leave all to the shorter one.
+/// Two lines side by side, one of them 5 mm shorter, share the load as two springs do: s₁ = s₂ + δ
+/// and k₁ s₁ + k₂ s₂ = F. With lines that do not stretch the shorter one would carry all of it.
 #[test]
 fn the_stretch_of_lines_shares_the_load_at_rest() {
     let line = |length: f64| {
@@ -286,7 +288,7 @@ fn the_stretch_of_lines_shares_the_load_at_rest() {
         "{:?} {known}",
         shared.place_m
     );
-    // How it rests does not hang on what a snap gives back.
+    // The position of rest does not depend on the restitution.
     let dead = text.replace("restitution = 0.5", "restitution = 0");
     let dead = assess(structure(&dead), 0, &unwatched).unwrap();
     assert_eq!(dead.prepared.rest, *rest);
@@ -302,7 +304,7 @@ fn the_stretch_of_lines_shares_the_load_at_rest() {
         warning.message
     );
     assert_eq!(assessment.verdict().standing, Standing::Open);
-    // Lines of one length share evenly on either model, and nothing is said.
+    // Lines of equal length share evenly in either model, and there is no warning.
     let even = text.replace("15.005", "15");
     let even = assess(structure(&even), 0, &unwatched).unwrap();
     assert!(even.prepared.rest.shared.is_none());

@@ -1,5 +1,5 @@
 //! Waves, seas and the statistics of extremes against textbooks and closed forms; the catalogue of
-//! lines against what makers print.
+//! lines against manufacturers' tables.
 
 use proptest::prelude::*;
 use rand_chacha::ChaCha8Rng;
@@ -11,7 +11,7 @@ use snapload_structure::{
 use std::f64::consts::PI;
 
 proptest! {
-    /// The defining equation, from ripples to tides.
+    /// The dispersion relation holds to rounding, from short to very long waves.
     #[test]
     fn dispersion_holds_to_rounding(period in 0.5..500.0f64, depth in 0.5..12_000.0f64) {
         let omega = 2.0 * PI / period;
@@ -102,8 +102,8 @@ fn energy_is_exact_and_every_response_is_right_on_average() {
     assert!((mean / exact - 1.0).abs() < 1e-3, "{mean} {exact}");
 }
 
-/// In three hours the autocorrelation of the record never comes back: ρ(τ) = ∑ A² cos ωτ / ∑ A²
-/// stays within what 200 random phases give.
+/// A record of three hours does not repeat: its autocorrelation ρ(τ) = ∑ A² cos ωτ / ∑ A² stays
+/// within the range that 200 random phases give.
 #[test]
 fn record_does_not_repeat() {
     for seed in 1..4 {
@@ -156,8 +156,8 @@ fn series_has_the_spectrums_statistics() {
     );
 }
 
-/// Samples drawn from a known Gumbel distribution: the fit is right on average, and scatters as it
-/// says it does.
+/// Samples drawn from a known Gumbel distribution: the fit is right on average, and its scatter is
+/// the standard error that it reports.
 #[test]
 fn fit_of_synthetic_data_is_right_and_knows_its_error() {
     let (location, scale, count, samples) = (40.0, 7.0, 100, 4000);
@@ -175,7 +175,7 @@ fn fit_of_synthetic_data_is_right_and_knows_its_error() {
         count,
         log_times: 0.0,
     };
-    // As the sample is, and for the largest of six and of a quarter as many.
+    // For as many values as are in a sample, for six times as many, and for a quarter.
     for (p, times) in [0.1, 0.5, 0.9, 0.99]
         .into_iter()
         .flat_map(|p| [(p, 1.0), (p, 6.0), (p, 0.25)])
@@ -218,7 +218,8 @@ fn too_little_is_not_fitted() {
     assert_eq!(Gumbel::fit(&[2.0; 9]), None);
 }
 
-/// Breaking loads from a maker's table of offshore mooring chain, in kN, rounded there to 1 kN.
+/// Breaking loads from a manufacturer's table of offshore mooring chain, in kN, rounded there to 1
+/// kN.
 #[test]
 fn chains_break_where_their_makers_say() {
     let table = [
@@ -258,8 +259,9 @@ fn every_type_has_a_section_and_nothing_else_has() {
     assert_eq!(section("spaghetti", 0.05, None), None);
 }
 
-/// A record of three hours has the moments of its spectrum back, and its crests are distributed as
-/// Rayleigh has it, P(crest > c) = exp(−8 (c/Hs)²), which long waves of many lengths nearly are.
+/// A record of three hours has the moments of its spectrum, and its crests are Rayleigh
+/// distributed, P(crest > c) = exp(−8 (c/Hs)²), which holds approximately for long waves of many
+/// lengths.
 #[test]
 fn a_record_has_the_moments_and_crests_of_its_sea() {
     let (mut square, mut slope, mut crests) = (0.0, 0.0, Vec::new());
@@ -267,7 +269,7 @@ fn a_record_has_the_moments_and_crests_of_its_sea() {
     let spectrum = Spectrum::new(&sea(SpectrumShape::Jonswap(3.3), 1));
     for seed in 1..=seeds {
         let parts = components(&sea(SpectrumShape::Jonswap(3.3), seed));
-        // Each component turns by the same angle a step.
+        // The phase of each component changes by the same angle in each step.
         let mut turning: Vec<[f64; 4]> = parts
             .iter()
             .map(|part| {

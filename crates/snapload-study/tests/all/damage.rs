@@ -1,11 +1,11 @@
-//! A single bit that flips on the disk is found wherever it is.
+//! A single flipped bit on the disk is detected wherever it is.
 use crate::store::{chunk_name, complete, open, save, study, work};
 use snapload::analysis::unwatched;
 use snapload_study::{Identity, Opened, Shard, Store, StudyError, checked_identity, merge, sweep};
 use std::fs;
 use std::path::{Path, PathBuf};
 
-/// So many places of each file.
+/// The number of places in each file.
 const PLACES: usize = 200;
 
 /// The bytes with one bit flipped, at places spread over all of them.
@@ -18,8 +18,8 @@ fn damaged(bytes: &[u8]) -> impl Iterator<Item = Vec<u8>> + '_ {
     })
 }
 
-/// A chunk is missing again when the study is resumed, and made again to the same bytes; the chunk
-/// beside it stays.
+/// A damaged chunk counts as missing when the study is resumed, and is made again with the same
+/// bits; the chunk beside it stays.
 #[test]
 fn a_damaged_chunk_is_computed_again() {
     let directory = tempfile::tempdir().unwrap();
@@ -44,7 +44,7 @@ fn a_damaged_chunk_is_computed_again() {
     }
 }
 
-/// The same where it happens while the program runs: what is put together is what was computed.
+/// The same if the damage occurs while the program runs: the joined file has the computed rows.
 #[test]
 fn a_chunk_that_is_damaged_meanwhile_is_computed_again() {
     let directory = tempfile::tempdir().unwrap();
@@ -58,7 +58,7 @@ fn a_chunk_that_is_damaged_meanwhile_is_computed_again() {
     save(&mut store, &study, 0..9);
     let bytes = fs::read(&path).unwrap();
     drop(store);
-    // Also where it is gone altogether.
+    // The file may also be missing.
     let damaged = damaged(&bytes).step_by(4).map(Some).chain([None]);
     for damaged in damaged {
         let mut store = work(&target, &study);
@@ -105,7 +105,7 @@ fn a_damaged_part_is_refused() {
     }
 }
 
-/// A complete file is read, and taken as it is, only if it is as it was written.
+/// A complete file is read and kept only if it is as it was written.
 #[test]
 fn a_damaged_file_is_not_complete() {
     let directory = tempfile::tempdir().unwrap();

@@ -1,4 +1,4 @@
-//! Evenly spaced values are the decimals that one would write.
+//! Evenly spaced values are the expected decimals.
 use snapload_study::Grid;
 
 #[test]

@@ -1,4 +1,4 @@
-//! Lists of cases are read from anywhere, and never as a whole.
+//! Lists of cases are read from any row on, and never completely.
 use half::f16;
 use parquet::basic::{BrotliLevel, Compression, GzipLevel};
 use parquet::data_type::{ByteArray, ByteArrayType, FixedLenByteArray, FixedLenByteArrayType};
@@ -131,7 +131,7 @@ fn a_parquet_file_is_read_from_anywhere() {
     }
 }
 
-/// As a text editor counts: empty lines are no rows, and two bytes may end a line.
+/// Lines are counted as in a text editor: empty lines are no rows, and two bytes may end a line.
 #[test]
 fn rows_know_their_lines() {
     let file = csv("\u{feff}\"f_o\",body\r\n1,rigid\r\n\r\n2,\"po,\"\"int\"\r\n\n3,rigid");
@@ -162,7 +162,7 @@ fn counts(values: &[u64], codec: Compression) -> tempfile::NamedTempFile {
     file
 }
 
-/// A number that no key takes is the fault of its own row.
+/// A number that no key accepts is an error of its own row only.
 #[test]
 fn a_count_that_is_too_large_spoils_its_own_row() {
     let file = counts(&[7, u64::MAX, 9], Compression::UNCOMPRESSED);
@@ -175,7 +175,7 @@ fn a_count_that_is_too_large_spoils_its_own_row() {
     assert!(error.contains("max_impacts = 1.8"), "{error}");
 }
 
-/// What pandas, Spark and R write is read, but for one compression that is named.
+/// Files of pandas, Spark and R are read, except for one compression, which the message names.
 #[test]
 fn compressions_are_read_or_named() {
     let level = || GzipLevel::try_new(6).unwrap();
@@ -190,8 +190,8 @@ fn compressions_are_read_or_named() {
         let rows = read(List::open(file.path()).unwrap(), 4999..5000);
         assert_eq!(rows, [Ok(vec![("max_impacts", Value::Integer(5))])]);
     }
-    // Behind the name of the column stands its codec, as a number of the format: 3 is LZO, and
-    // written twice as large.
+    // The codec follows the name of the column, as a number of the format that is stored doubled; 3
+    // is LZO.
     let file = counts(&[5], Compression::UNCOMPRESSED);
     let mut bytes = fs::read(file.path()).unwrap();
     let name = b"max_impacts\x15\x00";

@@ -1,4 +1,4 @@
-//! Which cases a plan has.
+//! The cases of a plan.
 use snapload::Value;
 use snapload_study::{Axis, Grid, Plan, Side, Study, StudyError};
 
@@ -6,7 +6,7 @@ fn even(key: &str, first: &str, last: &str, count: u64) -> Axis {
     Axis::even(key, Grid::new(first, last, count).unwrap()).unwrap()
 }
 
-/// What varies, case by case.
+/// The varied keys, case by case.
 fn entries(plan: Plan) -> Vec<Vec<(&'static str, Value)>> {
     let study = Study::new([], plan, false).unwrap();
     let drawn = study.draw(0..study.count()).unwrap();

@@ -1,4 +1,4 @@
-//! What is safe stays safe, and the file depends on the rows alone.
+//! Saved rows stay saved, and the file depends on the rows alone.
 use snapload::analysis::{Cancelled, Counter, Progress, unwatched};
 use snapload_study::{
     Axis, Grid, Identity, Opened, Plan, Shard, Store, Study, StudyError, chunk, merge, rows, sweep,
@@ -64,7 +64,7 @@ pub(crate) fn complete(target: &Path, study: &Study) -> Vec<u8> {
     fs::read(target).unwrap()
 }
 
-/// However the rows were cut, and whatever a crash left behind.
+/// The file does not depend on how the rows were divided, nor on the remains of a crash.
 #[test]
 fn the_file_depends_on_the_rows_alone() {
     let directory = tempfile::tempdir().unwrap();
@@ -78,7 +78,7 @@ fn the_file_depends_on_the_rows_alone() {
     }
     assert_eq!((store.gap(), store.safe()), (Some(130..200), 231));
     drop(store);
-    // A chunk cut short, one that is none, one that overlaps another, and half a whole.
+    // A truncated chunk, an invalid one, one that overlaps another, and half of a complete file.
     let torn = parts.join(chunk_name(&(1..130)));
     let bytes = fs::read(&torn).unwrap();
     fs::write(&torn, &bytes[..bytes.len() / 2]).unwrap();
@@ -94,8 +94,8 @@ fn the_file_depends_on_the_rows_alone() {
     assert!(!parts.exists());
 }
 
-/// Groups of rows that a chunk holds as a whole are taken as they stand; of parts that are cut
-/// elsewhere each row is written anew.
+/// Groups of rows that lie within a chunk are copied; if a group lies in several chunks, its rows
+/// are written anew.
 #[test]
 fn groups_that_are_taken_have_the_bytes_of_those_written_anew() {
     let directory = tempfile::tempdir().unwrap();
@@ -116,7 +116,8 @@ fn groups_that_are_taken_have_the_bytes_of_those_written_anew() {
     assert!(fs::read(merged).unwrap() == wanted);
 }
 
-/// Whenever it is told to end, what was begun is safe and whole, and the rest is done later.
+/// Whenever a sweep is cancelled, the chunks that were begun are complete and saved, and the rest
+/// is done later.
 #[test]
 fn a_sweep_that_is_told_to_end_goes_on_later() {
     let directory = tempfile::tempdir().unwrap();

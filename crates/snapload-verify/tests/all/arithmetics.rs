@@ -1,4 +1,4 @@
-//! One text of the motion, several arithmetics: they must tell one story.
+//! The same code of the motion, in several arithmetics, gives the same results.
 
 use crate::common::{keys_of_oracle, oracle};
 use serde_json::Value as Json;
@@ -51,8 +51,8 @@ fn components<T: Real>(s: &State<T>) -> [T; 6] {
     [s.x, s.y, s.theta, s.vx, s.vy, s.vtheta]
 }
 
-/// The oracle lists 21 decimals, cut and not rounded, computed by other code; seventy-six digits of
-/// ours reproduce every one.
+/// The oracle lists 21 decimals, truncated and not rounded, computed by other code; our run with 76
+/// digits reproduces every one.
 #[test]
 fn many_digits_reproduce_the_oracle() {
     for truth in oracle("cases.json") {
@@ -94,7 +94,7 @@ fn many_digits_reproduce_the_oracle() {
     }
 }
 
-/// A motion over dual numbers takes the same turns with the same bits.
+/// A motion over dual numbers takes the same branches with the same bits.
 #[test]
 fn dual_numbers_run_the_same_motion() {
     for named in named_cases() {

@@ -1,8 +1,8 @@
-//! Whether the errors and horizons that are told are those that there are: random cases of every
-//! kind beside the same cases with 76 digits, taut motion included.
+//! The calibration of the reported errors and horizons: random cases of every kind are compared
+//! with the same cases with 76 digits, including taut motion.
 //!
-//! What "known" promises (docs/trust.md): an error is two standard deviations, so a horizon is told
-//! too late where the one draw that a run is lies beyond them.
+//! By docs/trust.md an error is two standard deviations, so a horizon is too late in a run whose
+//! actual error is larger than that.
 
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::{Rng, SeedableRng};
@@ -14,10 +14,10 @@ use std::fmt::Write;
 pub type Digits = Precise<4>;
 
 const TOLERANCES: [f64; 2] = [1e-3, 1e-6];
-/// The run with many digits is followed for so many impacts at most.
+/// The run with many digits is followed for at most this number of impacts.
 const MOST_IMPACTS: usize = 300;
-/// And for so many expansions of taut motion, of which many digits need a hundred times as many as
-/// doubles.
+/// It is followed for at most this number of expansions of taut motion, for which many digits take
+/// a hundred times as long as doubles.
 const MOST_EXPANSIONS: usize = 30;
 
 const STRATA: [&str; 8] = [
@@ -31,7 +31,7 @@ const STRATA: [&str; 8] = [
     "e from 0.95 to 1",
 ];
 
-/// Numbers of four digits, as people write them.
+/// Random numbers of four digits, like those that people write.
 struct Draw(ChaCha8Rng);
 
 impl Draw {
@@ -41,7 +41,7 @@ impl Draw {
     fn between(&mut self, low: f64, high: f64) -> f64 {
         written(low + (high - low) * self.unit())
     }
-    /// Evenly in the logarithm.
+    /// Uniform in the logarithm.
     fn over(&mut self, low: f64, high: f64) -> f64 {
         written(low * (high / low).powf(self.unit()))
     }
@@ -51,7 +51,7 @@ fn written(number: f64) -> f64 {
     format!("{number:.3e}").parse().expect("a number")
 }
 
-/// A case of a stratum, unless what is drawn is no legal start.
+/// A random case of a stratum; an error if its start is not legal.
 fn drawn(stratum: usize, draw: &mut Draw) -> Result<Case, CaseError> {
     let mut e = draw.between(0.6, 1.0);
     let mut r = draw.between(1.05, 3.0);
@@ -112,11 +112,11 @@ fn drawn(stratum: usize, draw: &mut Draw) -> Result<Case, CaseError> {
     Parameters::from_entries(entries).and_then(Case::new)
 }
 
-/// A run, and how far it is from the one with many digits.
+/// A run, and its differences from the one with many digits.
 struct Judged {
     index: usize,
     trusts: [Trust; 2],
-    /// Of each impact that both have.
+    /// The difference at each impact that both runs have.
     differences: Vec<f64>,
     /// The first impact, from 1, that only one of them has, the end counted as one more.
     parted: Option<usize>,
@@ -152,8 +152,8 @@ impl Judged {
         wrong.map(|k| k + 1).or(self.parted)
     }
 
-    /// By how many impacts the horizon is told too late, or, below zero, too early; none where
-    /// there is none, or none that was reached.
+    /// The number of impacts by which the horizon is reported too late, or, if negative, too early;
+    /// none if there is no horizon, or none that was reached.
     fn late(&self, which: usize) -> Option<i64> {
         let followed = self.differences.len() + 1;
         let (wrong, told) = (self.wrong(TOLERANCES[which]), self.trusts[which].horizon);
@@ -164,12 +164,12 @@ impl Judged {
         Some(place(told.map(|horizon| horizon.impact)) - place(wrong))
     }
 
-    /// Whether the whole run is called known and is not.
+    /// Whether the whole run is wrongly called known.
     fn wrongly_certain(&self, which: usize) -> bool {
         self.trusts[which].horizon.is_none() && self.wrong(TOLERANCES[which]).is_some()
     }
 
-    /// What the differences before the horizon are of the errors told.
+    /// The differences before the horizon, divided by the reported errors.
     fn ratios(&self) -> Vec<f64> {
         let pairs = self.differences.iter().zip(&self.trusts[0].errors);
         let horizon = self.trusts[0]
@@ -236,13 +236,13 @@ fn part(values: &[f64], part: f64) -> f64 {
         .unwrap_or(f64::NAN)
 }
 
-/// What a sample shows, in a row of a table.
+/// The results of a sample, in a row of a table.
 struct Row {
     horizons: usize,
-    /// Of those, the part that is told too late, and the most impacts by which one is.
+    /// The part of the horizons that is too late, and the largest delay in impacts.
     late: f64,
     latest: i64,
-    /// The median of the impacts by which they are told too early.
+    /// The median number of impacts by which they are too early.
     early: f64,
     /// The impacts compared, the median of difference over error, and the part above three.
     impacts: usize,
@@ -350,7 +350,7 @@ fn large_sample() {
 fn extremes_with_many_digits_are_within_the_errors() -> Result<(), Unfinished> {
     let (mut compared, mut sharp) = (0, 0);
     for k in 0..600 {
-        // Places of a point in seven dimensions that no two numbers share.
+        // Points of a low-discrepancy sequence in seven dimensions.
         let at = |root: f64| (f64::from(k) * root.sqrt()).fract();
         let parameters = Parameters {
             r: 1.2 + 2.0 * at(2.0),
@@ -382,7 +382,7 @@ fn extremes_with_many_digits_are_within_the_errors() -> Result<(), Unfinished> {
         ] {
             let told = told.unwrap_or(f64::NAN);
             assert!(told.is_finite(), "{parameters:?}");
-            // What is a limit, or the start, is known to its rounding.
+            // A maximum that is a limit or the start is known to its rounding.
             let off = (exact - Digits::from_f64(ours)).to_f64().abs();
             assert!(
                 off <= told + 2.0 * f64::EPSILON,

@@ -1,5 +1,5 @@
-//! Derivatives of the first impacts, by the two ways in which the library has them, against
-//! differences of runs with many digits, which know nothing of derivatives.
+//! Derivatives of the first impacts, by the two methods of the library, against difference
+//! quotients of runs with many digits, which use neither method.
 
 use snapload::analysis::{START_KEYS, UNCERTAIN_KEYS};
 use snapload::{
@@ -16,7 +16,7 @@ fn keys() -> impl Iterator<Item = &'static str> {
     START_KEYS.into_iter().chain(UNCERTAIN_KEYS)
 }
 
-/// What an impact is told by: the state before it, its time, its normal velocity, the state after
+/// The quantities of an impact: the state before it, its time, its normal velocity, the state after
 /// it.
 const QUANTITIES: usize = 14;
 
@@ -55,8 +55,8 @@ fn first_impacts<T: Steps>(mut simulation: Simulation<T>, count: usize) -> Vec<I
     impacts
 }
 
-/// The same by the linearised motion: columns of the start, each told at the impacts, of all but
-/// the normal velocity.
+/// The same by the linearised motion: columns of the start, at the impacts, for all quantities
+/// except the normal velocity.
 fn by_the_linearised_motion(
     mut simulation: Simulation,
     count: usize,
@@ -96,8 +96,8 @@ fn worst(found: &[f64], known: &[f64]) -> f64 {
     if off > 0.0 { off / size } else { 0.0 }
 }
 
-/// By all of the start and all parameters, of circles, squares, rectangles and a point mass. The
-/// inertia given is none that follows from a size, so that it is a parameter of its own.
+/// By all values of the start and all parameters, for circles, squares, rectangles and a point
+/// mass. The given inertia does not follow from a size, so that it is a parameter of its own.
 #[test]
 fn derivatives_of_the_first_impacts_agree() {
     let standard = Parameters {

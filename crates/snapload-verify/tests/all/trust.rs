@@ -1,5 +1,5 @@
-//! What the program says of its own results, against what many digits, the oracle and crowds of
-//! neighbours show.
+//! The reports of the program on its own results, against runs with many digits, the oracle and
+//! ensembles of neighbours.
 
 use crate::common::{keys_of_oracle, number, oracle};
 use proptest::prelude::*;
@@ -36,11 +36,11 @@ fn first_wrong(found: &Verification) -> usize {
     found.first_wrong.unwrap_or(found.differences.len() + 1)
 }
 
-/// The prediction is the width of a distribution, the difference that is proven one draw from it.
+/// The prediction is the width of a distribution, and the proven difference is one draw from it.
 /// While errors grow from impact to impact, this does not move the horizon; where bounces
-/// accumulate they stand still for a hundred impacts, at times near the tolerance. So the
-/// prediction is held to where the difference passes a twentieth of the tolerance, as 4 % of all
-/// draws are smaller than that part of the width, and to where it passes three times it.
+/// accumulate, errors stay constant for a hundred impacts, at times near the tolerance. So the
+/// prediction must lie between where the difference passes a twentieth of the tolerance, as 4 % of
+/// all draws are smaller than that part of the width, and where it passes three times it.
 fn assert_as_proven(id: &str, found: &Verification) {
     let passes = |size: f64| {
         let wrong = found.differences.iter().position(|d| *d > size);
@@ -93,11 +93,11 @@ fn horizons_are_where_the_oracle_has_them() {
     });
 }
 
-/// Up to the horizon the difference from the run with many digits is of the size of the standard
-/// deviation that was predicted: one draw from a distribution whose width is itself a model of
-/// rounding. Where bounces accumulate the model says too much, as gaps and normal velocities then
-/// keep their relative precision; it must never say too little by much. Of a handful of impacts the
-/// median is one draw like any other.
+/// Up to the horizon the difference from the run with many digits is of the size of the predicted
+/// standard deviation: it is one draw from a distribution whose width is itself from a model of
+/// rounding. Where bounces accumulate the model overestimates, as gaps and normal velocities then
+/// keep their relative precision; it must never underestimate by much. With few impacts the median
+/// is one draw like any other.
 fn errors_are_of_the_size_predicted(id: &str, found: &Verification) {
     let horizon = predicted(found).min(first_wrong(found)) - 1;
     let mut ratios: Vec<f64> = (0..horizon)
@@ -120,7 +120,7 @@ fn quantities(impact: &Impact) -> Vec<f64> {
     std::iter::once(impact.t).chain(states.concat()).collect()
 }
 
-/// The largest standard deviation over a crowd of the quantities of impact k.
+/// The largest standard deviation, over the neighbours, of the quantities of impact k.
 fn spread(crowd: &[Vec<Impact>], k: usize) -> f64 {
     let rows: Vec<Vec<f64>> = crowd.iter().map(|run| quantities(&run[k])).collect();
     let n = rows.len() as f64;
@@ -178,8 +178,8 @@ fn a_crowd_of_neighbours_spreads_as_predicted() {
                 .collect();
             for k in 0..15.min(run.impacts().len()) {
                 let ratio = 2.0 * spread(&crowd, k) / trust.errors[k];
-                // An error is two standard deviations. Of 600 draws the deviation is known to 3 %:
-                // four times that.
+                // An error is two standard deviations. From 600 draws the standard deviation is
+                // known to 3 %; four times that is allowed.
                 assert!(
                     (0.88..1.12).contains(&ratio),
                     "{uncertain:?} impact {}: {ratio}",
@@ -190,8 +190,8 @@ fn a_crowd_of_neighbours_spreads_as_predicted() {
     }
 }
 
-/// Tuned starts whose gap peaks at ±1e-4 ... ±1e-13: a doubt larger than that can not tell whether
-/// the cable snaps, and says so there and then; a smaller one can.
+/// Tuned starts whose gap peaks at ±1e-4 ... ±1e-13: with an uncertainty larger than that it is not
+/// known whether the cable snaps, and trust ends there; with a smaller one it is.
 #[test]
 fn a_graze_ends_trust_where_the_doubt_is_larger() {
     for truth in oracle("grazing.json") {
@@ -262,9 +262,9 @@ fn cables_that_snap_at_one_instant_end_trust() {
     );
 }
 
-/// Without restitution the cables stick in turn, ever faster, until both are taut: normal
-/// velocities fall to 1e-14, and a neighbour's impacts are still told with an error of the size
-/// that they have.
+/// Without restitution the cables stick in turn at shrinking intervals, until both are taut: normal
+/// velocities fall to 1e-14, and a neighbour's impacts are still reported with an error of the
+/// actual size.
 #[test]
 fn an_error_is_never_nothing() {
     let numbers = [
@@ -299,8 +299,8 @@ fn an_error_is_never_nothing() {
     }
 }
 
-/// A run that rests on its cables at the start, or that stops just before its time is over, is not
-/// certain where neighbours leave the cables, or run out of time.
+/// A run that rests on its cables at the start, or that stops just before its end time, is not
+/// certain if neighbours leave the cables, or reach the end time first.
 #[test]
 fn neighbours_that_end_otherwise_leave_nothing_certain() {
     let number = |key, value| (key, Value::Number(value));
@@ -316,7 +316,7 @@ fn neighbours_that_end_otherwise_leave_nothing_certain() {
     let (cause, ends) = in_doubt(&resting, "vy", 1e-2);
     assert_eq!((cause, ends), (Some(HorizonCause::Start { cable: 0 }), 2));
 
-    // One cable sticks as the other leaves, 7e-7 above the settling height.
+    // One cable sticks as the other is released, 7e-7 above the settling height.
     let swap = [
         ("a", 0.2),
         ("b", 0.1),
@@ -361,7 +361,7 @@ proptest! {
         ..ProptestConfig::default()
     })]
 
-    /// Where an end is said to be certain, no neighbour within the doubt ends otherwise.
+    /// If an end is reported as certain, no neighbour within the uncertainty ends otherwise.
     #[test]
     fn certain_ends_are_everybodys(
         e in 0.3..1.0f64, a in 0.05..0.3f64, square in any::<bool>(),

@@ -1,4 +1,4 @@
-//! What ends trust: events that neighbours may not share, each in a case made for it.
+//! The causes that end trust: events that neighbours may not share, each in a case made for it.
 
 use crate::calibration::{Digits, compared};
 use snapload::analysis::{HorizonCause, TrustMonitor, Uncertainty, trusted_run, unwatched};
@@ -17,8 +17,8 @@ fn case_of_numbers<const N: usize>(entries: [(&'static str, f64); N]) -> Case {
     case(entries.map(|(key, value)| (key, Value::Number(value))))
 }
 
-/// A neighbour has its impact later, and has turned further by then, although it has turned as far
-/// at any one time.
+/// A neighbour has its impact later, and has turned further by then, although at any one time it
+/// has turned as far.
 #[test]
 fn a_limit_may_be_met_on_the_way_to_a_later_impact() {
     let turning = |y| {
@@ -39,7 +39,7 @@ fn a_limit_may_be_met_on_the_way_to_a_later_impact() {
     assert!(trust.end_error.is_infinite());
 }
 
-/// The bound on the rotation is set just above what a run reaches while a cable is taut.
+/// The bound on the rotation is set just above the largest rotation of a run with a taut cable.
 #[test]
 fn a_limit_that_taut_motion_all_but_reaches_ends_trust() {
     let named = named_case("sliding-example").expect("a name");
@@ -139,7 +139,7 @@ fn a_snap_about_as_slow_as_sticks_ends_trust() {
     assert_eq!(cause(v_n * 0.9), None);
 }
 
-/// A case of which an earlier model of rounding, with half the noise that there is, said that it is
+/// A case that an earlier model of rounding, with half of the actual noise, wrongly reported as
 /// certain.
 #[test]
 fn nothing_is_certain_that_is_wrong() {
@@ -167,8 +167,8 @@ fn nothing_is_certain_that_is_wrong() {
     assert!(told.is_some() && told <= wrong, "{told:?} {wrong:?}");
 }
 
-/// A point on cables that are hardly longer than they have to be: the height of the anchors above it
-/// has lost digits.
+/// A point on cables that are hardly longer than necessary: the height of the anchors above it has
+/// lost digits.
 #[test]
 fn digits_that_short_cables_lose_are_not_told() {
     for e in [0.0, 0.3, 0.5] {

@@ -1,5 +1,5 @@
 //! The critical force: the smallest force amplitude at which the rotation limit or the upper bound
-//! is reached (chapter 6.4.2), and every other one that reaches it.
+//! is reached (chapter 6.4.2), and all larger amplitudes of the scan that reach one of them.
 
 use crate::analysis::outcomes::outcomes;
 use crate::analysis::progress::{OnProgress, Unfinished};
@@ -17,11 +17,11 @@ pub struct ForceScan {
     count: u32,
 }
 
-/// The most amplitudes of one scan.
+/// The most amplitudes that one scan may have.
 const MOST: f64 = 1e6;
 
 impl Default for ForceScan {
-    /// Hundredths up to 1.
+    /// Steps of 0.01 up to 1.
     fn default() -> Self {
         Self {
             step: 0.01,
@@ -52,9 +52,9 @@ impl ForceScan {
         })
     }
 
-    /// The amplitudes: the doubles nearest to the multiples of the step, as one would write them.
-    /// The step counts as one over a whole number where it is that, as 0.01 is, and else as the
-    /// shortest decimal that stands for it, so that five times 0.07 is 0.35.
+    /// The amplitudes: the doubles nearest to the decimal multiples of the step. The step is taken
+    /// as 1/n if n is a whole number, as for 0.01, and else as the shortest decimal that is read
+    /// back as the same double, so that five times 0.07 is 0.35.
     pub fn amplitudes(self) -> impl Iterator<Item = f64> {
         let inverse = (1.0 / self.step).round();
         let whole = (inverse * self.step - 1.0).abs() < 1e-12;
@@ -67,7 +67,8 @@ impl ForceScan {
     }
 }
 
-/// The shortest decimal that stands for a number: its digits, and the power of ten of the last one.
+/// The shortest decimal that is read back as a number: its digits, and the power of ten of the last
+/// one.
 fn decimal(number: f64) -> Option<(u128, i32)> {
     let text = format!("{number:e}");
     let (digits, power) = text.split_once('e')?;
@@ -77,19 +78,19 @@ fn decimal(number: f64) -> Option<(u128, i32)> {
     Some((digits, power.parse::<i32>().ok()? - fraction))
 }
 
-/// The double nearest to a decimal. What reads numbers from text rounds once.
+/// The double nearest to a decimal, found by writing and reading it as text, which rounds once.
 fn multiple(digits: u128, power: i32) -> f64 {
     format!("{digits}e{power}").parse().unwrap_or(f64::NAN)
 }
 
-/// The first amplitude that exceeds, and how its run ends.
+/// The first amplitude that exceeds a limit, and how its run ends.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Exceedance {
     /// The critical force f_cr.
     pub f_o: f64,
     /// Which limit is reached.
     pub reason: Stop,
-    /// When.
+    /// The time at which it is reached \[T\].
     pub t: f64,
 }
 
@@ -98,8 +99,8 @@ pub struct Exceedance {
 pub struct CriticalForce {
     /// The smallest amplitude that exceeds; none if none does.
     pub first: Option<Exceedance>,
-    /// Every amplitude that exceeds, as intervals of neighbouring ones `[from, to]`. The set is no
-    /// interval: an amplitude above the critical one may settle.
+    /// All amplitudes that exceed, as intervals of neighbouring ones `[from, to]`. There may be
+    /// several intervals: a run above the critical amplitude may settle.
     pub exceeding: Vec<[f64; 2]>,
 }
 

@@ -1,4 +1,4 @@
-//! Neighbours of a case: what comes of it where one run can not tell.
+//! Neighbours of a case: how they end where a single run is beyond its horizon of trust.
 
 use crate::analysis::outcomes::{on_all_threads, outcomes_on_one_thread};
 use crate::analysis::progress::{Counter, OnProgress, Unfinished};
@@ -13,7 +13,7 @@ use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::{Rng, SeedableRng};
 use std::ops::Range;
 
-/// A cloud of cases about one, drawn evenly from what its uncertainty allows.
+/// Cases about a given one, drawn uniformly within its uncertainties.
 ///
 /// Every member is drawn from a stream of its own, so that the first hundred of a thousand are the
 /// same as a hundred, on any number of threads. The generator is ChaCha with 8 rounds, of the crate
@@ -28,10 +28,11 @@ pub struct Ensemble {
     pub seed: u64,
 }
 
-/// In every value of the start, unless an uncertainty is given \[L\], \[rad\], \[L/T\], \[rad/T\].
+/// Half-width of the cloud in every start value, unless an uncertainty is given \[L\], \[rad\],
+/// \[L/T\], \[rad/T\].
 pub const DEFAULT_CLOUD: f64 = 1e-12;
 
-/// How many members, unless told.
+/// The number of members, unless given.
 pub const DEFAULT_MEMBERS: u32 = 1000;
 
 /// How many members may be asked for.
@@ -48,12 +49,13 @@ const MOST_MEMBERS: u64 = 1_000_000_000;
 /// Where the first so many members end alike, it is clear enough how a case ends.
 const CLEAR: u32 = 200;
 
-/// A member outside what is legal, such as one whose cable would have to be longer, is drawn again
+/// A member that is not legal, for example because a cable would have to be longer, is drawn again
 /// at most this often.
 const DRAWS: usize = 1000;
 
 impl Ensemble {
-    /// About a case, within what is in doubt of it; where nothing is, within [`DEFAULT_CLOUD`].
+    /// An ensemble about a case, within its uncertainties; where there are none, within
+    /// [`DEFAULT_CLOUD`].
     pub fn about(case: &Case, uncertainty: &Uncertainty, count: u32, seed: u64) -> Self {
         let mut uncertainty = uncertainty.clone();
         uncertainty.start = uncertainty.of_start_of(case.parameters());
@@ -68,7 +70,7 @@ impl Ensemble {
         }
     }
 
-    /// What the members may be off by.
+    /// The uncertainties within which the members are drawn.
     pub fn uncertainty(&self) -> &Uncertainty {
         &self.uncertainty
     }
@@ -103,7 +105,7 @@ impl Ensemble {
             if size == 0.0 || !base.moves_by(key) {
                 return value;
             }
-            // 53 random bits: evenly in [−1, 1).
+            // 53 random bits, uniform in [−1, 1).
             let side = (generator.next_u64() >> 11) as f64 * (2.0 / (1u64 << 53) as f64) - 1.0;
             value + size * side
         });
@@ -133,7 +135,7 @@ impl Ensemble {
         Ok(EnsembleEnds { ends, clear })
     }
 
-    /// The same, but where the first 200 members end alike, no more are run.
+    /// The same, but if the first 200 members end alike, no more are run.
     ///
     /// # Errors
     /// As for [`Ensemble::tally`].
@@ -172,7 +174,7 @@ impl Ensemble {
 #[derive(Clone, Debug, PartialEq)]
 pub struct EnsembleEnds {
     ends: Vec<Stop>,
-    /// Whether the rest was not run, as these ended alike.
+    /// Whether the remaining members were not run because these all ended alike.
     clear: bool,
 }
 
@@ -211,26 +213,27 @@ impl EnsembleEnds {
 /// A part of an ensemble.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Share {
-    /// So many members.
+    /// The number of members in this part.
     pub count: usize,
-    /// Of so many.
+    /// The number of members that were run.
     pub of: usize,
-    /// Whether there are no more as these ended alike, which the interval allows for.
+    /// Whether the remaining members were not run because these all ended alike, which the interval
+    /// takes into account.
     pub clear: bool,
 }
 
 impl Share {
-    /// The part, between 0 and 1.
+    /// The share as a number between 0 and 1.
     pub fn part(self) -> f64 {
         self.count as f64 / self.of as f64
     }
 
-    /// The interval that holds the probability with 95 % confidence (E. B. Wilson, *J. Amer.
-    /// Statist. Assoc.* 22 (1927) 209); it makes sense for none and for all, too.
+    /// The interval that contains the probability with 95 % confidence (E. B. Wilson, *J. Amer.
+    /// Statist. Assoc.* 22 (1927) 209); it is meaningful also for a share of none or of all.
     ///
-    /// Where no more were run as these were all alike, it is the interval of 99 %: a probability p at
-    /// the end of the one of 95 % would be taken for certain in p^n = 2.1 % of all cases, beside the
-    /// 5 % in which more are run and miss it; here it is 0.1 %.
+    /// Where the rest was not run because all ended alike, it is the interval of 99 %. With the one
+    /// of 95 %, a probability p at its end would give n equal ends in p^n = 2.1 % of all cases, in
+    /// addition to the 5 % in which more are run and the interval misses it; with 99 % it is 0.1 %.
     pub fn interval(self) -> [f64; 2] {
         let (n, p) = (self.of as f64, self.part());
         let z = if self.clear { NORMAL_995 } else { NORMAL_975 };
@@ -270,8 +273,9 @@ mod tests {
         }
     }
 
-    /// Intervals miss the probability in 5 % of all cases in the mean, and nowhere more often than
-    /// without the early stop: over the binomial distributions of both looks, as they are.
+    /// Over all probabilities, intervals miss the probability in 5 % of all cases on average, and
+    /// nowhere more often than without the early stop; computed exactly from the binomial
+    /// distributions of the members before and after the early stop.
     #[test]
     fn stopping_early_leaves_intervals_that_hold() {
         let (first, all) = (200_usize, 1000_usize);
@@ -300,7 +304,7 @@ mod tests {
             sum += both;
             (worst, worst_alone) = (worst.max(both), worst_alone.max(alone));
         }
-        // Wilson's own swings about 5 %, as counts are whole numbers.
+        // The coverage of Wilson's own interval oscillates about 95 %, as counts are whole numbers.
         assert!(sum / 399.0 < 0.05, "{sum}");
         assert!(worst < worst_alone + 1e-3, "{worst} {worst_alone}");
     }

@@ -10,24 +10,24 @@ use crate::case::parameters::Parameters;
 /// The share of neighbours that exceed the limits, at every amplitude of a scan.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ExceedanceCurve {
-    /// By amplitude, rising.
+    /// The shares by rising amplitude.
     pub points: Vec<Exceeding>,
 }
 
-/// At one amplitude.
+/// The share at one amplitude.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Exceeding {
     /// The force amplitude.
     pub f_o: f64,
     /// How many of the neighbours exceed.
     pub share: Share,
-    /// Whether the run decided it before its horizon, for all neighbours at once.
+    /// Whether the run ends before its horizon of trust, so that its end holds for all neighbours.
     pub certain: bool,
 }
 
 impl ExceedanceCurve {
-    /// Runs `count` neighbours of the case at every amplitude; where the run itself is certain, it
-    /// stands for them all.
+    /// Runs `count` neighbours of the case at every amplitude; where the end of the run itself is
+    /// certain, it is taken for all of them.
     ///
     /// # Errors
     /// A [`crate::CaseError`] if the case is not legal, or what is uncertain can not vary, and
@@ -45,7 +45,7 @@ impl ExceedanceCurve {
         for f_o in scan.amplitudes() {
             let progress = Progress::new("force amplitudes", points.len() as f64, all);
             progress.tell(on_progress)?;
-            // Within an amplitude, too, it is asked whether to go on.
+            // Cancelling is checked also within one amplitude.
             let within = |_: Progress| on_progress(progress);
             let case = Case::new(Parameters { f_o, ..*parameters })?;
             let ensemble = Ensemble::about(&case, uncertainty, count, seed);

@@ -1,4 +1,4 @@
-//! How far the sums of a run are known: its norms, from the errors of its impacts.
+//! The errors of the norms of a run, from the errors of its impacts.
 
 use crate::analysis::trust::Trust;
 use crate::model::rules::Stop;
@@ -8,7 +8,7 @@ use crate::motion::playback::Playback;
 use crate::motion::trajectory::{RHO2_UNTIL, Trajectory};
 
 /// Errors of the norms over the impacts, each two standard deviations or more \[L/T\]; none where
-/// impacts past the horizon enter the norm, of which nothing is known.
+/// the norm includes impacts past the horizon, whose errors are unknown.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct NormErrors {
     /// Of ρ1 = max v_n⁻.
@@ -29,8 +29,8 @@ impl Trust {
         self.horizon.is_none_or(|horizon| t < horizon.t)
     }
 
-    /// The error of the normal velocity v_n⁻ at each impact of a run, two standard deviations or more
-    /// \[L/T\]; none past the horizon, and where an impulse is passed on with v_n = 0.
+    /// The error of the normal velocity v_n⁻ at each impact of a run, two standard deviations or
+    /// more \[L/T\]; none past the horizon, and where an impulse is passed on with v_n = 0.
     pub fn errors_of_v_n<'a>(
         &'a self,
         run: &'a Trajectory,
@@ -44,7 +44,7 @@ impl Trust {
 }
 
 impl NormErrors {
-    /// Of a run, by what is known of its impacts.
+    /// The errors of a run's norms, from the trust in its impacts.
     pub fn of(run: &Trajectory, trust: &Trust) -> Self {
         let rows = run.impacts().iter().zip(&trust.errors);
         let (mut least, mut most) = (0.0_f64, 0.0_f64);
@@ -56,7 +56,7 @@ impl NormErrors {
             all += off;
             let late = impact.t - RHO2_UNTIL;
             if late.abs() <= error * impact.t.max(1.0) {
-                // Whether it counts is open.
+                // The impact is so close to the end of the sum that neighbours may not include it.
                 early += off + impact.v_n;
             } else if late < 0.0 {
                 early += off;
@@ -71,7 +71,7 @@ impl NormErrors {
             rho3: whole(all),
             y_max,
             theta_max: match run.end().reason {
-                // It is the limit, and no neighbour has another.
+                // θ is at the limit there, for all neighbours.
                 Stop::RotationLimit => whole(0.0),
                 _ => theta_max,
             },
@@ -87,9 +87,9 @@ impl NormErrors {
 /// E (max(1, |q|) + s max(1, |q̇|) + s²/2 max(1, t) |ḟ|)
 /// ```
 ///
-/// as the forces at a phase that is off by E t differ by that much. With a cable taut what has
-/// become of it at the impact after, or at the end, counts where it is more. The end may come
-/// sooner or later by its own error.
+/// as the forces at a phase that is off by E t differ by that much. With a cable taut, the error at
+/// the next impact, or at the end, is used if it is larger. The end may come sooner or later by its
+/// own error.
 fn extreme_errors(run: &Trajectory, trust: &Trust) -> [Option<f64>; 2] {
     if trust.horizon.is_some() {
         return [None; 2];
@@ -107,8 +107,8 @@ fn extreme_errors(run: &Trajectory, trust: &Trust) -> [Option<f64>; 2] {
         .chain(rows)
         .chain([(end, last, trust.end_error)])
         .collect();
-    // What happens at one instant, such as an impact and the impulses that it passes on, or the
-    // impact that ends the run, has no stretch between.
+    // Events at one instant, such as an impact and the impulses that it passes on, or the impact
+    // that ends the run, have no stretch between them.
     rows.dedup_by(|next, row| {
         let at_once = next.0 <= row.0;
         if at_once {
@@ -133,21 +133,21 @@ fn extreme_errors(run: &Trajectory, trust: &Trust) -> [Option<f64>; 2] {
         (from, before) = (to, after);
     }
     match rows.len() {
-        // It ends where it starts.
+        // The run ends where it starts.
         1 => largest.map(|value| Some(before * value.abs().max(1.0))),
         _ => worst.map(Some),
     }
 }
 
-/// A motion that is played back is that of the run to this.
+/// The accuracy with which a motion that is played back agrees with that of the run.
 const PLAYED_BACK: f64 = 1e-14;
 
-/// A stretch between two impacts, by its y and its |θ|.
+/// The y and the |θ| along a stretch between two impacts.
 struct Along {
-    /// The largest of each at an end of a piece of it, and a bound on it within.
+    /// The largest of each at the ends of the stretch's pieces, and a bound on it between them.
     reached: [f64; 2],
     bound: [f64; 2],
-    /// Bounds on the ways that they go, ∫ |q̇| dt, and their speeds at the end.
+    /// Bounds on the path lengths ∫ |q̇| dt, and the speeds at the end.
     ways: [f64; 2],
     speeds: [f64; 2],
 }
@@ -176,13 +176,14 @@ impl Along {
         along
     }
 
-    /// By how much a deviation of its start may grow in y or in θ.
+    /// The factor by which a deviation at the start may grow in y or in θ.
     fn growth(&self, run: &Trajectory, k: usize, [from, to]: [f64; 2]) -> f64 {
         let ([_, rate, _], s) = (run.system().forcing.bounds(), to - from);
         self.bound[k].abs().max(1.0) + self.ways[k].max(s) + 0.5 * s * s * to.max(1.0) * rate
     }
 
-    /// The largest of each within; where that is below its floor, something below it.
+    /// The largest of each within the stretch; if that is below its floor, some value below the
+    /// floor.
     fn tops(&self, playback: &mut Playback, span: [f64; 2], floors: [f64; 2]) -> [f64; 2] {
         if (0..2).all(|k| self.bound[k] < floors[k] || floors[k] <= self.reached[k]) {
             return self.reached;
@@ -194,13 +195,13 @@ impl Along {
     }
 }
 
-/// A horizon counts as later than a time if it is by this part of it, which is more than times
-/// before a horizon are off by.
+/// A horizon counts as later than a time only if it is later by this part of the time, which is
+/// more than the errors of times before a horizon.
 const LATER: f64 = 0.01;
 
 /// The error of v_n = n·(ẋ, ẏ) + s θ̇ at an impact where time and each component of the state are
-/// off by `error`, relative to their value where that is above 1: the sum of what each of them
-/// contributes, as it is not known here how they go together.
+/// off by `error`, relative to their value where that is above 1: the sum of the contributions of
+/// all components, as their correlation is not known here.
 fn error_of_v_n(run: &Trajectory, impact: &Impact, error: f64) -> f64 {
     let state = &impact.before;
     let (normal, slopes) = run.system().cables[impact.cable].normal_and_slopes(state);

@@ -9,21 +9,21 @@ use crate::motion::bounce_map::BounceMap;
 use crate::motion::simulation::{Simulation, Step};
 use crate::motion::step_map::{Block, StepMap};
 
-/// Six directions carried along a run and made orthogonal after each step (Benettin, Galgani,
-/// Giorgilli & Strelcyn, *Meccanica* 15 (1980) 9); the logarithms of what is taken off their
-/// lengths add up to the exponents.
+/// Six directions that are carried along a run and made orthogonal after each step (Benettin,
+/// Galgani, Giorgilli & Strelcyn, *Meccanica* 15 (1980) 9); the logarithms of the factors by which
+/// their lengths are reduced add up to the exponents.
 #[derive(Clone, Debug)]
 pub struct Frame {
-    /// The directions are columns; two more are zero.
+    /// The directions are columns; two columns are unused and zero.
     directions: Aligned<Block<8>>,
-    /// Their rows of the water's memory, if the body floats.
+    /// The rows of the directions for the water's memory, if the body floats.
     memory: Vec<[f64; 8]>,
     logs: [f64; 6],
-    /// Lengths taken off since the logarithms were last taken.
+    /// Products of the factors removed since their logarithms were last added.
     lengths: [f64; 6],
     /// Bounces since the directions were last made orthogonal.
     bounces: u32,
-    /// Steps along taut cables since the directions were last put back along them.
+    /// Steps along taut cables since the directions were last projected onto the constraints.
     taut_steps: u32,
     /// How many directions the body has: four of a point mass, which has no rotation.
     count: usize,
@@ -40,20 +40,22 @@ impl Kernel for MakingOrthogonal<'_> {
     }
 }
 
-/// Logarithms are taken when a length leaves this range, and its inverse.
+/// Logarithms are added when a product leaves the range from the inverse of this to this.
 const RANGE: f64 = 1e100;
-/// Directions are made orthogonal after so many bounces, or when a component has grown to this: what
-/// then is left of the one that grows least has lost some eight digits of sixteen.
+/// Directions are made orthogonal after this many bounces, or when a component has grown to the
+/// bound that follows: the part of the slowest growing direction that is orthogonal to the others
+/// has then lost about eight digits of sixteen.
 const MOST_BOUNCES: u32 = 8;
 const GROWN: f64 = 1e4;
-/// Directions are put back along the same taut cables after so many steps: what leaves these meanwhile
-/// is rounding.
+/// Directions are projected onto the constraints of the same taut cables after this many steps; in
+/// between only rounding takes them off the constraints.
 const MOST_TAUT_STEPS: u32 = 16;
-/// A direction of which less than this part is left has no place of its own: the rest is rounding.
+/// If less than this part of a direction is left, it is rounding, and the direction counts as
+/// closed.
 const ROUNDING: f64 = 1e-10;
 
 impl Frame {
-    /// The frame of the components.
+    /// The frame whose directions are the components of the state.
     pub fn new() -> Self {
         let mut directions = [[0.0; 8]; 7];
         for (i, row) in directions.iter_mut().enumerate().take(6) {
@@ -70,7 +72,7 @@ impl Frame {
         }
     }
 
-    /// That of a motion that begins with taut cables.
+    /// The frame of a motion that begins with taut cables.
     pub fn along(system: &System, state: &State, taut: TautSet) -> Self {
         let mut frame = Self::new();
         if system.body.inverse_inertia() == 0.0 {
@@ -89,7 +91,7 @@ impl Frame {
         self.follow_here(map);
     }
 
-    /// The same, for work that is compiled for a kind of processor.
+    /// The same, inlined into code that is compiled for one kind of processor.
     #[inline(always)]
     pub(crate) fn follow_here(&mut self, map: &StepMap) {
         if self.bounces > 0 {
@@ -100,7 +102,8 @@ impl Frame {
         self.make_orthogonal(0.0);
     }
 
-    /// Carries it through a step that a run has made, and keeps it along the cables that are taut then.
+    /// Carries it through a step that a run has made, and projects it onto the constraints of the
+    /// cables that are taut then.
     #[inline(always)]
     pub(crate) fn follow_step(&mut self, map: &StepMap, simulation: &Simulation, step: &Step) {
         self.follow_here(map);
@@ -114,10 +117,10 @@ impl Frame {
         }
     }
 
-    /// Puts it back along taut cables, which leave no deviation of their gaps and of the gaps' rates;
-    /// directions that have no place left there are closed from now on, and their exponents −∞.
-    /// The linearised motion does not do it: off the cables a deviation that is a rounding goes on by
-    /// itself, and would be told as a small exponent.
+    /// Projects it onto the constraints of taut cables, which allow no deviation of their gaps and
+    /// of the gaps' rates; directions of which nothing remains are closed from now on, and their
+    /// exponents −∞. The linearised motion does not project: off the constraints a deviation that
+    /// is only rounding would evolve by itself, and be reported as a small exponent.
     pub fn keep_along(&mut self, system: &System, state: &State, taut: TautSet) {
         let mut rows = [[0.0; 6]; 6];
         let mut count = 0;
@@ -142,8 +145,8 @@ impl Frame {
         self.make_orthogonal(ROUNDING);
     }
 
-    /// Carries it through a bounce, which closes no direction: as long as the directions have not
-    /// grown much, several times before they are made orthogonal again.
+    /// Carries it through a bounce, which closes no direction: several bounces may pass before the
+    /// directions are made orthogonal again, as long as they have not grown much.
     #[inline(always)]
     pub(crate) fn follow_bounce(&mut self, map: &BounceMap<f64>) {
         map.at_one_time(&mut self.directions.0);
@@ -153,9 +156,9 @@ impl Frame {
         }
     }
 
-    /// Whether a component has grown so far that the directions have to be made orthogonal. It is
-    /// found column by column: one maximum of all would have to wait for forty-eight comparisons,
-    /// one after the other.
+    /// Whether a component has grown so far that the directions have to be made orthogonal. The
+    /// maximum is found column by column: a single maximum of all would have to wait for
+    /// forty-eight comparisons, one after the other.
     #[inline(always)]
     fn has_grown(&self) -> bool {
         let mut largest = [0.0; 8];
@@ -170,8 +173,9 @@ impl Frame {
             .fold(false, |any, size| any | (*size >= GROWN))
     }
 
-    /// Gram and Schmidt's procedure: each direction is taken off all that follow, at once, and all
-    /// are brought to length 1 in the end. What is left no longer than `least` is closed.
+    /// Gram and Schmidt's procedure: the component along each direction is removed from all that
+    /// follow, and in the end all are scaled to length 1. A direction whose remaining length is at
+    /// most `least` is closed.
     fn make_orthogonal(&mut self, least: f64) {
         dispatch(MakingOrthogonal(self, least));
     }
@@ -181,7 +185,7 @@ impl Frame {
         let least = least * least;
         self.bounces = 0;
         let mut squares = [0.0; 8];
-        // One after the other by hand: which is which is then known when it is compiled.
+        // Unrolled by hand, so that the index of each direction is a constant for the compiler.
         self.take_off::<0>(&mut squares, least);
         self.take_off::<1>(&mut squares, least);
         self.take_off::<2>(&mut squares, least);
@@ -191,7 +195,7 @@ impl Frame {
         let mut scales = [0.0; 8];
         for (scale, square) in scales.iter_mut().zip(&mut squares) {
             *square = square.sqrt();
-            // A direction that contact has closed stays closed.
+            // A direction that a taut cable has closed stays closed.
             *scale = if *square > 0.0 { 1.0 / *square } else { 0.0 };
         }
         for row in self.directions.0[..6].iter_mut().chain(&mut self.memory) {
@@ -208,7 +212,7 @@ impl Frame {
         }
     }
 
-    /// Takes the I-th direction off all that follow.
+    /// Removes the component along the I-th direction from all that follow.
     #[inline(always)]
     fn take_off<const I: usize>(&mut self, squares: &mut [f64; 8], least: f64) {
         let [mut along, mut more] = [[0.0; 8]; 2];
@@ -240,7 +244,7 @@ impl Frame {
         }
     }
 
-    /// ln of the factors by which the six directions have grown.
+    /// The logarithms of the factors by which the six directions have grown.
     pub fn logs(&self) -> [f64; 6] {
         let mut frame = self.clone();
         if frame.bounces > 0 {
@@ -278,7 +282,8 @@ fn slopes_of_gap_and_rate(cable: &Cable, state: &State) -> [[f64; 6]; 2] {
     [gap, rate]
 }
 
-/// Adds to orthonormal rows what of another is orthogonal to them; returns whether anything is.
+/// Adds the part of a row that is orthogonal to the orthonormal rows so far; returns whether it is
+/// nonzero.
 fn add_orthogonal(rows: &mut [[f64; 6]; 6], count: usize, mut row: [f64; 6]) -> bool {
     let product = |a: &[f64; 6], b: &[f64; 6]| a.iter().zip(b).map(|(a, b)| a * b).sum::<f64>();
     let whole = product(&row, &row);

@@ -1,4 +1,5 @@
-//! Questions asked of many runs: one file a question, public items of the library only.
+//! Questions about many runs: one file for each question, which uses public items of the library
+//! only.
 
 mod critical;
 mod digits;

@@ -1,4 +1,4 @@
-//! What many runs come to, side by side and on all threads.
+//! The outcomes of many runs, computed side by side and on all threads.
 
 use crate::analysis::progress::{Cancelled, Counter, OnProgress};
 use crate::analysis::threads::in_parallel;
@@ -9,11 +9,11 @@ use crate::motion::outcome::Outcome;
 use crate::motion::simulation::Simulation;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
-/// What was made of each number below some count, in the lists of the threads that made it.
+/// The result for each number below some count, in the lists of the threads that computed them.
 #[derive(Debug)]
 pub struct Made<R> {
     lists: Vec<Vec<R>>,
-    /// The list of each number, and the place in it.
+    /// For each number its list, and its place in the list.
     places: Vec<(u32, u32)>,
 }
 
@@ -27,13 +27,13 @@ impl<R> Made<R> {
     /// In the order of the numbers.
     pub fn into_vec(self) -> Vec<R> {
         let mut lists: Vec<_> = self.lists.into_iter().map(Vec::into_iter).collect();
-        // Each list is in the order of its own numbers.
+        // Each list is ordered by its own numbers.
         let next = |(list, _): &(u32, u32)| lists[*list as usize].next();
         self.places.iter().filter_map(next).collect()
     }
 }
 
-/// The numbers below a count that one of several threads is handed.
+/// The numbers below a count that are handed to one of several threads.
 struct Numbers<'a> {
     next: &'a AtomicUsize,
     count: usize,
@@ -55,22 +55,22 @@ impl Iterator for Numbers<'_> {
         })
     }
 
-    /// The other threads may take all that are left.
+    /// The upper bound is all numbers left, as the other threads may take none.
     fn size_hint(&self) -> (usize, Option<usize>) {
         (0, Some(self.count - self.mine.len()))
     }
 }
 
-/// What `work` makes of each number below `count`, on all threads that there are.
+/// The results of `work` for each number below `count`, on all available threads.
 ///
-/// Each thread is handed numbers one by one, and makes one result of each, in that order. So its
-/// lanes are full as long as there is anything to do, and all threads end together.
+/// Each thread is handed numbers one by one, and makes one result for each, in that order. So its
+/// lanes are full as long as numbers are left, and all threads end at about the same time.
 ///
 /// # Errors
 /// That of the work, which ends the rest of it.
 ///
 /// # Panics
-/// If the work makes another number of results than it took numbers.
+/// If the work returns another number of results than it took numbers.
 pub fn on_all_threads<R: Send, E: Send>(
     count: usize,
     work: impl Fn(&mut dyn Iterator<Item = usize>) -> Result<Vec<R>, E> + Sync,
@@ -78,8 +78,8 @@ pub fn on_all_threads<R: Send, E: Send>(
     on_all_threads_until(&|| false, count, work)
 }
 
-/// The same of as many numbers, from 0, as are handed out until `no_more` says so, which is asked
-/// before each by the thread that is to have it.
+/// The same for numbers from 0 on until `no_more` says to stop; it is asked before each number by
+/// the thread that is to take it.
 ///
 /// # Errors
 /// As for [`on_all_threads`].
@@ -108,7 +108,7 @@ pub fn on_all_threads_until<R: Send, E: Send>(
         );
         Ok((numbers.mine, made))
     })?;
-    // Whoever took a number made something of it, so that none below the last is left out.
+    // A thread that took a number made its result, so that none below the last is missing.
     let handed_out = done.iter().map(|(numbers, _)| numbers.len()).sum();
     let mut places = vec![(0, 0); handed_out];
     for (list, (numbers, _)) in done.iter().enumerate() {
@@ -121,7 +121,7 @@ pub fn on_all_threads_until<R: Send, E: Send>(
 }
 
 /// The outcomes of many cases, in their order: side by side in the lanes of the processor, on all
-/// threads that there are. Each has the bits that it has by itself.
+/// available threads. Each outcome has the same bits as that of the case run by itself.
 ///
 /// # Errors
 /// [`Cancelled`] if the work is to end before.
@@ -144,8 +144,8 @@ pub fn outcomes_on_one_thread(
     outcomes_of(&mut cases, counter)
 }
 
-/// Compiled here, once: it is the whole engine, which every crate that asks would otherwise compile
-/// anew.
+/// Not generic, so that it is compiled once, here: it contains the whole engine, which every crate
+/// that calls it would otherwise compile again.
 fn outcomes_of(
     cases: &mut dyn Iterator<Item = Case>,
     counter: &Counter,
@@ -155,8 +155,8 @@ fn outcomes_of(
     Ok(told.filter_map(|told| Some(told?.0)).collect())
 }
 
-/// What runs come to, and what their followers say, in their order. Each is counted when it begins,
-/// and the counter asked whether to go on.
+/// The outcomes of runs and the verdicts of their followers, in their order. Each run is counted
+/// when it begins, when the counter also says whether to continue.
 ///
 /// # Errors
 /// As for [`outcomes`].

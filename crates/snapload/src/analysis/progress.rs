@@ -1,8 +1,8 @@
-//! The one convention of long work: it tells how far it has come, and is told whether to go on.
+//! How long work reports its progress, and learns whether to continue.
 //!
-//! Whatever may take longer than a moment takes an [`OnProgress`] and calls it now and then, from
-//! any thread. Where that answers `Break` the work ends soon after, without an answer, as
-//! [`Cancelled`].
+//! Every function that may take longer than a moment takes an [`OnProgress`] and calls it
+//! repeatedly, from any thread. If that answers `Break`, the work ends soon after, without a
+//! result, as [`Cancelled`].
 
 use crate::case::Case;
 use crate::case::error::CaseError;
@@ -16,7 +16,8 @@ use std::sync::atomic::{AtomicU64, Ordering};
 /// How far some work has come.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Progress<'a> {
-    /// What is being done, in a word or two; work of several stages tells of one after the other.
+    /// The name of the work, in a word or two; work of several stages reports them one after the
+    /// other.
     pub doing: &'a str,
     /// How much of it is done: a number of cases, or the time that a run has reached.
     pub done: f64,
@@ -24,10 +25,10 @@ pub struct Progress<'a> {
     pub of: f64,
 }
 
-/// Who is told of the progress, and answers whether to go on.
+/// The callback that receives the progress, and answers whether to continue.
 pub type OnProgress<'a> = &'a (dyn Fn(Progress<'_>) -> ControlFlow<()> + Sync);
 
-/// For work that nobody watches: it always goes on.
+/// For work that nobody watches: it always continues.
 pub fn unwatched(_: Progress<'_>) -> ControlFlow<()> {
     ControlFlow::Continue(())
 }
@@ -42,7 +43,7 @@ pub struct Cancelled {
 /// Why work that can fail has no answer.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Unfinished {
-    /// It was told to end.
+    /// It was cancelled.
     Cancelled(Cancelled),
     /// A case is not legal.
     Case(CaseError),
@@ -80,12 +81,12 @@ impl From<CaseError> for Unfinished {
 }
 
 impl<'a> Progress<'a> {
-    /// So much of it.
+    /// The progress of some work.
     pub fn new(doing: &'a str, done: f64, of: f64) -> Self {
         Self { doing, done, of }
     }
 
-    /// Tells of it.
+    /// Reports it.
     ///
     /// # Errors
     /// [`Cancelled`] if the work is to end.
@@ -97,7 +98,7 @@ impl<'a> Progress<'a> {
     }
 }
 
-/// Counts what is done of many, on any thread, and tells of it.
+/// Counts the finished parts of some work, on any thread, and reports them.
 pub struct Counter<'a> {
     doing: &'a str,
     done: AtomicU64,
@@ -106,7 +107,7 @@ pub struct Counter<'a> {
 }
 
 impl<'a> Counter<'a> {
-    /// Of so many, `done` of which are done already.
+    /// A counter up to `of`, with `done` done already.
     pub fn new(doing: &'a str, done: u64, of: u64, on_progress: OnProgress<'a>) -> Self {
         Self {
             doing,
@@ -116,7 +117,7 @@ impl<'a> Counter<'a> {
         }
     }
 
-    /// So many more are done; with 0 only asks whether to go on.
+    /// Counts `more` parts as done; with 0 it only asks whether to continue.
     ///
     /// # Errors
     /// [`Cancelled`] if the work is to end.
@@ -126,11 +127,11 @@ impl<'a> Counter<'a> {
     }
 }
 
-/// A run tells of its progress after so many steps: often enough to be ended at once, seldom enough
-/// to cost nothing.
+/// A run reports its progress after this many steps: often enough to be cancelled at once, and
+/// rarely enough that the reports cost nothing noticeable.
 const STEPS: u32 = 64;
 
-/// Tells how far a run has come.
+/// Reports how far a run has come.
 struct RunProgress<'a> {
     steps: u32,
     reached: f64,
@@ -161,8 +162,8 @@ impl<'a> RunProgress<'a> {
     }
 }
 
-/// Runs a simulation to its end and keeps all of it; `see` is shown the simulation after every
-/// step, and the step.
+/// Runs a simulation to its end and keeps all of it; `see` is called with the simulation and the
+/// step after every step.
 ///
 /// # Errors
 /// [`Cancelled`] if it is to end before.
@@ -179,7 +180,7 @@ pub fn record(
     run.ok_or_else(|| progress.cancelled())
 }
 
-/// What the run of a case comes to.
+/// The outcome of a case's run.
 ///
 /// # Errors
 /// [`Cancelled`] if it is to end before.

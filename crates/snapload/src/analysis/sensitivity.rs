@@ -5,8 +5,8 @@ use crate::analysis::trust::{START_KEYS, UNCERTAIN_KEYS};
 use crate::arithmetic::dual::Dual;
 use crate::case::Case;
 
-/// Derivatives of one impact by one key, all else held; the inertia follows the size where it is
-/// the natural one.
+/// Derivatives of one impact by one key, with all other keys fixed; the inertia follows the size if
+/// it is the natural one.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Slope {
     /// The key.
@@ -29,8 +29,8 @@ pub struct Sensitivity {
 }
 
 /// The derivatives of the first `count` impacts of a case, exact to rounding: the motion is run
-/// over dual numbers, once for each key. Empty where the start, on the very edge of what is legal,
-/// has no neighbours.
+/// over dual numbers, once for each key. Empty if the start, at the very edge of what is
+/// legal, is not legal over dual numbers.
 ///
 /// # Errors
 /// [`Cancelled`] if it is to end before.
@@ -57,8 +57,8 @@ pub fn sensitivity(
     Ok(numbered.collect())
 }
 
-/// The derivatives of the first impacts by one key; none where the start has no neighbours. Asks
-/// after every step whether to go on.
+/// The derivatives of the first impacts by one key; none where the start is not legal over dual
+/// numbers. Asks after every step whether to continue.
 fn slopes_by(
     case: &Case,
     key: &'static str,

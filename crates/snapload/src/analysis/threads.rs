@@ -1,10 +1,10 @@
-//! Work that is shared out to all threads.
+//! Distributes work over all threads.
 
 use rayon::prelude::*;
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicBool, Ordering};
 
-/// What `work` makes of each number below `count`, in their order, on all threads that there are.
+/// The results of `work` for each number below `count`, in their order, on all available threads.
 ///
 /// # Errors
 /// That of the work, which ends the rest of it.
@@ -32,7 +32,7 @@ pub fn in_parallel<T: Send, E: Send>(
         .collect()
 }
 
-/// The only place that takes threads, compiled once for all that is shared out.
+/// The only place that starts threads; not generic, so that it is compiled once.
 fn share_out(count: usize, work: &(dyn Fn(usize) + Sync)) {
     (0..count).into_par_iter().for_each(work);
 }

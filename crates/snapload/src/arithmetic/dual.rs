@@ -6,15 +6,15 @@ use std::ops::{Add, AddAssign, Div, Mul, Neg, Sub, SubAssign};
 
 /// A number a with its derivatives a' with respect to N quantities: a + Σ a'_i ε_i, ε_i ε_j = 0.
 ///
-/// Put into the laws of motion it yields what is otherwise derived by hand. At an event, too: the
-/// last step of the search, s − f/ḟ, has the derivative −f'/ḟ of the implicit function theorem, so
-/// the saltation matrix (Müller 1995) follows without being written down.
+/// With dual numbers in the laws of motion no derivative has to be written by hand, not even at an
+/// event: the last step of the search, s − f/ḟ, has the derivative −f'/ḟ of the implicit function
+/// theorem, so that the saltation matrix (Müller 1995) follows without being written down.
 ///
-/// Comparisons look at the number alone, so a motion over dual numbers under up to eight
-/// frequencies takes the same turns, with the same bits, as the ordinary one. Under more it is the
-/// ordinary one to rounding: duals sum up the waves one by one, doubles by a polynomial. Sums and
-/// products are inlined everywhere, as they are made by the instructions of whatever is compiled
-/// for a kind of processor (`apart!`).
+/// Comparisons use the value alone, so a motion over dual numbers under up to eight frequencies
+/// takes the same branches, with the same bits, as the ordinary one. Under more frequencies it
+/// agrees with the ordinary one to rounding: duals sum up the waves one by one, doubles by a
+/// polynomial. Sums and products are inlined everywhere, as they are compiled with the instructions
+/// of whatever code uses them (`apart!`).
 #[derive(Clone, Copy, Debug)]
 pub struct Dual<T, const N: usize> {
     /// The number.
@@ -33,14 +33,14 @@ impl<T: Real, const N: usize> Dual<T, N> {
         }
     }
 
-    /// The i-th of the quantities that derivatives are taken by.
+    /// The i-th of the quantities with respect to which derivatives are taken.
     pub fn variable(value: T, i: usize) -> Self {
         let mut variable = Self::constant(value);
         variable.slope[i] = T::ONE;
         variable
     }
 
-    /// f(self), of which the value and the derivative are given.
+    /// f(self), from the value and the derivative of f.
     #[inline(always)]
     fn chain(mut self, value: T, derivative: T) -> Self {
         self.value = value;
@@ -246,7 +246,8 @@ impl<T: Real, const N: usize> Real for Dual<T, N> {
     }
 }
 
-/// Below this the slopes of the versines are taken from their series, where the quotients cancel.
+/// Below this the slopes of the versines are taken from their series, as the quotients would
+/// cancel.
 const SMALL_ANGLE: f64 = 0.5;
 
 /// (C', S') by their series:

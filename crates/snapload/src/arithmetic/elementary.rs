@@ -31,9 +31,9 @@ const ODD: [f64; 8] = [
     -2.728_493_330_434_836e-15,
 ];
 
-/// Doubles, one or several, that can be looked at and set one by one.
+/// One or several doubles, of which each can be read and set.
 pub(crate) trait Doubles: Lane {
-    /// How many.
+    /// The number of doubles.
     const WIDTH: usize = <Self::Mask as Mask>::WIDTH;
 
     /// The double in a lane.
@@ -101,7 +101,7 @@ pub(crate) fn versines<L: Doubles>(z: L) -> (L, L) {
     )
 }
 
-/// Multiples of π/2 up to this many are taken off exactly.
+/// Up to this many multiples of π/2 are subtracted exactly.
 const MOST_QUARTERS: f64 = 1e6;
 /// 1.5 · 2^52: added and subtracted, it rounds a number to an integer.
 const ROUNDER: f64 = 6_755_399_441_055_744.0;
@@ -118,7 +118,7 @@ pub(crate) fn rounded<L: Lane>(x: L) -> L {
     (x + ROUNDER) - ROUNDER
 }
 
-/// Sine and cosine, to about a rounding.
+/// Sine and cosine, with an error of about one rounding.
 #[inline(always)]
 pub(crate) fn sin_cos<L: Doubles>(z: L) -> (L, L) {
     let far = L::from_f64(MOST_QUARTERS).below(z.abs());
@@ -148,7 +148,7 @@ pub(crate) fn sin_cos<L: Doubles>(z: L) -> (L, L) {
     if !far.any() {
         return near;
     }
-    // Angles of a million and more: the Rust port in the crate `libm`, which is plain arithmetic
+    // Angles of a million and more use the Rust port in the crate `libm`, which is plain arithmetic
     // too.
     let (sine, cosine) = z.each(libm::sincos);
     (L::select(far, sine, near.0), L::select(far, cosine, near.1))
@@ -159,8 +159,8 @@ mod tests {
     use crate::arithmetic::precise::Precise;
     use crate::arithmetic::real::Real;
 
-    /// Against many digits, in roundings of the value, or of what is left of 1 where it is near
-    /// zero.
+    /// Compared with many digits: the error in roundings of the value, or of its difference from 1
+    /// where that is near zero.
     #[test]
     fn functions_agree_with_many_digits() {
         let mut worst = [0.0_f64; 3];

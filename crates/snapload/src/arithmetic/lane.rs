@@ -1,13 +1,14 @@
-//! One number, or several side by side.
+//! One number, or several processed side by side.
 //!
 //! What happens in nearly every step of nearly every run, a flight that ends with one cable
 //! snapping taut, is written over [`Lane`]: for [`Real`] numbers it is the ordinary motion, for the
 //! vectors in [`crate::batch::lanes`] it is that of several cases at once. A vector does in each of
-//! its lanes exactly the operations that one number would see, so each lane has that number's bits.
-//! Where numbers would take different turns, both are computed and one is selected.
+//! its lanes exactly the operations that a single number would undergo, so each lane has that
+//! number's bits. Where numbers would take different branches, both are computed and one is
+//! selected.
 //!
-//! Everything on the way is `#[inline(always)]`: the vectors' instructions exist only in the
-//! functions that were compiled for a processor which has them. What is large is `apart!` over
+//! All functions involved are `#[inline(always)]`: the vectors' instructions exist only in the
+//! functions that were compiled for a processor which has them. Large functions are `apart!` over
 //! numbers that have no instructions of their own.
 
 use crate::arithmetic::real::Real;
@@ -46,7 +47,7 @@ pub trait Lane:
     + Sub<f64, Output = Self>
     + Mul<f64, Output = Self>
 {
-    /// What comparing gives.
+    /// The result of a comparison.
     type Mask: Mask;
     /// Spacing of the numbers next to 1.
     const EPSILON: Self;
@@ -71,7 +72,7 @@ pub trait Lane:
     fn sin_cos(self) -> (Self, Self);
     /// ( (1 − cos z)/z², (z − sin z)/z² ); see [`Real::versines`].
     fn versines(self) -> (Self, Self);
-    /// Where it is below `other`; nowhere where one of them is not a number.
+    /// Where it is below `other`; false where one of them is NaN.
     fn below(self, other: Self) -> Self::Mask;
     /// Where it is below `other` or equal.
     fn at_most(self, other: Self) -> Self::Mask;
@@ -87,7 +88,7 @@ pub trait Lane:
     fn sixth() -> Self {
         Self::ONE / Self::from_f64(6.0)
     }
-    /// The larger of two; the first if they are equal or one is not a number.
+    /// The larger of two; the first if they are equal or one is NaN.
     #[inline(always)]
     fn larger(self, other: Self) -> Self {
         Self::select(self.below(other), other, self)
@@ -97,7 +98,7 @@ pub trait Lane:
     fn smaller(self, other: Self) -> Self {
         Self::select(other.below(self), other, self)
     }
-    /// It where it is positive, else 0.
+    /// The number itself where it is positive, else 0.
     #[inline(always)]
     fn positive(self) -> Self {
         self.larger(Self::ZERO)

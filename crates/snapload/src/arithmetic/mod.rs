@@ -1,4 +1,4 @@
-//! The number types that the physics is written over, and power series of them.
+//! The number types of the physics, and power series of them.
 //!
 //! Doubles for the ordinary run ([`double`], [`elementary`]), several side by side ([`lane`]),
 //! numbers with their derivatives ([`dual`]), numbers of many digits ([`precise`]), vectors of the

@@ -1,5 +1,4 @@
-//! Vectors of the plane, and rotations in it: that the motion is plane is said here and nowhere
-//! else.
+//! Vectors in the plane, and rotations: no other file assumes a plane motion.
 
 use crate::arithmetic::lane::Lane;
 use std::ops::{Add, Sub};
@@ -43,7 +42,7 @@ impl<T> Vector2<T> {
         }
     }
 
-    /// What `number` makes of each component and the other vector's.
+    /// A function of each component and the other vector's.
     #[inline(always)]
     pub(crate) fn zip_with<M, U>(
         self,
@@ -183,7 +182,7 @@ impl<L: Lane> Rotation<L> {
 }
 
 impl<L: Copy> Rotation<L> {
-    /// What `number` makes of each number and the other rotation's.
+    /// A function of each number and the other rotation's.
     #[inline(always)]
     pub(crate) fn zip_with<M: Copy, U>(
         &self,

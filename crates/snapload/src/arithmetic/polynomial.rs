@@ -9,7 +9,7 @@ use std::ops::{Index, IndexMut};
 /// lies higher: 28 and 32 cost alike, 24 a tenth more.
 pub(crate) const ORDER: usize = 28;
 
-/// Derivatives up to this are bounded.
+/// The highest derivative for which a bound is available.
 const MOST_DERIVED: usize = 4;
 
 /// k (k − 1) … (k − n + 1), what the n-th derivative makes of the k-th power.
@@ -27,7 +27,7 @@ const FALLING: [[f64; ORDER + 1]; MOST_DERIVED + 1] = {
     all
 };
 
-/// The value at s may be off by this many roundings of Σ |c_k| s^k.
+/// A bound on the error of the value at s, in roundings of Σ |c_k| s^k.
 const ROUNDINGS: f64 = 8.0;
 
 /// A polynomial of degree at most [`ORDER`], lowest power first.
@@ -60,7 +60,7 @@ impl<T: Real> Polynomial<T> {
         self.jet_and_size(s, order).0
     }
 
-    /// The same, and Σ |c_k| s^k, to which the rounding of the value is in proportion.
+    /// The same, and Σ |c_k| s^k, to which the rounding error of the value is proportional.
     #[inline(always)]
     fn jet_and_size(&self, s: T, order: usize) -> ([T; 3], T) {
         let (mut value, mut rate, mut half_accel) = (T::ZERO, T::ZERO, T::ZERO);
@@ -93,8 +93,8 @@ impl<T: Real> Polynomial<T> {
         (jet, size * T::EPSILON * ROUNDINGS)
     }
 
-    /// Whether it is provably below zero on all of \[0, s\], by more than its rounding and a further
-    /// error.
+    /// Whether it is provably below zero on all of \[0, s\], by more than its rounding and a
+    /// further error.
     #[inline(always)]
     pub(crate) fn stays_negative(&self, s: T, order: usize, error: T) -> bool {
         let size = self.derivative_bound(0, s, order);
@@ -114,12 +114,12 @@ impl<T: Real> Polynomial<T> {
         bound
     }
 
-    /// The longest length up to `step`, which is at most 1, by halves of an octave, on which the
-    /// last two powers are below a twentieth of a rounding of `scale`, or of the largest of the
-    /// others where that is more.
+    /// The longest length up to `step`, which is at most 1, found by repeated division by √2, on
+    /// which the last two terms are below a twentieth of a rounding of `scale`, or of the largest
+    /// of the other terms if that is more.
     ///
-    /// The constant does not count: where a motion has just begun to leave a place at which it
-    /// could stay, its last terms are small against the place and yet not converged.
+    /// The constant term is not among them: where a motion has just begun to leave an equilibrium,
+    /// its last terms are small against the position and yet not converged.
     #[inline(always)]
     pub(crate) fn converged_within(&self, mut step: T, order: usize, scale: T) -> T {
         let tolerance = T::EPSILON * 0.05;

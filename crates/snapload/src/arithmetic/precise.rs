@@ -1,4 +1,4 @@
-//! Numbers of many digits, to prove what doubles only compute.
+//! Numbers of many digits, which verify results computed in doubles.
 
 use crate::arithmetic::real::Real;
 use operations::{Binary, Number, Unary};
@@ -14,14 +14,15 @@ mod operations;
 /// so that every formula of the motion would be full of clones; here they are kept in an array of
 /// fixed size between two operations, so that this type is copied as a double is.
 ///
-/// Libraries weighed: `rug` (MPFR) is faster and asks for a C compiler and the LGPL; `f256` ends at
-/// 71 digits; `astro-float` has not been released for long. `dashu-float` is plain Rust, kept up,
-/// under the same licences as this, and rounds its sines and cosines correctly.
+/// Libraries considered: `rug` (MPFR) is faster but needs a C compiler and the LGPL; `f256` is
+/// limited to 71 digits; `astro-float` has had no release for a long time. `dashu-float` is plain
+/// Rust, is maintained, has the same licences as this library, and rounds its sines and cosines
+/// correctly.
 ///
-/// What has no value, such as 0/0 or a number past the exponents, is like a NaN.
+/// A result without a value, such as 0/0 or one beyond the exponents, behaves like a NaN.
 ///
-/// No operation is inlined: each takes far longer than the call, and a motion has thousands of
-/// them, which would be most of the time that this library takes to compile.
+/// No operation is inlined: each takes far longer than a call, and inlining the thousands of them
+/// in a motion would take most of the time to compile this library.
 #[derive(Clone, Copy, Debug)]
 pub struct Precise<const WORDS: usize> {
     /// The significand, an integer, least significant byte first.
@@ -75,7 +76,7 @@ impl<const WORDS: usize> Precise<WORDS> {
         stored
     }
 
-    /// One operation of the library, on what has a value.
+    /// One operation of the library, if both operands have a value.
     fn binary(self, other: Self, operation: Binary) -> Self {
         if !(self.valid && other.valid) {
             return Self::NO_VALUE;
@@ -349,7 +350,7 @@ mod tests {
     #[test]
     fn elementary_functions_agree_with_sixty_digits() {
         let close = |got: P, digits: &str| {
-            // The reference as a fraction of integers, which no parser of ours has touched.
+            // The reference as a fraction of integers, which is not read by our own parser.
             let scale = UBig::from(10u8).pow(60);
             let integer: IBig = digits.parse().expect("digits");
             let reference = P::from_repr(Some(Repr::new(integer, 0)))

@@ -1,16 +1,17 @@
-//! Work that is compiled twice: for every processor of a family, and for those that multiply and
-//! add in one instruction.
+//! Work that is compiled twice: for all processors of a family, and for those with an instruction
+//! that multiplies and adds.
 //!
 //! [`crate::arithmetic::real::Real::mul_add`] rounds once everywhere, so the bits are the same.
 //! Where a processor has no instruction for it, or the compiler may not assume one, it is a
-//! function, which takes longer than a multiplication and an addition.
+//! function call, which takes longer than a multiplication and an addition.
 //!
-//! All functions that such work spends its time in are `#[inline(always)]`: one that is only called
-//! would be compiled for every processor, without the instruction. Over numbers that have no
-//! instructions of their own, what is large or called from many places is compiled by itself
-//! (`apart!`); numbers with derivatives, which are many doubles side by side, twice there, too.
-//! Over doubles what is large and called from several places is a [`Kernel`] of its own, which another
-//! one dispatches: inlined at each, it makes functions on which the compiler takes more than linear
+//! All functions in which such work spends its time are `#[inline(always)]`: one that is only
+//! called would be compiled for every processor, without the instruction. Over numbers that have no
+//! instructions of their own, functions that are large or called from many places are compiled
+//! separately (`apart!`); over numbers with derivatives, which are many doubles side by side, those
+//! are compiled twice, too. Over doubles, functions that are large and called from several places
+//! are [`Kernel`]s of their own, which another one dispatches: inlined at each call, they would
+//! make functions whose compilation takes more than linear time.
 //! time.
 #![cfg_attr(
     target_arch = "x86_64",
@@ -36,9 +37,9 @@ pub(crate) fn has_fma() -> bool {
     is_x86_feature_detected!("avx2") && is_x86_feature_detected!("fma")
 }
 
-/// Numbers that begin where a line of the processor's cache does. What it takes in at once then
-/// never lies across two lines, nor across two pieces in which it has just been written: it would
-/// wait for both.
+/// Numbers aligned to a line of the processor's cache. A vector register is then never loaded
+/// across two lines, nor across two parts that have just been written separately, which would delay
+/// the load.
 #[derive(Clone, Copy, Debug)]
 #[repr(align(64))]
 pub(crate) struct Aligned<T>(pub(crate) T);
@@ -59,14 +60,14 @@ pub(crate) fn dispatch<W: Kernel>(kernel: W) -> W::Output {
     }
 }
 
-/// Does the work by the instructions that every processor of the family has.
+/// Does the work with the instructions that every processor of the family has.
 #[cfg_attr(target_arch = "x86_64", inline(never))]
 pub(crate) fn plain<W: Kernel>(kernel: W) -> W::Output {
     kernel.run()
 }
 
-/// The same for work over one arithmetic: only doubles are fast enough for the difference to
-/// matter, so the rest is compiled once.
+/// The same for work over one arithmetic: only for doubles does the difference matter, so that for
+/// other numbers the work is compiled once.
 #[inline]
 pub(crate) fn dispatch_over<T: Real, W: Kernel>(kernel: W) -> W::Output {
     if T::FUSES {
@@ -79,8 +80,8 @@ pub(crate) fn dispatch_over<T: Real, W: Kernel>(kernel: W) -> W::Output {
 /// The body of a function that is inlined everywhere over doubles, and over numbers without
 /// instructions of their own compiled once, by itself.
 ///
-/// There a call costs nothing beside what it does, while the whole motion inlined into one function
-/// takes far longer to compile than its pieces.
+/// For those a call costs little compared with the function's work, while inlining the whole motion
+/// into one function would take far longer to compile than its pieces.
 macro_rules! apart {
     ($number:ty, $work:block) => {
         if <$number as $crate::arithmetic::lane::Lane>::FUSES {
@@ -88,7 +89,7 @@ macro_rules! apart {
         } else if <$number as $crate::arithmetic::lane::Lane>::CARRIES_SLOPES
             && $crate::arithmetic::processor::has_fma()
         {
-            // Written twice, so that each closure has one caller, which it is inlined into.
+            // Written twice, so that each closure has one caller, into which it is inlined.
             $crate::arithmetic::processor::fused_by_itself(|| $work)
         } else {
             $crate::arithmetic::processor::by_itself(|| $work)
@@ -103,7 +104,7 @@ pub(crate) fn by_itself<R>(work: impl FnOnce() -> R) -> R {
     work()
 }
 
-/// The same by the instructions of a processor that [`has_fma`], which is to be asked before.
+/// The same with the instructions of a processor that [`has_fma`], which the caller has to check.
 #[cfg(target_arch = "x86_64")]
 pub(crate) fn fused_by_itself<R>(work: impl FnOnce() -> R) -> R {
     #[target_feature(enable = "avx2,fma")]
@@ -116,14 +117,14 @@ pub(crate) fn fused_by_itself<R>(work: impl FnOnce() -> R) -> R {
     unsafe { fused(work) }
 }
 
-/// Other processors are not asked for their instructions.
+/// Always false on other processors, which need only one compilation.
 #[cfg(not(target_arch = "x86_64"))]
 #[inline(always)]
 pub(crate) fn has_fma() -> bool {
     false
 }
 
-/// Never needed here.
+/// Never called here.
 #[cfg(not(target_arch = "x86_64"))]
 pub(crate) fn fused_by_itself<R>(work: impl FnOnce() -> R) -> R {
     by_itself(work)
@@ -138,16 +139,16 @@ pub(crate) fn dispatch<W: Kernel>(kernel: W) -> W::Output {
 
 #[cfg(test)]
 mod tests {
-    /// Products whose rounding before the sum shows, and halfway cases that a wider intermediate
-    /// rounds twice.
+    /// Products whose rounding before the sum would show, and halfway cases that a wider
+    /// intermediate would round twice.
     #[test]
     fn the_platform_fuses_right() {
         let (one, e) = (1.0_f64, f64::EPSILON);
         for (a, b, c, known) in [
             (one + e, one - e, -one, -e * e),
             (one + e, one + e, -(one + 2.0 * e), e * e),
-            // 1 + ε/2 is halfway between 1 and its neighbour, so the least amount more or less
-            // decides.
+            // 1 + ε/2 is halfway between 1 and its neighbour, so that the smallest difference
+            // decides the rounding.
             (e * 0.5, one + e, one, one + e),
             (e * 0.5, one - e, one, one),
             (one + e * 2.0_f64.powi(20), e * 0.5, one + e, one + 2.0 * e),

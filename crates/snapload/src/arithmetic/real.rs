@@ -86,7 +86,7 @@ pub trait Real:
         self * self
     }
     /// The same number without its derivatives: the instants at which a search evaluates the motion
-    /// are no part of the motion.
+    /// do not depend on the parameters.
     fn detached(self) -> Self {
         self
     }

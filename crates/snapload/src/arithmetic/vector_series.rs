@@ -1,4 +1,4 @@
-//! Truncated power series side by side: of several quantities that one pass of sums serves.
+//! Truncated power series of several quantities side by side, summed in one pass.
 
 use crate::arithmetic::polynomial::ORDER;
 use crate::arithmetic::processor::Aligned;
@@ -7,11 +7,11 @@ use std::ops::{Index, IndexMut};
 
 /// How many products are summed at a time.
 const BLOCK: usize = 4;
-/// Zeros on either side, so that what is summed can be rounded up to whole blocks.
+/// Zeros on either side, so that sums can be extended to whole blocks.
 const MARGIN: usize = BLOCK - 1;
 
-/// `W` power series up to [`ORDER`], lowest power first, with zeros around them. What a processor
-/// takes in at once never lies across two lines of its cache.
+/// `W` power series up to [`ORDER`], lowest power first, with zeros around them, aligned so that a
+/// vector register is never loaded across two lines of the cache.
 #[derive(Clone, Copy, Debug)]
 #[repr(align(32))]
 pub(crate) struct VectorSeries<T, const W: usize>([[T; W]; MARGIN + ORDER + 1 + MARGIN]);
@@ -38,17 +38,18 @@ impl<T, const W: usize> IndexMut<usize> for VectorSeries<T, W> {
 }
 
 impl<T: Real, const W: usize> VectorSeries<T, W> {
-    /// Σ a_j b_{k−j}, 0 ≤ j ≤ k: the k-th coefficients of the products. One that is not known yet
-    /// is zero, so that its products are left out; all have to be finite, as those beyond k meet
-    /// zeros. Where this is one quantity alone, it is a factor of each of the others.
+    /// Σ a_j b_{k−j}, 0 ≤ j ≤ k: the k-th coefficients of the products. A coefficient that is not
+    /// known yet has to be zero, so that its products are left out; all have to be finite, as those
+    /// beyond k are multiplied by zeros. If this holds one quantity, it is a factor of each of the
+    /// others.
     #[inline(always)]
     pub(crate) fn convolve<const V: usize>(&self, other: &VectorSeries<T, V>, k: usize) -> [T; V] {
         let [sums] = convolve([(self, other)], k);
         sums
     }
 
-    /// Σ |a_i b_j| s^{i+j−p}, i + j ≥ p = [`ORDER`] + 1: a bound on what the products have beyond the
-    /// last order at `s`, but for the factor s^p.
+    /// Σ |a_i b_j| s^{i+j−p}, i + j ≥ p = [`ORDER`] + 1: a bound on the terms of the products
+    /// beyond the last order at `s`, up to the factor s^p.
     #[inline(always)]
     pub(crate) fn beyond_product<const V: usize>(
         &self,
@@ -74,8 +75,8 @@ pub(crate) fn convolve<T: Real, const V: usize, const W: usize, const N: usize>(
     k: usize,
 ) -> [[T; W]; N] {
     let mut sums = [[[T::ZERO; W]; 2]; N];
-    // The newest coefficients, at either end, are added last: a processor can add up the rest
-    // before they are known.
+    // The newest coefficients, at either end, are added last, so that the processor can add up the
+    // others before they are known.
     let mut from = BLOCK;
     while from <= k {
         for (sums, factors) in sums.iter_mut().zip(&factors) {
@@ -91,8 +92,8 @@ pub(crate) fn convolve<T: Real, const V: usize, const W: usize, const N: usize>(
             products[n][w] = even[w] + odd[w];
         }
     }
-    // A compiler that sees what becomes of the sums makes them across the lanes, with more
-    // shuffling than arithmetic.
+    // Without this barrier the compiler vectorises across the lanes, with more shuffling than
+    // arithmetic.
     std::hint::black_box(Aligned(products)).0
 }
 
@@ -128,8 +129,8 @@ fn add_products<T: Real, const V: usize, const W: usize>(
 mod tests {
     use super::*;
 
-    /// With all coefficients 1 and s = ½ the sum is Σ_n (2p − 1 − n) s^{n−p}, p ≤ n < 2p − 1: the number
-    /// of pairs of orders below p that add up to n.
+    /// With all coefficients 1 and s = ½ the sum is Σ_n (2p − 1 − n) s^{n−p}, p ≤ n < 2p − 1: the
+    /// number of pairs of orders below p that add up to n.
     #[test]
     fn what_a_product_has_beyond_the_last_order() {
         let mut ones = VectorSeries::<f64, 1>::default();

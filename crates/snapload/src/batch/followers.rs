@@ -1,46 +1,46 @@
-//! What follows runs in their lanes, if anything does.
+//! Followers: what is computed along with runs in their lanes, if anything is.
 
 use crate::arithmetic::elementary::Doubles;
 use crate::arithmetic::lane::Lane;
 use crate::motion::bounce_map::Bounced;
 use crate::motion::simulation::{Simulation, Step};
 
-/// What follows a run.
+/// Something that is computed along with a run.
 pub(crate) trait Follower: Sized {
-    /// The same beside the runs of several lanes.
+    /// The followers of the runs in several lanes.
     type LaneFollowers<L: Doubles>: LaneFollowers<L, Alone = Self>;
-    /// What it has to say in the end.
+    /// Its result at the end.
     type Verdict;
 
-    /// Takes in a step that the run made out of the lanes.
+    /// Takes in a step that the run made outside the lanes.
     fn take(&mut self, simulation: &Simulation, step: &Step);
     /// Whether it follows the run any further.
     fn goes_on(&self) -> bool;
     /// Whether it can follow the run in a lane now.
     fn fits_a_lane(&self) -> bool;
-    /// What it has to say, wherever it has come to.
+    /// Its result, as far as it has come.
     fn verdict(self) -> Self::Verdict;
 }
 
 /// The followers of the runs in all lanes.
 pub(crate) trait LaneFollowers<L: Lane>: Copy {
-    /// That of one run.
+    /// The follower of one run.
     type Alone;
 
-    /// None yet.
+    /// Followers of no runs yet.
     fn empty() -> Self;
-    /// What they are after a bounce, and in which of the lanes where it is `plain` they can go on
-    /// from there; in the others it is made out of the lanes.
+    /// The followers after a bounce, and in which of the lanes where it is `plain` they can
+    /// continue from there; in the other lanes the bounce is made outside the lanes.
     fn bounced(&self, plain: L::Mask, bounced: &Bounced<L>) -> (Self, L::Mask);
     /// One of two, lane by lane.
     fn select(mask: L::Mask, yes: &Self, no: &Self) -> Self;
-    /// Puts that of a run into a lane.
+    /// Puts the follower of a run into a lane.
     fn put(&mut self, lane: usize, alone: &Self::Alone);
-    /// Brings that of a run up to what it is in its lane, `impacts` later.
+    /// Updates the follower of a run from its lane, `impacts` later.
     fn get(&self, lane: usize, alone: &mut Self::Alone, impacts: u64);
 }
 
-/// Nothing does.
+/// Runs without a follower.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Unfollowed;
 

@@ -1,10 +1,10 @@
-//! Many runs side by side, each to its end, without keeping them.
+//! Many runs side by side, each to its end, of which only the outcomes are kept.
 //!
 //! Every lane of a vector carries a run of its own from bounce to bounce
-//! ([`crate::motion::bounce`]). A step that is no bounce is made outside of the lanes: the run goes
-//! on in its [`Simulation`], taut modes included, until it flies freely again. When a run has
-//! stopped, the next takes its lane. A run in a lane has the bits of the same run by itself,
-//! because both make the same operations.
+//! ([`crate::motion::bounce`]). A step that is no bounce is made outside the lanes: the run
+//! continues in its [`Simulation`], taut modes included, until it flies freely again. When a run
+//! has stopped, the next takes its lane. A run in a lane has the same bits as the run by itself,
+//! because both perform the same operations.
 
 use crate::arithmetic::processor::dispatch;
 use crate::batch::followers::{Follower, Unfollowed};
@@ -15,20 +15,21 @@ use crate::motion::outcome::Outcome;
 use crate::motion::simulation::Simulation;
 use std::vec::IntoIter;
 
-/// What runs came to, and what their followers say, in their order. The places of a list that can
-/// be used again for what is made of it: so it is none of results alone, though each place has one.
+/// The outcomes of runs and the verdicts of their followers, in their order. They are options,
+/// although each place is filled, so that the allocation can be reused for the results made from
+/// them.
 pub(crate) type Told<C> = IntoIter<Option<(Outcome, <C as Follower>::Verdict)>>;
 
-/// Room is made for so many outcomes at once; for more it grows.
+/// Memory for this many outcomes is allocated at once at most; for more it grows.
 const MOST_AT_ONCE: usize = 1 << 16;
 
-/// How many runs go side by side. All give the same bits.
+/// The number of runs side by side. All variants give the same bits.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Lanes {
     /// One.
     One,
-    /// Four, in plain Rust: what the registers have to agree with, on every processor. It is not made
-    /// to be fast, and is there for tests alone.
+    /// Four, in plain Rust, on every processor: a reference for the registers, used in tests only
+    /// and not made to be fast.
     #[cfg(feature = "comparisons")]
     Plain,
     /// Eight, in pairs of the registers of a processor with AVX2 and FMA.
@@ -38,7 +39,7 @@ pub enum Lanes {
 }
 
 impl Lanes {
-    /// All kinds that this processor has.
+    /// All variants that this processor supports.
     pub fn available() -> Vec<Self> {
         #[cfg_attr(
             not(target_arch = "x86_64"),
@@ -61,7 +62,7 @@ impl Lanes {
         all
     }
 
-    /// The fastest that this processor has.
+    /// The fastest variant that this processor supports.
     pub fn best() -> Self {
         #[cfg(target_arch = "x86_64")]
         {
@@ -86,7 +87,8 @@ impl Lanes {
         (outcomes, usage)
     }
 
-    /// The same of motions that have just begun, each with what follows it. A run that its follower has left goes on without.
+    /// The same for motions that have just begun, each with its follower. A run whose follower has
+    /// ended continues without it.
     pub(crate) fn outcomes_beside<C: Follower>(
         self,
         runs: impl Iterator<Item = (Box<Simulation>, C)>,
@@ -126,8 +128,8 @@ impl Lanes {
         (told.into_iter(), usage)
     }
 
-    /// Runs all of `runs` to their ends, or as far as their followers go, and hands them on. In
-    /// place of lanes that this processor lacks, one is used.
+    /// Runs all of `runs` to their ends, or as far as their followers go, and passes them to
+    /// `tell`. If this processor lacks the registers, one lane is used.
     fn run<C: Follower>(self, runs: Runs<C>, tell: Tell<C>) -> Usage {
         match self {
             #[cfg(target_arch = "x86_64")]

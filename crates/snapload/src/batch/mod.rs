@@ -1,8 +1,8 @@
 //! Many runs of two cables under one sinusoid, side by side in the lanes of the processor, each
 //! with the bits that it has by itself.
 //!
-//! It is entered by one door, [`crate::motion::two_cables::TwoCableSystem::of`], which says whether
-//! a system and its rules fit; runs that do not fit are made one by one.
+//! The entry point is [`crate::motion::two_cables::TwoCableSystem::of`], which says whether a
+//! system and its rules fit; runs that do not fit are made one by one.
 
 pub(crate) mod followers;
 pub(crate) mod lanes;

@@ -1,5 +1,5 @@
-//! The lanes and the runs in them: each goes from bounce to bounce there, and by itself through what
-//! is no bounce.
+//! The lanes and the runs in them: bounces are made in the lanes, all other steps by each run
+//! alone.
 
 use crate::arithmetic::elementary::Doubles;
 use crate::arithmetic::lane::{Lane, Mask};
@@ -13,27 +13,27 @@ use crate::motion::simulation::{LastImpacts, Progress, Simulation};
 use crate::motion::trajectory::RHO2_UNTIL;
 use crate::motion::two_cables::{AfterImpact, TwoCableSystem};
 
-/// Takes a run that has stopped, or whose follower goes no further.
+/// Takes a run that has stopped, or whose follower has ended.
 pub(super) type Tell<'a, C> = &'a mut dyn FnMut(Box<Slot<C>>);
 
-/// The runs that are to get lanes.
+/// The runs that are to be put into lanes.
 pub(super) type Runs<'a, C> = &'a mut dyn Iterator<Item = Box<Slot<C>>>;
 
 /// How well the lanes were used.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Usage {
-    /// Rounds of bounces, each of all lanes.
+    /// Rounds, in each of which every lane makes a bounce.
     pub rounds: u64,
     /// Bounces made in lanes.
     pub bounces: u64,
-    /// Steps that runs made by themselves, out of the lanes.
+    /// Steps that runs made by themselves, outside the lanes.
     pub steps_apart: u64,
-    /// Lanes of a round.
+    /// The number of lanes.
     pub width: usize,
 }
 
 impl Usage {
-    /// Takes in that of other runs.
+    /// Adds the usage of other runs.
     pub(super) fn add(&mut self, other: &Self) {
         self.rounds += other.rounds;
         self.bounces += other.bounces;
@@ -41,7 +41,7 @@ impl Usage {
     }
 }
 
-/// What a run counts on its way.
+/// The counters of a run.
 #[derive(Clone, Copy, Default)]
 struct Counts<L> {
     impacts: L,
@@ -50,14 +50,14 @@ struct Counts<L> {
     rho1: L,
     rho2: L,
     rho3: L,
-    /// The latest instants of impact: the bits of the set of cables, v_n, and how many in a row
-    /// were of the same cables.
+    /// The latest instants of impact: the bits of the set of cables, v_n, and how many instants in
+    /// a row were of the same cables.
     cables: L,
     v_n: L,
     repeats: L,
 }
 
-/// Whether a run comes to a lane for the first time, or back to the one that has its system.
+/// Whether a run is put into a lane for the first time, or back into the lane that has its system.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum Comes {
     Anew,
@@ -66,7 +66,7 @@ enum Comes {
 
 /// A run that may have a lane.
 pub(super) struct Slot<C> {
-    /// Its place in the order in which they came.
+    /// Its index in the order of the runs.
     pub(super) index: usize,
     pub(super) simulation: Box<Simulation>,
     pub(super) outcome: Outcome,
@@ -115,7 +115,7 @@ impl<'a, L: Doubles, C: Follower> LaneScheduler<'a, L, C> {
         scheduler
     }
 
-    /// Bounces until all runs have stopped.
+    /// Makes bounces until all runs have stopped.
     #[inline(always)]
     pub(super) fn run_all(mut self) -> Usage {
         let all = (1u32 << L::WIDTH) - 1;
@@ -147,8 +147,8 @@ impl<'a, L: Doubles, C: Follower> LaneScheduler<'a, L, C> {
         }
     }
 
-    /// Lets the runs of these lanes go on by themselves until they fly freely, and gives lanes that
-    /// have become free to other runs. Returns the lanes that are empty.
+    /// Lets the runs of these lanes continue by themselves until they fly freely, and gives free
+    /// lanes to other runs. Returns the lanes that are empty.
     #[inline(never)]
     fn serve(&mut self, lanes: u32) -> u32 {
         let mut empty = 0;
@@ -171,7 +171,8 @@ impl<'a, L: Doubles, C: Follower> LaneScheduler<'a, L, C> {
         empty
     }
 
-    /// Gives a lane to the next run that comes to fly freely; those before it end without a lane.
+    /// Gives a lane to the next run that flies freely at some time; runs before it that never do
+    /// end without a lane.
     fn refill(&mut self, lane: usize) {
         while let Some(slot) = self.runs.next() {
             if self.fill(lane, slot, Comes::Anew) {
@@ -180,15 +181,15 @@ impl<'a, L: Doubles, C: Follower> LaneScheduler<'a, L, C> {
         }
     }
 
-    /// Puts a run into a lane once it flies freely, or hands it on if it ends here before that.
-    /// Returns whether the lane is taken.
+    /// Puts a run into a lane once it flies freely, or passes it on if it ends before that. Returns
+    /// whether the lane is taken.
     fn fill(&mut self, lane: usize, mut slot: Box<Slot<C>>, comes: Comes) -> bool {
         loop {
             if slot.simulation.stop().is_some() || !slot.follower.goes_on() {
                 (self.tell)(slot);
                 return false;
             }
-            // The first impact is part of the outcome, so it is not made in a lane.
+            // The first impact is part of the outcome, and lanes do not record it.
             let begun = slot.outcome.first.is_some() && slot.follower.fits_a_lane();
             if let (true, Some((two_cables, after_impact))) = (begun, slot.simulation.lane_start())
             {
@@ -221,7 +222,7 @@ impl<'a, L: Doubles, C: Follower> LaneScheduler<'a, L, C> {
         self.beside.put(lane, &slot.follower);
     }
 
-    /// Brings a run's simulation up to what the run did in its lane.
+    /// Updates a run's simulation with the result of its lane.
     fn leave(&self, lane: usize, slot: &mut Slot<C>) {
         let get = |all: L, _| all.get(lane);
         let after_impact = self.after_impact.zip_with(&self.after_impact, get);
@@ -275,7 +276,8 @@ impl<C: Follower> Slot<C> {
 }
 
 impl<L: Lane> Counts<L> {
-    /// With an impact counted in every lane, as [`Outcome::take`] and [`Simulation`] do.
+    /// The counts with an impact added in every lane, as [`Outcome::take`] and [`Simulation`] count
+    /// them.
     #[inline(always)]
     fn with(
         &self,
@@ -300,7 +302,7 @@ impl<L: Lane> Counts<L> {
 }
 
 impl<L: Copy> Counts<L> {
-    /// What `number` makes of each number and the other tally's.
+    /// A function of each number and the other counts'.
     #[inline(always)]
     fn zip_with<M: Copy, U>(&self, other: &Counts<M>, number: impl Fn(L, M) -> U) -> Counts<U> {
         Counts {

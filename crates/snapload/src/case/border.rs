@@ -1,4 +1,4 @@
-//! From keys and values to a case, and back. What the keys ask of each other is checked here, once.
+//! From keys and values to a case, and back. Conditions between keys are checked here, once.
 
 use crate::case::error::CaseError;
 use crate::case::key::Key;
@@ -6,8 +6,8 @@ use crate::case::keys::{KEYS, check_entry};
 use crate::case::parameters::{BODIES, FIELDS, Get, Parameters, natural_inertia};
 use crate::case::value::Value;
 
-/// A moment of inertia may be this part of a^2 + b^2 and no less: a lighter body would turn a
-/// thousand times faster than it moves.
+/// The least moment of inertia that may be given, as a part of a^2 + b^2: a lighter body would turn
+/// a thousand times faster than it moves.
 const LIGHTEST: f64 = 1e-6;
 
 impl Parameters {
@@ -94,10 +94,10 @@ impl Parameters {
             .collect()
     }
 
-    /// Checks every range, and what the keys ask of each other. The start's place among the cables
-    /// is not looked at here: that is geometry, and the business of the engine.
+    /// Checks every range, and the conditions between keys. Whether the start is possible with the
+    /// cables is not checked here: that is geometry, and the engine checks it.
     pub fn check(&self) -> Result<(), CaseError> {
-        // Words are those of the schema already.
+        // Words were checked when they were read.
         let numbers = Self::keys().filter(|(_, get)| !matches!(get, Get::Word(_)));
         for (key, get) in numbers {
             get.value(self)

@@ -11,20 +11,20 @@ struct Entry {
     index: usize,
     key: &'static Key,
     value: Value,
-    /// How errors call the key.
+    /// The name of the key in errors.
     path: String,
-    /// Where its value stands.
+    /// Where its value was given.
     place: String,
-    /// A number as it is written there, which may have more digits than a double.
+    /// A number in the digits in which it was given, which may be more than a double has.
     written: Option<String>,
 }
 
-/// The keys that a case gives: each known, of the right type and within its range, and there once.
+/// The keys that a case gives: each is known, has the right type and range, and occurs once.
 #[derive(Clone, Debug)]
 pub struct Entries {
     pub(crate) schema: &'static Schema,
     entries: Vec<Entry>,
-    /// How many there are of each table of the schema.
+    /// How many tables of each name there are.
     counts: Vec<usize>,
 }
 
@@ -39,8 +39,8 @@ impl Entries {
         }
     }
 
-    /// Gives one key of the n-th table of a name, from 0, a value in place of the one that it may
-    /// have; `place` is where the value stands.
+    /// Sets a key of the n-th table of a name, from 0, to a value, which replaces an earlier one;
+    /// `place` says where the value was given.
     ///
     /// # Errors
     /// A [`CaseError`] if there is no such key, or it can not take the value.
@@ -78,7 +78,7 @@ impl Entries {
         Ok(())
     }
 
-    /// Keeps the number that was given last as it is written.
+    /// Keeps the digits of the number that was given last.
     #[cfg(feature = "toml")]
     pub(crate) fn keep_written(&mut self, written: Option<String>) {
         if let Some(entry) = self.entries.last_mut() {
@@ -86,14 +86,13 @@ impl Entries {
         }
     }
 
-    /// A number of a key as it was written, if it was given as text; `path` is how errors call the
-    /// key.
+    /// The digits of a key's number, if it was given as text; `path` is the key's name in errors.
     pub fn written(&self, path: &str) -> Option<&str> {
         let entry = self.entries.iter().find(|entry| entry.path == path);
         entry.and_then(|entry| entry.written.as_deref())
     }
 
-    /// Makes sure that there are so many tables of a name.
+    /// Makes sure that there are at least this many tables of a name.
     fn have(&mut self, table: &str, least: usize) {
         let tables = self.schema.tables.iter().zip(&mut self.counts);
         for (_, count) in tables.filter(|(described, _)| described.name == table) {
@@ -101,7 +100,7 @@ impl Entries {
         }
     }
 
-    /// One table more of a name; returns its index.
+    /// Adds a table of a name; returns its index.
     pub fn add(&mut self, table: &str) -> usize {
         let index = self.count(table);
         self.have(table, index + 1);
@@ -143,13 +142,13 @@ impl Entries {
         of_table.map(|entry| (entry.key.name, entry.value.clone()))
     }
 
-    /// Where the value of a key stands; `path` is how errors call it.
+    /// Where the value of a key was given; `path` is the key's name in errors.
     pub fn place(&self, path: &str) -> Option<&str> {
         let entry = self.entries.iter().find(|entry| entry.path == path);
         entry.map(|entry| entry.place.as_str())
     }
 
-    /// Puts the place of the key that an error names before it.
+    /// Adds to an error the place of the key that it names.
     #[must_use]
     pub fn locate(&self, error: CaseError) -> CaseError {
         match self.place(&error.key) {
@@ -158,7 +157,7 @@ impl Entries {
         }
     }
 
-    /// Each table that there is, and with `least` = 1 each that there must be.
+    /// Each table that is given, and with `least` = 1 also each that is required.
     fn tables(&self, least: usize) -> impl Iterator<Item = Fields<'_>> {
         self.schema.tables.iter().flat_map(move |table| {
             let needed = matches!(table.heading, Heading::None | Heading::One);
@@ -184,7 +183,7 @@ impl Entries {
             let keys = fields.table.keys.iter();
             let given = keys.filter_map(|key| Some((key.name, fields.given(key.name)?)));
             let lines = given.map(|(key, value)| match value {
-                // Large whole numbers with all their digits, as one writes newtons.
+                // Large whole numbers with all their digits, as newtons are usually written.
                 Value::Number(n) if n.fract() == 0.0 && n.abs() < 1e15 => {
                     format!("{key} = {}\n", *n as i64)
                 }
@@ -205,7 +204,7 @@ pub struct Fields<'a> {
 }
 
 impl<'a> Fields<'a> {
-    /// How errors call a key: `body.mass`, `line.2.length`.
+    /// The name of a key in errors: `body.mass`, `line.2.length`.
     pub fn path(&self, key: &str) -> String {
         self.table.path(self.index, key)
     }
@@ -220,7 +219,7 @@ impl<'a> Fields<'a> {
         CaseError::value(&self.path(key), shown, allowed)
     }
 
-    /// What is given for a key.
+    /// The value that is given for a key.
     pub fn given(&self, key: &str) -> Option<&'a Value> {
         let mut entries = self.entries.entries.iter();
         let wanted = (self.table.name, self.index, key);
@@ -228,7 +227,7 @@ impl<'a> Fields<'a> {
         found.map(|entry| &entry.value)
     }
 
-    /// What is in effect for a key: what is given, or its default; none where neither is there.
+    /// The value of a key: the given one, or its default; none if there is neither.
     ///
     /// # Errors
     /// A [`CaseError`] if a required key is left out.
@@ -245,7 +244,7 @@ impl<'a> Fields<'a> {
         Ok(described.default.value().as_ref().and_then(T::from_value))
     }
 
-    /// The same of a key that is required or has a plain default.
+    /// The same for a key that is required or has a plain default.
     ///
     /// # Errors
     /// A [`CaseError`] if it is left out.
@@ -255,9 +254,9 @@ impl<'a> Fields<'a> {
     }
 }
 
-/// What the value of a key is read as.
+/// A type as which the value of a key can be read.
 pub trait FromValue: Sized {
-    /// None where it is something else.
+    /// None if the value is of another type.
     fn from_value(value: &Value) -> Option<Self>;
 }
 

@@ -1,14 +1,15 @@
-//! What is wrong with a case, in words that name the key, the value, what is allowed and where.
+//! The errors of a case: messages that name the key, the value, what is allowed and where it was
+//! given.
 
 use std::fmt;
 
-/// Where a value stands that a command line sets.
+/// The place of a value that was given on the command line.
 pub(crate) const SET: &str = "--set";
 
-/// The longest piece of somebody's input that an error repeats, in characters.
+/// The longest piece of the input that an error repeats, in characters.
 const LONGEST_ECHO: usize = 60;
 
-/// Which sort of fault a [`CaseError`] reports.
+/// The kind of fault that a [`CaseError`] reports.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum Fault {
@@ -19,15 +20,15 @@ pub enum Fault {
         /// The key that was probably meant.
         nearest: Option<&'static str>,
     },
-    /// There is no built-in case of this code; what is allowed are the codes that look most like
-    /// it.
+    /// There is no built-in case of this code; the allowed values are the codes that are most
+    /// similar to it.
     UnknownCase,
-    /// The text can not be read as keys and values; the value is what its reader says.
+    /// The text can not be parsed as keys and values; the value is the parser's message.
     Syntax,
 }
 
-/// A case that can not be run: which key, which value, what is allowed, where it stands and what to
-/// do.
+/// A case that can not be run: which key, which value, what is allowed, where it was given and how
+/// to correct it.
 ///
 /// ```
 /// use snapload::{Parameters, Value};
@@ -37,17 +38,17 @@ pub enum Fault {
 /// ```
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct CaseError {
-    /// Which sort of fault.
+    /// The kind of fault.
     pub fault: Fault,
     /// The key, or the code of an unknown case.
     pub key: String,
-    /// The value as text; empty where there is none to speak of.
+    /// The value as text; empty where there is none to report.
     pub value: String,
     /// What is allowed instead.
     pub allowed: Box<str>,
     /// Where the value stands, such as `mooring.toml, line 3` or `--set`.
     pub place: Option<Box<str>>,
-    /// What to do, where more than "choose what is allowed" can be said.
+    /// How to correct it, where that is more than choosing an allowed value.
     pub hint: Option<Box<str>>,
 }
 
@@ -64,7 +65,7 @@ impl CaseError {
         }
     }
 
-    /// A value that is not allowed. `allowed` goes on after the word "allowed:".
+    /// A value that is not allowed. `allowed` continues the message after the word "allowed:".
     pub fn value(key: &str, value: impl fmt::Display, allowed: impl Into<String>) -> Self {
         Self::new(Fault::Value, key, &value.to_string(), allowed.into())
     }
@@ -79,7 +80,7 @@ impl CaseError {
         Self::new(Fault::UnknownCase, code, "", nearest.join(", "))
     }
 
-    /// A text that can not be read; `said` is why.
+    /// A text that can not be read; `said` is the reason.
     pub fn syntax(said: impl Into<String>) -> Self {
         let mut error = Self::new(Fault::Syntax, "", "", String::new());
         error.value = said.into();
@@ -93,14 +94,14 @@ impl CaseError {
         self
     }
 
-    /// The same with words on what to do.
+    /// The same with advice on how to correct it.
     #[must_use]
     pub fn with_hint(mut self, hint: impl Into<Box<str>>) -> Self {
         self.hint = Some(hint.into());
         self
     }
 
-    /// The same for whoever has no command line: a place on it is left out.
+    /// The same without a place on the command line, for callers that have none.
     #[must_use]
     pub fn off_the_command_line(mut self) -> Self {
         self.place = self.place.filter(|place| !place.starts_with(SET));
@@ -129,7 +130,7 @@ impl fmt::Display for CaseError {
             write!(f, "{place}: ")?;
         }
         match fault {
-            // Such as `(left out)` or `(a table)`: words about the value, not the value itself.
+            // Values such as `(left out)` or `(a table)` are descriptions and not the value itself.
             Fault::Value if value.starts_with('(') => {
                 write!(f, "{key} {value} is not allowed; allowed: {allowed}")?;
             }
@@ -159,7 +160,7 @@ impl fmt::Display for CaseError {
 
 impl std::error::Error for CaseError {}
 
-/// Somebody's input made fit to repeat: control characters escaped, cut where it is long.
+/// Input made safe to repeat in a message: control characters are escaped, long text is cut.
 pub(crate) fn echo(text: &str) -> String {
     let shown = text
         .chars()

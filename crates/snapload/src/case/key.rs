@@ -1,5 +1,5 @@
-//! What a key is: name, words, unit, type, range and default. Whatever tells of a key is made from
-//! this.
+//! The description of a key: name, words, unit, type, range and default. Everything that describes
+//! a key to users is made from it.
 
 use crate::case::error::CaseError;
 use crate::case::value::Value;
@@ -56,7 +56,7 @@ impl Kind {
     }
 }
 
-/// What holds where a key is left out.
+/// The value of a key that is left out.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum DefaultValue {
     /// It must not be left out.
@@ -65,16 +65,16 @@ pub enum DefaultValue {
     Number(f64),
     /// This whole number.
     Count(i64),
-    /// This.
+    /// This flag.
     Flag(bool),
     /// This word.
     Word(&'static str),
-    /// What these words say, as where it depends on other keys or is nothing at all.
+    /// These words describe it: it depends on other keys, or there is none.
     Derived(&'static str),
 }
 
 impl DefaultValue {
-    /// As a value; none where there is no plain one.
+    /// The default as a value; none where it is required or derived.
     pub fn value(self) -> Option<Value> {
         match self {
             Self::Required | Self::Derived(_) => None,
@@ -91,26 +91,26 @@ impl DefaultValue {
 pub struct Key {
     /// Its name in files and on the command line.
     pub name: &'static str,
-    /// Its symbol in the text of the model; the name where there is none.
+    /// Its symbol in the text of the model; the name if it has none.
     pub symbol: &'static str,
-    /// Its unit; `1` where it has none, empty where it is no number.
+    /// Its unit; `1` if it is dimensionless, empty if it is no number.
     pub unit: &'static str,
     /// What it means.
     pub meaning: &'static str,
-    /// What it is about; the keys of a group stand together wherever they are shown.
+    /// Its subject; the keys of a group are shown together.
     pub group: &'static str,
     /// Its type and range.
     pub kind: Kind,
-    /// What holds without it.
+    /// Its value where it is left out.
     pub default: DefaultValue,
-    /// Where one looks first, from and to: what a slider spans. None where sliding tells nothing.
+    /// The usual range, which a slider spans. None where a slider makes no sense.
     pub usual: Option<[f64; 2]>,
     /// A condition beside the range; empty where there is none.
     pub also: &'static str,
 }
 
 impl Key {
-    /// A key whose name says enough to be its symbol, and whose range is its only condition.
+    /// A key whose name is also its symbol, and whose range is its only condition.
     pub const fn new(
         name: &'static str,
         unit: &'static str,
@@ -150,7 +150,7 @@ impl Key {
         title_of(meaning.strip_prefix("start: ").unwrap_or(meaning))
     }
 
-    /// The same with the range in which one looks first.
+    /// The same with the usual range, which a slider spans.
     pub const fn usual(mut self, low: f64, high: f64) -> Self {
         self.usual = Some([low, high]);
         self
@@ -209,7 +209,7 @@ impl Key {
         format!("{range}{join}{}", self.also)
     }
 
-    /// What holds without it, in words.
+    /// Its default in words.
     pub fn default_words(&self) -> String {
         match (self.default, self.default.value()) {
             (DefaultValue::Derived(words), _) => words.to_owned(),
@@ -218,7 +218,7 @@ impl Key {
         }
     }
 
-    /// Its unit, where it has one.
+    /// Its unit, if it has one.
     pub fn own_unit(&self) -> Option<&'static str> {
         (!matches!(self.unit, "" | "1")).then_some(self.unit)
     }
@@ -256,7 +256,7 @@ impl Key {
         }
     }
 
-    /// An error unless this key can take the value; `path` is how the error calls the key.
+    /// An error unless this key can take the value; `path` is the key's name in the error.
     ///
     /// # Errors
     /// A [`CaseError`] that names the key by its path, the value and what is allowed.
@@ -275,8 +275,8 @@ impl Key {
         }
     }
 
-    /// The error of something that this key can not take, whatever it is; `path` is how the error
-    /// calls the key, such as `e` or `body.mass`.
+    /// The error of a value that this key can not take; `path` is the key's name in the error, such
+    /// as `e` or `body.mass`.
     pub fn refuse(&self, path: &str, shown: impl Display) -> CaseError {
         let numbers = match self.kind {
             Kind::Number(Bounds { high, .. }) if high < f64::MAX => "a number",
@@ -284,13 +284,13 @@ impl Key {
             Kind::PerFreedom(_) => "a number or three",
             _ => return CaseError::value(path, shown, self.allowed()),
         };
-        // The keys of a case without tables are multiples of its own units.
+        // The keys of a case without tables are nondimensional, and errors do not name their unit.
         let unit = self.own_unit().filter(|_| path != self.name);
         let unit = unit.map_or(String::new(), |unit| format!(" in {unit}"));
         CaseError::value(path, shown, format!("{numbers}{unit}, {}", self.allowed()))
     }
 
-    /// What a text would be if its author had written it in the way of the file.
+    /// The value that a quoted text would be without its quotes.
     fn unquoted(&self, text: &str) -> Option<String> {
         match self.kind {
             Kind::Number(_) | Kind::Count(..) => {
@@ -312,7 +312,7 @@ impl Key {
     }
 }
 
-/// A bound as one writes it: `1e6` rather than `1000000`.
+/// A bound in its usual notation: `1e6` rather than `1000000`.
 fn short(number: f64) -> String {
     if number != 0.0 && !(1e-3..1e5).contains(&number.abs()) {
         format!("{number:e}")

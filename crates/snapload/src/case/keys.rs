@@ -7,12 +7,12 @@ use crate::case::parameters::{BODIES, Parameters};
 use crate::case::schema::{Heading, Schema, Table};
 use crate::case::value::Value;
 
-/// Largest magnitude of a number in a case, in units in which all that matters is near 1.
+/// Largest magnitude of a number in a case; all relevant quantities are of order 1 in its units.
 const LARGEST: f64 = 1e3;
 const ANY: Kind = Kind::number(-LARGEST, LARGEST);
 const SIZE: Kind = Kind::number(0.0, LARGEST);
 const POSITIVE: Kind = Kind::positive(LARGEST);
-/// The largest one is a^2 at the largest a, so that each derived value may be given too.
+/// The upper bound is a^2 at the largest a, so that each derived value may also be given.
 const INERTIA: Kind = Kind::number(1e-12, 1e6);
 
 /// Short form of a row.
@@ -31,7 +31,7 @@ const fn key(
 
 const S: Parameters = Parameters::STANDARD;
 
-/// Every key of a case, in the order in which they are echoed.
+/// Every key of a case, in the order in which they are listed.
 #[rustfmt::skip] // one row a key
 pub const KEYS: &[Key] = &[
     key("cables", "r", "L", POSITIVE, Number(S.r), "length of the cables")

@@ -39,7 +39,7 @@ use std::ops::ControlFlow;
 #[derive(Clone, Debug)]
 pub struct Case {
     parameters: Parameters,
-    /// Large, and moved about by those who run many.
+    /// Boxed, because it is large and is moved by code that runs many cases.
     simulation: Box<Simulation>,
 }
 
@@ -83,26 +83,26 @@ impl Case {
         Simulation::clone(&self.simulation)
     }
 
-    /// The same, to look at.
+    /// The motion at its start, by reference.
     pub(crate) fn start(&self) -> &Simulation {
         &self.simulation
     }
 
-    /// The same where nothing else is asked of the case any more.
+    /// The motion at its start, for callers that no longer need the case.
     pub fn into_simulation(self) -> Simulation {
         *self.simulation
     }
 
-    /// The same where it lies.
+    /// The same in its box.
     pub(crate) fn into_boxed(self) -> Box<Simulation> {
         self.simulation
     }
 
-    /// The same motion in another arithmetic; `number` is told each number's key. An inertia that
-    /// is the natural one of the size stays so.
+    /// The same motion in another arithmetic; `number` converts each number and receives its key.
+    /// An inertia that is the natural one of the size stays so.
     ///
     /// # Errors
-    /// [`StartError`] where that arithmetic finds the start illegal, as it may on the very edge.
+    /// [`StartError`] where the start is illegal in that arithmetic, as it may be at the very edge.
     pub fn simulation_over<T: Real>(
         &self,
         number: impl FnMut(&'static str, f64) -> T,
@@ -118,14 +118,14 @@ impl Case {
 }
 
 impl Parameters {
-    /// The same values in another arithmetic; `number` is told each one's key. An inertia that is the
-    /// natural one of the size stays so.
+    /// The same values in another arithmetic; `number` converts each number and receives its key.
+    /// An inertia that is the natural one of the size stays so.
     pub fn over<T: Real>(&self, number: impl FnMut(&'static str, f64) -> T) -> Parameters<T> {
         let mut numbers = self.map(number);
         if let (Some(inertia), Some(given)) = (self.inertia, numbers.inertia)
             && self.inertia_follows()
         {
-            // What `number` makes of the inertia beyond its value, such as a derivative, is kept.
+            // The difference from the plain conversion, such as a derivative, is kept.
             let beyond = given - T::from_decimal(inertia);
             numbers.inertia = natural_inertia(numbers.a, numbers.b).map(|natural| natural + beyond);
         }
@@ -146,8 +146,8 @@ impl Outcome {
         Self::after(case.simulation())
     }
 
-    /// Of a case, as long as `watch`, which is shown the motion after every step, lets it go on;
-    /// none where it did not let it come to its end.
+    /// The outcome of a case, as long as `watch`, which receives the motion after every step, lets
+    /// it continue; none if `watch` ended it early.
     pub fn of_while(
         case: &Case,
         watch: impl FnMut(&Simulation) -> ControlFlow<()>,
@@ -180,7 +180,7 @@ fn start<T: Real>(p: &Parameters<T>) -> State<T> {
     }
 }
 
-/// An illegal start in the words of the case's keys.
+/// The error for an illegal start, in terms of the case's keys.
 fn explain(error: StartError, p: &Parameters) -> CaseError {
     match error {
         StartError::CableTooShort { cable, gap } => {

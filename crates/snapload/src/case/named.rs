@@ -1,7 +1,8 @@
 //! The built-in cases: every code of the chapter's Table 6.1, and its two examples.
 //!
-//! A code such as `1911001000-359` lists r, e, a, b, x, ẋ, y, ẏ, θ, θ̇ - f_o, ν, Ω. The codes are
-//! the authority where the printed table differs from them; the slips are listed beside the test.
+//! A code such as `1911001000-359` lists r, e, a, b, x, ẋ, y, ẏ, θ, θ̇ - f_o, ν, Ω. Where the
+//! printed table differs from the codes, the codes are taken; the misprints are listed beside the
+//! test.
 use crate::case::error::CaseError;
 use crate::case::parameters::{Parameters, natural_inertia};
 use crate::case::value::Value;
@@ -9,7 +10,7 @@ use crate::case::value::Value;
 /// A built-in case.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct NamedCase {
-    /// What it is called.
+    /// Its code.
     pub code: &'static str,
     /// Where it stems from.
     pub about: &'static str,
@@ -30,7 +31,7 @@ impl NamedCase {
             .collect()
     }
 
-    /// The series of Table 6.1 that the case belongs to, or what else there is to say of it.
+    /// The series of Table 6.1 that the case belongs to, or another remark on its origin.
     pub fn origin(&self) -> String {
         let series: Vec<&str> = series_of(self.code).collect();
         if series.is_empty() {
@@ -41,7 +42,7 @@ impl NamedCase {
     }
 }
 
-/// Code, \[r, e, a, b, f_o, Ω\], and where a case that is not in Table 6.1 stems from. All of them
+/// Code, \[r, e, a, b, f_o, Ω\], and the origin of a case that is not in Table 6.1. All of them
 /// start at rest at x = 0, y = 0.1, θ = 0, with ν = 0.5.
 type Row = (&'static str, [f64; 6], &'static str);
 

@@ -5,19 +5,19 @@ use crate::case::value::Value;
 use crate::model::rules::{Limit, LimitBounds, Rules};
 use crate::model::system::anchor_height;
 
-/// Below this y a cable that sticks, or two that are taut, settle the run (chapter 6.3.1).
+/// A run settles where, below this y, a cable sticks or two are taut (chapter 6.3.1).
 pub const SETTLING_HEIGHT: f64 = 0.05;
 /// The rotation limit π/2.
 pub const ROTATION_LIMIT: f64 = std::f64::consts::FRAC_PI_2;
 
-/// What hangs on the cables: a body with size and rotation, or a point mass with neither.
+/// The kinds of body: one with size and rotation, or a point mass without.
 pub(crate) const BODIES: [&str; 2] = ["rigid", "point"];
 
 /// The values of all keys of a case, in nondimensional units (length L, mass m, force F, time T of
 /// the model), with numbers of type `T`.
 ///
-/// [`Parameters::from_entries`] fills in what is left out and checks the rest. One that is filled
-/// in by hand is checked by [`Parameters::check`].
+/// [`Parameters::from_entries`] fills in the values that are left out, and checks all. A struct
+/// that is filled in by hand is checked by [`Parameters::check`].
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Parameters<T = f64> {
     /// Length of the cables.
@@ -26,7 +26,7 @@ pub struct Parameters<T = f64> {
     pub e: T,
     /// Half-width of the body.
     pub a: T,
-    /// Half-height of the body; 0 is the circle.
+    /// Half-height of the body; 0 for a circle.
     pub b: T,
     /// Moment of inertia I of a rigid body; without one the body is a point mass, a = b = 0.
     pub inertia: Option<T>,
@@ -61,7 +61,8 @@ pub struct Parameters<T = f64> {
 }
 
 impl<T: Copy> Parameters<T> {
-    /// The same case with its numbers in another arithmetic; `number` is told each one's key.
+    /// The same case with its numbers in another arithmetic; `number` converts each number and
+    /// receives its key.
     pub fn map<U>(&self, mut number: impl FnMut(&'static str, T) -> U) -> Parameters<U> {
         Parameters {
             r: number("r", self.r),
@@ -118,7 +119,8 @@ impl Default for Parameters {
 /// How the value of a key is read from a case.
 #[derive(Clone, Copy, Debug)]
 pub enum Get {
-    /// A number; none where there is none, as of the inertia of a point mass or a limit that is off.
+    /// A number; none where the case has none, as for the inertia of a point mass or a limit that
+    /// is off.
     Number(fn(&Parameters) -> Option<f64>),
     /// A whole number.
     Count(fn(&Parameters) -> u64),
@@ -140,7 +142,7 @@ impl Get {
     }
 }
 
-/// How the value of a key that is kept in a field of its own is written; none where it is not.
+/// How the value of a key is stored in its own field; none if it has no field.
 #[derive(Clone, Copy)]
 pub(crate) enum Put {
     Number(fn(&mut Parameters, f64)),
@@ -167,7 +169,7 @@ macro_rules! field {
     };
 }
 
-/// Where the value of each key is kept, in the order of the schema.
+/// The accessors of each key, in the order of the schema.
 pub(crate) static FIELDS: &[(&str, Get, Put)] = &[
     field!(Number r),
     field!(Number e),
@@ -238,7 +240,7 @@ impl Parameters {
         }
     }
 
-    /// Puts the value of a key that was checked into its place.
+    /// Stores the checked value of a key.
     pub(crate) fn store(&mut self, name: &str, value: &Value) {
         let field = FIELDS.iter().find(|(key, ..)| *key == name);
         match (field.map_or(Put::None, |(_, _, put)| *put), value) {
@@ -256,8 +258,8 @@ impl Parameters {
     }
 }
 
-/// The moment of inertia that follows from the size: a thin ring where b = 0, else a solid
-/// rectangle. None where that is nothing: without size, or one so small that its square vanishes.
+/// The moment of inertia that follows from the size: a thin ring if b = 0, else a solid rectangle.
+/// None if it would be zero: without size, or with one so small that its square underflows.
 pub fn natural_inertia<T: Real>(a: T, b: T) -> Option<T> {
     let inertia = if b == T::ZERO {
         a * a

@@ -1,5 +1,5 @@
-//! Keys and values out of TOML and out of `--set KEY=VALUE`. Text is all that is read: whoever has
-//! files opens them.
+//! Reads keys and values from TOML and from `--set KEY=VALUE`. Only text is read here; callers read
+//! the files.
 
 use crate::case::entries::Entries;
 use crate::case::error::{CaseError, Fault, SET, echo};
@@ -10,7 +10,7 @@ use toml::Spanned;
 use toml::de::{DeString, DeTable, DeValue};
 
 impl Entries {
-    /// The keys of a case file; `name` is what errors call it.
+    /// The keys of a case file; `name` is the file's name in errors.
     ///
     /// # Errors
     /// A [`CaseError`] that names the line, the key, its value and what is allowed.
@@ -93,7 +93,8 @@ impl Entries {
         change().map_err(|error| error.at(SET))
     }
 
-    /// Which key of which tables a path means; of all where no number is said.
+    /// Which key of which tables a path refers to; all tables of the name if the path has no
+    /// number.
     fn meant<'a>(
         &self,
         path: &'a str,
@@ -167,7 +168,7 @@ pub fn table_names(text: &str) -> Vec<String> {
         .collect()
 }
 
-/// In the order of the file, so that the first fault in it is the one reported.
+/// Sorts by position in the file, so that the first error in it is the one reported.
 fn in_order<'a, 'i>(
     table: &'a DeTable<'i>,
 ) -> Vec<(&'a Spanned<DeString<'i>>, &'a Spanned<DeValue<'i>>)> {
@@ -194,7 +195,7 @@ fn tables<'a, 'i>(
     })
 }
 
-/// Of a key that stands above all headings, below which one it belongs.
+/// Adds to the error of a key above all headings the heading below which it belongs.
 fn below_its_line(schema: &Schema, key: &str, error: CaseError) -> CaseError {
     let with_key = schema.with_key(key).into_iter();
     let headers: Vec<String> = with_key.map(Table::header).collect();
@@ -240,7 +241,7 @@ fn value_of(value: &DeValue<'_>) -> Result<Value, Cow<'static, str>> {
     })
 }
 
-/// The digits of a number as they are written.
+/// The digits of a number as they are written in the file.
 fn digits_of(value: &DeValue<'_>) -> Option<String> {
     match value {
         DeValue::Float(digits) => Some(digits.as_str().to_owned()),
@@ -253,7 +254,7 @@ fn line_of(text: &str, at: usize) -> usize {
     text.bytes().take(at).filter(|byte| *byte == b'\n').count() + 1
 }
 
-/// What stands twice: a key, or a heading.
+/// The message for a key or a heading that occurs twice.
 fn twice(schema: &Schema, name: &str, line: &str) -> String {
     let name = echo(name);
     if !line.trim_start().starts_with('[') {
@@ -267,7 +268,8 @@ fn twice(schema: &Schema, name: &str, line: &str) -> String {
     }
 }
 
-/// What is wrong with a line in words of its own: no value, or a yes or no in capital letters.
+/// The message for two common errors in a line: a missing value, or true or false in capital
+/// letters.
 fn slip(line: &str) -> Option<String> {
     let (key, value) = line.split_once('=')?;
     let value = value.split('#').next().unwrap_or_default().trim();
@@ -284,8 +286,9 @@ fn slip(line: &str) -> Option<String> {
     }
 }
 
-/// Text that is no TOML: where, and what the reader of TOML says. The line itself is not repeated,
-/// since it may be long, or hold what a terminal would obey; a key that stands twice is named.
+/// The error of text that is not TOML: the line, and the parser's message. The line itself is not
+/// repeated, since it may be long or contain control sequences for a terminal; a key that occurs
+/// twice is named.
 fn malformed(schema: &Schema, name: &str, text: &str, error: &toml::de::Error) -> CaseError {
     let span = error.span().unwrap_or_default();
     let at = span.start;

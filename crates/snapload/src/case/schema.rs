@@ -6,7 +6,7 @@ use crate::case::error::CaseError;
 use crate::case::key::{DefaultValue, Key};
 use std::fmt::Write;
 
-/// How the keys of a table stand in a file.
+/// How the keys of a table are written in a file.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Heading {
     /// At its top, without any heading.
@@ -15,11 +15,11 @@ pub enum Heading {
     One,
     /// Below such a line, if there is one.
     Optional,
-    /// Below as many lines `[[name]]` as there are things of this kind.
+    /// Below lines `[[name]]`, one for each thing of this kind.
     Many,
 }
 
-/// Keys that stand together.
+/// A table of keys.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Table {
     /// Its name.
@@ -30,10 +30,11 @@ pub struct Table {
     pub meaning: &'static str,
     /// Its keys.
     pub keys: &'static [Key],
-    /// Quantities that look like keys and are none, as they follow from others: name, what is
-    /// allowed instead, and what to do.
+    /// Quantities that may be mistaken for keys but follow from others: name, what is allowed
+    /// instead, and advice.
     pub follows: &'static [(&'static str, &'static str, &'static str)],
-    /// Whether it takes any value of its keys, to be checked by whoever asked: several, or a range.
+    /// Whether values of its keys are not checked here but by the caller, because they may be lists
+    /// or ranges.
     pub unchecked: bool,
 }
 
@@ -56,8 +57,7 @@ impl Table {
         }
     }
 
-    /// How errors call a key of the n-th table of this name, from 0: `e`, `body.mass`,
-    /// `line.2.length`.
+    /// The name of a key of the n-th table, from 0, in errors: `e`, `body.mass`, `line.2.length`.
     pub fn path(&self, index: usize, key: &str) -> String {
         match self.heading {
             Heading::None => key.to_owned(),
@@ -75,7 +75,7 @@ impl Table {
         }
     }
 
-    /// The key of a name, or an error with the nearest one; `path` is how the error calls it.
+    /// The key of a name, or an error with the nearest one; `path` is the key's name in the error.
     pub fn key(&self, path: &str, name: &str) -> Result<&'static Key, CaseError> {
         if let Some(key) = self.keys.iter().find(|key| key.name == name) {
             return Ok(key);
@@ -144,9 +144,9 @@ impl Table {
     }
 }
 
-/// The name that was probably meant; case and underscores are where most slips are.
+/// The name that was probably meant; most errors are in upper and lower case and underscores.
 fn nearest(name: &str, known: impl Iterator<Item = &'static str>) -> Option<&'static str> {
-    // The length is bounded, as the distance is quadratic.
+    // The length is limited, as the cost of the distance is quadratic in it.
     let plain = |text: &str| -> String {
         let letters = text.chars().take(40).filter(char::is_ascii);
         let letters = letters.filter(|c| !"_- ".contains(*c));
@@ -168,7 +168,7 @@ fn nearest(name: &str, known: impl Iterator<Item = &'static str>) -> Option<&'st
 pub struct Schema {
     /// Its tables, in the order in which they are listed.
     pub tables: &'static [Table],
-    /// A key with a value as one sets it, such as `f_o=0.5`.
+    /// A key with a value in the notation of `--set`, such as `f_o=0.5`.
     pub example: &'static str,
     /// What a file has, in words.
     pub form: &'static str,
@@ -202,8 +202,8 @@ impl Schema {
         self.headed().filter(has).collect()
     }
 
-    /// The table of those at the top of a file that has a key of this name; the first of them where
-    /// none has.
+    /// The table at the top of a file that has a key of this name; the first such table if none has
+    /// it.
     pub(crate) fn top(&self, name: &str) -> Option<&'static Table> {
         let mut top = self
             .tables

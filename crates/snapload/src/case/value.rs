@@ -1,8 +1,8 @@
-//! A value of a key, as it comes from a file, a command line, a request or Python.
+//! A value of a key, from a file, a command line, a request or Python.
 
 use std::fmt;
 
-/// A value of a key before it is checked, and as it is echoed.
+/// A value of a key, before it is checked and as it is printed.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Value {
     /// A number with a fraction or an exponent.
@@ -13,7 +13,7 @@ pub enum Value {
     Bool(bool),
     /// Text, such as `point`.
     Text(String),
-    /// Several values, such as the two numbers of a place.
+    /// Several values, such as the two numbers of a position.
     List(Vec<Value>),
 }
 
@@ -105,10 +105,10 @@ impl From<[f64; 3]> for Value {
 }
 
 impl fmt::Display for Value {
-    /// As it would stand in a case file, except that `NaN` and `inf` are Rust's.
+    /// In the notation of a case file, except that `NaN` and `inf` are Rust's.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            // Digits for the usual sizes, an exponent where digits would run on.
+            // Plain digits for the usual sizes, an exponent where there would be too many digits.
             Self::Number(n) if *n != 0.0 && !(1e-4..1e7).contains(&n.abs()) && n.is_finite() => {
                 write!(f, "{n:e}")
             }

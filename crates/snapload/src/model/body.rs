@@ -5,7 +5,7 @@ use crate::arithmetic::real::Real;
 use crate::model::cable::Normal;
 use crate::model::mass::{Mass, Matrix3};
 
-/// What the body looks like from outside; only the upper bound asks (docs/model.md section 7).
+/// The outline of the body, which only the upper bound depends on (docs/model.md section 7).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Shape<T = f64> {
     /// A point.
@@ -24,8 +24,8 @@ pub enum Shape<T = f64> {
     },
 }
 
-/// A rigid body of unit mass, or a point mass (docs/model.md section 2), or one with any mass
-/// matrix, as water makes it (docs/floating.md).
+/// A rigid body of unit mass, or a point mass (docs/model.md section 2), or a body with any mass
+/// matrix, such as one with added mass of water (docs/floating.md).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Body<T = f64> {
     pub(crate) shape: Shape<T>,
@@ -88,7 +88,7 @@ impl<T: Real> Body<T> {
         self.shape
     }
 
-    /// 1/I; 0 for a point mass. Of a mass matrix M it is that entry of M⁻¹.
+    /// 1/I; 0 for a point mass. With a mass matrix M it is the entry of M⁻¹.
     pub fn inverse_inertia(&self) -> T {
         self.mass.inverse_inertia()
     }
@@ -98,17 +98,17 @@ impl<T: Real> Body<T> {
         self.mass.inertia()
     }
 
-    /// W = G M⁻¹ Gᵀ of a cable, the inverse of the mass that it feels: 1 + s²/I of a unit mass.
+    /// W = G M⁻¹ Gᵀ of a cable, the inverse of its effective mass: 1 + s²/I for a unit mass.
     pub fn inverse_effective_mass(&self, normal: &Normal<T>) -> T {
         self.mass.coupling(normal, normal)
     }
 
-    /// The largest that W can be of a cable with this moment arm, whichever way it points.
+    /// The largest W of any cable with this moment arm, in whatever direction.
     pub fn largest_inverse_effective_mass(&self, arm: T) -> T {
         self.mass.largest_coupling(arm.squared())
     }
 
-    /// (ẍ, ÿ, θ̈) by a force (f_x, f_y) and a moment: M⁻¹ times these.
+    /// (ẍ, ÿ, θ̈) under a force (f_x, f_y) and a moment: M⁻¹ times these.
     pub fn moved_by(&self, force: [T; 3]) -> [T; 3] {
         self.mass.moved_by(force)
     }
@@ -132,7 +132,7 @@ impl<T: Real> Body<T> {
         }
     }
 
-    /// How far the outline reaches from the centre.
+    /// The largest distance of the outline from the centre.
     pub(crate) fn reach(&self) -> T {
         let (outline, radius) = self.outline();
         outline

@@ -7,9 +7,9 @@ use crate::model::state::State;
 
 /// An inextensible cable from a fixed anchor to a point of the body (docs/model.md section 2).
 ///
-/// It is kept by its span where the body is at rest, x = y = θ = 0, and its gap there, because a
-/// gap computed as an increment from that place rounds in proportion to how far the body has moved,
-/// not to the square of the cable's length.
+/// It is stored by its span at x = y = θ = 0 and its gap there, because the rounding error of a gap
+/// that is computed as an increment from there is proportional to the body's displacement, not to
+/// the square of the cable's length.
 #[derive(Clone, Copy, Debug, PartialEq, Default)]
 pub struct Cable<T = f64> {
     fairlead: Vector2<T>,
@@ -21,8 +21,8 @@ pub struct Cable<T = f64> {
     rest_gap_error: T,
 }
 
-/// The direction in which a cable holds the body: the row (n_x, n_y, s) of the constraint matrix G.
-/// The gap changes at ġ = 2 r v_n, with the normal velocity v_n = n·Ṗ = n_x ẋ + n_y ẏ + s θ̇.
+/// The constraint direction of a cable: the row (n_x, n_y, s) of the constraint matrix G. The gap
+/// changes at ġ = 2 r v_n, with the normal velocity v_n = n·Ṗ = n_x ẋ + n_y ẏ + s θ̇.
 #[derive(Clone, Copy, Debug, PartialEq, Default)]
 pub struct Normal<T = f64> {
     /// Unit normal n = (P − A)/r.
@@ -148,7 +148,7 @@ impl<T: Real> Cable<T> {
         (normal, slopes)
     }
 
-    /// The constraint's direction; meant where the gap is closed, so that n has unit length.
+    /// The constraint direction; to be used where the gap is closed, so that n has unit length.
     #[inline(always)]
     pub fn normal(&self, state: &State<T>) -> Normal<T> {
         let turn = Rotation::by(state.theta);
@@ -158,7 +158,7 @@ impl<T: Real> Cable<T> {
 }
 
 impl<L: Copy> Cable<L> {
-    /// What `number` makes of each number and the other cable's.
+    /// A function of each number and the other cable's.
     #[inline(always)]
     pub(crate) fn zip_with<M: Copy, U>(
         &self,
@@ -201,7 +201,7 @@ impl<L: Lane> Cable<L> {
         Vector2::combined(cosine, self.fairlead, sine, self.fairlead.quarter_turn())
     }
 
-    /// How far the attachment is from where it is at rest, the body being turned by θ.
+    /// The displacement of the attachment from its position at rest, with the body turned by θ.
     #[inline(always)]
     pub(crate) fn moved(&self, state: &State<L>, rotation: &Rotation<L>) -> Vector2<L> {
         let quarter = self.fairlead.quarter_turn();
@@ -209,13 +209,13 @@ impl<L: Lane> Cable<L> {
         state.centre() + swing
     }
 
-    /// The span of an attachment that has moved so far.
+    /// The span of an attachment with this displacement.
     #[inline(always)]
     pub(crate) fn span_moved(&self, moved: Vector2<L>) -> Vector2<L> {
         self.rest_span + moved
     }
 
-    /// The gap of an attachment that has moved so far.
+    /// The gap of an attachment with this displacement.
     #[inline(always)]
     pub(crate) fn gap_moved(&self, moved: Vector2<L>) -> L {
         let linear = self.rest_span.dot(moved);

@@ -1,8 +1,8 @@
-//! The law of contact: what becomes of the normal velocity of a cable that snaps taut.
+//! The law of contact: the normal velocity of a cable after it snaps taut.
 //!
-//! The loop, the flights of two cables side by side, and the derivatives of an impact all ask here.
-//! A law is a value: whoever adds a number to it is led by the compiler to every place that has to
-//! hand it over.
+//! The general loop, the flights of two cables side by side, and the derivatives of an impact all
+//! use it. The law is a struct that its users destructure: if a number is added to it, the compiler
+//! reports every place that has to pass it on.
 
 use crate::arithmetic::lane::Lane;
 use crate::arithmetic::real::Real;
@@ -14,7 +14,7 @@ pub(crate) struct ContactLaw<L> {
     pub(crate) restitution: L,
 }
 
-/// What one cable does that is closed by itself and closing.
+/// The result of a snap of a single closing cable.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Snap<L> {
     /// Impulse p \[m L/T\].
@@ -49,7 +49,7 @@ impl<L: Lane> ContactLaw<L> {
 }
 
 impl<L: Copy> ContactLaw<L> {
-    /// What `number` makes of each number and the other law's.
+    /// A function of each number and the other law's.
     #[inline(always)]
     pub(crate) fn zip_with<M: Copy, U>(
         self,
@@ -63,7 +63,7 @@ impl<L: Copy> ContactLaw<L> {
 }
 
 impl<T: Real> ContactLaw<T> {
-    /// The part of an impulse that takes away the closing velocity, p/(1 + e); the rest throws back.
+    /// The part of an impulse that stops the closing velocity, p/(1 + e); the rest is the rebound.
     pub(crate) fn without_rebound(self, impulse: T) -> T {
         impulse / (T::ONE + self.restitution)
     }
@@ -74,24 +74,24 @@ impl<T: Real> ContactLaw<T> {
         -self.restitution * v_before.max(T::ZERO)
     }
 
-    /// v⁻ − v⁺, which the impulses have to take away: the load of the complementarity problem.
-    /// Rounded as a sum of its two terms, for which several cables keep the symmetry that they
-    /// have.
+    /// v⁻ − v⁺, the change of the normal velocity that the impulses have to produce: the load of
+    /// the complementarity problem. It is rounded as a sum of its two terms, so that a symmetry of
+    /// several cables is kept.
     #[inline(always)]
     pub(crate) fn load(self, v_before: T) -> T {
         v_before + self.restitution * v_before.max(T::ZERO)
     }
 
-    /// The time that a series of bounces takes which begins with a snap at `v_before`, the cable
-    /// being pressed closed with the normal acceleration α > 0 in between: Σ 2 eᵏ v⁻/α, k ≥ 1. None
-    /// if it does not converge.
+    /// The duration of a series of bounces that begins with a snap at `v_before`, if the cable is
+    /// pressed closed with the normal acceleration α > 0 in between: Σ 2 eᵏ v⁻/α, k ≥ 1. None if it
+    /// does not converge.
     #[inline(always)]
     pub(crate) fn time_of_bounces(self, v_before: T, alpha: T) -> Option<T> {
         let e = self.restitution;
         (e < T::ONE).then(|| e * v_before * 2.0 / ((T::ONE - e) * alpha))
     }
 
-    /// Whether an impact under this law can lose energy but not gain any.
+    /// Whether no impact under this law can gain energy.
     pub(crate) fn is_passive(self) -> bool {
         T::ZERO <= self.restitution && self.restitution <= T::ONE
     }
@@ -101,7 +101,7 @@ impl<T: Real> ContactLaw<T> {
 mod tests {
     use super::*;
 
-    /// One law, told for one cable and for several, and its derivative.
+    /// The law for one cable agrees with the law for several, and with its derivative.
     #[test]
     fn one_cable_is_one_of_several() {
         for restitution in [0.0, 0.3, 1.0] {

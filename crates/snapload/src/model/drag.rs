@@ -7,9 +7,9 @@ use crate::arithmetic::vector_series::{VectorSeries, convolve};
 use crate::model::forcing::Harmonic;
 use crate::model::state::State;
 
-/// Below this relative speed the quadratic law is rounded off, |u| = sqrt(u² + δ²): |u|u has no
-/// Taylor series where u = 0, and this has one. The force is off by at most δ²/2 of its coefficient
-/// \[L/T\].
+/// Below about this relative speed \[L/T\] the quadratic law is rounded off, |u| = sqrt(u² + δ²):
+/// |u|u has no Taylor series where u = 0, and this has one. The error of the force is at most δ²/2
+/// times its coefficient.
 const STANDSTILL: f64 = 1e-5;
 
 /// A force D = c₁ u + c₂ |u| u with the velocity u = w − v of the water relative to the body's
@@ -48,7 +48,7 @@ impl<T: Real> Drag<T> {
         velocity
     }
 
-    /// What it adds to (ẍ, ÿ, θ̈) in water of the velocity w.
+    /// Its contribution to (ẍ, ÿ, θ̈) in water of the velocity w.
     #[inline(always)]
     pub fn at(&self, water: Vector2<T>, state: &State<T>) -> [T; 3] {
         let Vector2 { x: u, y: v } = water - state.velocity();
@@ -61,16 +61,17 @@ impl<T: Real> Drag<T> {
 /// The Taylor series of D along a motion, whose coefficients follow from those of the velocity.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct DragSeries<T: Real> {
-    /// u, its speed |u|, and nothing.
+    /// The two components of u, its speed |u|, and an unused zero.
     relative: VectorSeries<T, 4>,
-    /// |u|, once for each component of u.
+    /// |u| twice, once for each component of u.
     speed: VectorSeries<T, 4>,
     /// 1/2s₀.
     half_per_speed: T,
 }
 
 impl<T: Real> DragSeries<T> {
-    /// Of a body that does not move, in water of the velocity w.
+    /// The series for a body at rest in water of the velocity w; the body's velocity is subtracted
+    /// later.
     #[inline(always)]
     pub(crate) fn begin(&mut self, [along, up]: &[Polynomial<T>; 2]) {
         for k in 0..=ORDER {
@@ -80,8 +81,8 @@ impl<T: Real> DragSeries<T> {
     }
 
     /// The k-th coefficient of D, from that of the body's velocity; S = |u|² + δ² gives s = |u| by
-    /// 2 s₀ s_k = S_k − Σ s_j s_{k−j}, 0 < j < k. While s_k is not known it is zero, so that this sum
-    /// is that of the square, and the product of s and u lacks s_k u₀.
+    /// 2 s₀ s_k = S_k − Σ s_j s_{k−j}, 0 < j < k. As long as s_k is not known it is zero, so that
+    /// the full product gives this sum, and the product of s and u lacks s_k u₀.
     #[inline(always)]
     pub(crate) fn extend(&mut self, drag: &Drag<T>, [vx, vy]: [T; 2], k: usize) -> [T; 2] {
         let [u, v, ..] = self.relative[k];

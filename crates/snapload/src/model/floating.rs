@@ -1,20 +1,20 @@
-//! What linear water does to a floating body, beside the mass that it adds (docs/floating.md).
+//! The forces of linear water on a floating body, besides its added mass (docs/floating.md).
 //!
 //! ```text
 //! M q̈ = F_w(t) + F_c − C q − B q̇ − F_mem,    F_mem = ∫₀ᵗ K(t − τ) q̇(τ) dτ,    q = (x, y, θ)
 //! ```
 //!
-//! The memory of the waves that the body has made is a sum of exponentials, K(t) = Re Σ R_k e^{p_k t},
-//! so that it is a linear system beside the motion: one complex state z for each pole and each
-//! component of the velocity that its residue answers to,
+//! The memory of the waves that the body has made is a sum of exponentials, K(t) = Re Σ R_k e^{p_k
+//! t}, so that it is a linear system coupled to the motion: one complex state z for each pole and
+//! each component of the velocity for which its residue is not zero,
 //!
 //! ```text
 //! ż_k = p_k z_k + q̇,    z_k = 0 at the start,    F_mem = Re Σ R_k z_k
 //! ```
 //!
-//! An impact changes q̇ at once, and neither q nor z. Sources: W. E. Cummins, *Schiffstechnik* 9 (1962)
-//! 101; a linear system in place of the convolution, E. Kristiansen, Å. Hjulstad and O. Egeland,
-//! *Ocean Engineering* 32 (2005) 2195.
+//! An impact changes q̇ at once, and neither q nor z. Sources: W. E. Cummins, *Schiffstechnik* 9
+//! (1962) 101; a linear system in place of the convolution, E. Kristiansen, Å. Hjulstad and O.
+//! Egeland, *Ocean Engineering* 32 (2005) 2195.
 
 use crate::arithmetic::polynomial::{ORDER, Polynomial};
 use crate::arithmetic::real::Real;
@@ -46,8 +46,8 @@ pub struct Excitation<T = f64> {
     pub sine: [T; 3],
 }
 
-/// The water about a floating body: all forces but the cables', for a motion q = (x, y, θ) about the
-/// place where the water's forces were computed.
+/// All forces on a floating body except those of its cables, for a motion q = (x, y, θ) about the
+/// position for which the water's forces were computed.
 ///
 /// ```
 /// use snapload::{Body, Excitation, Floating, FloatingUnits, Forcing, Rules, Shape, Simulation, State, System};
@@ -81,23 +81,23 @@ pub struct Excitation<T = f64> {
 pub struct Floating<T = f64> {
     /// C, the hydrostatic stiffness, symmetric.
     pub stiffness: Matrix3<T>,
-    /// B, linear damping on top of that by the memory.
+    /// B, linear damping in addition to that of the memory.
     pub damping: Matrix3<T>,
-    /// F_c: weight and buoyancy at the mean place, current, mean drift.
+    /// F_c: weight and buoyancy at the mean position, current, mean drift.
     pub constant: [T; 3],
-    /// The memory K; none where the body makes no waves.
+    /// The memory K; empty if the body makes no waves.
     pub memory: Vec<Exponential<T>>,
     /// F_w.
     pub excitation: Vec<Excitation<T>>,
 }
 
-/// One state of the memory, ż = p z + q̇_i, and what it pulls with, Re r z.
+/// One state of the memory, ż = p z + q̇_i, and its force, Re r z.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Channel<T> {
     pub(crate) pole: Complex<T>,
     /// i: the component of the velocity that drives it.
     pub(crate) input: usize,
-    /// r: that column of the residue.
+    /// r: the corresponding column of the residue.
     pub(crate) residue: [Complex<T>; 3],
 }
 
@@ -169,8 +169,8 @@ impl<T: Real> Floating<T> {
         }
     }
 
-    /// The states of the memory, those of one component of the velocity after the other. Columns
-    /// of zeros have none.
+    /// The states of the memory, ordered by the component of the velocity. Columns that are zero
+    /// have none.
     #[inline(always)]
     pub(crate) fn channels(&self) -> impl Iterator<Item = Channel<T>> + '_ {
         (0..3).flat_map(move |input| {
@@ -234,7 +234,8 @@ impl<T: Real> Floating<T> {
         force
     }
 
-    /// All of its force, of which that of the waves and the constant one, and the memory's, are given.
+    /// Its total force, given the force of waves and constant force together, and the force of the
+    /// memory.
     #[inline(always)]
     pub(crate) fn force(
         &self,

@@ -1,18 +1,18 @@
-//! From a floating body in SI units, as panel codes tell of it, to the engine's units and picture,
-//! and back (docs/floating.md).
+//! Conversion of a floating body in SI units, as panel codes use them, to the engine's units and
+//! axes, and back (docs/floating.md).
 //!
-//! In SI q = (surge, heave, pitch), z points up from the still water and pitch is positive from z to
-//! x. The engine's picture is upside down: (x, y, θ) = (surge, −heave, pitch), so that with
-//! D = diag(1, −1, 1) matrices become D(·)D and forces D(·); θ is counter-clockwise in it and needs
-//! no sign. Lengths are in units of L, times in sqrt(L/g), masses in M₀, forces in M₀ g, and every
-//! rotation takes a length L along.
+//! In SI q = (surge, heave, pitch), z points up from the still water and pitch is positive from z
+//! to x. The engine's y axis points down: (x, y, θ) = (surge, −heave, pitch), so that with D =
+//! diag(1, −1, 1) matrices become D(·)D and forces D(·); θ is counter-clockwise in these axes and
+//! needs no sign. Lengths are in units of L, times in sqrt(L/g), masses in M₀, forces in M₀ g, and
+//! components that belong to a rotation have an additional factor L.
 
 use crate::model::cable::Cable;
 use crate::model::floating::{Excitation, Exponential, Floating};
 use crate::model::mass::Matrix3;
 use crate::model::state::State;
 
-/// The signs of the engine's picture, D.
+/// The signs of the engine's axes, D.
 const MIRROR: [f64; 3] = [1.0, -1.0, 1.0];
 
 /// The units of a floating body's motion.
@@ -29,7 +29,7 @@ pub struct FloatingUnits {
 }
 
 impl FloatingUnits {
-    /// Of a length \[m\], gravity \[m/s²\] and a mass \[kg\].
+    /// The units that follow from a length \[m\], gravity \[m/s²\] and a mass \[kg\].
     pub fn new(length_m: f64, gravity_m_s2: f64, mass_kg: f64) -> Self {
         Self {
             length_m,
@@ -44,17 +44,17 @@ impl FloatingUnits {
         self.length_m / self.time_s
     }
 
-    /// Of each component of a displacement: L, L and 1, with the signs of the picture.
+    /// The unit of each component of a displacement: L, L and 1, with the signs of the axes.
     fn displacement(&self) -> [f64; 3] {
         [self.length_m, -self.length_m, 1.0]
     }
 
-    /// Of each component of a generalised force: M₀ g, M₀ g and M₀ g L.
+    /// The unit of each component of a generalised force: M₀ g, M₀ g and M₀ g L.
     fn force(&self) -> [f64; 3] {
         [self.force_n, -self.force_n, self.force_n * self.length_m]
     }
 
-    /// D (·) D of a matrix that is in units of `unit` times a length for each rotation.
+    /// D (·) D of a matrix whose entries are in units of `unit`, times a length for each rotation.
     fn matrix(&self, matrix: &Matrix3, unit: f64) -> Matrix3 {
         let lengths = [1.0, 1.0, self.length_m];
         let mut scaled = *matrix;
@@ -87,13 +87,13 @@ impl FloatingUnits {
         [0, 1, 2].map(|i| force[i] / units[i])
     }
 
-    /// What [`FloatingUnits::generalised_force`] undoes.
+    /// The inverse of [`FloatingUnits::generalised_force`].
     pub fn generalised_force_si(&self, force: [f64; 3]) -> [f64; 3] {
         let units = self.force();
         [0, 1, 2].map(|i| force[i] * units[i])
     }
 
-    /// The water about a body, of which all numbers are in SI units.
+    /// The forces of the water on a body, from numbers in SI units.
     pub fn floating(&self, water: &Floating) -> Floating {
         let term = |term: &Exponential| {
             let [real, imaginary] = [0, 1]
@@ -119,8 +119,8 @@ impl FloatingUnits {
         }
     }
 
-    /// A line from an anchor `[x, z]`, told from the mean place of the reference point, to a fairlead
-    /// in the body's frame, of a length; all in m.
+    /// A line from an anchor `[x, z]`, relative to the mean position of the reference point, to a
+    /// fairlead in the body's frame, of a length; all in m.
     pub fn cable(&self, anchor_m: [f64; 2], fairlead_m: [f64; 2], length_m: f64) -> Cable {
         let point = |[x, z]: [f64; 2]| [x / self.length_m, -z / self.length_m];
         Cable::new(point(anchor_m), point(fairlead_m), length_m / self.length_m)
@@ -141,7 +141,7 @@ impl FloatingUnits {
         }
     }
 
-    /// What [`FloatingUnits::state`] undoes.
+    /// The inverse of [`FloatingUnits::state`].
     pub fn displacement_and_velocity(&self, state: &State) -> [[f64; 3]; 2] {
         let units = self.displacement();
         let (place, velocity) = (
@@ -160,8 +160,7 @@ mod tests {
     use super::*;
     use crate::model::mass::{dot, times};
 
-    /// Power and energy do not know of units or of which way is up: v·F, v·Mv and q·Cq are what
-    /// they were.
+    /// Power and energy do not depend on units and axes: v·F, v·Mv and q·Cq are unchanged.
     #[test]
     fn forces_do_the_same_work_in_either_picture() {
         let units = FloatingUnits::new(6.0, 9.81, 2.3e5);
@@ -189,7 +188,8 @@ mod tests {
         (0..3).for_each(|i| same(there[i], force[i]));
     }
 
-    /// A point of the body is where pitch from z to x takes it, and as far from its anchor.
+    /// A point of the body is where pitch from z to x moves it, and at the same distance from its
+    /// anchor.
     #[test]
     fn a_fairlead_goes_where_pitch_takes_it() {
         let units = FloatingUnits::new(6.0, 9.81, 2.3e5);

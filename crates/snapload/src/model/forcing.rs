@@ -31,17 +31,17 @@ impl<L: Lane> Harmonic<L> {
     }
 }
 
-/// The forces on the body but for those in the cables.
+/// The forces on the body, except those of the cables.
 #[derive(Clone, Debug, PartialEq, Default)]
 pub struct Forcing<T = f64> {
-    /// A constant force, the weight (net buoyancy) among it \[F\].
+    /// A constant force, which includes the weight (net buoyancy) \[F\].
     pub constant: Vector2<T>,
     /// The sinusoids.
     pub harmonics: Vec<Harmonic<T>>,
 }
 
 impl<L: Copy> Harmonic<L> {
-    /// What `number` makes of each number and the other harmonic's.
+    /// A function of each number and the other harmonic's.
     #[inline(always)]
     pub(crate) fn zip_with<M: Copy, U>(
         &self,
@@ -114,8 +114,8 @@ impl<T: Real> Harmonic<T> {
     }
 }
 
-/// What a force gives a free unit mass over a time s: the drift of position ∫₀ˢ (s − σ) f dσ, the
-/// gain of velocity ∫₀ˢ f dσ, and the force and its rate at s.
+/// The effect of a force on a free unit mass over a time s: the drift of position ∫₀ˢ (s − σ) f dσ,
+/// the gain of velocity ∫₀ˢ f dσ, and the force and its rate at s.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Push<T> {
     pub(crate) drift: Vector2<T>,
@@ -126,7 +126,7 @@ pub(crate) struct Push<T> {
 }
 
 impl<L: Lane> Push<L> {
-    /// Of a constant force.
+    /// The effect of a constant force.
     #[inline(always)]
     pub(crate) fn constant(force: Vector2<L>, s: L) -> Self {
         Self {
@@ -137,7 +137,7 @@ impl<L: Lane> Push<L> {
         }
     }
 
-    /// Drift and gain a little later, to the third order, f̈ being `bend`.
+    /// Drift and gain a little later, to the third order, where `bend` is f̈.
     #[inline(always)]
     pub(crate) fn later(&self, s: L, bend: Vector2<L>) -> [Vector2<L>; 2] {
         let (force, rate) = (self.force, self.rate.scaled(s));
@@ -151,11 +151,12 @@ impl<L: Lane> Push<L> {
         ]
     }
 
-    /// With that of a harmonic added, which must be given relative to s = 0
+    /// The same with the effect of a harmonic added, which must be given relative to s = 0
     /// ([`Harmonic::shifted`]).
     ///
-    /// The slack flight of docs/model.md section 4 in the form that neither Ω = 0 nor small |Ω|s
-    /// spoils: with z = Ωs, C = (1 − cos z)/z² and S = (z − sin z)/z², the drift is s² (c C + d S),
+    /// It is the slack flight of docs/model.md section 4 in a form that does not cancel at Ω = 0 or
+    /// small |Ω|s: with z = Ωs, C = (1 − cos z)/z² and S = (z − sin z)/z², the drift is s² (c C + d
+    /// S),
     /// the gain s (c (1 − z S) + d z C), the force c cos z + d sin z with cos z = 1 − z² C, sin z =
     /// z − z² S, and its rate Ω (d cos z − c sin z).
     #[inline(always)]

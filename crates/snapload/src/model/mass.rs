@@ -7,10 +7,10 @@ use crate::model::state::State;
 /// A matrix over (x, y, θ), row by row.
 pub type Matrix3<T = f64> = [[T; 3]; 3];
 
-/// The mass matrix M of a body over (x, y, θ), that of the water which moves with it included.
+/// The mass matrix M of a body over (x, y, θ), which includes the added mass of water.
 ///
-/// Every constraint acts through it: the inverse effective masses W = G M⁻¹ Gᵀ, impulses, and
-/// projections, which are the least change in its metric. M does not turn with the body.
+/// Every constraint uses it: the inverse effective masses W = G M⁻¹ Gᵀ, impulses, and projections,
+/// which make the least change in its metric. M does not turn with the body.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum Mass<T = f64> {
     /// Unit mass in both directions, and 1/I about the centre; 0 for a point mass.
@@ -47,7 +47,7 @@ impl<T: Real> Mass<T> {
             Self::Unit { inverse_inertia } => Mass::Unit {
                 inverse_inertia: number(*inverse_inertia),
             },
-            // The inverse is made anew, as one of another arithmetic's digits.
+            // The inverse is computed again, with the precision of the other arithmetic.
             Self::Full { matrix, inverse } => {
                 let matrix = matrix.map(|row| row.map(&number));
                 Mass::full(matrix).unwrap_or(Mass::Full {
@@ -83,7 +83,7 @@ impl<T: Real> Mass<T> {
         }
     }
 
-    /// A bound on W_ii of a cable with a fairlead so far from the centre, as a square.
+    /// A bound on W_ii of a cable whose fairlead is at this squared distance from the centre.
     pub(crate) fn largest_coupling(&self, reach_squared: T) -> T {
         match self {
             Self::Unit { inverse_inertia } => T::ONE + reach_squared * *inverse_inertia,
@@ -116,8 +116,8 @@ impl<T: Real> Mass<T> {
         }
     }
 
-    /// A change of velocity, position or acceleration less M⁻¹ Gᵀ p of one cable: (ẋ, ẏ) − p n and
-    /// θ̇ − p s/I of a unit mass.
+    /// A change of velocity, position or acceleration minus M⁻¹ Gᵀ p of one cable; for a unit mass
+    /// (ẋ, ẏ) − p n and θ̇ − p s/I.
     #[inline(always)]
     pub(crate) fn less(&self, [x, y, turn]: [T; 3], normal: &Normal<T>, p: T) -> [T; 3] {
         match self {
@@ -149,8 +149,8 @@ impl<T: Real> Mass<T> {
         [state.x, state.y, state.theta] = self.less(place, normal, distance);
     }
 
-    /// What stands for a moment in a load: the load is the force and the moment, and of a unit mass
-    /// the force and the θ̈ that the moment makes.
+    /// The entry of a moment in a load vector: the moment itself, or for a unit mass, whose load is
+    /// the acceleration, the moment divided by I.
     #[inline(always)]
     pub(crate) fn load_of_moment(&self, moment: T) -> T {
         match self {
@@ -159,7 +159,7 @@ impl<T: Real> Mass<T> {
         }
     }
 
-    /// What stands for a moment that is given for unit moment of inertia.
+    /// The entry in a load vector of a moment that is given for unit moment of inertia.
     #[inline(always)]
     pub(crate) fn load_of_turning(&self, turning: T) -> T {
         match self {
@@ -168,7 +168,7 @@ impl<T: Real> Mass<T> {
         }
     }
 
-    /// A load less what cables pull.
+    /// A load minus the forces and the moment of cables.
     #[inline(always)]
     pub(crate) fn less_pull(&self, load: [T; 3], [x, y, moment]: [T; 3]) -> [T; 3] {
         [
@@ -187,7 +187,7 @@ impl<T: Real> Mass<T> {
         }
     }
 
-    /// An acceleration less that by what cables pull.
+    /// An acceleration minus that due to the forces and the moment of cables.
     #[inline(always)]
     pub(crate) fn slowed_by(&self, acceleration: [T; 3], pull: [T; 3]) -> [T; 3] {
         match self {
@@ -203,7 +203,7 @@ impl<T: Real> Mass<T> {
         }
     }
 
-    /// M q̇; of a point mass without moment of momentum.
+    /// M q̇; for a point mass without angular momentum.
     pub(crate) fn momentum(&self, velocity: [T; 3]) -> [T; 3] {
         match self {
             Self::Unit { .. } => [velocity[0], velocity[1], self.inertia() * velocity[2]],
@@ -277,7 +277,7 @@ mod tests {
         assert!(Mass::full(lopsided).is_none() && Mass::full(indefinite).is_none());
     }
 
-    /// diag(1, 1, I) as a full matrix does what the unit mass does.
+    /// diag(1, 1, I) as a full matrix gives the results of the unit mass.
     #[test]
     fn the_unit_mass_is_a_case_of_the_full_matrix() {
         let inertia = 0.03;

@@ -1,4 +1,4 @@
-//! The things that move: a body, its cables, the forces, and the rules that stop a run.
+//! The mechanical system: a body, its cables, the forces, and the rules that stop a run.
 
 pub(crate) mod body;
 pub(crate) mod cable;

@@ -1,6 +1,6 @@
-//! What a run is told in: the name, the symbol, the unit and the meaning of each of its quantities.
+//! The quantities in which a run is reported: their names, symbols, units and meanings.
 
-/// A quantity of the motion, as tables, files, pictures and other languages name it.
+/// A quantity of the motion, as it is called in tables, files, pictures and other languages.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Quantity {
     /// Its name in files and in programs.
@@ -10,7 +10,7 @@ pub struct Quantity {
     /// Its unit, from the length L, mass m, force F and time T of the model; empty where it has
     /// none.
     pub unit: &'static str,
-    /// What it is.
+    /// Its meaning.
     pub meaning: &'static str,
 }
 
@@ -51,7 +51,7 @@ pub const QUANTITIES: [Quantity; 18] = [
     of("theta_max", "|*θ*|ₘₐₓ", "rad", "largest rotation"),
 ];
 
-/// A meaning in short: what stands before it goes on after a colon, a semicolon or a comma.
+/// A meaning in short: the part before a colon, a semicolon or a comma.
 pub fn title_of(meaning: &str) -> &str {
     meaning.split([':', ';', ',']).next().unwrap_or(meaning)
 }

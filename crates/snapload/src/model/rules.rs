@@ -2,12 +2,12 @@
 
 use crate::arithmetic::real::Real;
 
-/// What ends a run, each rule on or off (docs/model.md section 7), and what counts as being at
-/// rest.
+/// The rules that end a run, each on or off (docs/model.md section 7), and the speed below which a
+/// cable sticks.
 ///
-/// Whatever has to know all of them takes this apart without `..`, so that a rule which is added is
-/// known everywhere or does not compile. The limits are one field: whoever has to know them goes
-/// through [`Limit::ALL`].
+/// Code that has to consider all of them destructures this without `..`, so that it does not
+/// compile when a rule is added that it does not consider. The limits are one field: code that has
+/// to consider all of them iterates over [`Limit::ALL`].
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Rules<T = f64> {
     /// Stop where a limit of the motion is reached.
@@ -26,7 +26,7 @@ pub struct Rules<T = f64> {
 }
 
 impl<T: Real> Rules<T> {
-    /// Every rule off but the end of time; nothing sticks that does not come to rest.
+    /// Every rule off but the end of time; no cable sticks unless its normal velocity is zero.
     pub fn until(t_end: T) -> Self {
         Self {
             limits: LimitBounds::none(),
@@ -57,8 +57,8 @@ pub enum Stop {
 }
 
 impl Stop {
-    /// All of them. In tables of numbers each is known by its place here, so that a new one comes
-    /// last.
+    /// All variants. In tables of numbers each is stored as its index here, so that a new one has
+    /// to come last.
     pub const ALL: [Self; 6] = [
         Self::Settled,
         Self::RotationLimit,
@@ -68,7 +68,7 @@ impl Stop {
         Self::ImpactLimit,
     ];
 
-    /// Its name in files and in programs; the same for people to read; what ended the run.
+    /// Its name in files and in programs; its name for people; the end of a sentence about it.
     const fn told(self) -> [&'static str; 3] {
         match self {
             Self::Settled => [
@@ -127,7 +127,7 @@ impl Stop {
     }
 }
 
-/// Event functions that all limits together have at most.
+/// The largest number of event functions of all limits together.
 pub(crate) const LIMIT_FUNCTIONS: usize = {
     let (mut sum, mut k) = (0, 0);
     while k < Limit::ALL.len() {
@@ -137,8 +137,8 @@ pub(crate) const LIMIT_FUNCTIONS: usize = {
     sum
 };
 
-/// A limit of the motion: a run ends where the quantity that it bounds reaches its bound. Those
-/// first count that are first here where several are reached at one instant.
+/// A limit of the motion: a run ends where the quantity that it bounds reaches its bound. If
+/// several are reached at one instant, the first in this order counts.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Limit {
     /// |θ| stays below the rotation limit \[rad\].
@@ -151,7 +151,7 @@ impl Limit {
     /// All of them.
     pub const ALL: [Self; 2] = [Self::Rotation, Self::UpperBound];
 
-    /// Why a run stops that reaches it; that is its name, too.
+    /// The reason for which a run stops that reaches it; its name is also the limit's.
     pub const fn stop(self) -> Stop {
         match self {
             Self::Rotation => Stop::RotationLimit,
@@ -159,8 +159,8 @@ impl Limit {
         }
     }
 
-    /// How many event functions it has at most: one for either side of the rotation, one for each
-    /// corner below the upper bound.
+    /// The largest number of its event functions: one for either direction of the rotation, one for
+    /// each corner below the upper bound.
     const fn functions(self) -> usize {
         match self {
             Self::Rotation => 2,
@@ -168,7 +168,8 @@ impl Limit {
         }
     }
 
-    /// What it bounds; and of its bound, as a sentence's end: "the run ends where ...".
+    /// The quantity that it bounds; and the end of a sentence about its bound: "the run ends where
+    /// ...".
     const fn told(self) -> [&'static str; 2] {
         match self {
             Self::Rotation => ["rotation", "the body has turned so far, either way [rad]"],
@@ -176,23 +177,23 @@ impl Limit {
         }
     }
 
-    /// What it bounds, for people to read.
+    /// The quantity that it bounds, in words.
     pub const fn bounded(self) -> &'static str {
         self.told()[0]
     }
 
-    /// What is told of its bound, as a sentence's end: "the run ends where ...".
+    /// The end of a sentence about its bound: "the run ends where ...".
     pub const fn meaning(self) -> &'static str {
         self.told()[1]
     }
 }
 
-/// The bound of each limit; none of one that ends no run.
+/// The bound of each limit; none for a limit that is off.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct LimitBounds<T = f64>([Option<T>; Limit::ALL.len()]);
 
 impl<T: Copy> LimitBounds<T> {
-    /// No limit ends a run.
+    /// All limits off.
     pub const fn none() -> Self {
         Self([None; Limit::ALL.len()])
     }
@@ -209,7 +210,7 @@ impl<T: Copy> LimitBounds<T> {
         self.0[limit as usize]
     }
 
-    /// Those that end a run, with their bounds.
+    /// The limits that are on, with their bounds.
     pub fn iter(&self) -> impl Iterator<Item = (Limit, T)> {
         let bounds = Limit::ALL.into_iter().zip(self.0);
         bounds.filter_map(|(limit, bound)| Some((limit, bound?)))
@@ -243,7 +244,8 @@ impl LimitSet {
 mod tests {
     use super::*;
 
-    /// A variant that is added does not compile here before it has a place, and fails without one.
+    /// A new variant does not compile here until it has an index, and the test fails if it is not
+    /// in the lists.
     #[test]
     fn the_lists_are_complete() {
         let stop = |stop| match stop {
@@ -255,7 +257,8 @@ mod tests {
             Stop::ImpactLimit => 5,
         };
         assert!(Stop::ALL.into_iter().map(stop).eq(0..6));
-        // Where only the name is known, such as in files, people read it with blanks.
+        // Where only the name is known, as in files, people read it with blanks instead of
+        // underscores.
         for stop in Stop::ALL {
             assert_eq!(stop.words(), stop.name().replace('_', " "));
         }

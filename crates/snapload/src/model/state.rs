@@ -1,9 +1,9 @@
-//! Where the body is and how it moves.
+//! The position and velocity of the body.
 
 use crate::arithmetic::plane::Vector2;
 
-/// Position and velocity of the body, relative to the thesis's upside-down picture: y points to the
-/// sea floor's anchors, the net buoyancy pulls towards −y, θ turns counter-clockwise.
+/// Position and velocity of the body in the thesis's axes, which are upside down: y points to the
+/// anchors at the sea floor, the net buoyancy pulls towards −y, θ turns counter-clockwise.
 #[derive(Clone, Copy, PartialEq, Debug, Default)]
 pub struct State<T = f64> {
     /// Centre, horizontal \[L\].
@@ -52,7 +52,7 @@ impl<T: Copy> State<T> {
         [self.vx, self.vy].into()
     }
 
-    /// What `number` makes of each number and the other state's.
+    /// A function of each number and the other state's.
     #[inline(always)]
     pub(crate) fn zip_with<M: Copy, U>(
         &self,

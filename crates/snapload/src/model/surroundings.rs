@@ -1,4 +1,4 @@
-//! What acts on the body from outside at one instant, however it moves.
+//! The external forces on the body at one instant, which do not depend on its motion.
 
 use crate::arithmetic::plane::Vector2;
 use crate::arithmetic::real::Real;
@@ -6,9 +6,9 @@ use crate::arithmetic::real::Real;
 /// The sums over all sinusoids at one instant.
 #[derive(Clone, Copy, Debug, PartialEq, Default)]
 pub struct Surroundings<T = f64> {
-    /// The force f, the constant part of it included \[F\].
+    /// The force f, including its constant part \[F\].
     pub force: Vector2<T>,
-    /// The velocity w of the water where the body is; zero where it does not resist \[L/T\].
+    /// The velocity w of the water at the body; zero where there is no drag \[L/T\].
     pub water: Vector2<T>,
     /// F_w + F_c of linear water; zero where the body does not float \[F, F, F L\].
     pub excitation: [T; 3],

@@ -12,22 +12,22 @@ use crate::model::state::State;
 use crate::model::surroundings::Surroundings;
 use crate::model::taut_set::{MAX_CABLES, TautSet};
 
-/// So many sinusoids or fewer are summed up anew for each instant.
+/// Up to this number of sinusoids are summed up directly at each instant.
 pub(crate) const FEW_SINUSOIDS: usize = 8;
 
-/// A body on inextensible cables, under forces that depend on time alone, in water that may resist or
-/// carry it.
+/// A body on inextensible cables, under forces that depend on time alone, possibly with drag or
+/// afloat.
 #[derive(Clone, Debug, PartialEq)]
 pub struct System<T = f64> {
     /// The body.
     pub body: Body<T>,
     /// The cables, at most [`MAX_CABLES`].
     pub cables: Vec<Cable<T>>,
-    /// All forces but the cables', the weight among them.
+    /// All forces except those of the cables, including the weight.
     pub forcing: Forcing<T>,
-    /// Resistance of the water, if it has any.
+    /// Drag of the water, if there is any.
     pub drag: Option<Drag<T>>,
-    /// What linear water does to it, if it floats.
+    /// The forces of linear water, if the body floats.
     pub floating: Option<Floating<T>>,
     /// Coefficient of restitution e, 0 ≤ e ≤ 1.
     pub restitution: T,
@@ -73,8 +73,8 @@ impl<T: Real> System<T> {
         }
     }
 
-    /// The part of an impulse that takes away the closing velocity of its cable; the rest throws the
-    /// cable back.
+    /// The part of an impulse that stops the closing velocity of its cable; the rest is the
+    /// rebound.
     pub fn without_rebound(&self, impulse: T) -> T {
         self.contact_law().without_rebound(impulse)
     }
@@ -87,18 +87,19 @@ impl<T: Real> System<T> {
         }
     }
 
-    /// Whether motion with these taut cables is computed in closed form. Of many sinusoids that
-    /// takes longer than a series: each has to be evaluated at every look, and their series is
-    /// summed up once for many steps ([`crate::motion::waves`]). Not so in many digits, which take
-    /// many short steps; numbers with derivatives go the way of the doubles beside which they run.
+    /// Whether motion with these taut cables is computed in closed form. With many sinusoids that
+    /// takes longer than a series: each has to be evaluated at every evaluation of the motion,
+    /// while their series is summed up once for many steps ([`crate::motion::waves`]). Numbers of
+    /// many digits, which take many short steps, use the closed form; numbers with derivatives use
+    /// whatever the doubles use.
     pub(crate) fn has_closed_form(&self, taut: TautSet) -> bool {
         let summed_up = T::FUSES || T::CARRIES_SLOPES;
         let many = self.forcing.harmonics.len() > FEW_SINUSOIDS;
         self.flies_freely(taut) && !(summed_up && many)
     }
 
-    /// Whether motion with these taut cables is by the force alone, which depends on no state:
-    /// slack, of unit mass, and in water that neither resists nor carries.
+    /// Whether the acceleration with these taut cables is the force alone and depends on no state:
+    /// slack, of unit mass, without drag and not afloat.
     pub(crate) fn flies_freely(&self, taut: TautSet) -> bool {
         taut.is_empty()
             && self.drag.is_none()
@@ -120,7 +121,7 @@ impl<T: Real> System<T> {
         }
     }
 
-    /// The force with which the water's memory holds the body back.
+    /// The force of the water's memory on the body.
     #[inline(always)]
     pub fn memory_force(&self, memory: &[Complex<T>]) -> [T; 3] {
         match &self.floating {
@@ -162,7 +163,7 @@ impl<T: Real> System<T> {
         normals
     }
 
-    /// What acts from outside at a time, each sinusoid by itself.
+    /// The external forces at a time, with each sinusoid evaluated.
     #[inline(always)]
     pub fn surroundings(&self, t: T) -> Surroundings<T> {
         Surroundings {
@@ -178,8 +179,8 @@ impl<T: Real> System<T> {
         }
     }
 
-    /// (ẍ, ÿ, θ̈) if no cable pulled: M⁻¹ times the forces, the drag and what the water does, of
-    /// which the force of its memory is given; that is zero where the body does not float.
+    /// (ẍ, ÿ, θ̈) without any cable force: M⁻¹ times the forces, the drag and the forces of the
+    /// water, of which that of its memory is given; it is zero where the body does not float.
     #[inline(always)]
     pub fn free_acceleration(
         &self,
@@ -207,9 +208,8 @@ impl<T: Real> System<T> {
         mass.accelerated_by(load)
     }
 
-    /// Acceleration along the normal that a cable of zero gap would see if no cable pulled, with
-    /// (f, θ̈) the free acceleration: n·f + s θ̈ + |Ṗ|²/r − θ̇² n·ρ, which is g̈/(2r)
-    /// (docs/model.md section 6).
+    /// Normal acceleration g̈/(2r) of a cable of zero gap without any cable force, with (f, θ̈) the
+    /// free acceleration: n·f + s θ̈ + |Ṗ|²/r − θ̇² n·ρ (docs/model.md section 6).
     #[inline(always)]
     pub fn free_normal_acceleration(
         &self,

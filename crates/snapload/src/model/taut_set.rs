@@ -6,19 +6,19 @@ pub const MAX_CABLES: usize = 16;
 /// One number a cable.
 pub type PerCable<T> = [T; MAX_CABLES];
 
-/// A set of cables, by index from 0; as the set of taut cables it *is* the mode of motion: empty is
-/// slack flight, one cable is sliding, two are rocking.
+/// A set of cables, by index from 0; the set of taut cables is the mode of motion: empty is slack
+/// flight, one cable is sliding, two are rocking.
 #[derive(Clone, Copy, PartialEq, Eq, Default, Debug)]
 pub struct TautSet(u16);
 
-/// The mode of motion, told by how many cables are taut.
+/// The mode of motion by the number of taut cables.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Mode {
     /// No cable is taut: the body flies freely.
     Slack,
-    /// One is: the body slides along a circle about its anchor.
+    /// One is taut: the body slides along a circle about its anchor.
     Sliding,
-    /// Two or more are: the body rocks.
+    /// Two or more are taut: the body rocks.
     Rocking,
 }
 
@@ -36,7 +36,7 @@ impl Mode {
     }
 }
 
-/// The bit of a cable; none for one that no system can have.
+/// The bit of a cable; zero for an index that no system can have.
 const fn bit(cable: usize) -> u16 {
     if cable < MAX_CABLES { 1 << cable } else { 0 }
 }
@@ -120,7 +120,7 @@ impl TautSet {
         })
     }
 
-    /// The mode of motion that it is.
+    /// The mode of motion in which these cables are taut.
     pub fn mode(self) -> Mode {
         match self.len() {
             0 => Mode::Slack,

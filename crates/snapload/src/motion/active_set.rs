@@ -1,4 +1,4 @@
-//! Which cables stay taut, and what they carry.
+//! Which cables stay taut, and their tensions.
 
 use crate::arithmetic::plane::{Rotation, Vector2};
 use crate::arithmetic::processor::apart;
@@ -17,8 +17,8 @@ use crate::motion::least_norm::{SHARED, least_norm};
 pub(crate) struct ActiveSet {
     /// The taut cables.
     pub(crate) taut: TautSet,
-    /// Of these, as few as make up the motion, none of them depending on others. The rest, such as
-    /// the twin of a taut cable, stays closed with them.
+    /// A largest independent subset of these, whose tensions determine the motion. The others, such
+    /// as the twin of a taut cable, stay closed with them.
     pub(crate) carrying: TautSet,
 }
 
@@ -29,9 +29,8 @@ pub(crate) struct ActiveSet {
 /// 0 ≤ T  ⟂  −g̈ ≥ 0,    g̈/(2r) = b − W T
 /// ```
 ///
-/// The problem is solved with as few cables as will do. Where others stay closed as well, g̈ = 0,
-/// and all of them depend on each other, all are taut, and as many carry as there are directions to
-/// hold.
+/// The problem is solved with as few cables as possible. If others stay closed as well, g̈ = 0, and
+/// all of them are dependent, all are taut, and an independent subset carries.
 #[inline(always)]
 pub(crate) fn taut_next<T: Real>(
     system: &System<T>,
@@ -76,8 +75,8 @@ pub(crate) fn taut_next<T: Real>(
 
 /// The tensions of the taut cables: W T = b.
 ///
-/// Where more cables are taut than the body has freedoms for, or one lies along another, these are
-/// the tensions of the least norm: those of cables that are stretched by the same force per length.
+/// Where more cables are taut than the body has degrees of freedom, or one lies along another,
+/// these are the tensions of least norm, as in cables of equal stiffness per length.
 #[inline(always)]
 pub(crate) fn tensions<T: Real>(
     system: &System<T>,
@@ -90,15 +89,14 @@ pub(crate) fn tensions<T: Real>(
     if independent(taut, w) {
         return solve(taut, w, &load);
     }
-    // At the instant at which a tension is lost rounding may have made it negative; it is none
-    // then.
+    // At the instant at which a tension is lost rounding may have made it negative; it counts as
+    // zero then.
     let (_, pulling) = complementary(taut, w, &load);
     let tension = solve(pulling, w, &load);
     least_norm(taut, w, &load, tension)
 }
 
-/// Tensions that move the body as it moves: where taut cables depend on each other, one solution of
-/// many.
+/// Tensions that produce the motion: where taut cables are dependent, one solution of many.
 #[inline(always)]
 fn some_tensions<T: Real>(
     system: &System<T>,
@@ -111,8 +109,8 @@ fn some_tensions<T: Real>(
     solve(taut, w, &load)
 }
 
-/// (ẍ, ÿ, θ̈) while the cables of `taut` pull: M⁻¹ (f − Σ T Gᵀ), of a unit mass f(t) − Σ T n and
-/// −Σ T s/I (docs/model.md section 6).
+/// (ẍ, ÿ, θ̈) with the tensions of the cables of `taut`: M⁻¹ (f − Σ T Gᵀ), for a unit mass f(t) − Σ
+/// T n and −Σ T s/I (docs/model.md section 6).
 #[inline(always)]
 pub(crate) fn acceleration<T: Real>(
     system: &System<T>,
@@ -133,8 +131,8 @@ pub(crate) fn acceleration<T: Real>(
     })
 }
 
-/// What (ẍ, ÿ, θ̈) change by with a force (f_x, f_y) and a moment, by columns, while the cables of
-/// `taut` pull: M⁻¹ (1 − Gᵀ W⁻¹ G M⁻¹).
+/// The change of (ẍ, ÿ, θ̈) per force (f_x, f_y) and moment, by columns, with the cables of `taut`
+/// taut: M⁻¹ (1 − Gᵀ W⁻¹ G M⁻¹).
 #[inline(always)]
 pub(crate) fn response_to_force(system: &System, state: &State, taut: TautSet) -> Matrix3 {
     let (normals, mass) = (system.normals(state, taut), &system.body.mass);
@@ -159,7 +157,7 @@ pub(crate) fn response_to_force(system: &System, state: &State, taut: TautSet) -
     response
 }
 
-/// A taut cable, as the derivatives of the acceleration are taken from it.
+/// The data of a taut cable for the derivatives of the acceleration.
 struct TautCable {
     normal: Normal,
     lever: Vector2,
@@ -219,8 +217,8 @@ impl TautCable {
     }
 }
 
-/// The derivatives of [`acceleration`] by (x, y, θ, ẋ, ẏ, θ̇) while one or two cables pull that do
-/// not depend on each other, of a unit mass that the water neither resists nor carries; none else. Of a = f − p with p = M⁻¹ Gᵀ
+/// The derivatives of [`acceleration`] by (x, y, θ, ẋ, ẏ, θ̇) with one or two independent taut
+/// cables, for a unit mass without drag and not afloat; none otherwise. With a = f − p, p = M⁻¹ Gᵀ
 /// T and W T = b,
 ///
 /// ```text
@@ -243,7 +241,7 @@ pub(crate) fn slopes_of_acceleration(
         return None;
     }
     let (force, spin) = (around.force, state.vtheta);
-    // One cable is two of which the other carries nothing.
+    // A single cable is treated as two, of which the second has no tension.
     let one = TautCable::new(system, state, first);
     let two = TautCable::new(system, state, second.unwrap_or(first));
     let pair = Pair::new(&one.normal, &two.normal, inverse_inertia, second.is_some())?;
@@ -268,18 +266,18 @@ pub(crate) fn slopes_of_acceleration(
     Some(slopes)
 }
 
-/// W of two cables, or of one and nothing.
+/// W of two cables, or of one alone.
 struct Pair {
     inverse_inertia: f64,
     /// W_11, W_12 and W_22.
     w: [f64; 3],
-    /// 1/W_11 of one cable, 1/det W of two.
+    /// 1/W_11 for one cable, 1/det W for two.
     scale: f64,
     both: bool,
 }
 
 impl Pair {
-    /// None if the two depend on each other, or all but do.
+    /// None if the two are dependent or nearly so.
     #[inline(always)]
     fn new(one: &Normal, two: &Normal, inverse_inertia: f64, both: bool) -> Option<Self> {
         /// Cables whose W is closer to singular than this are left to the general solver.
@@ -332,7 +330,7 @@ fn along(normal: &Normal, [x, y, theta]: &[f64; 3]) -> f64 {
     normal.n.x * x + normal.n.y * y + normal.arm * theta
 }
 
-/// g̈/(2r) of a closed cable while the cables of `taut` pull.
+/// g̈/(2r) of a closed cable with the tensions of the cables of `taut`.
 #[inline(always)]
 pub(crate) fn normal_acceleration<T: Real>(
     system: &System<T>,
@@ -374,8 +372,8 @@ mod tests {
     use crate::model::body::{Body, Shape};
     use crate::model::forcing::Harmonic;
 
-    /// The acceleration over dual numbers, against its derivatives written out: of a rigid body and
-    /// of a point mass, on either cable and on both.
+    /// The acceleration over dual numbers against the explicit derivatives: for a rigid body and a
+    /// point mass, on either cable and on both.
     #[test]
     fn slopes_are_those_of_the_acceleration() {
         let bodies = [

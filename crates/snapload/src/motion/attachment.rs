@@ -29,7 +29,7 @@ pub(crate) struct Attachment<L> {
     pub(crate) bounds: [L; 3],
 }
 
-/// What the forces and the rotation have done at one instant of a flight.
+/// The effect of the forces and the rotation at one instant of a flight.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Instant<L> {
     pub(crate) push: Push<L>,
@@ -46,15 +46,16 @@ pub(crate) struct GapJet<L> {
     pub(crate) rate: L,
     pub(crate) accel: L,
     pub(crate) jerk: L,
-    /// Bound on the rounding error of `value`, the motion taken as exact.
+    /// Bound on the rounding error of `value`, not including errors of the motion's start.
     pub(crate) noise: L,
     /// Ṗ.
     pub(crate) velocity: Vector2<L>,
 }
 
 impl<L: Lane> Attachment<L> {
-    /// Of a cable whose fairlead is `reach` from the centre, where the body is turned by `rotation`
-    /// and gap and error are known; `force` bounds the force and its derivatives.
+    /// The attachment of a cable whose fairlead is `reach` from the centre, where the body is
+    /// turned by `rotation` and gap and error are known; `force` bounds the force and its
+    /// derivatives.
     #[inline(always)]
     pub(crate) fn new(
         cable: &Cable<L>,
@@ -106,7 +107,7 @@ impl<L: Lane> Attachment<L> {
             let remainder = push.drift - bent;
             let moved = remainder.plus_scaled(self.velocity, s);
             let span = self.span + moved;
-            // What the lever and its quarter turn have changed by.
+            // The changes of the lever and of its quarter turn.
             let turned = Vector2::combined(rotation.sine, quarter, -rotation.versine, lever);
             let lever = lever + turned;
             let gain = push.gain.plus_scaled(turned.quarter_turn(), spin);
@@ -137,21 +138,21 @@ impl<L: Lane> Attachment<L> {
         })
     }
 
-    /// What the rounding of the velocities at the flight's start may have changed the gap by, a
-    /// time `s` into it.
+    /// Bound on the change of the gap a time `s` into the flight by the rounding of the velocities
+    /// at its start.
     #[inline(always)]
     pub(crate) fn blur(&self, s: L) -> L {
         self.length * self.speed * s * L::EPSILON * 16.0
     }
 
-    /// |d| within a flight of length `s` on which |Ṗ| ≤ `speed`, as it is at most r at both ends.
+    /// |d| within a flight of length `s` on which |Ṗ| ≤ `speed`; it is at most r at both ends.
     #[inline(always)]
     fn span_bound(&self, speed: L, s: L) -> L {
         speed.mul_add(s * 0.5, self.length)
     }
 
-    /// |g⃛| ≤ 2 (3 |Ṗ||P̈| + |d||P⃛|) up to `s`, where |Ṗ| grows by at most |P̈|s and |d| by half of what
-    /// that comes to if |d| ≤ r at both ends.
+    /// |g⃛| ≤ 2 (3 |Ṗ||P̈| + |d||P⃛|) up to `s`, where |Ṗ| grows by at most |P̈|s, and |d| exceeds
+    /// r by at most |Ṗ|s/2 if |d| ≤ r at both ends.
     #[inline(always)]
     pub(crate) fn third(&self, s: L) -> L {
         let [a, j, _] = self.bounds;
@@ -196,7 +197,8 @@ impl<L: Lane> Instant<L> {
         flown(start, s, [self.push.drift, self.push.gain])
     }
 
-    /// A time `s` into a flight that turns at `spin` under a constant force; harmonics are added.
+    /// The effect a time `s` into a flight with angular velocity `spin` under a constant force;
+    /// harmonics are added.
     #[inline(always)]
     pub(crate) fn at(s: L, constant: Vector2<L>, spin: L) -> Self {
         Self {
@@ -206,7 +208,7 @@ impl<L: Lane> Instant<L> {
         }
     }
 
-    /// With a harmonic that is given relative to the flight's start.
+    /// The same with a harmonic added, which is given relative to the flight's start.
     #[inline(always)]
     pub(crate) fn with(self, wave: &Harmonic<L>, s: L) -> Self {
         Self {
@@ -216,7 +218,8 @@ impl<L: Lane> Instant<L> {
     }
 }
 
-/// The state a time `s` after `start`, as forces have drifted the body and made it gain velocity.
+/// The state a time `s` after `start`, from the drift of position and the gain of velocity by the
+/// forces.
 #[inline(always)]
 pub(crate) fn flown<L: Lane>(start: &State<L>, s: L, [drift, gain]: [Vector2<L>; 2]) -> State<L> {
     State {
@@ -230,7 +233,7 @@ pub(crate) fn flown<L: Lane>(start: &State<L>, s: L, [drift, gain]: [Vector2<L>;
 }
 
 impl<L: Lane> GapJet<L> {
-    /// The jet a little later, by its cubic, where |g⁗| ≤ `fourth` in between; Ṗ is left as it was.
+    /// The jet a little later, by its cubic, where |g⁗| ≤ `fourth` in between; Ṗ is not updated.
     #[inline(always)]
     pub(crate) fn later(&self, s: L, fourth: L) -> Self {
         let sixth = self.jerk * L::sixth();
@@ -246,15 +249,15 @@ impl<L: Lane> GapJet<L> {
         }
     }
 
-    /// What the cubic gains in a time `s`, given a sixth of the jerk.
+    /// The increase of the cubic in a time `s`, given a sixth of the third derivative.
     #[inline(always)]
     fn rise(&self, s: L, sixth: L) -> L {
         let bend = sixth.mul_add(s, self.accel * 0.5);
         bend.mul_add(s, self.rate) * s
     }
 
-    /// About how much later the cubic is zero, by reversion of its series to the third order, and
-    /// what it is there.
+    /// An approximation to the time until the cubic is zero, by reversion of its series to the
+    /// third order, and the value of the cubic there.
     #[inline(always)]
     pub(crate) fn root(&self) -> (L, L) {
         let sixth = self.jerk * L::sixth();
@@ -287,8 +290,9 @@ mod tests {
     use crate::arithmetic::precise::Precise;
     use crate::arithmetic::real::Real;
 
-    /// What moves a flight to its crossing is right to the last digit of any arithmetic: with 1, 2
-    /// and 6 as derivatives the cubic is g + s + s² + s³, and a force that grows by 6 drifts by s³.
+    /// The update of a flight to its crossing is exact to the last digit of any arithmetic: with 1,
+    /// 2 and 6 as derivatives the cubic is g + s + s² + s³, and a force that grows by 6 drifts by
+    /// s³.
     #[test]
     fn cubics_keep_all_digits() {
         type Digits = Precise<8>;

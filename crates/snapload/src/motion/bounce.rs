@@ -1,14 +1,13 @@
 //! From one impact to the next: a slack flight of a body on two cables under one sinusoid, and one
 //! cable snapping taut at its end. Nearly every step of nearly every run is such a bounce.
 //!
-//! Written over [`Lane`], so that one text is the ordinary motion and that of several cases side by
-//! side. A bounce is found by a guess and proven afterwards:
+//! Written over [`Lane`], so that the same code computes the ordinary motion and that of several
+//! cases side by side. A bounce is found by a guess and proved afterwards:
 //!
 //! 1. *Guess*, from the Taylor polynomials of both gaps at the start, which cable closes first, and
 //!    when.
 //! 2. *Search*: evaluate both gaps there, to the third derivative. The root of the cubic is the
-//!    crossing once what the cubic leaves out is below rounding; otherwise evaluate again at its
-//!    root.
+//!    crossing if the error of the cubic is below rounding; otherwise evaluate again at its root.
 //! 3. *Exclude* an earlier crossing: with value, rate and second derivative known at *both* ends of
 //!    the flight, and bounds on the higher derivatives, each gap is shown to stay open in between,
 //!    the early part from the start and the late part from the end. The rotation and the height of
@@ -33,49 +32,49 @@ use crate::motion::extremes::highest;
 use crate::motion::two_cable_flight::{FlightEnd, Openness, TwoCableFlight, speed_bound};
 use crate::motion::two_cables::{AfterImpact, TwoCableSystem};
 
-/// A stop closer than this is left to the general search \[L\], \[rad\].
+/// Closer than this to a limit a bounce is left to the general search \[L\], \[rad\].
 const NEAR_STOP: f64 = 1e-9;
-/// A normal velocity of this many roundings of the attachment's speed is zero: that of a taut cable
-/// which an impulse neither loads nor unloads.
+/// A normal velocity below this many roundings of the attachment's speed counts as zero: that of a
+/// taut cable which an impulse neither loads nor unloads.
 pub(crate) const UNMOVED: f64 = 64.0;
 
-/// What a bounce came to, in the lanes in which it is one.
+/// The result of a bounce, in the lanes in which it is one.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Bounce<L: Lane> {
-    /// Whether the flight ends as told here.
+    /// Whether the flight ends as computed here.
     pub(crate) arrived: L::Mask,
-    /// Whether the highest point of the flight is known, too.
+    /// Whether the highest point of the flight is known, as well.
     pub(crate) top_known: L::Mask,
-    /// Whether, besides, the law of one cable is all that happens.
+    /// Whether, in addition, the law of one cable is all that applies.
     pub(crate) plain: L::Mask,
-    /// Which cable: the second instead of the first.
+    /// Whether the second cable snaps, instead of the first.
     pub(crate) second: L::Mask,
-    /// How long the flight was.
+    /// The duration of the flight.
     pub(crate) s: L,
     pub(crate) before: State<L>,
     pub(crate) v_n: L,
     pub(crate) impulse: L,
     /// Normal velocity after it.
     pub(crate) v_after: L,
-    /// After the impact, with the extremes of the flight.
+    /// The motion after the impact, with the extremes of the flight.
     pub(crate) next: AfterImpact<L>,
     pub(crate) facts: FlightFacts<L>,
 }
 
-/// What those that follow a run ask of a bounce, besides where it led.
+/// Facts about a bounce for code that follows a run, besides its result.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct FlightFacts<L> {
     /// The force at the start of the flight and at its end.
     pub(crate) forces: [Vector2<L>; 2],
-    /// Of the gap that does not close: in the early part of the flight g ≤ g₀ + σ times this.
+    /// A slope B of the gap that does not close: in the early part of the flight g ≤ g₀ + σ B.
     pub(crate) slope: L,
-    /// In the late part it is at most this.
+    /// A bound on the same gap in the late part.
     pub(crate) late: L,
-    /// That of the cable that closes, at the end.
+    /// The normal of the cable that closes, at the end.
     pub(crate) normal: Normal<L>,
     /// n·ρ of that cable.
     pub(crate) swing: L,
-    /// That of the other cable.
+    /// The normal of the other cable.
     pub(crate) other: Normal<L>,
 }
 
@@ -155,8 +154,8 @@ pub(crate) fn bounce<L: Lane>(two_cables: &TwoCableSystem<L>, from: &AfterImpact
     })
 }
 
-/// Whether the struck cable is closing, and the other one does not close at the same instant: no
-/// sooner than the errors of both times, and of t + s, allow (see [`crate::motion::events`]).
+/// Whether the struck cable is closing, and the other one does not close at the same instant, given
+/// the errors of both times and of t + s (see [`crate::motion::events`]).
 #[inline(always)]
 fn closes_alone<L: Lane>(
     t: L,
@@ -169,7 +168,7 @@ fn closes_alone<L: Lane>(
     let other = GapJet::select(second, &jets[0], &jets[1]);
     let struck_blur = L::select(second, blurs[1], blurs[0]);
     let other_blur = L::select(second, blurs[0], blurs[1]);
-    // The times' errors, both sides times the rate.
+    // The errors of the times; both sides are multiplied by the rate.
     let spread =
         ((t.abs() + s) * L::EPSILON * 4.0).mul_add(struck.rate, struck.noise + struck_blur);
     let margin = other
@@ -179,7 +178,7 @@ fn closes_alone<L: Lane>(
     L::ZERO.below(struck.rate) & (other.value * struck.rate).below(-(margin * 2.0))
 }
 
-/// Bound on y along a flight: it exceeds its ends by at most |ÿ|s²/8.
+/// Bound on y along a flight: it exceeds the values at the ends by at most |ÿ|s²/8.
 #[inline(always)]
 fn height_bound<L: Lane>(
     two_cables: &TwoCableSystem<L>,
@@ -193,8 +192,8 @@ fn height_bound<L: Lane>(
         .mul_add(s * s * 0.125, ends)
 }
 
-/// Whether no stop is near: the rotation is largest at an end, as it is linear in time, and the
-/// height exceeds its ends by at most |ÿ|s²/8.
+/// Whether no limit is near: the rotation is largest at an end, as it is linear in time, and the
+/// height exceeds its values at the ends by at most |ÿ|s²/8.
 #[inline(always)]
 fn stops_nowhere<L: Lane>(
     two_cables: &TwoCableSystem<L>,
@@ -210,7 +209,7 @@ fn stops_nowhere<L: Lane>(
         & height.below(two_cables.level - NEAR_STOP)
 }
 
-/// Whether y may have a maximum within the flight that is higher than any before.
+/// Whether y may have a maximum within the flight that exceeds all before.
 #[inline(always)]
 fn rises_above<L: Lane>(
     two_cables: &TwoCableSystem<L>,
@@ -225,9 +224,9 @@ fn rises_above<L: Lane>(
     from.y_max.below(height) & !falls & !climbs
 }
 
-/// Puts the body back onto the cable that it has come to the end of, from which it is a rounding
-/// away: by a translation, as the metric does not matter for so little, so that its rotation is
-/// known already. Returns the cable's normal and the state.
+/// Projects the body onto the cable that has closed, from which it is off by a rounding: by a
+/// translation, so that its rotation stays known; for so little the metric does not matter. Returns
+/// the cable's normal and the state.
 #[inline(always)]
 fn put_back<L: Lane>(
     struck: &Cable<L>,
@@ -309,8 +308,8 @@ fn land<L: Lane>(
     })
 }
 
-/// Value and error of the gap that did not close, carried forward, or evaluated afresh where that is
-/// better known; and that cable's normal.
+/// Value and error of the gap that did not close, carried forward, or evaluated from the state
+/// where that is more precise; and that cable's normal.
 #[inline(always)]
 fn other_cable<L: Lane>(
     two_cables: &TwoCableSystem<L>,

@@ -1,10 +1,11 @@
-//! The linearised motion of one bounce ([`crate::motion::bounce`]), of one run or of several side by
-//! side: what [`crate::motion::tangent`] says of any step, written out for a flight that ends with
-//! the impact of one cable.
+//! The linearised motion of one bounce ([`crate::motion::bounce`]), of one run or of several side
+//! by side: [`crate::motion::tangent`], which treats any step, written out for a flight that ends
+//! with the impact of one cable.
 //!
 //! With n and s of the cable that snaps, t = n turned by a quarter, and c = n·ρ, a deviation (δx,
-//! δy, δθ) along the cable's end turns its normal by κ: δn = κ t, δs = c (κ − δθ), with κ = (t·(δx,
-//! δy) + c δθ)/r. So the law's derivative is the identity and three products of rank one:
+//! δy, δθ) with the attachment at the cable's end turns its normal by κ: δn = κ t, δs = c (κ − δθ),
+//! with κ = (t·(δx, δy) + c δθ)/r. So the law's derivative is the identity and three products of
+//! rank one:
 //!
 //! ```text
 //! δv_n = G δv + κ t·v + c (κ − δθ) θ̇        δw = 2 s c (κ − δθ)/I
@@ -26,14 +27,14 @@ use crate::motion::two_cables::{AfterImpact, TwoCableSystem};
 /// Deviations (w, τ) side by side: a row for each of their seven components.
 pub(crate) type Rows<L, const N: usize> = [[L; N]; 7];
 
-/// A bounce that has been made, and where it began.
+/// A bounce that has been made, and its beginning.
 #[derive(Clone, Copy)]
 pub(crate) struct Bounced<'a, L: Lane> {
     pub(crate) two_cables: &'a TwoCableSystem<L>,
     pub(crate) from: &'a AfterImpact<L>,
     /// When it ended.
     pub(crate) t: L,
-    /// Which cable snapped: the second instead of the first.
+    /// Whether the second cable snapped, instead of the first.
     pub(crate) second: L::Mask,
     pub(crate) before: &'a State<L>,
     pub(crate) after: &'a State<L>,
@@ -45,7 +46,7 @@ pub(crate) struct Bounced<'a, L: Lane> {
 }
 
 impl<'a, L: Lane> Bounced<'a, L> {
-    /// Of a bounce that began at `from`.
+    /// The bounce that began at `from`.
     #[inline(always)]
     pub(crate) fn of(
         two_cables: &'a TwoCableSystem<L>,
@@ -68,7 +69,7 @@ impl<'a, L: Lane> Bounced<'a, L> {
         }
     }
 
-    /// Of the cable that snapped and of the other one, what a function says of each.
+    /// A function of the cable that snapped and of the other one, in this order.
     #[inline(always)]
     pub(crate) fn each(&self, of: impl Fn(usize) -> L) -> [L; 2] {
         let [first, second] = [of(0), of(1)];
@@ -79,7 +80,7 @@ impl<'a, L: Lane> Bounced<'a, L> {
     }
 }
 
-/// What a bounce does to small deviations.
+/// The effect of a bounce on small deviations.
 #[derive(Clone, Copy)]
 pub(crate) struct BounceMap<L> {
     s: L,
@@ -94,11 +95,11 @@ pub(crate) struct BounceMap<L> {
     /// −∇h/ḣ.
     delay: [L; 3],
     normal: Normal<L>,
-    /// κ of x, y and θ.
+    /// The derivatives of κ by x, y and θ.
     turn: [L; 3],
-    /// δv_n of κ and of κ − δθ.
+    /// The derivatives of δv_n by κ and by κ − δθ.
     closing: [L; 2],
-    /// δp of G δv, of κ and of κ − δθ.
+    /// The derivatives of δp by G δv, by κ and by κ − δθ.
     gains: [L; 3],
     impulse: L,
     /// p c.
@@ -153,7 +154,8 @@ impl<L: Lane> BounceMap<L> {
         }
     }
 
-    /// Along the flight: (w, τ) just before the impact, told at the previous event's time.
+    /// Carries deviations along the flight: to (w, τ) just before the impact, at the previous
+    /// event's time.
     #[inline(always)]
     pub(crate) fn along<const N: usize>(&self, rows: &mut Rows<L, N>) {
         self.drift(rows);
@@ -174,7 +176,7 @@ impl<L: Lane> BounceMap<L> {
         }
     }
 
-    /// To the impact's own time, by as much later as is returned.
+    /// Carries them to the impact's own time; returns the delays.
     #[inline(always)]
     pub(crate) fn meet<const N: usize>(&self, rows: &mut Rows<L, N>) -> [L; N] {
         let [dx, dy, dtheta] = self.delay;
@@ -192,8 +194,8 @@ impl<L: Lane> BounceMap<L> {
         all
     }
 
-    /// The displacement along the other cable, of deviations that have met the impact by so much
-    /// later: as they were at the previous event's time, and as they are.
+    /// The displacement along the other cable, of deviations at the impact's own time with these
+    /// delays: at the previous event's time, and at the impact's.
     #[inline(always)]
     pub(crate) fn along_other<const N: usize>(
         &self,
@@ -214,7 +216,7 @@ impl<L: Lane> BounceMap<L> {
         all
     }
 
-    /// Through the law of impact; returns δv_n of each.
+    /// Carries them through the law of impact; returns δv_n of each.
     #[inline(always)]
     pub(crate) fn through<const N: usize>(&self, rows: &mut Rows<L, N>) -> [L; N] {
         let Normal { n, arm } = self.normal;
@@ -236,8 +238,8 @@ impl<L: Lane> BounceMap<L> {
         all
     }
 
-    /// δ(ẋ, ẏ, θ̇) after the impact, where δp is `along` besides, the normal turns by κ, and `slip`
-    /// is κ − δθ.
+    /// δ(ẋ, ẏ, θ̇) after the impact, where the impulse changes by `along` in addition, the normal
+    /// turns by κ, and `slip` is κ − δθ.
     #[inline(always)]
     pub(crate) fn law_of_turning(&self, along: L, kappa: L, slip: L) -> [L; 3] {
         let [_, by_turning, by_slip] = self.gains;
@@ -254,7 +256,7 @@ impl<L: Lane> BounceMap<L> {
 }
 
 impl BounceMap<f64> {
-    /// All of the bounce for many deviations at one time, at its start and at its end.
+    /// The whole bounce for many deviations, each at one common time at its start and at its end.
     #[inline(always)]
     pub(crate) fn at_one_time<const N: usize>(&self, rows: &mut Rows<f64, N>) {
         self.drift(rows);
@@ -306,7 +308,7 @@ impl BounceMap<f64> {
         [vx, vy, vtheta, self.force.x, self.force.y, 0.0]
     }
 
-    /// −∇h/ḣ: how much later the impact comes for a deviation just before it.
+    /// −∇h/ḣ: the delay of the impact per deviation just before it.
     pub(crate) fn delay(&self) -> [f64; 6] {
         let [x, y, theta] = self.delay;
         [x, y, theta, 0.0, 0.0, 0.0]

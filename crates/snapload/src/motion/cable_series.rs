@@ -1,4 +1,4 @@
-//! Taylor series of the cables' geometry and of what they pull, for two cables side by side.
+//! Taylor series of the cables' geometry and of their forces, for two cables side by side.
 
 use crate::arithmetic::plane::Vector2;
 use crate::arithmetic::processor::apart;
@@ -9,11 +9,11 @@ use crate::model::system::System;
 use crate::model::taut_set::{MAX_CABLES, PerCable, TautSet};
 use crate::motion::complementarity::Factored;
 
-/// x and y of one cable, x and y of the next.
+/// The x and y of one cable, and the x and y of the next.
 type Quad<T> = [T; 4];
 
-/// The four numbers that an expression makes of their places. It is no closure: one that the
-/// compiler does not inline has no multiplication and addition in one instruction, see
+/// Evaluates an expression at each of the four places. It is not a closure: a closure that the
+/// compiler does not inline would have no fused multiply-add instruction, see
 /// [`crate::arithmetic::processor`].
 macro_rules! quad {
     (|$place:ident| $number:expr) => {{
@@ -25,14 +25,14 @@ macro_rules! quad {
     }};
 }
 
-/// Two cables; where their number is odd, the last is alone.
+/// Two cables; if their number is odd, the last is alone.
 #[derive(Clone, Copy, Debug, Default)]
 struct CablePair<T: Real> {
     /// The fairleads, and the fairleads turned by a quarter.
     fairleads: [Quad<T>; 2],
     /// 1/r.
     per_length: Quad<T>,
-    /// n at the start, s = ρ × n and 1/2r; zero of a cable that does not carry.
+    /// n at the start, s = ρ × n and 1/2r; zero for a cable that does not carry.
     normal: Quad<T>,
     arm: [T; 2],
     half_per_length: [T; 2],
@@ -40,7 +40,7 @@ struct CablePair<T: Real> {
     lever: VectorSeries<T, 4>,
     /// d = P − A.
     span: VectorSeries<T, 4>,
-    /// T, once for x and once for y.
+    /// T twice, once for x and once for y.
     tension: VectorSeries<T, 4>,
     /// T n turned back by a quarter, (T n_y, −T n_x): ρ times this adds up to the moment ρ × T n.
     turned_pull: VectorSeries<T, 4>,
@@ -81,7 +81,7 @@ impl<T: Real> CableSeries<T> {
         })
     }
 
-    /// ρ and d to order k; d but for its constant.
+    /// Extends ρ and d to order k; the constant of d is given separately.
     #[inline(always)]
     pub(crate) fn extend(&mut self, k: usize, centre: Vector2<T>, sine: T, cosine: T) {
         let centre = [centre.x, centre.y, centre.x, centre.y];
@@ -92,13 +92,13 @@ impl<T: Real> CableSeries<T> {
         }
     }
 
-    /// Gives d at the start.
+    /// Sets d at the start.
     #[inline(always)]
     pub(crate) fn set_span(&mut self, cable: usize, span: Vector2<T>) {
         put(&mut self.pairs[cable / 2].span[0], cable % 2, span);
     }
 
-    /// Says which cables carry, once ρ and d at the start are known. Returns their normals.
+    /// Sets which cables carry, once ρ and d at the start are known. Returns their normals.
     #[inline(always)]
     pub(crate) fn set_carrying(&mut self, carrying: TautSet) -> PerCable<Normal<T>> {
         let mut normals = [Normal::default(); MAX_CABLES];
@@ -122,8 +122,8 @@ impl<T: Real> CableSeries<T> {
         normals
     }
 
-    /// Σ T n and Σ ρ × T n to order k of the cables with tensions, as far as those of lower orders
-    /// give them; keeps each T n, to which [`CableSeries::find_tensions`] adds the rest.
+    /// The part of Σ T n and Σ ρ × T n at order k, for cables with tensions, that follows from the
+    /// lower orders; keeps each T n, to which [`CableSeries::find_tensions`] adds the rest.
     #[inline(always)]
     pub(crate) fn known_pulls(&mut self, k: usize) -> [T; 3] {
         apart!(T, {
@@ -151,9 +151,10 @@ impl<T: Real> CableSeries<T> {
         })
     }
 
-    /// Finds the k-th coefficients of the tensions, which hold the lengths of the carrying cables;
-    /// returns Σ T n and Σ s T of them. `accel` are those of (ẍ, ÿ, θ̈) but for these tensions, and
-    /// `turned` those of order k + 2 of sine and cosine but for that of θ.
+    /// Finds the k-th coefficients of the tensions, from the condition that the lengths of the
+    /// carrying cables are constant; returns their Σ T n and Σ s T. `accel` are the coefficients of
+    /// (ẍ, ÿ, θ̈) without these tensions, and `turned` those of order k + 2 of sine and cosine
+    /// without the part of θ.
     #[inline(always)]
     pub(crate) fn find_tensions(
         &mut self,
@@ -163,7 +164,7 @@ impl<T: Real> CableSeries<T> {
         ready: &Factored<T, impl Fn(usize, usize) -> T>,
     ) -> [T; 3] {
         apart!(T, {
-            // Two cables are usual, and their numbers stay in registers.
+            // Usually there are two cables; then all numbers stay in registers.
             if let [pair] = &mut self.pairs[..] {
                 let load = pair.load(k, accel, turned);
                 return pair.take(k, ready.solve_two(load));
@@ -191,7 +192,7 @@ impl<T: Real> CableSeries<T> {
         [tension[0], tension[2]]
     }
 
-    /// What the gaps of a pair have beyond the last order at most, but for the factor
+    /// Bounds on the terms of the gaps of a pair beyond the last order, up to the factor
     /// s^{[`ORDER`](crate::arithmetic::polynomial::ORDER) + 1}.
     #[inline(always)]
     pub(crate) fn beyond_gaps(&self, pair: usize, s: T) -> [T; 2] {
@@ -214,8 +215,8 @@ impl<T: Real> CableSeries<T> {
 }
 
 impl<T: Real> CablePair<T> {
-    /// What each carrying cable has to hold back: (k+1)(k+2) times the coefficient of order k + 2
-    /// of its constraint, but for the tensions of order k.
+    /// The load of each carrying cable: (k+1)(k+2) times the coefficient of order k + 2 of its
+    /// constraint, without the tensions of order k.
     #[inline(always)]
     fn load(&mut self, k: usize, accel: [T; 3], [sine, cosine]: [T; 2]) -> [T; 2] {
         apart!(T, {
@@ -235,7 +236,7 @@ impl<T: Real> CablePair<T> {
         })
     }
 
-    /// Takes in the k-th coefficients of the tensions; returns Σ T n and Σ s T of them.
+    /// Stores the k-th coefficients of the tensions; returns their Σ T n and Σ s T.
     #[inline(always)]
     fn take(&mut self, k: usize, tension: [T; 2]) -> [T; 3] {
         let quad = [tension[0], tension[0], tension[1], tension[1]];

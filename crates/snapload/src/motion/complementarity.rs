@@ -1,38 +1,38 @@
-//! The one small solver of both complementarity problems.
+//! The solver of both complementarity problems.
 
 use crate::arithmetic::processor::apart;
 use crate::arithmetic::real::Real;
 use crate::model::taut_set::{MAX_CABLES, PerCable, TautSet};
 
-/// A pivot below this part of the largest diagonal entry marks constraints that depend on each
-/// other.
+/// Constraints are dependent if a pivot is below this part of the largest diagonal entry.
 const DEPENDENT: f64 = 1e-12;
-/// Freedoms of a body in the plane: more cables than this always depend on each other, whatever
-/// rounding says of their pivots.
+/// Degrees of freedom of a body in the plane: more cables than this are always dependent, whatever
+/// rounding makes of their pivots.
 const FREEDOMS: usize = 3;
-/// A determinant below this part of the product of the diagonal makes Cramer's rule lose digits.
+/// Below this part of the product of the diagonal, the determinant is so small that Cramer's rule
+/// loses digits.
 const SLANTED: f64 = 0.1;
-/// A determinant below so many roundings of the product of the diagonal is nothing but rounding.
+/// A determinant below this many roundings of the product of the diagonal is only rounding.
 const NEARLY_ONE_LINE: f64 = 4.5;
 
-/// W z = q over the cables of a set, W symmetric and positive semidefinite, made ready for several
-/// q. A cable whose constraint depends on those before it gets z = 0.
+/// W z = q over the cables of a set, W symmetric and positive semidefinite, prepared for several q.
+/// A cable whose constraint depends on those before it gets z = 0.
 ///
-/// Two cables are solved by Cramer's rule, in which neither comes first: a system that is its own
-/// mirror image moves as such to the last bit.
+/// Two cables are solved by Cramer's rule, which treats both alike: the motion of a
+/// mirror-symmetric system stays symmetric to the last bit.
 pub(crate) struct Factored<T, W> {
     w: W,
     found: Factors<T>,
 }
 
-/// What is found out of a matrix before it meets a q.
+/// The part of the solution that depends on the matrix only.
 enum Factors<T> {
     None,
     /// A cable and 1/W.
     One(usize, T),
-    /// Two cables and what their matrix comes to.
+    /// Two cables and the data of their matrix.
     TwoByTwo([usize; 2], TwoByTwo<T>),
-    /// More are eliminated anew each time.
+    /// Three or more are eliminated for each q.
     Many(TautSet),
 }
 
@@ -51,7 +51,7 @@ impl<T: Real, W: Fn(usize, usize) -> T> Factored<T, W> {
         Self { w, found }
     }
 
-    /// z of the first two cables, where there are no more.
+    /// The solution z for the first two cables, if there are no more.
     #[inline(always)]
     pub(crate) fn solve_two(&self, q: [T; 2]) -> [T; 2] {
         match self.found {
@@ -62,7 +62,7 @@ impl<T: Real, W: Fn(usize, usize) -> T> Factored<T, W> {
         }
     }
 
-    /// z.
+    /// The solution z.
     #[inline(always)]
     pub(crate) fn solve(&self, q: &PerCable<T>) -> PerCable<T> {
         let mut z = [T::ZERO; MAX_CABLES];
@@ -90,7 +90,7 @@ pub(crate) fn solve<T: Real>(
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct TwoByTwo<T> {
     matrix: [T; 3],
-    /// 1/(ac − b²); none where the two constraints are one and the same.
+    /// 1/(ac − b²); none if the two constraints are identical up to rounding.
     inverse: Option<T>,
     /// Whether ac − b² is much smaller than ac.
     slanted: bool,
@@ -108,8 +108,8 @@ impl<T: Real> TwoByTwo<T> {
         }
     }
 
-    /// Cramer's rule errs by some roundings times ac over the determinant, which is small where the
-    /// cables are almost in line; there its answer is put in twice for what is left over.
+    /// The error of Cramer's rule is some roundings times ac over the determinant, which is small
+    /// if the cables are almost in line; then the solution is refined twice with its residual.
     #[inline(always)]
     fn solve(&self, q: [T; 2]) -> [T; 2] {
         apart!(T, {
@@ -136,14 +136,13 @@ impl<T: Real> TwoByTwo<T> {
     }
 }
 
-/// Whether the two constraints of the matrix \[\[a, b\], \[b, c\]\] are one and the same, to
-/// rounding.
+/// Whether the two constraints of the matrix \[\[a, b\], \[b, c\]\] are identical up to rounding.
 fn in_line<T: Real>([a, b, c]: [T; 3]) -> bool {
     a * c - b * b <= a * c * (T::EPSILON * NEARLY_ONE_LINE)
 }
 
-/// Three and more equations. What is left over is put in twice: of three cables that are almost
-/// dependent the tensions are large, and their sum has to leave the body where it is.
+/// Three and more equations, refined twice with the residual: the tensions of three almost
+/// dependent cables are large, and their sum must not move the body.
 fn eliminate_and_refine<T: Real>(
     set: TautSet,
     w: impl Fn(usize, usize) -> T,
@@ -163,8 +162,8 @@ fn eliminate_and_refine<T: Real>(
     z
 }
 
-/// By elimination in the order of the cables; also those that do not depend on the ones before them,
-/// to which the solution is kept.
+/// Solves by elimination in the order of the cables; also returns those that do not depend on the
+/// ones before them, to which the solution is restricted.
 fn eliminate<T: Real>(
     set: TautSet,
     w: impl Fn(usize, usize) -> T,
@@ -204,12 +203,12 @@ fn eliminate<T: Real>(
     (solution, kept)
 }
 
-/// Finds z ≥ 0 with W z − q ≥ 0 and z · (W z − q) = 0 over the cables of a set, by trying which of
-/// them pull (z > 0). Returns z and the set of those that pull.
+/// Finds z ≥ 0 with W z − q ≥ 0 and z · (W z − q) = 0 over the cables of a set, by trying all sets
+/// of cables with z > 0. Returns z and that set.
 ///
 /// With W positive definite the solution exists and is unique (Cottle, Pang & Stone, The Linear
 /// Complementarity Problem, theorem 3.1.6), so exactly one trial passes in exact arithmetic;
-/// rounding can fail them all by a last bit, so the one that violates least is taken.
+/// rounding can make all of them fail by a last bit, so the one with the least violation is taken.
 pub(crate) fn complementary<T: Real>(
     set: TautSet,
     w: impl Fn(usize, usize) -> T,
@@ -217,7 +216,7 @@ pub(crate) fn complementary<T: Real>(
 ) -> (PerCable<T>, TautSet) {
     let mut best = ([T::ZERO; MAX_CABLES], TautSet::SLACK);
     let mut least = None;
-    // Three that do not depend on each other can pull in every way that more can (Carathéodory).
+    // Any impulse of more cables can be produced by three independent ones (Carathéodory).
     for pulling in set.subsets().filter(|set| set.len() <= FREEDOMS) {
         let z = solve(pulling, &w, q);
         let mut violation = T::ZERO;
@@ -275,8 +274,8 @@ mod tests {
             ..ProptestConfig::default()
         })]
 
-        /// The defining conditions, for random Gram matrices of rank 1 to 3, up to 6 cables, and
-        /// normal velocities that a body can have.
+        /// The defining conditions hold for random Gram matrices of rank 1 to 3, up to 6 cables,
+        /// and normal velocities that a body can have.
         #[test]
         fn conditions_hold(rows in proptest::collection::vec(row(), 1..7),
                            v in [-1.0..1.0f64, -1.0..1.0, -1.0..1.0]) {
@@ -302,9 +301,10 @@ mod tests {
             ..ProptestConfig::default()
         })]
 
-        /// Three to six cables of a body with three freedoms: where W⁺q, the least-norm solution by
-        /// an eigenvalue decomposition of another library, has no negative entry, it is ours; and
-        /// it is never longer than another set of impulses that does the same.
+        /// Three to six cables of a body with three degrees of freedom: where W⁺q, the least-norm
+        /// solution by an eigenvalue decomposition of another library, has no negative entry, our
+        /// solution equals it; and its norm never exceeds that of another set of impulses with the
+        /// same effect.
         #[test]
         fn dependent_cables_share_with_the_least_norm(
             rows in prop::collection::vec(row(), 3..7),
@@ -321,7 +321,7 @@ mod tests {
             let eigen = matrix.clone().symmetric_eigen();
             let mut values: Vec<f64> = eigen.eigenvalues.iter().copied().collect();
             values.sort_by(|a, b| b.total_cmp(a));
-            // Nearly dependent cables have no clear answer.
+            // For nearly dependent cables the solution is not well determined.
             prop_assume!(values[2] > 1e-2 * values[0]);
             let pseudo = matrix.pseudo_inverse(1e-9).expect("a tolerance above 0") * nalgebra::DVector::from_fn(n, |i, _| q[i]);
             let (z, _) = complementary(set, w, &q);
@@ -339,7 +339,7 @@ mod tests {
             }
         }
 
-        /// Cables that do not depend on each other keep every bit.
+        /// The impulses of independent cables keep every bit.
         #[test]
         fn independent_cables_keep_their_impulses(
             rows in prop::collection::vec(row(), 1..4),
@@ -356,7 +356,7 @@ mod tests {
         }
     }
 
-    /// Two equal constraints: the pair can hold what one can, each of them half.
+    /// Two equal constraints: together they hold what one of them can hold, each of them half.
     #[test]
     fn twins_share_evenly_and_no_load_twice() {
         let pair = TautSet::only(0).with(1);

@@ -1,13 +1,13 @@
-//! What is known of each cable's gap at the start of a stretch of motion.
+//! The gap of each cable at the start of a stretch of motion, with its error.
 
 use crate::arithmetic::real::Real;
 use crate::model::state::State;
 use crate::model::system::System;
 use crate::model::taut_set::MAX_CABLES;
 
-/// A gap as it is known at an event. Evaluated afresh from the state it has a rounding of its own,
-/// which would swamp the last bounces of an accumulation (heights of v_n² / 2α); carried forward
-/// from the moment when the cable was struck, it has far less.
+/// A gap at an event. If it is evaluated from the state its rounding error would exceed the heights
+/// v_n² / 2α of the last bounces of an accumulation; carried forward from the time when the cable
+/// was struck, its error is far smaller.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Contact<T> {
     /// g ≤ 0; exactly 0 for a cable that is struck, taut or just released.
@@ -19,7 +19,7 @@ pub(crate) struct Contact<T> {
 }
 
 impl<T: Real> Contact<T> {
-    /// Closed, and moving along the normal as the state says.
+    /// Closed, with the normal velocity of the state.
     pub(crate) const CLOSED: Self = Self {
         gap: T::ZERO,
         error: T::ZERO,
@@ -43,7 +43,7 @@ impl<T: Real> Contact<T> {
         }
     }
 
-    /// The more precise of a gap carried forward and the one evaluated.
+    /// The more precise of a gap carried forward and the one evaluated from the state.
     #[inline(always)]
     pub(crate) fn carried(self, system: &System<T>, cable: usize, state: &State<T>) -> Self {
         let evaluated = Self::evaluated(system, cable, state);

@@ -1,19 +1,20 @@
-//! The earliest crossing, with the bound that excludes an earlier one.
+//! The earliest crossing, with the bound that excludes earlier ones.
 //!
-//! Every event of a run is a function of time that reaches zero from below: a gap that closes, a
-//! tension that is lost (as −T), a limit that is reached. None is ever sampled for changes of sign.
+//! Every event of a run is the zero of a function of time that is negative before: a gap that
+//! closes, a tension that is lost (as −T), a limit that is reached. The search does not sample for
+//! changes of sign.
 //! With f, ḟ, f̈ known at s and |f⃛(s + σ)| ≤ K for 0 ≤ σ ≤ H, Taylor's theorem gives
 //!
 //! ```text
 //! f(s + σ) ≤ U(σ) = f + ḟσ + f̈σ²/2 + Kσ³/6        (0 ≤ σ ≤ H)
 //! ```
 //!
-//! so f has no zero before the first root of U, and the search steps just there. Near a simple zero
-//! U differs from f by a third-order term, so the steps converge cubically, always from the safe
-//! side; above a graze that just misses, U stays negative once the step is short enough, and the
-//! search walks past. Cables closed at the start of the search (just struck, or released) enter
-//! with f = 0 *known*, not evaluated, so no tolerance or waiting time keeps them from being found
-//! again at once.
+//! so f has no zero before the first root of U, and the search steps to just there. Near a simple
+//! zero U differs from f by a third-order term, so the steps converge cubically, always from below;
+//! near a maximum of f just below zero, U stays negative once the step is short enough, and the
+//! search steps past it. Cables closed at the start of the search (just struck, or released) have f
+//! = 0 as a *known* value, not an evaluated one, so that they are not found again at once, without
+//! a tolerance or waiting time.
 
 use crate::arithmetic::real::Real;
 use crate::model::rules::{LIMIT_FUNCTIONS, Limit, LimitSet};
@@ -43,10 +44,10 @@ pub(crate) struct Jet<T> {
     /// |f⃛(s + σ)| ≤ `third` + `fourth` σ.
     pub(crate) third: T,
     pub(crate) fourth: T,
-    /// Bound on the rounding error of `value`, the motion taken as exact.
+    /// Bound on the rounding error of `value`, not including errors of the motion's start.
     pub(crate) noise: T,
-    /// What the rounding of the velocities at the motion's start may change `value` by; for a
-    /// function at rest, what counts as zero.
+    /// Bound on the change of `value` by the rounding of the velocities at the motion's start; for
+    /// a function at rest, the bound below which it counts as zero.
     pub(crate) blur: T,
     /// Whether f = ḟ = 0 is known here, the cable being at rest on its constraint; then `jerk` is
     /// f⃛.
@@ -55,7 +56,7 @@ pub(crate) struct Jet<T> {
 }
 
 impl<T: Real> Jet<T> {
-    /// A function with known value and rate, and no more; the rest is filled in by struct update.
+    /// A function with known value and rate only; the rest is filled in by struct update.
     pub(crate) fn new(function: EventFunction, value: T, rate: T, accel: T) -> Self {
         Self {
             function,
@@ -72,8 +73,8 @@ impl<T: Real> Jet<T> {
     }
 }
 
-/// Room for every function that a motion can watch: a gap or a tension of each cable, and those of
-/// the limits.
+/// The most functions that a motion can watch: a gap or a tension of each cable, and those of the
+/// limits.
 const MAX_WATCHES: usize = MAX_CABLES + LIMIT_FUNCTIONS;
 
 /// The jets of all watched functions at one instant.
@@ -117,7 +118,7 @@ pub(crate) struct Crossing<T> {
     pub(crate) reached: Reached,
 }
 
-/// What is reached at one instant.
+/// The functions that reach zero at one instant.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(crate) struct Reached {
     pub(crate) gaps: crate::model::taut_set::TautSet,
@@ -138,10 +139,10 @@ impl Reached {
 /// The first instant in (0, horizon] after time `t` at which a watched function reaches zero from
 /// below, or `None`.
 ///
-/// The crossing is good to (rounding of f)/ḟ plus a rounding of s. Functions whose intervals of
-/// location overlap, or whose times are bit-equal, cross at one instant; the intervals allow for
+/// The error of the crossing is (rounding of f)/ḟ plus a rounding of s. Functions whose intervals
+/// of location overlap, or whose times are bit-equal, cross at one instant; the intervals include
 /// the rounding of the velocities, too, so that impacts which are simultaneous by symmetry stay so
-/// once rounding has broken it.
+/// although rounding breaks the symmetry.
 #[inline(always)]
 pub(crate) fn first_crossing<T: Real>(
     motion: &impl HasEvents<T>,
@@ -163,7 +164,7 @@ pub(crate) fn first_crossing<T: Real>(
         let step = jets
             .iter()
             .fold(remaining, |step, jet| safe_step(jet, step));
-        // Never less than a rounding forward, so that the search ends.
+        // At least a rounding forward, so that the search terminates.
         let next = s + step.max((s + horizon * T::EPSILON) * T::EPSILON);
         s = if next < horizon {
             next.detached()
@@ -173,11 +174,12 @@ pub(crate) fn first_crossing<T: Real>(
     }
 }
 
-/// The crossing at hand, if a function has come within its rounding of zero, still rising.
+/// The crossing here, if a function is within its rounding of zero and still rising.
 ///
-/// It is where the tangent reaches zero, so it has to be near: within √ε of the unit of time a
-/// function bends by less than its rounding. One that rises so slowly that its tangent needs longer
-/// may turn back, or others may cross before; it counts as just below zero, and the search goes on.
+/// It is where the tangent reaches zero, which has to be near: within √ε of the unit of time the
+/// curvature changes a function by less than its rounding. One that rises so slowly that its
+/// tangent needs longer may turn back, or others may cross before; it counts as just below zero,
+/// and the search continues.
 fn located<T: Real>(jets: &Jets<T>, t: T, s: T) -> Option<Crossing<T>> {
     let rises_soon = |jet: &&Jet<T>| {
         let near = |jet: &Jet<T>| jet.value.squared() <= jet.rate.squared() * T::EPSILON;
@@ -191,7 +193,8 @@ fn located<T: Real>(jets: &Jets<T>, t: T, s: T) -> Option<Crossing<T>> {
         .iter()
         .filter(touches)
         .reduce(|a, b| if root(b) < root(a) { b } else { a })?;
-    // A slow one's interval is as wide as its tangent is unsure, unless the first is as slow.
+    // The interval of a slow function is as wide as the uncertainty of its tangent, so it is
+    // compared only if the first is as slow.
     let comparable = |jet: &&Jet<T>| rises_soon(jet) || jet.rate * 2.0 >= first.rate;
     let mut reached = Reached::default();
     for jet in jets.iter().filter(comparable) {
@@ -221,8 +224,8 @@ fn safe_step<T: Real>(jet: &Jet<T>, limit: T) -> T {
         };
     }
     let mut reach = limit.min(parabola_root(value, jet.rate, jet.accel).unwrap_or(limit));
-    // The bound on f⃛ grows with the stretch it covers, so a stretch much longer than the step it
-    // allows is shortened.
+    // The bound on f⃛ is for the whole stretch, so that a stretch much longer than the resulting
+    // step is shortened.
     for _ in 0..3 {
         let step = cubic_root(
             value,
@@ -265,8 +268,8 @@ fn safe_step_from_rest<T: Real>(jet: &Jet<T>, limit: T) -> T {
     };
     let bound = |step: T| (a + (b + c * step) * step) * step * step;
     let mut harmless = limit;
-    // While the function provably stays within a rounding of zero it may be stepped over: this
-    // keeps the search moving through a touch of higher order than the bound resolves.
+    // While the function provably stays within a rounding of zero it may be stepped over, so that
+    // the search does not stop at a touch of higher order than the bound resolves.
     while bound(harmless) > jet.blur {
         harmless = harmless * 0.5;
     }
@@ -326,13 +329,13 @@ fn cubic_root<T: Real>(f: T, rate: T, accel: T, k: T, reach: T) -> T {
     newton(value, slope, reach)
 }
 
-/// Newton's iteration from a point from which it is monotone, until it stands still.
+/// Newton's iteration from a point from which it is monotone, until it no longer changes.
 fn newton<T: Real>(value: impl Fn(T) -> T, slope: impl Fn(T) -> T, from: T) -> T {
     let mut s = from;
     for _ in 0..80 {
         let next = s - value(s) / slope(s);
         let moves = (next - s).abs() > s.abs() * T::EPSILON * 2.0;
-        // A slope of zero gives infinity or NaN, and ends it, too.
+        // A slope of zero gives infinity or NaN, which also ends the iteration.
         if !moves || !next.is_finite() {
             break;
         }

@@ -11,8 +11,8 @@ pub(crate) struct Extremes<T> {
     pub(crate) theta_max: T,
 }
 
-/// A maximum between two events is known to this; its place, where the motion is flat, to the root
-/// of it.
+/// The accuracy of a maximum between two events; its time, where the motion is flat, is known to
+/// the square root of it.
 const RESOLUTION: f64 = 1e-15;
 
 impl<T: Real> Extremes<T> {
@@ -23,8 +23,8 @@ impl<T: Real> Extremes<T> {
         }
     }
 
-    /// Takes in a stretch of motion of duration `s` from `first` to `last`, on which ÿ ≤ `up`,
-    /// |ÿ| ≤ `y_bend` and |θ̈| ≤ `theta_bend`. `state` tells the state within.
+    /// Takes in a stretch of motion of duration `s` from `first` to `last`, on which ÿ ≤ `up`, |ÿ|
+    /// ≤ `y_bend` and |θ̈| ≤ `theta_bend`. `state` gives the state within.
     #[inline(always)]
     pub(crate) fn cover(
         &mut self,
@@ -65,7 +65,8 @@ pub(crate) fn rises_above_zero<T: Real>(f: &impl Fn(T) -> (T, T), s: T, bend: T)
 }
 
 /// The larger of `record` and the maximum over \[0, s\] of a function given with its derivative, by
-/// dividing the intervals on which, with f̈ ≤ `up` and |f̈| ≤ `bend`, the record could be beaten.
+/// bisecting the intervals on which, with f̈ ≤ `up` and |f̈| ≤ `bend`, the record could be
+/// exceeded.
 pub(crate) fn highest<T: Real>(f: &impl Fn(T) -> (T, T), s: T, up: T, bend: T, record: T) -> T {
     let (first, last) = (f(T::ZERO), f(s));
     let mut record = record.max(first.0).max(last.0);
@@ -88,8 +89,8 @@ fn search<T: Real>(
     {
         return;
     }
-    // Above its ends by at most the bend over the width, or by the rate at one end and what that
-    // may gain.
+    // The maximum exceeds the values at the ends by at most the effect of the curvature over the
+    // width, or of the rate at one end and its possible increase.
     let bulge = bend * width * width * 0.125;
     let gain = up.max(T::ZERO) * width * 0.5;
     let from_left = left.1.0 + ((left.1.1 + gain) * width).max(T::ZERO);
@@ -98,7 +99,7 @@ fn search<T: Real>(
     if most.min(from_left).min(from_right) <= *record + RESOLUTION {
         return;
     }
-    // On a concave function where the rate falls through zero, as far as that is a straight line.
+    // On a concave function, where the rate, taken as linear, passes through zero.
     let secant = left.0 + width * (left.1.1 / (left.1.1 - right.1.1));
     let middle = if up <= T::ZERO && left.0 < secant && secant < right.0 {
         secant

@@ -43,7 +43,8 @@ impl<T: Real> Flight<T> {
         }
     }
 
-    /// Begins the flight at time `t` from `start`, which an event has made of the state `before`.
+    /// Begins the flight at time `t` from `start`, the state after an event; `before` is the state
+    /// before it.
     #[inline(always)]
     pub(crate) fn begin(
         &mut self,
@@ -114,7 +115,7 @@ impl<T: Real> Flight<T> {
         (jet.value, jet.rate)
     }
 
-    /// What is known of the gap of a cable at the flight's start.
+    /// The gap of a cable at the flight's start, with its error.
     pub(crate) fn contact_at_start(&self, cable: usize) -> Contact<T> {
         let attachment = &self.attachments[cable];
         Contact {
@@ -125,8 +126,8 @@ impl<T: Real> Flight<T> {
     }
 
     /// g, ġ, g̈ of a cable, with |g⃛| ≤ 2 (3 |Ṗ||P̈| + r |P⃛|) from there on.
-    ///
-    /// |P − A| ≤ r holds up to the first crossing, which is all that the bound is used for. |Ṗ| grows
+    /// |P − A| ≤ r holds up to the first crossing, and the bound is used only up to there. |Ṗ|
+    /// grows by at most |P̈| σ.
     /// by at most |P̈| σ.
     #[inline(always)]
     fn gap_jet(&self, cable: usize, s: T, jet: &GapJet<T>) -> Jet<T> {

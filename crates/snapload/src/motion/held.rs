@@ -1,9 +1,9 @@
-//! Motion and laws whose sets of cables are given, not found.
+//! Motion and laws for given sets of cables.
 //!
-//! A [`crate::Simulation`] finds out which cables carry. Whoever asks for a motion with a prescribed
-//! sequence of events, whether or not a body would have it, gives the sets instead: cables are held
-//! at their lengths whatever the signs of their tensions, impulses are what the law asks for whatever
-//! their signs, and time may run backwards. So all of it is smooth in state, time and parameters,
+//! A [`crate::Simulation`] determines which cables carry. Where a motion with a prescribed sequence
+//! of events is wanted, whether or not a body would have it, the sets are given instead: cables are
+//! held at their lengths for either sign of their tensions, impulses are those of the law for
+//! either sign, and time may run backwards. So all of it is smooth in state, time and parameters,
 //! which Newton's method on a sequence of events needs.
 
 use crate::arithmetic::polynomial::Polynomial;
@@ -21,7 +21,7 @@ use crate::motion::projection::{project_position, project_velocity};
 use crate::motion::taut_series::{Series, state_at};
 use crate::motion::waves::Waves;
 
-/// The motions of a system with given sets of taut cables; the water keeps no memory of them.
+/// The motions of a system with given sets of taut cables; the water's memory is not included.
 #[derive(Clone, Debug)]
 pub struct Held<T: Real = f64> {
     system: System<T>,
@@ -50,8 +50,8 @@ impl<T: Real> Held<T> {
         })
     }
 
-    /// The same motion at every time from 0 to `s`: [`Held::carried`] to rounding, without the work
-    /// for each of them.
+    /// The same motion at every time from 0 to `s`: equal to [`Held::carried`] up to rounding,
+    /// without computing the motion again for each time.
     pub fn path(&self, taut: TautSet, t: T, state: &State<T>, s: T) -> Path<'_, T> {
         let mut pieces = Vec::new();
         if !self.system.has_closed_form(taut) {
@@ -81,7 +81,7 @@ impl<T: Real> Held<T> {
         flight.state(state, s)
     }
 
-    /// Taylor series after Taylor series, which are kept where that is asked for.
+    /// A chain of Taylor series, which are kept if that is asked for.
     #[inline(always)]
     fn driven(
         &self,
@@ -129,8 +129,8 @@ impl<T: Real> Held<T> {
         tensions(&self.system, &around, state, [T::ZERO; 3], taut)
     }
 
-    /// The impact of `struck` cables, of which and of others `pulling` ones take up impulses of
-    /// either sign (docs/model.md section 5): v⁺ = −e v⁻ for struck ones, 0 for the others.
+    /// The impact of `struck` cables; those of `pulling`, struck or not, take impulses of either
+    /// sign (docs/model.md section 5): v⁺ = −e v⁻ for struck ones, 0 for the others.
     pub fn struck(
         &self,
         state: &State<T>,
@@ -157,8 +157,8 @@ impl<T: Real> Held<T> {
         (after, impulse)
     }
 
-    /// Moved by the least change in the mass metric so that the gaps of `closed` cables are zero,
-    /// and the normal velocities of `still` ones.
+    /// The state changed by the least amount in the mass metric so that the gaps of `closed` cables
+    /// are zero, and the normal velocities of `still` ones.
     pub fn projected(&self, state: &State<T>, closed: TautSet, still: TautSet) -> State<T> {
         let mut state = *state;
         project_position(&self.system, &mut state, closed);
@@ -196,12 +196,12 @@ struct Piece<T> {
     motion: [Polynomial<T>; 3],
 }
 
-/// A motion with a given set of taut cables, to be asked for at many times.
+/// A motion with a given set of taut cables, which can be evaluated at many times.
 #[derive(Clone, Debug)]
 pub struct Path<'a, T: Real = f64> {
     held: &'a Held<T>,
     from: (T, State<T>),
-    /// In the order of the motion; none where it has a closed form.
+    /// In the order of the motion; empty where it has a closed form.
     pieces: Vec<Piece<T>>,
 }
 

@@ -14,8 +14,8 @@ pub struct Impact<T = f64> {
     pub t: T,
     /// The cable, by index from 0.
     pub cable: usize,
-    /// Normal velocity just before, v_n⁻ ≥ 0 \[L/T\]; 0 where a taut cable only passes an impulse
-    /// on.
+    /// Normal velocity just before, v_n⁻ ≥ 0 \[L/T\]; 0 where a taut cable only takes part in the
+    /// impulse of another.
     pub v_n: T,
     /// Impulse in the cable \[m L/T\].
     pub impulse: T,
@@ -27,7 +27,7 @@ pub struct Impact<T = f64> {
     pub after: State<T>,
 }
 
-/// What an impact does: impulses, and normal velocities before and after, by cable.
+/// The result of an impact: impulses, and normal velocities before and after, by cable.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct ImpactResult<T> {
     pub(crate) impulse: PerCable<T>,
@@ -66,16 +66,16 @@ impl<T: Real> ImpactResult<T> {
 /// 0 ≤ p  ⟂  −(v⁺ + e max(v⁻, 0)) ≥ 0,    v⁺ = v⁻ − W p,    W = G M⁻¹ Gᵀ
 /// ```
 ///
-/// For one cable alone this is p = (1 + e) v_n / w. A taut cable stays taut when the impulse pulls
-/// on it and goes slack when the impulse unloads it.
+/// For one cable alone this is p = (1 + e) v_n / w. A taut cable stays taut if the impulse loads it
+/// and goes slack if the impulse unloads it.
 ///
-/// Where more cables pull than the body has freedoms for, the impulses are those of the least norm
-/// that do the same.
+/// Where more cables have impulses than the body has degrees of freedom, the impulses are those of
+/// least norm with the same effect.
 ///
-/// A closed cable that opens takes no part: closed and opening is flight. Held by the letter of the
-/// law it would *gain* energy, p |v⁻|/2, whenever the impulse of another turns it round; as it is,
-/// it then snaps by itself, at the same time. Source: Moreau, in *Nonsmooth Mechanics and
-/// Applications* (1988); Brogliato, *Nonsmooth Mechanics*.
+/// A closed cable that opens takes no part, as it is in flight. Under the law as written it would
+/// *gain* energy, p |v⁻|/2, whenever the impulse of another turns it round; here it snaps by itself
+/// instead, at the same time. Source: Moreau, in *Nonsmooth Mechanics and Applications* (1988);
+/// Brogliato, *Nonsmooth Mechanics*.
 #[inline(always)]
 pub(crate) fn impact<T: Real>(
     system: &System<T>,
@@ -128,9 +128,8 @@ pub(crate) fn impact<T: Real>(
     }
 }
 
-/// The derivatives of (ẋ, ẏ, θ̇) after the impact of one cable that is closed by itself and
-/// closing, by (x, y, θ, ẋ, ẏ, θ̇) before it: of v⁺ = v − M⁻¹Gᵀ p with p = (1 + e) v_n/w, v_n = G
-/// v, w = G M⁻¹Gᵀ,
+/// The derivatives of (ẋ, ẏ, θ̇) after the impact of a single closing cable by (x, y, θ, ẋ, ẏ, θ̇)
+/// before it: of v⁺ = v − M⁻¹Gᵀ p with p = (1 + e) v_n/w, v_n = G v, w = G M⁻¹Gᵀ,
 ///
 /// ```text
 /// δp = (1 + e) (δv_n/w − v_n δw/w²),   δv⁺ = δv − M⁻¹(Gᵀ δp + δGᵀ p)
@@ -204,7 +203,7 @@ mod tests {
         assert!((lost - result.impulse[1] * (v_n - 0.7 * v_n) / 2.0).abs() < 1e-15);
     }
 
-    /// The law over dual numbers, against its derivatives written out.
+    /// The law over dual numbers against its explicit derivatives.
     #[test]
     fn slopes_of_a_single_impact_are_those_of_the_law() {
         let system = breakwater(0.7);

@@ -1,26 +1,28 @@
-//! Who carries how much where more cables hold than the body has freedoms for: the impulses of the
-//! least norm.
+//! The distribution of impulses where more cables hold than the body has degrees of freedom: the
+//! impulses of least norm.
 
 use crate::arithmetic::real::Real;
 use crate::model::taut_set::{MAX_CABLES, PerCable, TautSet};
 use crate::motion::complementarity::{independent, solve};
 
-/// Every subset is tried where at most this many cables are involved.
+/// Every subset is tried if at most this many cables are involved.
 const MOST_TRIED: usize = 6;
 /// Normal velocities that differ by less than this part of the largest load count as equal.
 pub(crate) const SHARED: f64 = 1e-9;
 
-/// Of all impulses z ≥ 0 that act like `z` on the body, those of the least norm.
+/// Of all impulses z ≥ 0 with the same effect on the body as `z`, those of least norm.
 ///
-/// Where more cables close at once than the body has freedoms for, W is singular: the motion after
-/// the impact is unique, who carries how much of it is not. [`crate::motion::complementarity`]
-/// finds a solution with as few cables as will do; here the load is spread over all `held` cables
-/// that the solution leaves without a normal velocity of their own. For each set S of them the
-/// least norm is z = W y with W W y = W z over S, since the rows of G that z may use are those of
-/// W's range; of the sets without a negative impulse the one of least norm is the answer.
+/// Where more cables close at once than the body has degrees of freedom, W is singular: the motion
+/// after the impact is unique, the distribution of the impulses is not.
+/// [`crate::motion::complementarity`] finds a solution with as few cables as possible; here the
+/// load is spread over all `held` cables that have no normal velocity in that solution. For each
+/// set S of them the least norm is z = W y with W W y = W z over S, since the admissible z are
+/// combinations of the rows of G, which span W's range; of the sets without a negative impulse the
+/// one of least norm is taken.
 ///
-/// Sets without dependent cables are returned as they are. Where one of more than [`MOST_TRIED`]
-/// would have to push, not every set is tried, and the norm may be more than the least.
+/// Sets without dependent cables are returned as they are. If one of more than [`MOST_TRIED`]
+/// cables would have a negative impulse, not every set is tried, and the norm may be more than the
+/// least.
 pub(crate) fn least_norm<T: Real>(
     held: TautSet,
     w: impl Fn(usize, usize) -> T,
@@ -52,7 +54,7 @@ pub(crate) fn least_norm<T: Real>(
         let pulls = set.iter().all(|i| shared[i] >= T::ZERO);
         (pulls && does_the_same(&shared)).then_some(shared)
     };
-    // Where none of them would have to push, no part of them can do better than all.
+    // If none of them would have a negative impulse, no subset has a smaller norm than all.
     if let Some(shared) = share(tight) {
         return shared;
     }
@@ -74,8 +76,8 @@ pub(crate) fn least_norm<T: Real>(
     }
 }
 
-/// What a set shares once the cables that would have to push have left it, the one that would push
-/// hardest first; none where one cable or none is left.
+/// The impulses that remain when the cable with the most negative impulse is removed until none is
+/// negative; none if fewer than two cables remain.
 fn without_pushing<T: Real>(
     mut set: TautSet,
     share: impl Fn(TautSet) -> PerCable<T>,
@@ -94,7 +96,7 @@ fn without_pushing<T: Real>(
     None
 }
 
-/// The z = W y over a set that acts on it like `z`, with one step of refinement.
+/// The z = W y over a set with the same effect on it as `z`, with one step of refinement.
 fn spread<T: Real>(
     set: TautSet,
     w: &impl Fn(usize, usize) -> T,

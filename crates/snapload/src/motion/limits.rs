@@ -1,11 +1,11 @@
-//! The limits that end a run where they are reached: all that the motion has to know of each, in
-//! one place.
+//! The limits that end a run where they are reached: everything that the motion needs to know of
+//! each.
 //!
 //! A limit bounds a quantity q of the state: the run ends where q reaches its bound. That instant
-//! is located like any other event, so a limit tells its event function h = q − bound with its
-//! derivatives in flight, its power series in taut motion, what a deviation of the state changes it
-//! by, how large it is within a step, and what flights side by side compare it with. Whoever adds
-//! one adds a variant to [`Limit`] and is led by the compiler through every match below.
+//! is located like any other event, so a limit supplies its event function h = q − bound with its
+//! derivatives in flight, its power series in taut motion, the sensitivity of q to a deviation of
+//! the state, a bound on q within a step, and the bound for flights side by side. A new limit is a
+//! new variant of [`Limit`], and the compiler reports every match below that lacks it.
 
 use crate::arithmetic::plane::Vector2;
 use crate::arithmetic::polynomial::{ORDER, Polynomial};
@@ -21,7 +21,8 @@ use crate::motion::events::{EventFunction, Jet, Jets};
 
 /// A limit that is never reached.
 pub(crate) const NEVER: f64 = 1e300;
-/// Where a bound on a quantity has to be close, a step is looked at in this many equal parts.
+/// Where a close bound on a quantity is needed, a step is evaluated at the ends of this many equal
+/// parts.
 const LOOKS: usize = 64;
 
 impl Limit {
@@ -56,7 +57,7 @@ impl Limit {
     }
 }
 
-/// A step of the motion, as far as a bound on a quantity within it asks.
+/// A step of the motion, as it is needed to bound a quantity within it.
 pub(crate) trait Along<T> {
     /// How long it takes.
     fn duration(&self) -> T;
@@ -64,13 +65,13 @@ pub(crate) trait Along<T> {
     fn ends(&self) -> [&State<T>; 2];
     /// The largest value of a quantity at the ends of so many equal parts of it.
     fn largest_seen(&self, parts: usize, quantity: impl Fn(&State<T>) -> T) -> T;
-    /// A bound on the n-th derivative, n = 2, 3 or 4, of x, y or θ (0, 1, 2) within it; that of θ is
-    /// zero in flight.
+    /// A bound on the n-th derivative, n = 2, 3 or 4, of x, y or θ (0, 1, 2) within it; that of θ
+    /// is zero in flight.
     fn derivative_bound(&self, n: usize, coordinate: usize) -> T;
 }
 
-/// What a quantity whose second derivative is at most `bend` exceeds its values at the ends of
-/// [`LOOKS`] parts of a step by at most.
+/// A bound on how much a quantity whose second derivative is at most `bend` exceeds its values at
+/// the ends of [`LOOKS`] parts of a step.
 #[inline(always)]
 fn between_looks<T: Real>(step: &impl Along<T>, bend: T) -> T {
     let width = step.duration() / LOOKS as f64;
@@ -113,17 +114,18 @@ fn highest<T: Real>(system: &System<T>, step: &impl Along<T>, floor: T) -> T {
         + between_looks(step, bend)
 }
 
-/// What flights side by side compare with.
+/// The bounds with which flights side by side compare.
 pub(crate) struct LaneLimits<T> {
-    /// Of |θ|.
+    /// The bound on |θ|.
     pub(crate) rotation: T,
-    /// Of y of the centre: the upper bound, less what the outline reaches above it at most.
+    /// The bound on y of the centre: the upper bound minus the largest height of the outline above
+    /// the centre.
     pub(crate) level: T,
 }
 
 impl<T: Real> LaneLimits<T> {
-    /// Of the limits of a run; none where there is one among them that flights side by side do not
-    /// know, so that the run is left to the general loop.
+    /// The bounds from the limits of a run; none if one of the limits is not available for flights
+    /// side by side, so that the run is left to the general loop.
     pub(crate) fn of(limits: &LimitBounds<T>, body: &Body<T>) -> Option<Self> {
         let never = T::from_f64(NEVER);
         let mut known = Self {
@@ -153,7 +155,7 @@ pub(crate) struct Limits<T> {
     force: [T; 3],
 }
 
-/// A flight at one instant, as far as limits ask.
+/// A flight at one instant, as it is needed by the limits.
 pub(crate) struct Flying<'a, T> {
     pub(crate) state: &'a State<T>,
     /// sin θ and cos θ.
@@ -171,7 +173,7 @@ pub(crate) struct TautMotion<'a, T> {
     pub(crate) circle: &'a VectorSeries<T, 2>,
     /// How long the step is.
     pub(crate) step: T,
-    /// What the series of the place leave out of it within the step, at most.
+    /// Bound on the truncation error of the series of the position within the step.
     pub(crate) left_out: T,
 }
 
@@ -182,7 +184,7 @@ pub(crate) struct Watched<T> {
     pub(crate) series: Polynomial<T>,
     /// The last order that is known.
     pub(crate) order: usize,
-    /// What it leaves out within the step, at most.
+    /// Bound on its truncation error within the step.
     pub(crate) left_out: T,
 }
 
@@ -198,7 +200,7 @@ impl<T: Real> Watched<T> {
 }
 
 impl<T: Real> Limits<T> {
-    /// Those of a system under the rules of a run.
+    /// The limits of a system under the rules of a run.
     pub(crate) fn of(system: &System<T>, rules: &Rules<T>) -> Self {
         let (outline, radius) = system.body.outline();
         Self {
@@ -221,8 +223,8 @@ impl<T: Real> Limits<T> {
         }
     }
 
-    /// With ÿ = f_y a point p of the outline is at the height y + p_x sin θ + p_y cos θ, whose third
-    /// derivative is at most |ḟ| + |θ̇|³ |p|.
+    /// With ÿ = f_y a point p of the outline is at the height y + p_x sin θ + p_y cos θ, whose
+    /// third derivative is at most |ḟ| + |θ̇|³ |p|.
     #[inline(always)]
     fn height_in_flight(&self, now: &Flying<T>, level: T, jets: &mut Jets<T>) {
         let &Flying {
@@ -249,8 +251,8 @@ impl<T: Real> Limits<T> {
         }
     }
 
-    /// Their event functions in taut motion, as power series added to those that are watched; the
-    /// ones that provably are not reached within the step are left out.
+    /// Adds their event functions in taut motion, as power series, to those that are watched; those
+    /// that provably are not reached within the step are left out.
     #[inline(always)]
     pub(crate) fn watch_series(&self, motion: &TautMotion<T>, watched: &mut Vec<Watched<T>>) {
         let [_, y, theta] = motion.place;
@@ -298,7 +300,7 @@ fn watch<T: Real>(
     }
 }
 
-/// θ changes evenly in flight.
+/// θ is linear in time in flight.
 #[inline(always)]
 fn rotation_in_flight<T: Real>(now: &Flying<T>, limit: T, jets: &mut Jets<T>) {
     let state = now.state;

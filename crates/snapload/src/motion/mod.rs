@@ -1,4 +1,4 @@
-//! How they move: slack flight, taut motion, events, the law of contact, and the loop around them.
+//! The motion: slack flight, taut motion, events, the law of contact, and the loop around them.
 
 pub(crate) mod active_set;
 pub(crate) mod attachment;

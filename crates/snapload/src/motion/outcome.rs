@@ -1,19 +1,19 @@
-//! What a run comes to, without keeping the run.
+//! The outcome of a run, without its trajectory.
 
 use crate::model::taut_set::{MAX_CABLES, Mode, PerCable};
 use crate::motion::simulation::{Simulation, Step};
 use crate::motion::trajectory::{End, Norms};
 use std::ops::ControlFlow;
 
-/// A run in a few numbers.
+/// A run summarised in a few numbers.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Outcome {
     /// How it ended.
     pub end: End,
     /// The norms.
     pub norms: Norms,
-    /// How many impacts each cable had, by index from 0, impulses passed into it while taut not
-    /// among them.
+    /// The number of impacts of each cable, by index from 0; impulses that a taut cable takes with
+    /// another are not counted.
     pub impacts: PerCable<u64>,
     /// The first of them.
     pub first: Option<FirstImpact>,
@@ -35,7 +35,7 @@ pub struct FirstImpact {
 }
 
 impl Outcome {
-    /// Of a simulation that is run to its end.
+    /// The outcome of a simulation, which is run to its end.
     pub fn after(mut simulation: Simulation) -> Self {
         let mut outcome = Self::begun(&simulation);
         while let Some(step) = simulation.step() {
@@ -44,8 +44,8 @@ impl Outcome {
         outcome.ended(&simulation)
     }
 
-    /// The same as long as `watch`, which is shown the motion after every step, lets it go on; none
-    /// where it did not let it come to its end.
+    /// The same as long as `watch`, which receives the motion after every step, lets it continue;
+    /// none if `watch` ended it early.
     pub(crate) fn after_while(
         mut simulation: Simulation,
         mut watch: impl FnMut(&Simulation) -> ControlFlow<()>,
@@ -60,7 +60,7 @@ impl Outcome {
         Some(outcome.ended(&simulation))
     }
 
-    /// Of a motion that has just begun.
+    /// The outcome of a motion that has just begun.
     pub(crate) fn begun(simulation: &Simulation) -> Self {
         Self {
             end: End::of(simulation),
@@ -91,7 +91,7 @@ impl Outcome {
         }
     }
 
-    /// Once the motion has stopped.
+    /// The outcome once the motion has stopped.
     pub(crate) fn ended(mut self, simulation: &Simulation) -> Self {
         self.end = End::of(simulation);
         self.norms.y_max = simulation.y_max();

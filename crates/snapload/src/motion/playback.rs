@@ -28,16 +28,16 @@ pub struct Motion {
     pub tensions: PerCable<f64>,
     /// Energy \[F L\].
     pub energy: f64,
-    /// The force with which the water's memory holds a floating body back \[F, F, F L\].
+    /// The force of the water's memory on a floating body \[F, F, F L\].
     pub memory_force: [f64; 3],
 }
 
 /// A part of the motion between two events.
 pub(crate) struct Piece<'p, 'a> {
     playback: &'p Playback<'a>,
-    /// How long its flight or expansion has lasted where it begins.
+    /// The time from the beginning of its flight or expansion to its own beginning.
     begun: f64,
-    /// How long it lasts.
+    /// Its duration.
     pub(crate) width: f64,
 }
 
@@ -45,7 +45,8 @@ pub(crate) struct Piece<'p, 'a> {
 struct Reaching<'p, 'a>(&'p mut Playback<'a>, usize, f64);
 
 impl Kernel for Reaching<'_, '_> {
-    /// How long the flight or expansion there has lasted then, and up to when it may be used.
+    /// The time since the beginning of the flight or expansion, and the time up to which it may be
+    /// used.
     type Output = (f64, f64);
     #[inline(always)]
     fn run(self) -> (f64, f64) {
@@ -90,7 +91,7 @@ impl Piece<'_, '_> {
         [y, theta]
     }
 
-    /// Takes it into what was the largest before.
+    /// Includes it in the extremes.
     pub(crate) fn cover(&self, extremes: &mut Extremes<f64>) {
         let motion = self.stretch();
         let within = |s: f64| dispatch(StateAt(&motion, self.begun + s));
@@ -101,19 +102,19 @@ impl Piece<'_, '_> {
 }
 
 impl Trajectory {
-    /// State, taut set, tensions and energy at time t, held to the run's span; at an event's
-    /// instant those after it. For many times ask [`Playback`].
+    /// State, taut set, tensions and energy at time t, limited to the run's span; at an event's
+    /// instant those after it. For many times use [`Playback`].
     pub fn at(&self, t: f64) -> Motion {
         Playback::new(self).at(t)
     }
 }
 
-/// Plays a run back: computes the motion at any time, quickest for times that follow each other.
+/// Plays a run back: computes the motion at any time, most quickly for increasing times.
 #[derive(Clone, Debug)]
 pub struct Playback<'a> {
     run: &'a Trajectory,
-    /// The kept segment that the motion was computed from, by index, and the one of its chain that
-    /// it has come to.
+    /// The index of the kept segment from which the motion was computed, and the segment of its
+    /// chain that was reached.
     reached: Option<(usize, Segment)>,
     flight: Flight<f64>,
     series: Series<f64>,
@@ -150,7 +151,7 @@ impl Kernel for Expanding<'_, '_> {
 impl<'a> Playback<'a> {
     /// Of a run.
     pub fn new(run: &'a Trajectory) -> Self {
-        // Events lie behind.
+        // No event can come, as those of the run are known.
         let rules = Rules::until(f64::INFINITY);
         Self {
             run,
@@ -166,8 +167,8 @@ impl<'a> Playback<'a> {
         dispatch(MotionAt(self, t))
     }
 
-    /// Shows every piece of the motion between two times within the run: a flight or an expansion,
-    /// or what of one lies between them.
+    /// Passes every piece of the motion between two times within the run to `show`: a flight or an
+    /// expansion, or the part of one that lies between them.
     pub(crate) fn each_piece(&mut self, [from, to]: [f64; 2], mut show: impl FnMut(&Piece)) {
         let mut t = from;
         while t < to {
@@ -184,13 +185,13 @@ impl<'a> Playback<'a> {
             if piece.width > 0.0 {
                 show(&piece);
             }
-            // An expansion too short for time to move on ends its chain.
+            // An expansion so short that the time does not change ends its chain.
             t = if end > t { end } else { next };
         }
     }
 
-    /// The segment that a time lies in, by index. A run has at least the segment of its end; before
-    /// the start it is the start that counts.
+    /// The index of the segment in which a time lies. A run has at least the segment of its end;
+    /// times before the start count as the start.
     fn segment_at(&self, t: f64) -> usize {
         let segments = self.run.segments();
         let after = segments.partition_point(|segment| segment.t <= t);
@@ -228,7 +229,7 @@ impl<'a> Playback<'a> {
         }
     }
 
-    /// Expands the motion about the latest start of an expansion up to time `t`, in the chain of a
+    /// Expands the motion about the latest start of an expansion before time `t`, in the chain of a
     /// kept segment.
     #[inline(always)]
     fn come_to(&mut self, index: usize, t: f64) -> Segment {
@@ -258,7 +259,7 @@ impl<'a> Playback<'a> {
     fn begin(&mut self, segment: &Segment) {
         let (system, t, start) = (self.run.system(), segment.t, &segment.start);
         if system.has_closed_form(segment.active.taut) {
-            // Gaps are not looked at here, so nothing need be known of them.
+            // Gaps are not evaluated here, so that any contacts will do.
             let contacts = [Contact::RESTING; MAX_CABLES];
             self.flight.begin(system, t, start, start, &contacts);
         } else {

@@ -1,5 +1,5 @@
-//! Back onto the constraints: what rounding has moved off a closed cable is put back by the least
-//! change.
+//! Projection onto the constraints: a state that rounding has moved off a closed cable is changed
+//! by the least amount.
 
 use crate::arithmetic::processor::apart;
 use crate::arithmetic::real::Real;

@@ -1,10 +1,10 @@
-//! The stretches of a run, from which its motion is computed again, in bounded memory.
+//! The stretches of a run, from which its motion can be computed again, in limited memory.
 //!
 //! Motion without a closed form is a chain of Taylor series: where one ends without an event, the
-//! next begins at the state that it ends with. So the first of a chain is enough to compute all
-//! that follow, to the bit. Up to [`MOST_LINKS`] of those that follow are kept to come to any time
-//! quickly; a longer run keeps every second, then every fourth, and so on, and its memory grows
-//! with its events alone.
+//! next begins at its last state. So the first of a chain is enough to compute all that follow, to
+//! the bit. Up to [`MOST_LINKS`] of those that follow are kept to reach any time quickly; a longer
+//! run keeps every second, then every fourth, and so on, so that its memory grows with its events
+//! alone.
 
 use crate::model::floating::Complex;
 use crate::model::state::State;
@@ -23,25 +23,25 @@ use crate::motion::waves::Waves;
 pub(crate) struct Segment {
     pub(crate) t: f64,
     pub(crate) start: State,
-    /// What the water remembers then.
+    /// The state of the water's memory at its start.
     memory: Box<[Complex]>,
     pub(crate) active: ActiveSet,
     /// The cables whose gap is zero where the first expansion ends.
     closed: TautSet,
-    /// How many expansions of its chain lie before it.
+    /// The number of expansions of its chain before it.
     link: u64,
 }
 
-/// So many expansions are kept that could be computed from an earlier one: 25 MB.
+/// The most expansions that are kept although they could be computed from an earlier one: 25 MB.
 const MOST_LINKS: usize = 1 << 18;
 
 /// The stretches of a run.
 #[derive(Clone, Debug)]
 pub(crate) struct Segments {
     kept: Vec<Segment>,
-    /// Every so many links of a chain are kept.
+    /// The interval between the links of a chain that are kept.
     stride: u64,
-    /// How many are.
+    /// The number of links kept.
     links: usize,
     /// The latest stretch, if no event ended it.
     unbroken: Option<Segment>,
@@ -51,7 +51,7 @@ impl Segment {
     /// Its first expansion.
     #[inline(always)]
     pub(crate) fn expand(&self, system: &System, waves: &mut Waves<f64>, series: &mut Series<f64>) {
-        // Gaps are not looked at here, so nothing need be known of them.
+        // Gaps are not evaluated here, so that any contacts will do.
         let contacts = [Contact::RESTING; MAX_CABLES];
         waves.cover(self.t, self.t);
         let around = waves.expanded(system, self.t);
@@ -71,7 +71,7 @@ impl Segment {
         system.memory_force(&self.memory)
     }
 
-    /// The next of the chain, by the arithmetic of the run.
+    /// The next segment of the chain, computed by the same operations as in the run.
     #[inline(always)]
     pub(crate) fn following(&self, system: &System, series: &Series<f64>) -> Self {
         let mut start = series.state(series.step());
@@ -156,7 +156,7 @@ impl Segments {
         self.keep_links(MOST_LINKS);
     }
 
-    /// Keeps no more than so many links.
+    /// Keeps at most this many links.
     pub(crate) fn keep_links(&mut self, most: usize) {
         while self.links > most {
             self.stride *= 2;

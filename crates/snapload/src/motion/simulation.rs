@@ -34,32 +34,32 @@ pub use kernels::Steps;
 use kernels::begin;
 use within::StateAt;
 
-/// So many instants of impact in a row on the same cables count as a converging series.
+/// After this many instants of impact in a row on the same cables, the impacts count as a
+/// converging series.
 const CONVERGING: u32 = 5;
 
 /// A motion in progress.
 ///
-/// It allocates when it is made and at its first stretch without a closed form, and no other step
-/// does; it has no randomness and reads no clock: the same system, rules and start give the same
-/// bits.
+/// It allocates memory only when it is made and at its first stretch without a closed form; it uses
+/// no random numbers and no clock: the same system, rules and start give the same bits.
 #[derive(Clone, Debug)]
 pub struct Simulation<T: Real = f64> {
     system: System<T>,
     rules: Rules<T>,
     t: T,
     state: State<T>,
-    /// What the water remembers; empty where the body does not float.
+    /// The state of the water's memory; empty if the body does not float.
     memory: Vec<Complex<T>>,
     /// The state before the latest event.
     before: State<T>,
     active: ActiveSet,
     contacts: Contacts<T>,
-    /// The system as [`crate::motion::bounce`] takes it; none where it has not two cables and one
+    /// The system in the form of [`crate::motion::bounce`]; none unless it has two cables and one
     /// harmonic.
     two_cables: Option<TwoCableSystem<T>>,
-    /// Where the latest step began, if it was a bounce; then `flight` knows nothing of it.
+    /// The start of the latest step if it was a bounce; `flight` is then not up to date.
     bounce_start: Option<AfterImpact<T>>,
-    /// What was known of it, if it was a bounce and nothing more.
+    /// Facts about the latest step, if it was a bounce and nothing more.
     facts: Option<FlightFacts<T>>,
     flight: Flight<T>,
     /// The sums over all sinusoids.
@@ -68,7 +68,7 @@ pub struct Simulation<T: Real = f64> {
     series: Option<Box<Series<T>>>,
     extremes: Extremes<T>,
     impacts: u64,
-    /// Steps of no length since time last moved on.
+    /// Steps of zero length since the time last increased.
     standstill: u64,
     /// Snaps in a row that were slower than `v_stick`, and their cables.
     slow_snaps: u32,
@@ -80,7 +80,7 @@ pub struct Simulation<T: Real = f64> {
     t_limit: Option<T>,
 }
 
-/// The latest instants of impact, as far as the limit of a converging series asks.
+/// The latest instants of impact, as needed for the limit of a converging series.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct LastImpacts<T> {
     pub(crate) cables: TautSet,
@@ -95,14 +95,14 @@ pub(crate) struct Progress<T> {
     pub(crate) last: LastImpacts<T>,
 }
 
-/// What one step did: a stretch of motion with one taut set, and the event at its end.
+/// One step: a stretch of motion with one taut set, and the event at its end.
 #[derive(Clone, Copy, Debug)]
 pub struct Step<T: Real = f64> {
     /// When the stretch began.
     pub t_start: T,
-    /// The state then.
+    /// The state at its start.
     pub start: State<T>,
-    /// The taut cables along it.
+    /// The cables that are taut along it.
     pub taut: TautSet,
     /// When it ended.
     pub t_end: T,
@@ -114,18 +114,18 @@ pub struct Step<T: Real = f64> {
     pub stop: Option<Stop>,
     /// The state at the end, before the event there.
     pub before: State<T>,
-    /// Of the taut cables those that make up the motion.
+    /// The carrying cables among the taut ones.
     pub(crate) carrying: TautSet,
     pub(crate) event: Event,
     result: Option<ImpactResult<T>>,
 }
 
-/// What there was at the end of a stretch, before the law was applied.
+/// The event at the end of a stretch, before its law is applied.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct Event {
     /// What was reached.
     pub(crate) reached: Reached,
-    /// The cables whose gap is zero, known and not evaluated.
+    /// The cables whose gap is zero by definition, not by evaluation.
     pub(crate) closed: TautSet,
     /// Those of them without normal velocity.
     pub(crate) still: TautSet,
@@ -228,13 +228,13 @@ impl<T: Real> Simulation<T> {
         &self.state
     }
 
-    /// What the water remembers of the motion so far: the states z of its memory, those of x first,
-    /// then of y, then of θ, in the order of the exponentials; empty where the body does not float.
+    /// The state of the water's memory: the states z for x first, then for y, then for θ, in the
+    /// order of the exponentials; empty if the body does not float.
     pub fn memory(&self) -> &[Complex<T>] {
         &self.memory
     }
 
-    /// The force with which that memory holds the body back.
+    /// The force of the water's memory on the body.
     #[inline(always)]
     pub fn memory_force(&self) -> [T; 3] {
         self.system.memory_force(&self.memory)
@@ -250,7 +250,7 @@ impl<T: Real> Simulation<T> {
         self.stop
     }
 
-    /// Where the impacts that end the run converge (see
+    /// The time at which the impacts that end the run converge (see
     /// [`crate::motion::trajectory::End::t_limit`]).
     pub fn t_limit(&self) -> Option<T> {
         self.t_limit
@@ -266,7 +266,7 @@ impl<T: Real> Simulation<T> {
         self.extremes.theta_max
     }
 
-    /// Goes on to the next event, or to the end of one Taylor series. `None` once the motion has
+    /// Advances to the next event, or to the end of one Taylor series. `None` once the motion has
     /// stopped.
     pub fn step(&mut self) -> Option<Step<T>>
     where
@@ -322,7 +322,8 @@ impl<T: Real> Simulation<T> {
         }
     }
 
-    /// The earliest event of the present mode; nothing is reached where the expansion or time ends.
+    /// The earliest event of the present mode; none is reached if the expansion or the time ends
+    /// first.
     #[inline(always)]
     fn next_crossing(&mut self) -> Crossing<T> {
         apart!(T, {
@@ -361,8 +362,9 @@ impl<T: Real> Simulation<T> {
         })
     }
 
-    /// Moves state, time and contacts to the crossing. Positions there lie on the closed cables and
-    /// velocities along the taut ones to rounding, so that nothing drifts from event to event.
+    /// Moves state, time and contacts to the crossing. The positions are projected onto the closed
+    /// cables and the velocities along the taut ones, so that errors do not accumulate from event
+    /// to event.
     #[inline(always)]
     fn advance(&mut self, crossing: &Crossing<T>) {
         apart!(T, {
@@ -402,7 +404,7 @@ impl<T: Real> Simulation<T> {
         })
     }
 
-    /// The cables whose gap is zero, known and not evaluated.
+    /// The cables whose gap is zero by definition, not by evaluation.
     pub(crate) fn closed(&self) -> TautSet {
         let known = |&cable: &usize| {
             self.contacts[cable].gap == T::ZERO && self.contacts[cable].error == T::ZERO
@@ -410,7 +412,7 @@ impl<T: Real> Simulation<T> {
         (0..self.system.cables.len()).filter(known).collect()
     }
 
-    /// The cables whose gap and normal velocity are zero, whether or not they pull.
+    /// The cables whose gap and normal velocity are zero, whether or not they have tension.
     pub fn resting(&self) -> TautSet {
         let still = |&cable: &usize| self.contacts[cable].resting;
         self.closed().iter().filter(still).collect()

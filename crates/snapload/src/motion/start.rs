@@ -1,4 +1,4 @@
-//! Where a motion may begin.
+//! Which starts are legal.
 
 use crate::arithmetic::real::Real;
 use crate::model::cable::Cable;
@@ -12,7 +12,7 @@ use crate::motion::projection::{project_position, project_velocity};
 use std::cell::Cell;
 use std::fmt;
 
-/// A start's gap counts as closed within this of zero, and its normal velocity as zero
+/// A gap at the start counts as closed within this distance of zero, and a normal velocity as zero
 /// (docs/model.md section 5).
 pub const START_TOLERANCE: f64 = 1e-9;
 
@@ -26,9 +26,9 @@ pub enum StartError {
         /// The gap \[L²\].
         gap: f64,
     },
-    /// What a limit bounds is beyond its bound.
+    /// The quantity of a limit is beyond its bound.
     BeyondLimit {
-        /// How a run ends that reaches this limit.
+        /// The stop rule of this limit.
         stop: Stop,
         /// |θ|, or y of the highest point of the body.
         value: f64,
@@ -74,9 +74,9 @@ pub(crate) struct Start<T> {
     pub(crate) stop: Option<Stop>,
 }
 
-/// Checks a start and projects it onto the cables that count as closed: in position, and in
-/// velocity where that counts as zero. The problem on accelerations decides which of those at rest
-/// are taut.
+/// Checks a start and projects it onto the cables that count as closed: in position, and, where the
+/// normal velocity counts as zero, in velocity. The problem on accelerations decides which of those
+/// at rest are taut.
 #[inline(always)]
 pub(crate) fn prepare<T: Real>(
     system: &System<T>,
@@ -108,7 +108,7 @@ pub(crate) fn prepare<T: Real>(
             Contact::evaluated(system, cable, &state)
         };
     }
-    // The water has been at rest, and has nothing to remember.
+    // The water is taken as undisturbed, and its memory is zero.
     let still = [T::ZERO; 3];
     let around = system.surroundings(t);
     let active = taut_next(system, &around, &state, still, resting);
@@ -125,8 +125,8 @@ pub(crate) fn prepare<T: Real>(
     })
 }
 
-/// Whether the system has no more cables than there is room for, and whether all that decides the
-/// run is a number.
+/// Checks that the system does not have too many cables, and that all numbers that determine the
+/// run are finite.
 fn check_numbers<T: Real>(
     system: &System<T>,
     rules: &Rules<T>,
@@ -185,7 +185,7 @@ fn closed_cables<T: Real>(system: &System<T>, state: &State<T>) -> Result<TautSe
     Ok(closed)
 }
 
-/// A start on a limit stops at once; one beyond it is an error.
+/// A start at a limit stops at once; one beyond it is an error.
 #[inline(always)]
 fn stop_at_start<T: Real>(
     system: &System<T>,

@@ -1,9 +1,9 @@
-//! What one step of a run does to small deviations: a linear map, and how it acts on one or on many
-//! of them.
+//! The effect of one step of a run on small deviations: a linear map, and its application to one or
+//! many of them.
 //!
-//! Deviations are told at the events, as (w, τ): see [`crate::motion::tangent`], which makes these
-//! maps. Of a floating body what the water remembers deviates, too: it is told beside them, as rows of
-//! its own, of which other bodies have none.
+//! Deviations are given at the events, as (w, τ): see [`crate::motion::tangent`], which makes these
+//! maps. For a floating body the deviations of the water's memory are additional rows, which other
+//! bodies do not have.
 
 use crate::motion::water_flow::WaterFlow;
 
@@ -13,8 +13,8 @@ pub type Matrix = [[f64; 6]; 6];
 /// A deviation (w, τ): six of the state, and the time.
 pub type Deviation = [f64; 7];
 
-/// Deviations side by side: a row for each of their seven components, a column for each of them, so
-/// that one operation does them all.
+/// Deviations side by side: a row for each of their seven components, a column for each deviation,
+/// so that one operation acts on all of them.
 pub(crate) type Block<const M: usize> = [[f64; M]; 7];
 
 /// One step of the linearised motion.
@@ -31,11 +31,11 @@ pub struct StepMap {
     pub(super) law: Option<[[f64; 6]; 3]>,
     /// ż after the event.
     pub(super) rate_after: [f64; 6],
-    /// The same of the water's memory, if the body floats.
+    /// The rates of the water's memory, if the body floats.
     pub(super) memory: Option<Box<MemoryRates>>,
 }
 
-/// Of each state of the water's memory, real and imaginary part in turn.
+/// The rates of each state of the water's memory, real and imaginary part in turn.
 #[derive(Clone, Debug)]
 pub(super) struct MemoryRates {
     /// ż₋ − Φ ż₊.
@@ -51,8 +51,8 @@ pub(super) struct MemoryRates {
 pub(super) struct Flow {
     /// How long it is.
     pub(super) s: f64,
-    /// Φ where velocities change by the state: with taut cables, or drag. Else positions drift with
-    /// the velocities.
+    /// Φ where accelerations depend on the state: with taut cables, or drag. None where positions
+    /// only drift with the velocities.
     pub(super) driven: Option<Matrix>,
     /// Φ of a floating body.
     pub(super) water: Option<Box<WaterFlow>>,
@@ -80,7 +80,7 @@ impl Flow {
 }
 
 impl StepMap {
-    /// Along the stretch: (w, τ) just before the event, told at the previous event's time.
+    /// Along the stretch: (w, τ) just before the event, at the previous event's time.
     pub fn along(&self, deviation: &Deviation) -> Deviation {
         self.single(deviation, |block, memory| self.carry_along(block, memory))
     }
@@ -96,7 +96,7 @@ impl StepMap {
         self.single(deviation, |block, _| self.carry_through(block))
     }
 
-    /// [`StepMap::along`] of many.
+    /// [`StepMap::along`] for many deviations.
     #[inline(always)]
     pub(crate) fn carry_along<const M: usize>(
         &self,
@@ -113,7 +113,7 @@ impl StepMap {
         }
     }
 
-    /// [`StepMap::meet`] of many.
+    /// [`StepMap::meet`] for many deviations.
     #[inline(always)]
     pub(crate) fn carry_to_meet<const M: usize>(
         &self,
@@ -130,7 +130,7 @@ impl StepMap {
         }
     }
 
-    /// [`StepMap::through`] of many; an impact leaves the memory as it is.
+    /// [`StepMap::through`] for many deviations; an impact does not change the memory.
     #[inline(always)]
     pub(crate) fn carry_through<const M: usize>(&self, block: &mut Block<M>) {
         if let Some(law) = &self.law {
@@ -142,7 +142,7 @@ impl StepMap {
         }
     }
 
-    /// All of the step for many deviations at one time, at its start and at its end.
+    /// The whole step for many deviations, each at one common time at its start and at its end.
     #[inline(always)]
     pub(crate) fn carry_at_one_time<const M: usize>(
         &self,
@@ -162,26 +162,28 @@ impl StepMap {
         }
     }
 
-    /// What [`StepMap::meet`] undoes: the deviation told at the previous event's time, when τ was
+    /// The inverse of [`StepMap::meet`]: the deviation at the previous event's time, when τ was
     /// `tau`.
     pub(crate) fn before_meeting(&self, deviation: &Deviation, tau: f64) -> Deviation {
         let (w, now) = split(deviation);
         join(&add_scaled(&w, &self.rate, tau - now), tau)
     }
 
-    /// The deviation at one time, of one that is told at the event at the end of the step.
+    /// The deviation at one common time that corresponds to a deviation at the event at the end of
+    /// the step.
     pub fn at_one_time(&self, deviation: &Deviation) -> [f64; 6] {
         let (w, tau) = split(deviation);
         add_scaled(&w, &self.rate_after, -tau)
     }
 
-    /// All of the step for a deviation at one time, at its start and at its end. Of a floating body
-    /// the water's memory does not deviate at the start.
+    /// The whole step for a deviation at one common time at its start and at its end. For a
+    /// floating body the water's memory has no deviation at the start.
     pub fn fundamental(&self, deviation: &[f64; 6]) -> [f64; 6] {
         self.fundamental_with_memory(deviation, &mut vec![0.0; self.memory_rows()])
     }
 
-    /// The same with a deviation of the water's memory, real and imaginary part of each state in turn.
+    /// The same with a deviation of the water's memory, real and imaginary part of each state in
+    /// turn.
     pub fn fundamental_with_memory(&self, deviation: &[f64; 6], memory: &mut [f64]) -> [f64; 6] {
         let mut block = join(deviation, 0.0).map(|component| [component]);
         let mut rows: Vec<[f64; 1]> = memory.iter().map(|component| [*component]).collect();
@@ -192,7 +194,7 @@ impl StepMap {
         split(&block.map(|[component]| component)).0
     }
 
-    /// How many rows the deviations of the water's memory have: two for each of its states.
+    /// The number of rows of the water's memory: two for each of its states.
     pub(crate) fn memory_rows(&self) -> usize {
         self.memory.as_ref().map_or(0, |rates| rates.rate.len())
     }
@@ -202,7 +204,7 @@ impl StepMap {
         self.memory.as_ref().map_or(&[], |rates| &rates.rate)
     }
 
-    /// An operation on blocks, on one deviation, with none of the water's memory.
+    /// Applies an operation on blocks to one deviation, without the water's memory.
     #[inline(always)]
     fn single(
         &self,
@@ -214,13 +216,13 @@ impl StepMap {
         block.map(|[component]| component)
     }
 
-    /// −∇h/ḣ: how much later the event comes for a deviation just before it.
+    /// −∇h/ḣ: the delay of the event per deviation just before it.
     pub fn delay(&self) -> &[f64; 6] {
         &self.delay
     }
 
-    /// The square of the length of (ż₊ − R' ż₋) ∇h/ḣ: by how much a deviation can grow because the event comes at
-    /// another time.
+    /// The square of the length of (ż₊ − R' ż₋) ∇h/ḣ, which is the largest factor by which a
+    /// deviation can grow because the event comes at another time.
     #[inline(always)]
     pub fn magnification_squared(&self) -> f64 {
         let through = self.through(&join(&self.rate, 0.0));
@@ -262,7 +264,7 @@ fn add_rows<const M: usize>(rows: &mut [[f64; M]], rates: &[f64], by: &[f64; M],
     }
 }
 
-/// A linear function of the state, of every deviation.
+/// A linear function of the state for every deviation.
 #[inline(always)]
 pub(crate) fn combined<const M: usize>(block: &Block<M>, factors: &[f64; 6]) -> [f64; M] {
     let mut sum = [0.0; M];

@@ -1,11 +1,11 @@
-//! The linearised motion: what becomes of a small deviation from a run.
+//! The linearised motion: the evolution of a small deviation from a run.
 //!
 //! Two neighbours reach an event at different times, and between these times they differ by a whole
-//! jump of velocity, however close they are. So a deviation is told here *at the events*, as (w,
-//! τ): the neighbour is at z + w at the time t + τ, when it has had the same events as the run. A
-//! deviation δz at one time is (δz, 0), and (w, τ) is δz = w − ż τ at one time.
+//! jump of velocity, however close they are. So a deviation is given here *at the events*, as (w,
+//! τ): the neighbour is at z + w at the time t + τ, after the same events as the run. A deviation
+//! δz at one time is (δz, 0), and (w, τ) is δz = w − ż τ at one time.
 //!
-//! Along a stretch from t to t + s, with Φ = ∂z(t + s)/∂z(t) for the taut set that it has,
+//! Along a stretch from t to t + s, with Φ = ∂z(t + s)/∂z(t) for its taut set,
 //!
 //! ```text
 //! w ← Φ w + (ż₋ − Φ ż₊) τ              ż₊ at the stretch's start, ż₋ at its end
@@ -34,11 +34,11 @@ use crate::motion::water_flow::{Slopes, WaterFlow, memory_rates, pace_of_memory}
 
 type Number = Dual<f64, 6>;
 
-/// Φ along taut motion is integrated in so many steps for each expansion of the motion, whose
-/// length goes with the motion's own time scale; with the rule of Runge and Kutta this leaves about
-/// 1e-4 of Φ.
+/// Steps, for each expansion of the motion, in which Φ is integrated along taut motion; the length
+/// of an expansion follows the motion's own time scale. With the Runge-Kutta rule the error of Φ is
+/// about 1e-4.
 const SUBSTEPS: f64 = 3.0;
-/// Near rest the motion has no time scale, but its deviations swing all the same: a step is no
+/// Near rest the motion has no time scale, but its deviations oscillate all the same: a step is no
 /// longer than this part of a radian of the fastest of them.
 const RADIANS: f64 = 0.5;
 
@@ -61,12 +61,12 @@ impl Kernel for Mapping<'_> {
         let pull = simulation.memory_force_within(step, 0.0);
         let around = simulation.surroundings(step.t_start);
         let first = rate(system, &around, &step.start, pull, step.taut);
-        // An event leaves the water's memory as it is.
+        // An event does not change the water's memory.
         let pull = simulation.memory_force();
         let around = simulation.surroundings(step.t_end);
         let last = rate(system, &around, &step.before, pull, step.taut);
         let rate_after = if step.taut == step.taut_after && system.flies_freely(step.taut) {
-            // In flight the force alone accelerates, and it does not jump.
+            // In flight the acceleration is the force alone, which does not jump.
             let State { vx, vy, vtheta, .. } = step.after;
             [vx, vy, vtheta, last[3], last[4], last[5]]
         } else {
@@ -132,7 +132,7 @@ impl Kernel for Differentiating<'_> {
 }
 
 impl Tangent {
-    /// Of the motions of a system.
+    /// The linearised motions of a system.
     pub fn new(system: &System) -> Self {
         Self {
             system: system.map(Number::constant),
@@ -147,7 +147,7 @@ impl Tangent {
         state.components().map(|component| component.slope)
     }
 
-    /// Of the step that `simulation` has just made.
+    /// The map of the step that `simulation` has just made.
     pub fn of_step(&self, simulation: &Simulation, step: &Step) -> StepMap {
         dispatch(Mapping(self, simulation, step))
     }
@@ -177,8 +177,8 @@ impl Tangent {
     }
 
     /// Φ along a stretch with taut cables or drag: Φ̇ = A Φ, A = ∂ż/∂z along the motion, by the
-    /// rule of Runge and Kutta. The motion itself is known to rounding; its deviation need only be
-    /// known to some digits.
+    /// Runge-Kutta rule. The motion itself is accurate to rounding; for its deviation a few digits
+    /// are enough.
     #[inline(always)]
     fn driven_flow(&self, simulation: &Simulation, step: &Step) -> Matrix {
         let s = step.t_end - step.t_start;
@@ -207,8 +207,8 @@ impl Tangent {
         phi.map(|[x, y, theta, vx, vy, vtheta, ..]| [x, y, theta, vx, vy, vtheta])
     }
 
-    /// Φ of a floating body: a power series where its motion is linear, else by the rule of Runge and
-    /// Kutta.
+    /// Φ of a floating body: a power series where its motion is linear, otherwise by the
+    /// Runge-Kutta rule.
     #[inline(always)]
     fn water_flow(&self, simulation: &Simulation, step: &Step, water: &Floating) -> WaterFlow {
         let s = step.t_end - step.t_start;
@@ -229,7 +229,7 @@ impl Tangent {
         WaterFlow::varying(water, h, nodes)
     }
 
-    /// What the accelerations of a floating body change by a time `s` into a step.
+    /// The derivatives of the accelerations of a floating body a time `s` into a step.
     #[inline(always)]
     fn water_slopes(&self, simulation: &Simulation, step: &Step, s: f64) -> Slopes {
         let (system, state) = (simulation.system(), simulation.within(step, s));
@@ -244,8 +244,8 @@ impl Tangent {
         dispatch(Differentiating(self, simulation, step, s))
     }
 
-    /// −∇h/ḣ of what was reached: a gap, or what a limit bounds. A tension that is lost changes
-    /// no velocity and hardly an acceleration, so its time does not matter.
+    /// −∇h/ḣ of the event function: of a gap, or of the quantity of a limit. The loss of a tension
+    /// does not change velocities and hardly accelerations, so that its time does not matter.
     #[inline(always)]
     fn delay(&self, system: &System, step: &Step, rate: &[f64; 6]) -> [f64; 6] {
         let (before, reached) = (&step.before, step.event.reached);
@@ -262,7 +262,7 @@ impl Tangent {
         slope.map(|slope| -slope / climb)
     }
 
-    /// R' of an impact, and of the sticking that may follow.
+    /// R' of an impact, and of the sticking that may follow it.
     #[inline(always)]
     fn law(&self, system: &System, step: &Step) -> [[f64; 6]; 3] {
         let event = &step.event;
@@ -280,7 +280,7 @@ impl Tangent {
     }
 }
 
-/// A state as the six variables that derivatives are taken by.
+/// A state whose components are the six variables of the derivatives.
 #[inline(always)]
 fn variables(state: &State) -> State<Number> {
     let mut i = 0;
@@ -303,10 +303,10 @@ fn rate(
     [state.vx, state.vy, state.vtheta, x, y, theta]
 }
 
-/// Deviations at one time, as columns; two are left over.
+/// Deviations at one time, as columns; two columns are unused.
 type Columns = [[f64; 8]; 6];
 
-/// A w, where A's upper rows say that positions change by velocities.
+/// A w, where the upper rows of A say that positions change at the velocities.
 #[inline(always)]
 fn change(lower: &[[f64; 6]; 3], w: &Columns) -> Columns {
     let mut changed = [[0.0; 8]; 6];
@@ -334,8 +334,8 @@ fn plus(w: &Columns, k: &Columns, h: f64) -> Columns {
     sum
 }
 
-/// A bound on how fast deviations swing or decay \[1/T\]: the accelerations of a unit of position and
-/// of a unit of velocity, with θ in units in which the inertia is 1.
+/// A bound on the rate at which deviations oscillate or decay \[1/T\]: from the accelerations per
+/// unit of position and per unit of velocity, with θ in units in which the inertia is 1.
 #[inline(always)]
 fn pace_of_deviations(lower: &[[f64; 6]; 3], inertia: f64) -> f64 {
     let turn = if inertia > 0.0 { inertia.sqrt() } else { 1.0 };

@@ -1,6 +1,6 @@
-//! Sliding, rocking, and motion with any other set of taut cables, all motion with drag, of any
-//! mass but the unit one, or afloat, and slack flight under more than eight sinusoids: its Taylor
-//! series.
+//! The Taylor series of all motion without a closed form: sliding, rocking, any other set of taut
+//! cables, motion with drag, with a mass other than the unit one, or afloat, and slack flight under
+//! more than eight sinusoids.
 //!
 //! Taut motion is a differential-algebraic problem of index 3 (docs/model.md section 6):
 //!
@@ -24,21 +24,21 @@
 //! ```
 //!
 //! with W, n and s at the start, a and α the accelerations without the part of T_k, and b_i the
-//! part of the constraint that no acceleration changes: n_i·ρ_i of the orders of θ below k + 2, and
-//! Σ d_j·d_{k+2−j}/2r_i, 0 < j < k + 2. At k = 0 this is the centripetal term, b_i = |Ṗ_i|²/2r_i −
-//! θ̇² n_i·ρ_i/2. It holds for every taut set, with parallel cables and b ≠ 0; the gaps of the
-//! slack cables and the tensions come out as polynomials on the step, in which
-//! [`crate::motion::events`] finds events with the guarantee it has in flight.
+//! part of the constraint that does not depend on the accelerations: n_i·ρ_i of the orders of θ
+//! below k + 2, and Σ d_j·d_{k+2−j}/2r_i, 0 < j < k + 2. At k = 0 this is the centripetal term, b_i
+//! = |Ṗ_i|²/2r_i − θ̇² n_i·ρ_i/2. It holds for every taut set, with parallel cables and b ≠ 0; the
+//! gaps of the slack cables and the tensions result as polynomials on the step, in which
+//! [`crate::motion::events`] finds events with the same guarantee as in flight.
 //!
-//! With any other mass matrix all accelerations are M⁻¹ times forces and moments, and
-//! W = G M⁻¹ Gᵀ; of a floating body the force has the parts of [`crate::motion::water_series`].
+//! With any other mass matrix all accelerations are M⁻¹ times forces and moments, and W = G M⁻¹ Gᵀ;
+//! for a floating body the force has the terms of [`crate::motion::water_series`].
 //!
-//! Libraries weighed for this: `ode_solvers` and `differential-equations` (Dormand-Prince 5 and 8:
-//! their step control raises to powers with the platform's libm, and they allocate their output as
-//! they go), `diffsol` (implicit and embedded pairs: likewise, and made for large stiff systems).
-//! None gives dense output near rounding, which the guarantee needs. A Taylor method of fixed order
-//! is some hundred lines of plain arithmetic, gives the same bits everywhere, and does not
-//! allocate. Source: Jorba & Zou, *Experimental Mathematics* 14 (2005) 99.
+//! Libraries considered: `ode_solvers` and `differential-equations` (Dormand-Prince 5 and 8: their
+//! step control uses powers of the platform's libm, and they allocate their output during the
+//! integration), `diffsol` (implicit and embedded pairs: likewise, and made for large stiff
+//! systems). None gives dense output accurate to rounding, which the guarantee needs. A Taylor
+//! method of fixed order is some hundred lines of plain arithmetic, gives the same bits everywhere,
+//! and does not allocate. Source: Jorba & Zou, *Experimental Mathematics* 14 (2005) 99.
 
 use crate::arithmetic::polynomial::{ORDER, Polynomial};
 use crate::arithmetic::processor::apart;
@@ -63,8 +63,8 @@ use crate::motion::waves::sinusoids::Expanded;
 mod events;
 mod water;
 
-/// A motion by less than this along a step counts as rest: its terms need not converge among
-/// themselves, only stay below rounding of this \[L\], \[rad\].
+/// A displacement along a step of less than this counts as rest: the terms need not converge
+/// relative to each other, only stay below the rounding of this \[L\], \[rad\].
 const STILL: f64 = 1e-12;
 
 /// The gap of a cable, and its tension where it carries.
@@ -85,32 +85,31 @@ pub(crate) struct Series<T: Real> {
     circle: VectorSeries<T, 2>,
     /// k θ_k.
     spin: VectorSeries<T, 1>,
-    /// The forces, those by the water included.
+    /// The forces, including those of the water.
     force: [Polynomial<T>; 2],
-    /// What the water turns the body by: a moment, or of a unit mass θ̈.
+    /// The moment of the water on the body, or for a unit mass its θ̈.
     turning: Polynomial<T>,
     drag: DragSeries<T>,
-    /// If the body floats.
+    /// The series of the water, if the body floats.
     water: Option<Box<WaterSeries<T>>>,
     pairs: CableSeries<T>,
     lines: Vec<Line<T>>,
     contacts: Contacts<T>,
     /// A gap below this counts as zero while its cable rests.
     touch: PerCable<T>,
-    /// What the series of a slack flight leaves out of the motion by waves, but for a power of the time.
+    /// The truncation error of the series of a slack flight by waves, up to a power of the time.
     waves_left_out: T,
-    /// What the series leave out of the gaps within the step.
+    /// The truncation error of the gaps within the step.
     left_out: PerCable<T>,
     limits: Limits<T>,
     step: T,
-    /// What may be reached within the step: event functions, as far as they are not the gaps of
-    /// `lines`.
+    /// The event functions that may be reached within the step, except the gaps of `lines`.
     watched: Vec<Watched<T>>,
 }
 
 impl<T: Real> Series<T> {
-    /// An expansion not yet made. Room for the cables comes with the first that is, as most runs
-    /// make none.
+    /// An expansion without content. Memory for the cables is allocated with the first expansion,
+    /// as most runs make none.
     pub(crate) fn new(system: &System<T>, rules: &Rules<T>) -> Self {
         Self {
             active: ActiveSet::default(),
@@ -138,8 +137,8 @@ impl<T: Real> Series<T> {
         }
     }
 
-    /// Expands the motion from a start, with the series of what acts from outside about its time, and
-    /// chooses how far the expansion is used.
+    /// Expands the motion from a start, with the series of the external forces about its time, and
+    /// chooses the length on which the expansion is used.
     #[inline(always)]
     pub(crate) fn begin(
         &mut self,
@@ -195,7 +194,7 @@ impl<T: Real> Series<T> {
         })
     }
 
-    /// Adds the k-th coefficients of the drag, which those of the velocities give.
+    /// Adds the k-th coefficients of the drag, which follow from those of the velocities.
     #[inline(always)]
     fn extend_drag(&mut self, system: &System<T>, k: usize) {
         let Some(drag) = &system.drag else { return };
@@ -209,7 +208,7 @@ impl<T: Real> Series<T> {
         self.turning[k] = system.body.mass.load_of_turning(turning);
     }
 
-    /// Gives the k-th coefficient of θ.
+    /// Sets the k-th coefficient of θ.
     #[inline(always)]
     fn turn(&mut self, k: usize, theta: T) {
         self.theta[k] = theta;
@@ -227,7 +226,7 @@ impl<T: Real> Series<T> {
         })
     }
 
-    /// ρ and d of every cable to order k; d but for its constant.
+    /// Extends ρ and d of every cable to order k; the constant of d is given separately.
     #[inline(always)]
     fn extend_pairs(&mut self, k: usize) {
         let [cosine, sine] = self.circle[k];
@@ -262,7 +261,7 @@ impl<T: Real> Series<T> {
         mass: &Mass<T>,
         ready: &Factored<T, impl Fn(usize, usize) -> T>,
     ) {
-        // θ_{k+2} is still zero, so this is the part that the lower orders of θ give.
+        // θ_{k+2} is still zero, so that this is the part from the lower orders of θ.
         self.turn(k + 2, T::ZERO);
         let (sine, cosine) = self.rotation(k + 2);
         let share = T::ONE / ((k + 1) * (k + 2)) as f64;
@@ -278,7 +277,7 @@ impl<T: Real> Series<T> {
         self.circle[k + 2] = [cosine - theta * sine_0, sine + theta * cosine_0];
     }
 
-    /// The gap of every cable to order k, once d is known to that order; where all cables carry, no
+    /// The gap of every cable to order k, once d is known to that order; if all cables carry, no
     /// gap is needed.
     #[inline(always)]
     fn keep_gaps(&mut self, k: usize) {
@@ -301,7 +300,7 @@ impl<T: Real> Series<T> {
         }
     }
 
-    /// The first coefficients of the gaps, as they are known.
+    /// Sets the first coefficients of the gaps to their known values.
     #[inline(always)]
     fn know_gaps(&mut self) {
         for (line, contact) in self.lines.iter_mut().zip(&self.contacts) {
@@ -340,7 +339,7 @@ impl<T: Real> Series<T> {
         })
     }
 
-    /// The cables that are taut within the step, and those of them that carry.
+    /// The cables that are taut within the step, and the carrying ones among them.
     pub(crate) fn active(&self) -> ActiveSet {
         self.active
     }
@@ -356,7 +355,7 @@ impl<T: Real> Series<T> {
         apart!(T, { state_at([&self.x, &self.y, &self.theta], s) })
     }
 
-    /// x, y and θ as they are expanded.
+    /// The expansions of x, y and θ.
     #[inline(always)]
     pub(crate) fn motion(&self) -> [Polynomial<T>; 3] {
         [self.x, self.y, self.theta]
@@ -393,8 +392,8 @@ impl<T: Real> Series<T> {
         (gap, rate)
     }
 
-    /// Whether a cable that was at rest at the start, as one that has just lost its tension is, opens
-    /// all along up to a time `s`: ġ rises nowhere.
+    /// Whether a cable that was at rest at the start, such as one that has just lost its tension,
+    /// opens throughout up to a time `s`: ġ never increases.
     pub(crate) fn opens_from_rest(&self, cable: usize, s: T) -> bool {
         let gap = &self.lines[cable].gap;
         let rate = |s: T| {

@@ -1,4 +1,4 @@
-//! What a run leaves behind.
+//! The result of a run.
 
 use crate::model::rules::Stop;
 use crate::model::state::State;
@@ -27,7 +27,7 @@ pub struct End {
     pub reason: Stop,
     /// When \[T\].
     pub t: f64,
-    /// Where the series of impacts converges, if the run ends by one \[T\].
+    /// The time at which the series of impacts converges, if the run ends with one \[T\].
     pub t_limit: Option<f64>,
     /// The last state.
     pub state: State,
@@ -59,17 +59,18 @@ pub struct Trajectory {
     norms: Norms,
 }
 
-/// ρ2 sums up to this time, included (chapter eq. 6.3).
+/// ρ2 includes impacts up to this time (chapter eq. 6.3).
 pub(crate) const RHO2_UNTIL: f64 = 10.0;
 
 impl Trajectory {
-    /// Runs a simulation to its end, and keeps what the motion at any time is computed from.
+    /// Runs a simulation to its end, and keeps the data from which the motion at any time is
+    /// computed.
     pub fn record(simulation: Simulation) -> Self {
         Self::record_until(simulation, |_, _| ControlFlow::Continue(())).0
     }
 
-    /// The same, as long as `watch`, which is shown the simulation after every step, and the step,
-    /// lets it go on; none where it did not let it come to its end.
+    /// The same, as long as `watch`, which receives the simulation and the step after every step,
+    /// lets it continue; none if `watch` ended it early.
     pub fn record_while(
         simulation: Simulation,
         watch: impl FnMut(&Simulation, &Step) -> ControlFlow<()>,
@@ -92,7 +93,7 @@ impl Trajectory {
             end: End::of(&simulation),
             norms: Norms::default(),
         };
-        // A step is large, so it stays where it is.
+        // Borrowed, because a step is large.
         while let Some(step) = &simulation.step() {
             run.take(&simulation, step);
             if watch(&simulation, step).is_break() {
@@ -153,8 +154,8 @@ impl Trajectory {
         self.segments.kept()
     }
 
-    /// Keeps no more than so many of the Taylor series that go on from others, as a long run does
-    /// of itself; returns when each part of the motion that is kept begins.
+    /// Keeps at most this many of the Taylor series that continue others, as a long run does by
+    /// itself; returns the start times of the parts of the motion that are kept.
     #[cfg(feature = "comparisons")]
     pub fn keep_links(&mut self, most: usize) -> Vec<f64> {
         self.segments.keep_links(most);
@@ -163,7 +164,7 @@ impl Trajectory {
 }
 
 impl End {
-    /// Of a simulation that has stopped.
+    /// The trajectory of a simulation that has stopped.
     pub(crate) fn of(simulation: &Simulation) -> Self {
         Self {
             reason: simulation.stop().unwrap_or(Stop::EndTime),

@@ -1,5 +1,5 @@
-//! The slack flight of a body on two cables from its start: when a cable closes, the state there,
-//! and the proof that none closed before.
+//! The slack flight of a body on two cables: when a cable closes, the state there, and the proof
+//! that none closed before.
 
 use crate::arithmetic::lane::{Lane, Mask};
 use crate::arithmetic::plane::Vector2;
@@ -10,12 +10,12 @@ use crate::motion::attachment::{Attachment, GapJet, INFLATION, Instant, flown};
 use crate::motion::limits::NEVER;
 use crate::motion::two_cables::{AfterImpact, TwoCableSystem};
 
-/// The most trials of one search; one is usual.
+/// The most trials of one search; usually one is enough.
 const MAX_TRIALS: usize = 10;
-/// A trial is near enough if what its cubic leaves out is smaller than the rounding by this factor.
+/// A trial is near enough if the error of its cubic is smaller than the rounding by this factor.
 const BELOW_ROUNDING: f64 = 16.0;
-/// The first part of a flight, in which the proof that a gap stays open starts from the beginning
-/// of the flight, where one more derivative is known.
+/// The part of a flight in which the proof that a gap stays open starts from the beginning of the
+/// flight, where one more derivative is known.
 pub(crate) const EARLY: f64 = 0.6;
 
 /// A flight evaluated at an instant near its end.
@@ -23,15 +23,15 @@ pub(crate) struct Trial<L: Lane> {
     s: L,
     now: Instant<L>,
     jets: [GapJet<L>; 2],
-    /// That of the cable that is to close.
+    /// The jet of the cable that is to close.
     struck: GapJet<L>,
-    /// How much later that cable closes, by its cubic.
+    /// The time until that cable closes, by its cubic.
     to_root: L,
     /// Bounds on |g⁗| up to there.
     fourths: [L; 2],
     /// Whether the gap closes there.
     closes: L::Mask,
-    /// Whether what the cubic leaves out is below rounding.
+    /// Whether the error of the cubic is below rounding.
     near_enough: L::Mask,
 }
 
@@ -47,23 +47,23 @@ pub(crate) struct FlightEnd<L> {
     pub(crate) s: L,
     pub(crate) state: State<L>,
     pub(crate) jets: [GapJet<L>; 2],
-    /// The force there, to a part in 1e8 and better.
+    /// The force there, with a relative error of 1e-8 or less.
     pub(crate) force: Vector2<L>,
 }
 
-/// What is proven of a gap within a flight.
+/// The bounds that are proved for a gap within a flight.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Openness<L: Lane> {
     /// Whether it stays open.
     pub(crate) open: L::Mask,
-    /// In the early part, [`EARLY`] of the flight, g ≤ g₀ + σ times this.
+    /// A slope B: in the early part, [`EARLY`] of the flight, g ≤ g₀ + σ B.
     pub(crate) slope: L,
-    /// In the late part g is at most this.
+    /// A bound on g in the late part.
     pub(crate) late: L,
 }
 
 impl<L: Lane> FlightEnd<L> {
-    /// The same numbers with the derivatives of others.
+    /// The same numbers with the derivatives of `other`.
     #[inline(always)]
     fn with_slopes_of(self, other: &Self) -> Self {
         let [jet, second_jet] = self.jets;
@@ -100,7 +100,7 @@ pub(crate) struct TwoCableFlight<L> {
     pub(crate) attachments: [Attachment<L>; 2],
     /// g̈, g⃛ and g⁗ there.
     bends: [[L; 3]; 2],
-    /// The wave, seen from there.
+    /// The wave, relative to the start.
     wave: Harmonic<L>,
     constant: Vector2<L>,
     /// The force there.
@@ -138,14 +138,14 @@ impl<L: Lane> TwoCableFlight<L> {
         }
     }
 
-    /// Which cable closes first, and about when, by the Taylor polynomials of the gaps at the
-    /// start: the root of the parabola, a step of Newton's method from there to the root of the
+    /// Which cable closes first, and approximately when, by the Taylor polynomials of the gaps at
+    /// the start: the root of the parabola, a step of Newton's method from there to the root of the
     /// cubic, and for the cable that closes first one more to the root of the polynomial of fourth
     /// order.
     #[inline(always)]
     pub(crate) fn guess(&self) -> (L::Mask, L) {
         let (first, other) = (self.parabola(0), self.parabola(1));
-        // One division serves both.
+        // One division for both reciprocals.
         let shared = L::ONE / (first.slope * other.slope);
         let (guess, per_slope) = self.root_of_cubic(0, &first, other.slope * shared);
         let (other_guess, other_per_slope) = self.root_of_cubic(1, &other, first.slope * shared);
@@ -181,7 +181,7 @@ impl<L: Lane> TwoCableFlight<L> {
         let (gap, rate) = (attachment.gap, attachment.gap_rate);
         let discriminant = rate.mul_add(rate, accel * gap * -2.0);
         let slope = discriminant.positive().sqrt();
-        // Summands of one sign in either case.
+        // Either way the summands have the same sign.
         let rising = L::ZERO.below(rate);
         let above = L::select(rising, -gap * 2.0, slope - rate);
         let below = L::select(rising, rate + slope, accel);
@@ -196,7 +196,7 @@ impl<L: Lane> TwoCableFlight<L> {
 
     /// A step of Newton's method from the root of a parabola to that of the cubic, and the
     /// reciprocal of the slope for it; `per_slope` is that of the parabola. A gap whose parabola
-    /// does not cross zero counts as one that never closes.
+    /// does not cross zero is taken to stay open.
     #[inline(always)]
     fn root_of_cubic(&self, i: usize, parabola: &Parabola<L>, per_slope: L) -> (L, L) {
         let [_, jerk, _] = self.bends[i];
@@ -209,7 +209,8 @@ impl<L: Lane> TwoCableFlight<L> {
         (L::select(parabola.crosses, stepped, never), per_slope)
     }
 
-    /// Evaluates the flight at `s`, and finds from there where the gap of one cable closes.
+    /// Evaluates the flight at `s`, and finds from there the time at which the gap of one cable
+    /// closes.
     #[inline(always)]
     fn trial(&self, s: L, second: L::Mask) -> Trial<L> {
         apart!(L, {
@@ -229,12 +230,12 @@ impl<L: Lane> TwoCableFlight<L> {
             let square = to_root * to_root;
             let quartic = square * square * (1.0 / 24.0);
             let left = L::select(second, fourths[1], fourths[0]).mul_add(quartic, left.abs());
-            // Both errors have to be well below rounding: that of the gap, and that of the velocities,
-            // of which the centre's speed is a part. Positions have smaller errors, as a length times
-            // such an error is one of the gap.
+            // Two errors have to be well below rounding: that of the gap, and that of the
+            // velocities, which include the centre's speed. Positions have smaller errors, as a
+            // length times such an error is an error of the gap.
             let lost = self.force[2] * self.wave.omega.abs() * quartic;
             let speed = self.force[0].mul_add(longest, self.attachments[0].speed);
-            // The bounds hold as long as the root is at most half of the flight away.
+            // The bounds hold if the root is at most half of the flight away.
             let near_enough = (left * BELOW_ROUNDING).at_most(struck.noise)
                 & (lost * BELOW_ROUNDING).at_most(speed * L::EPSILON)
                 & (to_root.abs() * 2.0).at_most(s);
@@ -251,9 +252,9 @@ impl<L: Lane> TwoCableFlight<L> {
         })
     }
 
-    /// Searches from a guess for the instant at which the gap of a cable closes: each trial is at
-    /// the root of the cubic of the one before, until what the cubic leaves out is below rounding.
-    /// One trial is usual. Returns the last one, and whether it is near enough.
+    /// Searches from a guess for the time at which the gap of a cable closes: each trial is at the
+    /// root of the cubic of the one before, until the error of the cubic is below rounding. Usually
+    /// one trial is enough. Returns the last one, and whether it is near enough.
     #[inline(always)]
     pub(crate) fn search(&self, second: L::Mask, guess: L, horizon: L) -> (Trial<L>, L::Mask) {
         let mut active = guess.below(horizon);
@@ -267,7 +268,7 @@ impl<L: Lane> TwoCableFlight<L> {
                 let found = active & trial.near_enough;
                 return (trial, found);
             }
-            // A lane that is near enough is evaluated again where it was, and stays as it is.
+            // A lane that is near enough is evaluated again at the same time, and does not change.
             s = L::select(again, (s + trial.to_root).detached(), s);
             trials += 1;
         }
@@ -285,9 +286,9 @@ impl<L: Lane> TwoCableFlight<L> {
         if !L::CARRIES_SLOPES {
             return arrival;
         }
-        // Where the search made its trials is no part of the motion: the crossing moves by −∂g/ġ.
-        // Both are taken at the crossing itself, as the slopes of what is moved there by its cubic
-        // are of lower order.
+        // The times of the search's trials do not depend on the parameters; the crossing moves by
+        // −∂g/ġ. Both derivatives are taken at the crossing itself, as those of values that its
+        // cubic moves there are of lower order.
         let there = self.trial(arrival.s.detached(), second);
         let value = there.struck.value;
         let moved = (value.detached() - value) / there.struck.rate;
@@ -370,7 +371,7 @@ impl<L: Lane> TwoCableFlight<L> {
         let bound = bound.mul_add(late * INFLATION, -slowest);
         let latest = bound.mul_add(late, end_value);
         let late_open = latest.below(-end.noise);
-        // Of the struck cable the value at the end is known to be zero, without noise.
+        // The struck cable's gap at the end is known to be zero, without rounding.
         let late_open = late_open | (L::ZERO.at_most(end_value) & bound.below(L::ZERO));
         Openness {
             open: early_open & late_open,
@@ -409,8 +410,8 @@ fn reciprocal<L: Lane>(estimate: L, x: L) -> L {
     estimate * (-x).mul_add(estimate, L::from_f64(2.0))
 }
 
-/// `next` where it is between half and twice `s`, else `s`: a longer step of Newton's method is of
-/// no use.
+/// `next` if it is between half and twice `s`, else `s`: a longer step of Newton's method would not
+/// help.
 #[inline(always)]
 fn within_twice<L: Lane>(s: L, next: L) -> L {
     let sound = (s * 0.5).below(next) & next.below(s * 2.0);

@@ -1,5 +1,5 @@
-//! A body on two cables under one sinusoid, and a moment of its motion, as numbers that a lane can
-//! hold: what the fast path takes in place of a system, its rules and a state.
+//! A body on two cables under one sinusoid, and a motion at one instant, as numbers that a lane can
+//! hold: the fast path uses them in place of a system, its rules and a state.
 
 use crate::arithmetic::lane::zip;
 use crate::arithmetic::plane::{Rotation, Vector2};
@@ -14,7 +14,7 @@ use crate::model::state::State;
 use crate::model::system::System;
 use crate::motion::limits::LaneLimits;
 
-/// What does not change along a run.
+/// The numbers that are constant along a run.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct TwoCableSystem<L> {
     pub(crate) cables: [Cable<L>; 2],
@@ -31,9 +31,9 @@ pub(crate) struct TwoCableSystem<L> {
     /// Bound on |ÿ|.
     pub(crate) vertical_acceleration_bound: L,
     pub(crate) rotation_limit: L,
-    /// What the outline reaches from the centre at most.
+    /// The largest distance of the outline from the centre.
     pub(crate) outline: L,
-    /// The upper bound, less what the outline reaches above the centre at most.
+    /// The upper bound minus the largest height of the outline above the centre.
     pub(crate) level: L,
     pub(crate) t_end: L,
     /// More impacts than this stop a run.
@@ -50,14 +50,14 @@ pub(crate) struct AfterImpact<L> {
     pub(crate) rotation: Rotation<L>,
     /// ẋ, ẏ, θ̇ before the impact.
     pub(crate) before: [L; 3],
-    /// What is known of the gaps: value and error.
+    /// The gaps: value and error of each.
     pub(crate) gaps: [[L; 2]; 2],
     pub(crate) y_max: L,
     pub(crate) theta_max: L,
 }
 
 impl<L: Copy> AfterImpact<L> {
-    /// What `number` makes of each number and the other motion's.
+    /// A function of each number and the other motion's.
     #[inline(always)]
     pub(crate) fn zip_with<M: Copy, U>(
         &self,
@@ -77,7 +77,7 @@ impl<L: Copy> AfterImpact<L> {
 }
 
 impl<L: Copy> TwoCableSystem<L> {
-    /// What `number` makes of each number and the other system's.
+    /// A function of each number and the other system's.
     #[inline(always)]
     pub(crate) fn zip_with<M: Copy, U>(
         &self,
@@ -111,11 +111,11 @@ impl<L: Copy> TwoCableSystem<L> {
 }
 
 impl<T: Real> TwoCableSystem<T> {
-    /// The door of the fast path: a body of unit mass on two cables under one sinusoid, without drag
-    /// and not afloat; others are left to the general loop.
+    /// The entry point of the fast path: accepts a body of unit mass on two cables under one
+    /// sinusoid, without drag and not afloat; other systems are left to the general loop.
     ///
-    /// Everything that a system and its rules say is named here, so that what is added to either
-    /// does not compile before it is said what it means for the fast path.
+    /// All fields of a system and its rules are named here, so that a new field does not compile
+    /// before its meaning for the fast path is decided.
     pub(crate) fn of(system: &System<T>, rules: &Rules<T>) -> Option<Self> {
         let System {
             body,
@@ -123,7 +123,7 @@ impl<T: Real> TwoCableSystem<T> {
             forcing,
             drag,
             floating,
-            // In the law of contact.
+            // Contained in the law of contact.
             restitution: _,
         } = system;
         let Forcing {
@@ -132,16 +132,16 @@ impl<T: Real> TwoCableSystem<T> {
         } = forcing;
         let Body {
             mass,
-            // As far as it matters, it is the body's reach.
+            // Only its largest extent matters, which is `outline`.
             shape: _,
         } = body;
         let Rules {
             limits,
-            // These two are asked where a cable sticks or two are taut, and that is no bounce.
+            // These two rules apply where a cable sticks or two are taut, which is no bounce.
             settled_below: _,
             sliding_above: _,
             t_end,
-            // Counted by the lanes.
+            // The lanes count impacts.
             max_impacts,
             v_stick,
         } = *rules;

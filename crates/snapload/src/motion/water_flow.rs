@@ -1,4 +1,4 @@
-//! The flow of small deviations of a floating body's motion, those of the water's memory among them.
+//! The flow of small deviations of a floating body's motion, including those of the water's memory.
 //!
 //! With w = (δq, δq̇) and ζ = δz of each state of the memory,
 //!
@@ -6,10 +6,10 @@
 //! δq̈ = A w − R Re Σ r ζ,    ζ̇ = p ζ + δq̇
 //! ```
 //!
-//! where A is what the accelerations change by with the state, and R with a force: M⁻¹ while all cables
-//! are slack, less what the taut ones take of it. In slack flight without drag both are constant, and
-//! the flow is a power series in the time, as the motion itself is; with taut cables they change, and it
-//! is found by the rule of Runge and Kutta.
+//! where A is the derivative of the accelerations by the state, and R that by a force: M⁻¹ while
+//! all cables are slack, reduced by the taut ones. In slack flight without drag both are constant,
+//! and the flow is a power series in the time, as the motion itself is; with taut cables they
+//! change, and the flow is integrated by the Runge-Kutta rule.
 
 use crate::arithmetic::polynomial::ORDER;
 use crate::arithmetic::processor::{Kernel, dispatch};
@@ -17,7 +17,7 @@ use crate::model::floating::{Channel, Floating};
 use crate::model::mass::Matrix3;
 use crate::model::state::State;
 
-/// What the accelerations change by at an instant.
+/// The derivatives of the accelerations at an instant.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Slopes {
     /// A.
@@ -30,9 +30,9 @@ pub(crate) struct Slopes {
 #[derive(Clone, Debug)]
 pub(crate) struct WaterFlow {
     channels: Vec<Channel<f64>>,
-    /// The step of the rule of Runge and Kutta; all of the stretch where the slopes are constant.
+    /// The step of the Runge-Kutta rule; the whole stretch where the slopes are constant.
     h: f64,
-    /// At the start, middle and end of each step; one where they are constant.
+    /// At the start, middle and end of each step; a single entry where they are constant.
     slopes: Vec<Slopes>,
 }
 
@@ -55,7 +55,7 @@ impl<const M: usize> Kernel for Carrying<'_, M> {
 }
 
 impl WaterFlow {
-    /// With slopes that do not change over a time `s`.
+    /// A flow with slopes that are constant over a time `s`.
     pub(crate) fn constant(water: &Floating, s: f64, slopes: Slopes) -> Self {
         Self {
             channels: water.channels().collect(),
@@ -64,7 +64,7 @@ impl WaterFlow {
         }
     }
 
-    /// With slopes at the start, middle and end of each step of `h`.
+    /// A flow with slopes at the start, middle and end of each step of `h`.
     pub(crate) fn varying(water: &Floating, h: f64, slopes: Vec<Slopes>) -> Self {
         Self {
             channels: water.channels().collect(),
@@ -204,7 +204,7 @@ pub(crate) fn memory_rates(water: &Floating, memory: &[[f64; 2]], state: &State)
     water.channels().zip(memory).flat_map(rate).collect()
 }
 
-/// A bound on how fast the memory swings or decays \[1/T\].
+/// A bound on the rate at which the memory oscillates or decays \[1/T\].
 pub(crate) fn pace_of_memory(water: &Floating) -> f64 {
     let size = |[re, im]: [f64; 2]| (re * re + im * im).sqrt();
     let poles = water.memory.iter().map(|term| size(term.pole));

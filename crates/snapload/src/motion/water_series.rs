@@ -1,4 +1,4 @@
-//! Taylor series of what linear water does to a floating body along its motion.
+//! Taylor series of the forces of linear water on a floating body along its motion.
 //!
 //! With q, q̇ and the memory z known to some order, the force and ż follow to the same order
 //! ([`crate::model::floating`]):
@@ -7,19 +7,19 @@
 //! F_k = f_k − C q_k − B q̇_k − Re Σ R z_k,    (k + 1) z_{k+1} = p z_k + q̇_k
 //! ```
 //!
-//! While all cables are slack and nothing else depends on the velocity, all of the motion is linear
-//! with constant coefficients, y = (q, q̇, z), ẏ = L y + f(t), and what the series leaves out is
-//! bounded. The polynomials solve the equations but for a residual, which begins with the orders
-//! n = [`ORDER`] − 1 and n + 1 of the forces, and with what the sinusoids have beyond them; the error
-//! grows from it by no more than e^{‖L‖s}, so that with the norms ρ of those coefficients
-//!
+//! While all cables are slack and no other force depends on the velocity, all of the motion is
+//! linear with constant coefficients, y = (q, q̇, z), ẏ = L y + f(t), and the truncation error of
+//! the series is bounded. The polynomials solve the equations up to a residual, which consists of
+//! the orders n = [`ORDER`] − 1 and n + 1 of the forces, and of the terms of the sinusoids beyond
+//! them; the error grows from it by no more than e^{‖L‖s}, so that with the norms ρ of those
+//! coefficients
 //! ```text
 //! ‖error(s)‖ ≤ e^{‖L‖s} (ρ_n s^{n+1}/(n+1) + ρ_{n+1} s^{n+2}/(n+2) + Σ‖a_j‖ Ω_j^{n+2}/(n+2)! s^{n+3}/(n+3))
 //! ```
 //!
-//! The norm is the largest of |q|, |q̇|/λ and ζ|z| with scales λ and ζ that make ‖L‖ small: a unit of
-//! each then does about as much. Steps are so short that the error is below rounding, and what it may
-//! be is added to the rounding of the gaps.
+//! The norm is the largest of |q|, |q̇|/λ and ζ|z| with scales λ and ζ that make ‖L‖ small: a unit
+//! of each then has about the same effect. Steps are so short that the error is below rounding, and
+//! its bound is added to the rounding of the gaps.
 
 use crate::arithmetic::plane::Vector2;
 use crate::arithmetic::polynomial::{ORDER, Polynomial};
@@ -30,7 +30,7 @@ use crate::model::system::System;
 
 /// e^x is bounded by (1 − x/n)^{−n}, 0 ≤ x < n, with n = 2^[`HALVINGS`].
 const HALVINGS: usize = 4;
-/// More than any motion: not infinite, which numbers of many digits can not be.
+/// A bound larger than any motion; not infinite, as numbers of many digits have no infinity.
 const UNBOUNDED: f64 = 1e300;
 
 /// The norm in which the linear motion is bounded.
@@ -46,10 +46,10 @@ struct Norm<T> {
     sinusoids: T,
 }
 
-/// The water along a motion.
+/// The series of the water along a motion.
 #[derive(Clone, Debug)]
 pub(crate) struct WaterSeries<T: Real> {
-    /// Where the states driven by each component of the velocity end.
+    /// The ends of the ranges of states that are driven by each component of the velocity.
     ends: [usize; 3],
     /// p, real and imaginary.
     poles: [Vec<T>; 2],
@@ -68,15 +68,15 @@ pub(crate) struct WaterSeries<T: Real> {
 
 /// A motion in the last two orders of its series.
 pub(crate) struct SeriesEnd<T> {
-    /// q in both, and q̇ in the first of them.
+    /// q in both orders, and q̇ in the first of them.
     pub(crate) places: [[T; 3]; 2],
     pub(crate) speed: [T; 3],
-    /// The forces that are not the water's.
+    /// The forces other than the water's.
     pub(crate) forces: [[T; 2]; 2],
 }
 
 impl<T: Real> WaterSeries<T> {
-    /// Room for the series of a body's water, and what does not change along a run.
+    /// Memory for the series of a body's water, and the numbers that are constant along a run.
     pub(crate) fn new(system: &System<T>, water: &Floating<T>) -> Self {
         let channels: Vec<_> = water.channels().collect();
         let up_to = |input| channels.iter().filter(|c| c.input <= input).count();
@@ -96,7 +96,7 @@ impl<T: Real> WaterSeries<T> {
         }
     }
 
-    /// Begins the series where the memory is this, with the series of F_w + F_c.
+    /// Begins the series with this memory, and with the series of F_w + F_c.
     #[inline(always)]
     pub(crate) fn begin(&mut self, excitation: &[Polynomial<T>; 3], memory: &[Complex<T>]) {
         self.excitation = *excitation;
@@ -107,8 +107,8 @@ impl<T: Real> WaterSeries<T> {
         }
     }
 
-    /// The k-th coefficients of the force, of those of q and q̇; those of order k + 1 of the memory
-    /// follow.
+    /// The k-th coefficients of the force, from those of q and q̇; also finds those of order k + 1
+    /// of the memory.
     #[inline(always)]
     pub(crate) fn extend(
         &mut self,
@@ -163,8 +163,8 @@ impl<T: Real> WaterSeries<T> {
         }
     }
 
-    /// Once the motion is known to [`ORDER`], the rest of the memory, and the residual; where cables
-    /// pull, only that of the memory is known.
+    /// Completes the memory once the motion is known to [`ORDER`], and finds the residual; with
+    /// taut cables, only that of the memory is known.
     #[inline(always)]
     pub(crate) fn close(
         &mut self,
@@ -195,7 +195,7 @@ impl<T: Real> WaterSeries<T> {
         self.residual[1] = self.residual[1].max(memory);
     }
 
-    /// The force of order [`ORDER`], to which q̇ has no coefficient.
+    /// The force of order [`ORDER`], for which q̇ has no coefficient.
     #[inline(always)]
     fn force_at_end(&mut self, water: &Floating<T>, place: [T; 3]) -> [T; 3] {
         let (pull, stiff) = (self.pull_of(ORDER), times(&water.stiffness, place));
@@ -207,8 +207,8 @@ impl<T: Real> WaterSeries<T> {
         force
     }
 
-    /// A bound on what the series leave out of (q, q̇/λ, ζ z) up to `s`; [`UNBOUNDED`] where `s` is
-    /// too long to tell.
+    /// A bound on the truncation error of (q, q̇/λ, ζ z) up to `s`; [`UNBOUNDED`] where `s` is too
+    /// long for a bound.
     #[inline(always)]
     pub(crate) fn remainder(&self, s: T) -> T {
         let Norm {
@@ -288,7 +288,7 @@ impl<T: Real> Norm<T> {
             for channel in water.channels() {
                 let [re, im] = channel.pole;
                 let size = re.abs() + im.abs();
-                // A state that decays hardly at all is told in units of the pace.
+                // The scale of a state that hardly decays is set by the pace.
                 let scale = size.max(pace * 0.0625) * share / pace;
                 poles.push([size * scale, scale]);
                 growth = growth.max(size + scale * pace);
@@ -318,7 +318,7 @@ impl<T: Real> Norm<T> {
     }
 }
 
-/// What all sinusoids have beyond the order of the series, in units of the pace.
+/// The terms of all sinusoids beyond the order of the series, in units of the pace.
 fn sinusoids<T: Real>(system: &System<T>, water: &Floating<T>, pace: T) -> T {
     let mut sum = T::ZERO;
     for wave in &water.excitation {

@@ -1,21 +1,23 @@
-//! The sums over all sinusoids that push at a body, as polynomials of time where they are many.
+//! The sums over all sinusoids that act on a body, as polynomials of time if they are many.
 //!
-//! A sea has some hundred sinusoids, and a motion asks for their sums many times within a small part
-//! of the quickest period. So they are summed up once for each stretch of time of length 2h, with
-//! h = 2/Ω and Ω the largest frequency, as a Taylor polynomial about its middle t_m in u = (t − t_m)/h:
+//! A sea has some hundred sinusoids, and a motion needs their sums many times within a small part
+//! of the shortest period. So they are summed up once for each stretch of time of length 2h, with h
+//! = 2/Ω and Ω the largest frequency, as a Taylor polynomial about its middle t_m in u = (t −
+//! t_m)/h:
 //!
 //! ```text
 //! c cos ωt + d sin ωt = Σ_k ± (ωh)^k/k! u^k times c' where k is even, d' where it is odd
 //! ```
 //!
-//! with c' and d' the amplitudes seen from t_m. What is left out is at most (Ωs)^36/36! of the
-//! amplitudes a time s from the middle, 4e-19 at Ωs = 4.4: that is a step of a Taylor series with
-//! Ωs = 2.4 beyond an end of the stretch. A wave for which Ωs is larger on a step leaves about as much
-//! out of the series of the motion, (Ωs)^29/29! of its amplitude, and the step is so long only where
-//! that is below rounding, as the wave is small. Rounding is that of Σ (ωh)^k/k! ≤ e² amplitudes; so it
-//! is in the series about another time, which is the same polynomial. The stretches are the same
-//! whatever is asked for first, so that the same case has the same numbers, and up to eight
-//! frequencies are summed up each time, to the bit as they always were.
+//! with c' and d' the amplitudes relative to t_m. The truncation error is at most (Ωs)^36/36! of
+//! the amplitudes a time s from the middle, 4e-19 at Ωs = 4.4: that is a step of a Taylor series
+//! with Ωs = 2.4 beyond an end of the stretch. A wave with a larger Ωs on a step causes a similar
+//! truncation error in the series of the motion, (Ωs)^29/29! of its amplitude, and the step is so
+//! long only if that is below rounding because the wave is small. The rounding error is that of Σ
+//! (ωh)^k/k! ≤ e² amplitudes; it is the same in the series about another time, which is the same
+//! polynomial. The stretches do not depend on the order of the calls, so that the same case gives
+//! the same numbers, and up to eight frequencies are summed up directly each time, with the same
+//! bits as without this file.
 
 use crate::arithmetic::processor::dispatch_over;
 use crate::arithmetic::real::Real;
@@ -26,13 +28,13 @@ use std::sync::Arc;
 
 pub(crate) mod sinusoids;
 
-/// How many stretches are kept: a step touches three at most.
+/// The number of stretches kept: a step overlaps three at most.
 const KEPT: usize = 4;
 
-/// The sums over all sinusoids about a system.
+/// The sums over all sinusoids of a system.
 #[derive(Clone, Debug)]
 pub struct Waves<T: Real = f64> {
-    /// None where the sinusoids are few, or the numbers no doubles.
+    /// None if the sinusoids are few, or the numbers are not doubles.
     stretches: Option<Box<Stretches<T>>>,
 }
 
@@ -41,12 +43,12 @@ pub struct Waves<T: Real = f64> {
 struct Stretches<T> {
     sinusoids: Arc<Sinusoids<T>>,
     kept: [Stretch<T>; KEPT],
-    /// The place of the one that goes next.
+    /// The index of the one that is replaced next.
     oldest: usize,
 }
 
 impl<T: Real> Waves<T> {
-    /// About a system.
+    /// The sums for a system.
     pub fn new(system: &System<T>) -> Self {
         let stretches = Sinusoids::of(system).map(|sinusoids| {
             Box::new(Stretches {
@@ -58,7 +60,7 @@ impl<T: Real> Waves<T> {
         Self { stretches }
     }
 
-    /// Makes all times from one to another quick to ask for, of a longer span the last of it.
+    /// Prepares the sums for all times from one to another; if the span is long, for its last part.
     #[inline(always)]
     pub fn cover(&mut self, from: T, to: T) {
         if let Some(stretches) = &mut self.stretches {
@@ -66,7 +68,7 @@ impl<T: Real> Waves<T> {
         }
     }
 
-    /// What acts at a time; where that is not covered, each sinusoid is summed up.
+    /// The external forces at a time; if it is not covered, each sinusoid is evaluated.
     #[inline(always)]
     pub fn at(&self, system: &System<T>, t: T) -> Surroundings<T> {
         match self.stretch(t) {
@@ -129,7 +131,7 @@ mod tests {
     use crate::model::surroundings::Surroundings;
     use crate::model::system::System;
 
-    /// A sea of 60 sinusoids on a body that floats and is held back.
+    /// A sea of 60 sinusoids on a floating body with drag.
     fn sea() -> System {
         let wave = |k: u32, size: f64| {
             let (k, part) = (f64::from(k), size / f64::from(k));
@@ -169,7 +171,7 @@ mod tests {
         }
     }
 
-    /// The same sea on a body that floats and on one below the surface, which has half of the sums.
+    /// The same sea on a floating body and on one below the surface, which needs half of the sums.
     fn bodies() -> [System; 2] {
         let submerged = System {
             floating: None,
@@ -187,8 +189,8 @@ mod tests {
         [force.x, force.y, water.x, water.y, a, b, c]
     }
 
-    /// The same as summed up one by one, at any time and in any order, at the ends of stretches and
-    /// where nothing is covered.
+    /// The sums agree with those computed one by one, at any time and in any order, at the ends of
+    /// stretches and at times that are not covered.
     #[test]
     fn many_waves_are_what_they_are_one_by_one() {
         bodies().iter().for_each(sums_are_right);
@@ -230,8 +232,8 @@ mod tests {
             .collect()
     }
 
-    /// The series about a time have the coefficients that each sinusoid's series add up to, and give
-    /// the sums, as far as a step reaches.
+    /// The series about a time have the coefficients of the sum of the sinusoids' series, and give
+    /// the sums on the length of a step.
     #[test]
     fn series_are_those_of_the_sinusoids() {
         bodies().iter().for_each(series_are_right);
@@ -262,7 +264,7 @@ mod tests {
         }
     }
 
-    /// Up to eight frequencies are summed up each time, to the bit.
+    /// Up to eight frequencies are summed up directly each time, to the bit.
     #[test]
     fn few_waves_are_summed_up_each_time() {
         let mut system = sea();

@@ -87,8 +87,8 @@ fn a_string_goes_slack_and_snaps() {
     }
 }
 
-/// Impacts accumulate inside a circle without weight: each rebound shortens the chord, and then the
-/// mass slides along at the tangential speed that no impact changes.
+/// Impacts accumulate inside a circle without weight: each rebound shortens the chord, until the
+/// mass slides along the circle at its tangential speed, which no impact changes.
 #[test]
 fn impacts_accumulate_in_a_circle() {
     for (radius, e, v_n, v_t) in [
@@ -117,7 +117,7 @@ fn impacts_accumulate_in_a_circle() {
         let run = run(string(radius, 0.0, e), later, 1e-9, start);
         let last = run.modes()[1];
         assert_eq!(last.taut, TautSet::only(0), "it slides at the end");
-        // The series is cut where v_n < v_stick; what is left of it is 2 R e v_n / ((1 − e) v_t²).
+        // The series is cut where v_n < v_stick; its remainder is 2 R e v_n / ((1 − e) v_t²).
         let rest = 2.0 * radius * e * 1e-9 / ((1.0 - e) * v_t * v_t);
         assert!(last.t_start <= time + 1e-11 && time - last.t_start < rest + 1e-11);
         let end = run.at(later).state;
@@ -165,7 +165,7 @@ fn the_symmetric_drop_is_a_bouncing_ball() {
             }
         }
     }
-    // The value that a widely used solver documents, in its last digits wrong.
+    // A widely used solver documents this value, with wrong last digits.
     let ball: f64 = (2.0_f64 / 9.8).sqrt() * 3.0;
     assert!((ball - 1.355_261_854_357_876_7).abs() < 1e-15);
 }
@@ -240,7 +240,7 @@ fn small_rocking_has_the_known_frequency() {
         assert_eq!(run.modes().len(), 1, "it stays in rocking");
         for t in [1.0, 5.0, 19.0] {
             let known = theta * (omega * t).cos();
-            // The amplitude's cube is what the linear theory leaves out.
+            // The linear theory neglects terms of the third power of the amplitude.
             let found = run.at(t).state.theta;
             assert!(
                 (found - known).abs() < 1e-8 * theta + 1e3 * theta.powi(3) * t,

@@ -3,8 +3,8 @@
 use crate::common::{breakwater, distance, number, oracle, state};
 use snapload::{Limit, Rules, Simulation, Stop, Trajectory};
 
-/// How far an ordinary double run may be from the truth at an impact: 1e-9 as long as the oracle's
-/// own double run is within 1e-10, after that a hundred times the largest difference that one has
+/// How far a run in doubles may be from the truth at an impact: 1e-9 as long as the oracle's own
+/// run in doubles is within 1e-10, after that a hundred times the largest error that the latter has
 /// had.
 fn allowed(running_maximum: f64) -> f64 {
     if running_maximum < 1e-10 {

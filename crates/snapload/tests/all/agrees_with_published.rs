@@ -1,7 +1,8 @@
-//! What the chapter reports and docs/model.md section 9 lists as evidence for the model's
-//! conventions.
+//! Results that the chapter reports and that docs/model.md section 9 lists as evidence for the
+//! model's conventions.
 //!
-//! Only outcomes decided before double precision is exhausted are held to numbers; the rest to
+//! Numbers are compared only where the outcome is decided before double precision is exhausted;
+//! elsewhere only the kind of outcome is compared.
 //! their kind.
 
 use crate::common::{Breakwater, STANDARD};
@@ -137,11 +138,11 @@ fn the_standard_case_begins_as_known() {
     assert_eq!(run.norms().rho1, second.v_n);
 }
 
-/// Chapter 6.5.1.2. It slides with the left cable taut, strikes the other boundary and leaves the
-/// first there, slides again with further hits, and rocks (docs/model.md section 9: from about 8.76
-/// and 8.876). The bounces after 8.008 multiply what the last bits leave open: over two thousand
+/// Chapter 6.5.1.2. The body slides with the left cable taut, strikes the other boundary and leaves
+/// the first there, slides again with further hits, and rocks (docs/model.md section 9: from about
+/// 8.76 and 8.876). The bounces after 8.008 amplify differences in the last bits: over two thousand
 /// neighbours in the last bits of f_o the last two times are from 8.63 to 8.78 and from 8.76 to
-/// 8.90. So those of some neighbours are to lie there, the published ones among them.
+/// 8.90. So those times of some neighbours must lie there, and the published ones among them.
 #[test]
 fn the_sliding_example_slides_hits_slides_and_rocks() {
     let it = Breakwater {

@@ -1,4 +1,5 @@
-//! The built-in cases against Table 6.1 as printed, slips and all, and against their own codes.
+//! The built-in cases against Table 6.1 as printed, misprints included, and against their own
+//! codes.
 use snapload::{NamedCase, Parameters, Value, named_case, named_cases, table_6_1};
 
 const PRINTED: &str = include_str!("../data/table_6_1.csv");
@@ -7,7 +8,7 @@ const COLUMNS: [&str; 13] = [
     "r", "h", "e", "a", "b", "x", "vx", "y", "vy", "theta", "vtheta", "f_o", "nu",
 ];
 
-/// A code taken apart: what each place of it says.
+/// Decodes the code of a case: the value that each of its places stands for.
 fn read_code(code: &str) -> Vec<(&'static str, f64)> {
     let (body, forcing) = code.split_once('-').unwrap();
     let tenths = |c: char| f64::from(c.to_digit(10).unwrap()) / 10.0;

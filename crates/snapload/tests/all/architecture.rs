@@ -1,4 +1,4 @@
-//! ARCHITECTURE.md says which way its arrows point; here the source is held to it.
+//! The source uses files and crates only in the order that ARCHITECTURE.md gives.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
@@ -12,8 +12,8 @@ fn read(path: &Path) -> String {
     fs::read_to_string(path).expect("a file of the repository")
 }
 
-/// The levels of the line of ARCHITECTURE.md that begins with `first`: whatever stands in a level
-/// may use what stands in the levels before it, and nothing else.
+/// The levels of the line of ARCHITECTURE.md that begins with `first`: a name may use only the
+/// names of the levels before its own.
 fn levels(first: &str) -> BTreeMap<String, usize> {
     let text = read(&workspace().join("ARCHITECTURE.md"));
     let line = text
@@ -116,7 +116,7 @@ fn spell_out(
     prefix.truncate(depth);
 }
 
-/// What a crate's root gives out under another place: name and the path behind it.
+/// The items that a crate's root re-exports: the name of each, and its path.
 fn given_out(root: &str) -> BTreeMap<String, Vec<String>> {
     let mut names = BTreeMap::new();
     for path in paths(&code(root), "pub use ") {
@@ -127,8 +127,8 @@ fn given_out(root: &str) -> BTreeMap<String, Vec<String>> {
     names
 }
 
-/// Which file uses which, of one crate. A folder within a room, or within a flat crate, counts as
-/// one.
+/// Which files of a crate each of its files uses. A folder within a room, or within a crate without
+/// rooms, counts as one file.
 fn uses(folder: &Path, depth: usize) -> BTreeMap<String, BTreeSet<String>> {
     let files = sources(folder);
     let place = |name: &str| {
@@ -149,7 +149,7 @@ fn uses(folder: &Path, depth: usize) -> BTreeMap<String, BTreeSet<String>> {
         }
         let inside = from.rsplit_once('/').map(|(room, _)| room.to_owned());
         let mut all = paths(&code(text), "crate::");
-        // A neighbour in the same folder, where that folder is not counted as one.
+        // `super` is a file of the same folder, if that folder is not counted as one file.
         if name.split('/').count() <= depth {
             for path in paths(&code(text), "super::") {
                 all.push(inside.iter().cloned().chain(path).collect());
@@ -173,7 +173,7 @@ fn uses(folder: &Path, depth: usize) -> BTreeMap<String, BTreeSet<String>> {
     uses
 }
 
-/// A way round through the files, if there is one.
+/// A cycle among the files, if there is one.
 fn circle(uses: &BTreeMap<String, BTreeSet<String>>) -> Option<Vec<String>> {
     fn visit(
         at: &str,
@@ -249,7 +249,7 @@ fn crates_use_only_those_before_them() {
             .lines()
             .filter_map(|line| line.split(['.', ' ']).next());
         let used = ours.filter(|word| word.starts_with("snapload")).map(called);
-        // A crate asks itself for what its tests alone need.
+        // A crate depends on itself only for its tests.
         for used in used.filter(|used| *used != own) {
             if order.get(&used).is_none_or(|other| other >= level) {
                 against.push(format!("{own} uses {used}"));

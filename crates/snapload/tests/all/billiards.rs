@@ -94,12 +94,12 @@ fn the_lap_between_two_mirrors() {
                 "{known_trace}"
             );
             assert!((determinant(&across) - 1.0).abs() < 1e-13);
-            // Along the axis a lap only shears: one that is faster is ahead.
+            // Along the axis a lap is a shear: a faster neighbour gets ahead.
             assert_close(&block(&lap, 0), &[[1.0, period], [0.0, 1.0]], 1e-12);
 
-            // Many laps: the frame's second direction begins across the axis and stays there. Its
-            // growth is a power of the larger multiplier but for what dies out like the square of
-            // it.
+            // Many laps: the second direction of the frame begins across the axis and stays there.
+            // Its growth is a power of the larger multiplier, apart from a term that decays like
+            // the inverse square of it.
             let (laps, mut frame) = (60, Frame::new());
             let mut grown = [0.0; 3];
             for grown in &mut grown[1..] {
@@ -117,8 +117,8 @@ fn the_lap_between_two_mirrors() {
                 assert!((exponents[0] - largest / period).abs() < 0.02 / period);
                 assert!((exponents[0] + exponents[5]).abs() < 1e-2 * exponents[0]);
             } else {
-                // A rotation, or where the trace is −2 exactly a shear, grows no faster than its
-                // laps.
+                // A rotation, or a shear where the trace is exactly −2, grows at most linearly in
+                // the number of laps.
                 assert!(grown[2].abs() < (2.0 * f64::from(laps) * 10.0 * (1.0 + speed)).ln());
             }
         }

@@ -1,4 +1,4 @@
-//! Bounces, which are found and followed by formulas of their own, against the motion of any step.
+//! Bounces, which have their own formulas, against general steps.
 
 use crate::common::matrix;
 use snapload::{Case, Deviation, Harmonic, Parameters, Simulation, Tangent};
@@ -6,8 +6,9 @@ use snapload::{Case, Deviation, Harmonic, Parameters, Simulation, Tangent};
 /// Deviations (w, τ), a column for each of them.
 type Stage = [[f64; 7]; 7];
 
-/// The general loop, which knows no bounces, finds the same impacts. It locates them by other
-/// steps, so they differ by roundings, which are compared until they have grown.
+/// The general loop, which has no special step for bounces, finds the same impacts. It locates them
+/// by other steps, so that the results differ by roundings; they are compared until these have
+/// grown.
 #[test]
 fn bounces_are_what_the_general_search_finds() {
     let mut compared = 0;
@@ -29,7 +30,7 @@ fn bounces_are_what_the_general_search_finds() {
             continue;
         };
         let mut bounces = case.simulation();
-        // Of two sinusoids, one of which does nothing, no step is taken for a bounce.
+        // With two sinusoids, even if one has no effect, no step is taken for a bounce.
         let mut system = bounces.system().clone();
         system
             .forcing
@@ -57,7 +58,7 @@ fn bounces_are_what_the_general_search_finds() {
     assert!(compared > 1000, "{compared}");
 }
 
-/// What one stage makes of the deviations before it.
+/// The deviations after a stage.
 fn next(before: &Stage, stage: impl Fn(&Deviation) -> Deviation) -> Stage {
     let mut after = [[0.0; 7]; 7];
     for j in 0..7 {
@@ -69,7 +70,7 @@ fn next(before: &Stage, stage: impl Fn(&Deviation) -> Deviation) -> Stage {
     after
 }
 
-/// The largest entry of the difference of two blocks, of the largest entry of the first.
+/// The largest entry of the difference of two blocks, relative to the largest entry of the first.
 fn difference(a: &[f64], b: &[f64]) -> f64 {
     assert!(a.iter().chain(b).all(|entry| entry.is_finite()));
     let largest = a.iter().fold(0.0, |m: f64, x| m.max(x.abs()));
@@ -77,8 +78,8 @@ fn difference(a: &[f64], b: &[f64]) -> f64 {
     worst.fold(0.0, f64::max) / largest
 }
 
-/// On every bounce of runs of long and of short cables, of bodies of every kind, each stage is that of
-/// the linearised motion of any step.
+/// On every bounce of runs with long and short cables and bodies of every kind, each stage equals
+/// that of the linearised motion of a general step.
 #[test]
 fn a_bounce_is_one_of_the_steps() {
     let mut bounces = 0;

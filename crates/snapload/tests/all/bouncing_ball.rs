@@ -1,6 +1,6 @@
 //! The ball on a vibrating table: multipliers, thresholds and exponents that are known exactly
-//! (Holmes, *J. Sound Vib.* 84 (1982) 173; Luck & Mehta, *Phys. Rev. E* 48 (1993) 3988). None of
-//! the table's motion is left out.
+//! (Holmes, *J. Sound Vib.* 84 (1982) 173; Luck & Mehta, *Phys. Rev. E* 48 (1993) 3988). The
+//! table's motion is not approximated.
 
 use crate::common::{Square, block, determinant, matrix, trace, unending};
 use snapload::analysis::Frame;
@@ -9,8 +9,8 @@ use snapload::{
 };
 use std::f64::consts::PI;
 
-/// A ball on a table that moves as A sin ωt, seen from the table: the relative height y has ÿ =
-/// −1 + Γ sin ωt, Γ = Aω², and the constraint y ≥ 0 is a cable of such length that it is never taut at
+/// A ball on a table that moves as A sin ωt, seen from the table: the relative height y has ÿ = −1
+/// + Γ sin ωt, Γ = Aω², and the constraint y ≥ 0 is a cable of such length that it is never taut at
 /// its other end.
 #[derive(Clone, Copy, Debug)]
 struct Table {
@@ -88,7 +88,7 @@ impl Table {
         1.0 + self.e * self.e - (1.0 + self.e).powi(2) * sine
     }
 
-    /// Where so many bounces lead, and the derivatives of that by the linearised motion.
+    /// The bounce after the given number of bounces, and its derivatives by the linearised motion.
     fn map(&self, from: Bounce, bounces: usize) -> (Bounce, Square) {
         let tangent = Tangent::new(&self.system());
         let mut simulation = self.begin(from);
@@ -105,7 +105,7 @@ impl Table {
         ([simulation.time(), simulation.state().vy], derivatives)
     }
 
-    /// Newton's method for the orbit that closes after so many bounces, n periods each.
+    /// Newton's method for the orbit that closes after the given number of bounces, n periods each.
     fn closed_orbit(&self, guess: Bounce, bounces: usize, n: f64) -> Option<(Bounce, Square)> {
         let (mut orbit, mut last) = (guess, f64::INFINITY);
         for _ in 0..40 {
@@ -122,7 +122,7 @@ impl Table {
                 scale * (b[0][0] * open[1] - b[1][0] * open[0]),
             ];
             let size = change[0].abs().max(change[1].abs());
-            // As near as rounding lets it come.
+            // Converged to rounding.
             if size < 1e-9 && size >= 0.5 * last {
                 return Some((orbit, a));
             }
@@ -132,8 +132,8 @@ impl Table {
         None
     }
 
-    /// Where the ball is after so many bounces from its orbit of one bounce, which it was pushed
-    /// off a little.
+    /// The bounce that is reached after the given number of bounces from a start near the orbit of
+    /// one bounce.
     fn settled(&self, bounces: usize) -> Bounce {
         let [t, vy] = self.orbit(1.0);
         let mut simulation = self.begin([t, vy * 1.01]);
@@ -144,9 +144,9 @@ impl Table {
         [t.rem_euclid(self.period()), simulation.state().vy]
     }
 
-    /// The Γ at which a multiplier of the orbit of so many bounces is −1, by the rule of the secant
-    /// from two guesses: with multipliers −1 and μ the characteristic polynomial at −1, 1 + trace +
-    /// determinant, is zero.
+    /// The Γ at which a multiplier of the orbit of the given number of bounces is −1, by the secant
+    /// rule from two guesses: with multipliers −1 and μ the characteristic polynomial at −1, 1 +
+    /// trace + determinant, is zero.
     fn threshold(
         &self,
         guesses: [f64; 2],
@@ -200,8 +200,8 @@ fn the_bouncing_ball_has_its_multipliers() {
                 let orbit = table.orbit(n);
                 let (end, a) = table.map(orbit, 1);
                 let period = n * table.period();
-                // At the lower end the phase is the root of a cosine of 1, so good to half the
-                // digits.
+                // At the lower end the phase is the root of a cosine of 1, so that only half of the
+                // digits are correct.
                 let blunt = if share == 0.0 { 1e-7 } else { 1e-11 };
                 assert!(
                     (end[0] - orbit[0] - period).abs() < blunt * period,
@@ -236,7 +236,7 @@ fn the_bouncing_ball_has_its_multipliers() {
     }
 }
 
-/// The upper end, found as a root, is where it must be: Γ² = (nπ(1 − e)/(1 + e))² + (2(1 + e²)/(1 +
+/// The upper end, found as a root, has its known value: Γ² = (nπ(1 − e)/(1 + e))² + (2(1 + e²)/(1 +
 /// e)²)².
 #[test]
 fn the_bouncing_ball_first_doubles_its_period_where_it_must() {
@@ -267,9 +267,10 @@ fn the_bouncing_ball_first_doubles_its_period_where_it_must() {
     }
 }
 
-/// The cascade at e = 0.5: orbits of 2, 4 and 8 bounces lose their stability at values known to ten
-/// digits and more from the map of bounces in forty digits, beside this engine. Here each is found
-/// as a root in Γ, every orbit by Newton's method with the derivatives of the linearised motion.
+/// The cascade at e = 0.5: orbits of 2, 4 and 8 bounces lose their stability at values that are
+/// known to ten digits and more from the map of bounces in forty digits, computed independently.
+/// Here each is found as a root in Γ, every orbit by Newton's method with the derivatives of the
+/// linearised motion.
 #[test]
 fn the_bouncing_ball_goes_on_doubling_its_period() {
     let known = [
@@ -310,14 +311,14 @@ fn by_hand(table: &Table, step: &Step) -> Square {
     [delay, [a * delay[0] - table.e, a * delay[1] - table.e]]
 }
 
-/// A flight so short belongs to bounces that accumulate: chaotic motion, too, comes sooner or later
-/// to a phase of the table at which the ball is caught, and is free no more (Luck & Mehta). It is
-/// followed until then.
+/// A shorter flight belongs to bounces that accumulate: even chaotic motion reaches sooner or later
+/// a phase of the table at which the ball is caught and stays on the table (Luck & Mehta). The
+/// motion is followed until then.
 const CHATTER: f64 = 1e-6;
 
 /// The exponents of the one vertical degree of freedom sum to 2 ln e/⟨time between impacts⟩,
-/// whatever the motion: a bounce contracts phase area by e², and flight not at all (Müller 1995).
-/// Each by itself is known where the motion ends in the orbit of one bounce: from the multipliers
+/// whatever the motion: a bounce contracts phase area by e², and flight preserves it (Müller 1995).
+/// Each exponent is known where the motion ends in the orbit of one bounce: from the multipliers
 /// above.
 #[test]
 fn exponents_of_the_bouncing_ball_obey_their_sum_rule() {
@@ -357,8 +358,8 @@ fn exponents_of_the_bouncing_ball_obey_their_sum_rule() {
             (bounces, elapsed) = (bounces + 1, step.t_end - t);
         }
         assert!(bounces > 300, "{bounces}");
-        // Height and its velocity move by themselves, so the frame's two directions of them stay
-        // theirs.
+        // Height and its velocity are decoupled from the rest, so that the two directions of the
+        // frame along them stay so.
         let vertical = [frame.logs()[1] / elapsed, frame.logs()[4] / elapsed];
         let sum = vertical[0] + vertical[1];
         let known = 2.0 * e.ln() / (elapsed / f64::from(bounces));
@@ -382,8 +383,8 @@ fn exponents_of_the_bouncing_ball_obey_their_sum_rule() {
     }
 }
 
-/// The largest difference of a bounce's map from the one by hand, relative to the latter's size and
-/// to the velocity by which both divide.
+/// The largest difference of a bounce's map from the one derived above, relative to the latter's
+/// size and to the velocity by which both divide.
 fn worst_entry(table: &Table, step: &Step, map: &StepMap) -> f64 {
     // The map by hand is told V, this engine's the velocity relative to the table.
     let later = [

@@ -1,4 +1,4 @@
-//! What a case accepts, what it fills in, and what it says when it refuses.
+//! Which cases are accepted, which values are filled in, and how errors are worded.
 use proptest::prelude::*;
 use snapload::{CaseError, Fault, KEYS, Parameters, Value};
 
@@ -36,7 +36,7 @@ fn what_differs_is_the_case() {
     let differing = |entries: &[_]| given(entries).unwrap().differing();
     let point = [("y", 0.2.into()), ("body", text("point"))];
     assert_eq!(differing(&point), point);
-    // The inertia follows, unless it is another.
+    // The inertia follows from the size, unless it is given.
     let sized = [("a", 0.2.into())];
     assert_eq!(differing(&sized), sized);
     let odd = [("a", 0.2.into()), ("inertia", 0.01.into())];
@@ -79,7 +79,7 @@ fn inertia_follows_from_the_size_unless_given() {
 fn a_body_without_inertia_is_refused() {
     let allowed = "a = 0 and b = 0 give a rigid body none";
     refused(&[("a", 0.into())], "inertia", "(left out)", allowed);
-    // Its square is nothing.
+    // The square of the value underflows to zero.
     refused(
         &[("a", 1e-200.into())],
         "inertia",

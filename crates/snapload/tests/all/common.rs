@@ -184,7 +184,7 @@ pub fn product(a: &Matrix, b: &Matrix) -> Matrix {
 /// Rows and columns of one degree of freedom of a matrix: position and velocity.
 pub type Square = [[f64; 2]; 2];
 
-/// Of 0 for x, 1 for y, 2 for θ.
+/// The block of one degree of freedom: 0 for x, 1 for y, 2 for θ.
 pub fn block(matrix: &Matrix, i: usize) -> Square {
     [i, i + 3].map(|row| [i, i + 3].map(|column| matrix[row][column]))
 }
@@ -197,7 +197,7 @@ pub fn determinant(a: &Square) -> f64 {
     a[0][0] * a[1][1] - a[0][1] * a[1][0]
 }
 
-/// A motion that goes on until long after every test, in which no cable sticks by its speed.
+/// A motion that continues long after every test, in which no impact is slow enough to stick.
 pub fn unending(system: System, t: f64, start: State) -> Simulation {
     Simulation::new(system, Rules::until(t + 1e6), t, start).expect("a legal start")
 }

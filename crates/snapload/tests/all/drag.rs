@@ -1,5 +1,4 @@
-//! Motion through water that resists: solutions that are known, and laws that hold whatever the
-//! motion.
+//! Motion with drag: known solutions, and laws that hold for any motion.
 
 use crate::common::unending;
 use proptest::prelude::*;
@@ -83,7 +82,8 @@ fn linear_drag_has_its_exponential() {
 }
 
 /// From rest v̇ = g − c v² has v = sqrt(g/c) tanh(t sqrt(g c)), y = ln cosh(t sqrt(g c))/c. The law
-/// is rounded off where the body stands still, so the first 1e-5 of the speed are not quite that.
+/// is smoothed where the body is at rest, so that the solution differs slightly below 1e-5 of the
+/// speed.
 #[test]
 fn quadratic_drag_has_its_hyperbolic_tangent() {
     for (c, g) in [(0.5_f64, 1.0_f64), (3.0, 0.2), (20.0, 1.0)] {
@@ -102,8 +102,8 @@ fn quadratic_drag_has_its_hyperbolic_tangent() {
     }
 }
 
-/// A body that is carried with the water feels no drag: with f the water's own acceleration it
-/// stays in it.
+/// A body that is carried with the water has no drag: if f is the water's own acceleration, it
+/// stays with the water.
 #[test]
 fn a_body_that_moves_with_the_water_feels_nothing() {
     let wave = Harmonic::with_phases(1.3, [0.4, 0.25], [0.3, 1.1]);
@@ -152,8 +152,8 @@ fn breakwater(b: f64, drag: Option<Drag>) -> System {
     }
 }
 
-/// Coefficients of zero: the Taylor series finds the flights and impacts of the closed form. Errors
-/// grow from impact to impact, so the first ones are compared.
+/// With drag coefficients of zero the Taylor series finds the flights and impacts of the closed
+/// form. Errors grow from impact to impact, so that only the first ones are compared.
 #[test]
 fn drag_of_nothing_is_the_closed_form() {
     for b in [0.0, 0.1] {
@@ -169,8 +169,7 @@ fn drag_of_nothing_is_the_closed_form() {
             assert!((ours.t - theirs.t).abs() < 1e-10);
             assert!((ours.v_n - theirs.v_n).abs() < 1e-10);
         }
-        // Up to just before an impact: at its very instant one run may have had it and the other
-        // not.
+        // Compared just before an impact: at its instant one run may have had it and the other not.
         let last = free.impacts()[19].t;
         for k in 0..100 {
             let t = 0.01 * (f64::from(k) + 0.5) * last;
@@ -182,8 +181,8 @@ fn drag_of_nothing_is_the_closed_form() {
     }
 }
 
-/// ∂(state)/∂(start) by the linearised motion, drag's own derivatives among it, against
-/// neighbouring runs.
+/// ∂(state)/∂(start) by the linearised motion, with the derivatives of drag, against neighbouring
+/// runs.
 #[test]
 fn the_linearised_motion_knows_the_drag() {
     let drag = Drag {
@@ -221,7 +220,7 @@ fn the_linearised_motion_knows_the_drag() {
         steps += 1;
     }
     assert!(steps > 5);
-    // A little later than the impact, which neighbours have at other times.
+    // A little later than the impact, whose time differs between neighbours.
     let step = simulation.step().expect("it goes on");
     let map = tangent.of_step(&simulation, &step);
     let columns = columns.map(|column| map.fundamental(&column));
@@ -253,7 +252,7 @@ proptest! {
         ..ProptestConfig::default()
     })]
 
-    /// In still water, without waves, drag and impacts only ever take energy.
+    /// In still water, without waves, drag and impacts never increase the energy.
     #[test]
     fn energy_never_rises_in_still_water(
         linear in 0.0..1.0_f64, quadratic in 0.0..5.0_f64, turning in 0.0..1.0_f64, b in 0.0..0.2_f64,

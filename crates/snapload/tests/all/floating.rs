@@ -8,8 +8,8 @@ use snapload::{
 use std::sync::LazyLock;
 
 static ORACLE: LazyLock<Value> = LazyLock::new(|| read("floating.json"));
-/// Random bodies, water, lines and drag, by a program that was written for this from the equations
-/// alone; it gives the runs of the other one to 1e-15.
+/// Random bodies, water, lines and drag, by a program that was written for this test from the
+/// equations alone; its results for the other file's runs agree to 1e-15.
 static VARIED: LazyLock<Value> = LazyLock::new(|| read("floating_varied.json"));
 
 fn read(name: &str) -> Value {
@@ -29,7 +29,7 @@ fn matrix(value: &Value) -> Matrix3 {
     std::array::from_fn(|i| numbers(&rows[i]))
 }
 
-/// One of the runs: a case in SI units, and what another program found of it.
+/// One of the runs: a case in SI units, and the results of another program.
 pub struct FloatingCase {
     pub units: FloatingUnits,
     pub system: System,
@@ -161,15 +161,15 @@ const RUNS: [&str; 4] = [
     "sphere-one-line",
 ];
 
-/// How far two lists are apart, relative to a scale.
+/// The distance of two lists, relative to a scale.
 fn apart<const N: usize>(ours: [f64; N], truth: [f64; N], scale: [f64; N]) -> f64 {
     (0..N)
         .map(|i| (ours[i] - truth[i]).abs() / scale[i])
         .fold(0.0, f64::max)
 }
 
-/// One row of a run: the largest difference, in s, m, rad, and relative to the body's weight and that
-/// times a metre for forces and moments.
+/// One row of a run: the largest difference, in s, m, rad, and relative to the body's weight and
+/// that times a metre for forces and moments.
 fn difference(case: &FloatingCase, ours: &Impact, pull: [f64; 3], truth: &Value) -> f64 {
     let units = &case.units;
     let weight = units.force_n;
@@ -260,8 +260,8 @@ fn runs_agree_with_the_independent_ones() {
 /// ρV of a half-immersed sphere of 5 m, in water of 1000 kg/m³.
 const DISPLACED_KG: f64 = 261_799.387_799_1;
 
-/// The sphere, as heavy as the water that it displaces, let go from 1 m without a line: a linear
-/// motion, known by another method.
+/// The sphere, as heavy as the water that it displaces, is released from 1 m without a line: a
+/// linear motion, which is known by another method.
 #[test]
 fn a_sphere_let_go_decays_as_known() {
     let mut case = FloatingCase::named("sphere-one-line");
@@ -299,8 +299,8 @@ const GAUSS: [[f64; 2]; 4] = [
     [0.960_289_856_497_536_3, 0.101_228_536_290_376_26],
 ];
 
-/// What the waves, the damping and the memory do to a body in a stretch of time \[F L\]: the work of
-/// the waves, and what the other two take.
+/// The work of the waves on a body in a time interval \[F L\], and the energy that damping and
+/// memory take.
 fn work(system: &System, run: &mut Playback, from: f64, to: f64) -> [f64; 3] {
     let water = system.floating.as_ref().expect("afloat");
     let mut sums = [0.0; 3];
@@ -328,9 +328,9 @@ fn work(system: &System, run: &mut Playback, from: f64, to: f64) -> [f64; 3] {
     sums
 }
 
-/// The books of a run: E changes by the work of the waves less what damping and memory take, and at
-/// impacts by what they lose. Returns the largest sum left over, and the least that the memory had
-/// taken at any time.
+/// The energy balance of a run: E changes by the work of the waves minus the energy that damping
+/// and memory take, and by the losses at impacts. Returns the largest imbalance, and the least
+/// energy that the memory had taken at any time.
 pub fn energy_left_over(system: &System, simulation: Simulation) -> (f64, f64) {
     let run = Trajectory::record(simulation);
     let mut playback = Playback::new(&run);
@@ -368,7 +368,7 @@ fn energy_is_accounted_for_in_the_runs() {
             .as_f64()
             .expect("a time");
         let mut rules = case.simulation(last + 1.0);
-        // What sticking takes away is no part of the impact's loss.
+        // The loss by sticking is not counted as the impact's loss.
         let system = case.system.clone();
         let bare = Rules {
             v_stick: 0.0,

@@ -9,7 +9,7 @@ use snapload::{
     Simulation, State, System, Trajectory,
 };
 
-/// Numbers without order, evenly between −1 and 1, the same for every run (SplitMix64).
+/// Pseudo-random numbers, uniform between −1 and 1, the same for every run (SplitMix64).
 pub struct Random(pub u64);
 
 impl Random {
@@ -20,7 +20,7 @@ impl Random {
         ((z ^ (z >> 31)) >> 11) as f64 / (1u64 << 52) as f64 - 1.0
     }
 
-    /// Between two numbers.
+    /// A random number between two bounds.
     pub fn between(&mut self, least: f64, most: f64) -> f64 {
         least + (most - least) * 0.5 * (self.next() + 1.0)
     }
@@ -64,7 +64,7 @@ impl Random {
         (0..count).map(|_| wave(self)).collect()
     }
 
-    /// A floating body on two cables, at a place where both are slack, on its way.
+    /// A floating body on two cables, moving, at a place where both are slack.
     pub fn body(&mut self, waves: usize) -> (System, State) {
         let mass = self.definite(0.5, 0.3);
         let mut stiffness = self.definite(0.8, 0.1);
@@ -108,7 +108,8 @@ impl Random {
     }
 }
 
-/// ẏ = L y, y = (q, q̇, z, sinusoids, 1), as one matrix: the slack flight by another way.
+/// ẏ = L y, y = (q, q̇, z, sinusoids, 1), as one matrix: an independent formulation of slack
+/// flight.
 fn linear(system: &System, body: &Matrix3) -> DMatrix<f64> {
     let water = system.floating.as_ref().expect("afloat");
     let terms = water.memory.len();
@@ -176,8 +177,8 @@ fn gap(cable: &Cable, y: &DVector<f64>) -> f64 {
     x * x + y * y - cable.length() * cable.length()
 }
 
-/// Flies one body until its first event, and beside it by the exponential of its linear system, in
-/// steps of a hundredth. Returns whether there was an event.
+/// Computes the flight of one body until its first event, and in parallel by the exponential of its
+/// linear system in steps of a hundredth. Returns whether there was an event.
 fn compare_with_dense_search(seed: u64) -> bool {
     const STEP: f64 = 0.01;
     const END: f64 = 3.0;
@@ -220,7 +221,7 @@ fn compare_with_dense_search(seed: u64) -> bool {
             break;
         }
     }
-    // There the states agree, and one of the gaps is closed.
+    // At the event the states agree, and one of the gaps is closed.
     let parts = (event / STEP).ceil().max(1.0);
     let part = exponential(&(linear(&system, &mass) * (event / parts)));
     let there = (0..parts as u32).fold(first, |y, _| &part * y);
@@ -249,7 +250,8 @@ fn no_event_is_missed_in_random_flights() {
     assert!(events > 500);
 }
 
-/// The same a million times: `cargo test --release -p snapload --test all -- --ignored a_million`.
+/// The same for a million bodies: `cargo test --release -p snapload --test all -- --ignored
+/// a_million`.
 #[test]
 #[ignore = "some ten minutes"]
 fn no_event_is_missed_in_a_million_random_flights() {
@@ -272,8 +274,8 @@ fn no_event_is_missed_in_a_million_random_flights() {
     println!("{counts} events in 1,000,000 flights");
 }
 
-/// A full mass matrix and water that does nothing: the motion of docs/model.md. Errors grow from
-/// impact to impact, so the first ones are compared.
+/// A full mass matrix and water without any force: the motion of docs/model.md. Errors grow from
+/// impact to impact, so that only the first ones are compared.
 #[test]
 fn water_that_does_nothing_leaves_the_submerged_body() {
     let (a, b, inertia) = (0.2, 0.1, 0.02);
@@ -327,7 +329,8 @@ proptest! {
         prop_assert!(least > -1e-10, "the memory gave {least:e}");
     }
 
-    /// W is what the mass matrix makes of an impulse, impacts lose energy, and cables hold.
+    /// W is the matrix of the impact law in the metric of the mass, impacts lose energy, and no
+    /// cable is longer than its length.
     #[test]
     fn impacts_follow_the_law_in_the_metric_of_the_mass(seed in any::<u64>()) {
         let (system, start) = Random(seed).body(2);

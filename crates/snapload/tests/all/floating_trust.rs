@@ -1,12 +1,12 @@
-//! How far floating runs can be trusted: the linearised motion with the water's memory in it, and the
-//! spread of neighbours.
+//! How far floating runs can be trusted: the linearised motion with the water's memory in it, and
+//! the spread of neighbours.
 
 use crate::floating::FloatingCase;
 use crate::floating_random::Random;
 use snapload::analysis::TrustMonitor;
 use snapload::{Impact, Rules, Simulation, State, System, Tangent};
 
-/// The state and the memory that a motion comes to.
+/// The state and the memory at the end of a motion.
 fn end(system: &System, start: State, t: f64) -> Vec<f64> {
     let mut motion = Simulation::new(system.clone(), Rules::until(t), 0.0, start).expect("legal");
     while motion.step().is_some() {}
@@ -15,8 +15,8 @@ fn end(system: &System, start: State, t: f64) -> Vec<f64> {
     state.iter().chain(memory).copied().collect()
 }
 
-/// ∂(state and memory)/∂(start), a little later than the third impact, by the linearised motion and by
-/// neighbouring runs.
+/// ∂(state and memory)/∂(start), a little later than the third impact, by the linearised motion and
+/// by neighbouring runs.
 #[test]
 fn the_linearised_motion_knows_the_memory() {
     let (mut compared, mut taut) = (0, 0);
@@ -47,7 +47,8 @@ fn the_linearised_motion_knows_the_memory() {
             }
             impacts += step.impacts().take(1).count();
         };
-        // Neighbours have events at other times, so that they can not be compared at one.
+        // Neighbours have events at other times, so that states at one time can not be compared
+        // there.
         if last.impacts().next().is_some() || last.taut != last.taut_after {
             continue;
         }
@@ -74,7 +75,7 @@ fn the_linearised_motion_knows_the_memory() {
     assert!(compared > 200);
 }
 
-/// The impacts of a run, of each instant one, and what is predicted of their errors.
+/// The impacts of a run, one for each instant, and the predicted errors of them.
 fn followed(system: &System, start: State, uncertainty: f64) -> (Vec<Impact>, Vec<f64>) {
     let rules = Rules {
         v_stick: 1e-6,
@@ -91,8 +92,8 @@ fn followed(system: &System, start: State, uncertainty: f64) -> (Vec<Impact>, Ve
     (impacts, monitor.verdict().errors)
 }
 
-/// The standard deviation of neighbours at each impact, the largest of time and states, is half of the
-/// error that is predicted.
+/// The standard deviation of neighbours at each impact, the largest of those of time and states, is
+/// half of the predicted error.
 #[test]
 fn a_crowd_of_floating_neighbours_spreads_as_predicted() {
     const CROWD: usize = 200;
@@ -123,7 +124,8 @@ fn a_crowd_of_floating_neighbours_spreads_as_predicted() {
             .zip(&errors)
             .filter(|(_, error)| error.is_finite())
         {
-            // Each neighbour's own events: states differ as they are told there.
+            // The states of each neighbour are those at its own events, as for the predicted
+            // errors.
             let spread = row
                 .iter()
                 .fold(0.0_f64, |most, square| most.max(square.sqrt()));
@@ -139,9 +141,9 @@ fn a_crowd_of_floating_neighbours_spreads_as_predicted() {
     assert!(compared > 10);
 }
 
-/// By rounding alone: the errors of the four runs, against numbers known to more digits than doubles
-/// have, are as large as foreseen or smaller, up to where trust ends; lines that lose their tension do
-/// not end it.
+/// Rounding alone: the errors of the four runs, against numbers with more digits than doubles have,
+/// are as large as predicted or smaller until trust ends; lines that lose their tension do not end
+/// trust.
 #[test]
 fn rounding_of_floating_runs_is_foreseen() {
     for (name, least) in [

@@ -1,4 +1,4 @@
-//! What must be true of every run, over thousands of random cases.
+//! Laws that hold in every run, over thousands of random cases.
 
 use crate::common::distance;
 use proptest::prelude::*;
@@ -169,7 +169,7 @@ proptest! {
 
     #[test]
     fn the_energy_account_closes(parameters in cases(true)) {
-        // A cable that sticks gives up ½ (e v_n)²/w that no row lists: below 1e-12 at this v_stick.
+        // A cable that sticks loses ½ (e v_n)²/w, which no row lists: below 1e-12 at this v_stick.
         let run = run(&Parameters { v_stick: 1e-6, t_end: 6.0, ..parameters });
         let start = run.at(0.0).energy;
         let losses: f64 = run.impacts().iter().map(|impact| impact.energy_lost).sum();
@@ -190,8 +190,8 @@ proptest! {
         };
         let image = Case::new(mirrored).expect("legal as its original").run();
         prop_assert!(image.impacts().len() >= reliable(&run).len());
-        // Rows of one instant are listed by cable, so the mirror image lists them the other way
-        // round.
+        // Impacts of one instant are listed by cable, so that the mirror image lists them in
+        // reverse.
         let instants = reliable(&run).chunk_by(|a, b| a.after == b.after);
         let images = image.impacts().chunk_by(|a, b| a.after == b.after);
         for (instant, image) in instants.zip(images) {
@@ -222,7 +222,7 @@ proptest! {
 }
 
 /// The impacts before errors have grown much: an error of the state grows at an impact by about
-/// 1/(α v_n) times the speeds, so the product over the impacts is held to 1e5.
+/// 1/(α v_n) times the speeds; the product over the impacts is kept below 1e5.
 fn reliable(run: &Trajectory) -> &[snapload::Impact] {
     let mut growth = 1.0;
     let count = run
@@ -233,7 +233,7 @@ fn reliable(run: &Trajectory) -> &[snapload::Impact] {
             growth < 1e5
         })
         .count();
-    // No instant is cut in two.
+    // Impacts of one instant stay together.
     let impacts = run.impacts();
     let whole = impacts[count..]
         .iter()
@@ -311,8 +311,8 @@ fn work_of_forcing(run: &Trajectory) -> f64 {
     work
 }
 
-/// Started in the corner where both cables are closed, with any velocity: one may open while the
-/// other closes, and still no impact creates energy, and no gap opens.
+/// Starts in the corner where both cables are closed, with any velocity: one cable may open while
+/// the other closes, but no impact creates energy, and no cable becomes longer than its length.
 #[test]
 fn corner_starts_neither_gain_energy_nor_open_a_gap() {
     let mut impacts = 0;
@@ -370,8 +370,8 @@ fn corner_starts_neither_gain_energy_nor_open_a_gap() {
     assert!(impacts > 1000);
 }
 
-/// Cases that are legal and unreasonable: very light bodies, very large ones, corners struck at
-/// speed. All of them must end, and soon.
+/// Cases that are legal but unreasonable: very light bodies, very large ones, fast impacts in
+/// corners. Each run must end within a short time.
 #[test]
 fn extreme_cases_end() {
     let base = Parameters {

@@ -1,5 +1,5 @@
-//! The limits that end a run where they are reached: each by a closed form, and all of them over
-//! random motions. A limit that is added is in the second at once; its closed form comes here.
+//! The limits that end a run where they are reached: each against a closed form, and all of them in
+//! random motions. The test of random motions covers a new limit without a change.
 
 use crate::agrees_with_closed_forms::string;
 use crate::floating_random::Random;
@@ -15,9 +15,9 @@ fn record(system: &System, rules: Rules, start: State) -> Trajectory {
     Trajectory::record(simulation.expect("a legal start"))
 }
 
-/// A mass let go below its anchor falls by g until the string is taut, also if at first it moves
-/// towards a limit so slowly that it would take years at that speed: from half of the length down
-/// in sqrt(L/g).
+/// A mass released below its anchor falls by g until the string is taut, even if it first moves
+/// towards a limit so slowly that it would take years to reach it at that speed: from half of the
+/// length down in sqrt(L/g).
 #[test]
 fn a_limit_that_is_hardly_approached_hides_nothing() {
     let start = State {
@@ -100,7 +100,7 @@ fn the_upper_bound_of_a_throw() {
 /// The kinds of motion that are calculated in different ways.
 const KINDS: [&str; 4] = ["two cables", "three cables", "full mass", "afloat"];
 
-/// A body on its way.
+/// A body in motion.
 fn body_of(kind: &str, random: &mut Random) -> (System, State) {
     if kind == "afloat" {
         return random.body(2);
@@ -145,7 +145,7 @@ fn body_of(kind: &str, random: &mut Random) -> (System, State) {
     (system, start)
 }
 
-/// So few impacts that roundings stay small.
+/// The time is short enough that few impacts occur and roundings stay small.
 fn without_limits(t_end: f64) -> Rules {
     Rules {
         max_impacts: 12,
@@ -154,7 +154,7 @@ fn without_limits(t_end: f64) -> Rules {
     }
 }
 
-/// Whether a run is told to be known to its end, if its start may be off by `size`, and how it ends.
+/// Whether a run is certain to its end if its start has an error of `size`, and how it ends.
 fn followed(system: &System, rules: Rules, start: State, size: f64) -> (bool, Stop) {
     let simulation = Simulation::new(system.clone(), rules, 0.0, start);
     let mut simulation = simulation.expect("a legal start");
@@ -167,8 +167,9 @@ fn followed(system: &System, rules: Rules, start: State, size: f64) -> (bool, St
     (monitor.verdict().horizon.is_none(), end)
 }
 
-/// With a bound close to the largest value that the quantity comes to, neighbours may meet the limit
-/// or not: then the end is not certain; and where it is told to be, they all end alike.
+/// With a bound close to the largest value that the quantity reaches, neighbours may meet the limit
+/// or not: then the end is not certain; and if it is reported as certain, all of them end in the
+/// same way.
 #[test]
 fn a_limit_that_neighbours_may_meet_ends_trust() {
     const SIZE: f64 = 1e-6;
@@ -205,7 +206,7 @@ fn a_limit_that_neighbours_may_meet_ends_trust() {
     }
 }
 
-/// A motion without limits, and what a limit would bound along it.
+/// A motion without limits, and the quantity of a limit along it.
 struct Free {
     run: Trajectory,
     /// Times, with the values of the quantity.
@@ -226,7 +227,7 @@ impl Free {
         Self { seen, run }
     }
 
-    /// The largest value that is seen.
+    /// The largest recorded value.
     fn largest(&self) -> f64 {
         let values = self.seen.iter().map(|(_, value)| *value);
         values.fold(f64::MIN, f64::max)
@@ -236,7 +237,7 @@ impl Free {
         limit.quantity(self.run.system(), &self.run.at(t).state)
     }
 
-    /// When the quantity is first seen to reach a bound, by bisection between two looks.
+    /// When the quantity first reaches a bound, by bisection between two samples.
     fn reaches(&self, limit: Limit, bound: f64) -> f64 {
         let beyond = self.seen.iter().position(|(_, value)| *value >= bound);
         let beyond = beyond.expect("the bound is below the largest value");
@@ -253,8 +254,9 @@ impl Free {
     }
 }
 
-/// Whatever the motion, a limit ends it where a search in the motion without limits first sees the
-/// quantity at its bound, and nowhere if the bound is above all that it comes to.
+/// In any motion a limit ends the run where a search in the motion without limits first finds the
+/// quantity at its bound, and does not end it if the bound is above all values that the quantity
+/// reaches.
 #[test]
 fn a_limit_is_met_where_its_quantity_first_reaches_the_bound() {
     for limit in Limit::ALL {
@@ -272,7 +274,7 @@ fn a_limit_is_met_where_its_quantity_first_reaches_the_bound() {
                 };
                 let about = format!("{limit:?}, {kind}, {case}");
 
-                // Between two looks it may be above what was seen.
+                // Between two samples the quantity may be larger than at either.
                 let never = record(&system, with(1.5 * largest.abs() + 0.5), start);
                 assert_eq!(never.end().reason, free.run.end().reason, "{about}");
                 assert!((never.end().t - free.run.end().t).abs() < 1e-8, "{about}");

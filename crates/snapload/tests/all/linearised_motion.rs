@@ -1,5 +1,5 @@
-//! What flight and impacts do to small deviations, and to volumes and areas of phase space, over
-//! random systems.
+//! The effect of flight and impacts on small deviations, and on volumes and areas of phase space,
+//! for random systems.
 
 use crate::common::{Breakwater, IDENTITY, STANDARD, matrix, product, unending};
 use proptest::prelude::*;
@@ -77,7 +77,7 @@ fn follow(
     }
 }
 
-/// By elimination with pivots.
+/// Gaussian elimination with pivoting.
 fn determinant(mut a: Matrix) -> f64 {
     let mut determinant = 1.0;
     for k in 0..6 {
@@ -106,8 +106,8 @@ fn length(row: &[f64; 6]) -> f64 {
     dot(row, row).sqrt()
 }
 
-/// The same with components scaled by the roots of their masses, which makes the mass matrix that
-/// of unity.
+/// The matrix with components scaled by the square roots of their masses, for which the mass matrix
+/// is the identity.
 fn weighted(a: &Matrix, inertia: f64) -> Matrix {
     let weights = [1.0, 1.0, inertia.sqrt(), 1.0, 1.0, inertia.sqrt()];
     let mut scaled = *a;
@@ -132,8 +132,8 @@ fn symplectic_form(s: &Matrix) -> Matrix {
     form
 }
 
-/// So many roundings are allowed of the size of what a formula adds up: about as many as it has
-/// operations.
+/// The number of roundings allowed, relative to the size of the terms that a formula adds up: about
+/// as many as it has operations.
 const ROUNDINGS: f64 = 32.0;
 
 /// S of an impact of one cable by the formula of the literature (Aizerman & Gantmakher 1958; Müller
@@ -208,12 +208,12 @@ proptest! {
     })]
 
     /// The determinant of the motion at one time is 1 in flight, and e² in an impact of one cable,
-    /// forced or not: with v⁺ = P v⁻, P = 1 − (1 + e) M⁻¹ g gᵀ/w, a neighbour δq off is late by
-    /// −gᵀδq/v_n and has the velocity q̇⁻ instead of q̇⁺ = q̇⁻ − (1 + e) (v_n/w) M⁻¹ g meanwhile,
-    /// so that δq⁺ = P δq⁻: the same P as in ∂v⁺/∂v⁻ = P. Positions do not depend on velocities, so
-    /// det S = (det P)², where det P = 1 − (1 + e) = −e as gᵀM⁻¹g = w. The forces stand in the
-    /// corner that the determinant does not ask for. So the exponents of any run sum to 2 ln
-    /// e/⟨time between impacts⟩.
+    /// forced or not: with v⁺ = P v⁻, P = 1 − (1 + e) M⁻¹ g gᵀ/w, a neighbour at δq has its impact
+    /// later by −gᵀδq/v_n and has the velocity q̇⁻ instead of q̇⁺ = q̇⁻ − (1 + e) (v_n/w) M⁻¹ g
+    /// meanwhile, so that δq⁺ = P δq⁻: the same P as in ∂v⁺/∂v⁻ = P. Positions do not depend on
+    /// velocities, so that det S = (det P)², where det P = 1 − (1 + e) = −e as gᵀM⁻¹g = w. The
+    /// forces are only in the block that does not enter the determinant. So the exponents of any
+    /// run sum to 2 ln e/⟨time between impacts⟩.
     #[test]
     fn an_impact_contracts_phase_volume_by_e_squared((system, state) in systems(any_restitution())) {
         let e = system.restitution;
@@ -223,7 +223,7 @@ proptest! {
         follow(&system, state, 60, |simulation, step, map| {
             let struck = step.impacts().count() == 1;
             let map = weighted(map, system.body.inertia());
-            // What a determinant adds up is bounded by the product of the lengths of its rows.
+            // The terms of a determinant are bounded by the product of the lengths of its rows.
             let bound: f64 = map.iter().map(length).product();
             let known = if struck { e * e } else { 1.0 };
             worst = worst.max((determinant(map) - known).abs() / bound);
@@ -236,8 +236,8 @@ proptest! {
         prop_assert!((sum - 2.0 * impacts * e.ln()).abs() <= rounding, "{} impacts: {}", impacts, sum);
     }
 
-    /// Flight and impacts without loss keep SᵀJS = J, with forces that depend on time, too. So the
-    /// eigenvalues of what they make of deviations come in pairs whose product is 1.
+    /// Flight and impacts without loss keep SᵀJS = J, also with forces that depend on time. So the
+    /// eigenvalues of S come in pairs whose product is 1.
     #[test]
     fn motion_without_loss_is_symplectic((system, state) in systems(Just(1.0).boxed())) {
         let form = symplectic_form(&IDENTITY);
@@ -276,8 +276,9 @@ proptest! {
     }
 }
 
-/// Without forcing and without loss the breakwater is a chaotic billiard under gravity. Whatever
-/// directions its exponents are computed from, in pairs they cancel but for what vanishes like 1/t.
+/// Without forcing and without loss the breakwater is a chaotic billiard under gravity. From
+/// whatever directions its exponents are computed, they cancel in pairs up to terms that vanish
+/// like 1/t.
 #[test]
 fn exponents_come_in_pairs() {
     for (a, b, x, theta) in [

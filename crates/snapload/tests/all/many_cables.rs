@@ -1,4 +1,4 @@
-//! Three, four and more cables: what must be true of every run.
+//! Three, four and more cables: laws that hold in every run.
 
 use proptest::prelude::*;
 use proptest::test_runner::RngSeed;
@@ -92,8 +92,8 @@ fn holds(run: &Trajectory) -> Result<(), TestCaseError> {
             "{momentum:?}"
         );
     }
-    // An impulse may turn another closed cable round, which then snaps by itself at the same time,
-    // up to rounding; after the last of them no closed cable closes on.
+    // An impulse may make another closed cable close on, which then snaps by itself at the same
+    // time, up to rounding; after the last of these impacts no closed cable closes on.
     for instant in run.impacts().chunk_by(|a, b| b.t - a.t < 1e-12) {
         let Some(Impact { after, .. }) = instant.last() else {
             continue;
@@ -135,8 +135,8 @@ proptest! {
     }
 }
 
-/// Four equal parallel tethers, thrown up against their ends all at once: four impulses for three
-/// freedoms, the same in each, as least norm and symmetry want; and the body comes to rest on them.
+/// Four equal parallel tethers, all of which snap at once: four impulses for three degrees of
+/// freedom, equal to each other by least norm and symmetry; and the body comes to rest on them.
 #[test]
 fn parallel_tethers_share_an_impact_evenly() {
     let tether = |x: f64| Cable::taut_at_rest([0.0, -1.0], [x, 0.0], 1.0);
@@ -165,8 +165,9 @@ fn parallel_tethers_share_an_impact_evenly() {
     assert!(run.end().state.vy.abs() < 1e-9 && run.end().state.theta.abs() < 1e-9);
 }
 
-/// Every line doubled: a pair moves the body as one line does, and each of the pair carries half,
-/// at impacts and while taut. The cases slide and rock, and lines come taut and go slack.
+/// Every line doubled: a pair acts on the body as one line does, and each line of the pair carries
+/// half, at impacts and while taut. In the cases the body slides and rocks, and lines become taut
+/// and slack.
 #[test]
 fn twins_do_what_one_line_does_and_carry_half() -> Result<(), CaseError> {
     // One begins with both cables taut.
@@ -195,7 +196,7 @@ fn twins_do_what_one_line_does_and_carry_half() -> Result<(), CaseError> {
         let double = Simulation::new(twins, rules, 0.0, start).expect("the same start");
         let double = Trajectory::record(double);
 
-        // Rounding differs, and grows from impact to impact; what is compared is certain.
+        // Rounding differs, and grows from impact to impact; only certain results are compared.
         let (_, trust) = trusted_run(&case, &Uncertainty::default(), &unwatched).expect("legal");
         let sure = trust.horizon.map_or(f64::INFINITY, |h| h.t);
         let mut pairs = double.impacts().chunks_exact(2);
@@ -222,7 +223,7 @@ fn twins_do_what_one_line_does_and_carry_half() -> Result<(), CaseError> {
             let t = single.end().t.min(sure) * f64::from(k) / 2000.0;
             let (one, two) = (one.at(t), two.at(t));
             if one.taut.len() * 2 != two.taut.len() {
-                // The instant of a change of mode is not the same to the last digit.
+                // The instant of a change of mode differs in the last digit.
                 continue;
             }
             for cable in one.taut.iter() {
@@ -238,8 +239,8 @@ fn twins_do_what_one_line_does_and_carry_half() -> Result<(), CaseError> {
     Ok(())
 }
 
-/// Four equal parallel tethers, let go from the side: the body swings as a point on one tether
-/// does, and each carries a quarter of what that one does.
+/// Four equal parallel tethers: released from the side, the body swings as a point on one tether
+/// does, and each tether carries a quarter of the tension.
 #[test]
 fn parallel_tethers_swing_as_one_pendulum() {
     let swing = |lines: &[f64]| {
@@ -278,9 +279,9 @@ fn parallel_tethers_swing_as_one_pendulum() {
     }
 }
 
-/// Moorings in which many cables hold the same directions: pairs to one fairlead, parallel tethers
-/// whose loads wander from one to the other, twins that are not quite alike, ten lines at one
-/// place. Each runs to its end, and every law holds along it, as it is played back.
+/// Moorings in which many cables constrain the same directions: pairs to one fairlead, parallel
+/// tethers between which the load shifts, twins that differ slightly, ten lines at one place. Each
+/// run reaches its end, and every law holds along it, as it is played back.
 #[test]
 fn moorings_with_more_lines_than_freedoms_run_to_the_end() {
     type Line = ([f64; 2], [f64; 2]);
@@ -337,7 +338,7 @@ fn moorings_with_more_lines_than_freedoms_run_to_the_end() {
                 };
                 let rules = Rules {
                     max_impacts: 20_000,
-                    // Parallel tethers that swing level with their anchors lie on each other.
+                    // Parallel tethers coincide where they are level with their anchors.
                     limits: LimitBounds::none().with(Limit::UpperBound, 0.9),
                     v_stick: 1e-6,
                     ..Rules::until(40.0)
@@ -351,7 +352,7 @@ fn moorings_with_more_lines_than_freedoms_run_to_the_end() {
                     "{case}: {reason:?} at {t}"
                 );
                 assert!(t > 2.0, "{case} at {t}");
-                // Of constraints that are all but one, roundings come out 1e7 times larger
+                // With constraints that nearly coincide, roundings are amplified 1e7 times
                 // (docs/limits.md).
                 if name == "near" {
                     continue;
@@ -362,9 +363,9 @@ fn moorings_with_more_lines_than_freedoms_run_to_the_end() {
     }
 }
 
-/// A cable counts as resting only where its normal velocity is zero. Bodies on four cables, and
-/// snaps far above rounding stick, so that whatever is let go as they do has a velocity that
-/// shows.
+/// A cable counts as resting only if its normal velocity is zero. The bodies hang on four cables,
+/// and fast snaps stick, too, so that a cable that is then released has a velocity far above
+/// rounding.
 #[test]
 fn what_rests_has_no_normal_velocity() {
     let mut rested = 0;

@@ -1,9 +1,9 @@
-//! What runs and crowds of runs come to.
+//! The outcomes of runs and of ensembles of runs.
 
 use snapload::analysis::{CriticalForce, Ensemble, ForceScan, Uncertainty, Unfinished, unwatched};
 use snapload::{Case, CaseError, Outcome, Parameters, Stop, named_case};
 
-/// Every number is that of the kept run.
+/// Every number of an outcome is that of the full run.
 #[test]
 fn an_outcome_tells_of_the_run() -> Result<(), CaseError> {
     for code in ["sliding-example", "rocking-example", "1910001000-359"] {
@@ -57,7 +57,7 @@ fn none_may_exceed() -> Result<(), Unfinished> {
     Ok(())
 }
 
-/// No more are run where the first 200 end alike, and all where one of them does not.
+/// Only 200 members are run if they end in the same way, and all members otherwise.
 #[test]
 fn as_many_members_are_run_as_tell() -> Result<(), Unfinished> {
     let case = Case::new(Parameters {
@@ -103,7 +103,8 @@ fn members_are_within_the_doubt_and_do_not_depend_on_their_number() -> Result<()
     Ok(())
 }
 
-/// A start on a cable's end: half of the cloud is out of reach, and is drawn again.
+/// The start is on the boundary of a cable: half of the ensemble is out of reach, and is drawn
+/// again.
 #[test]
 fn illegal_neighbours_are_drawn_again() -> Result<(), Unfinished> {
     let case = Case::new(Parameters {

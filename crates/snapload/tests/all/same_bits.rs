@@ -1,4 +1,5 @@
-//! The same case gives the same bits, whatever it is computed beside and by how many.
+//! The same case gives the same bits, whichever other cases are computed with it and on however
+//! many threads.
 
 use snapload::analysis::{
     Cancelled, Certainty, Counter, CriticalForce, Ensemble, ExceedanceCurve, ForceScan, OnProgress,
@@ -31,9 +32,9 @@ fn fingerprint(mut simulation: Simulation) -> (u64, u64) {
 
 /// Time of the end and fingerprint of named cases: what every machine must compute.
 ///
-/// They may change only where arithmetic is changed on purpose, which the change log then says: in
-/// a chaotic motion another last bit is another picture. The test prints what it found; put that
-/// here.
+/// They may change only where arithmetic is changed on purpose, and then the change log says so: in
+/// a chaotic motion another last bit leads to another motion. If the test fails, it prints the new
+/// values.
 const HELD: [(&str, u64, u64); 5] = [
     (
         "1910001000-359",
@@ -122,7 +123,7 @@ fn varied() -> Vec<Case> {
     cases.collect()
 }
 
-/// Bit by bit, −0 and 0 included.
+/// All bits of an outcome, so that −0 and 0 differ.
 fn bits(outcome: &Outcome) -> Vec<u64> {
     let (end, norms) = (&outcome.end, &outcome.norms);
     let limit = end.t_limit.map_or(0, f64::to_bits);
@@ -178,9 +179,8 @@ fn threads_do_not_matter() {
     }
 }
 
-/// Lanes that run dry early or late: fewer cases than lanes, and none.
-/// Trust goes along in lanes: its horizons are those of runs followed by themselves, and the
-/// outcomes those of runs that nothing goes along with.
+/// Trust is computed in lanes, too: the horizons are those of runs followed one by one, and the
+/// outcomes are those of runs whose trust is not computed.
 #[test]
 fn trust_in_lanes_is_that_of_one_run_by_itself() {
     let cases = varied();
@@ -209,7 +209,7 @@ fn few_cases_fill_no_lanes() {
     }
 }
 
-/// A lane whose run has stopped takes the next one at once: of the places for bounces hardly any
+/// A lane whose run has stopped takes the next run at once: hardly any of the places for bounces
 /// stay empty.
 #[test]
 fn lanes_are_kept_full() {
@@ -230,7 +230,7 @@ fn lanes_are_kept_full() {
     }
 }
 
-/// Runs that stop before they ever fly take no lane, however many there are of them.
+/// Runs that stop before their first flight take no lane, however many there are of them.
 #[test]
 fn runs_that_stop_at_once_are_no_burden() {
     let case = Case::new(Parameters {
@@ -242,7 +242,7 @@ fn runs_that_stop_at_once_are_no_burden() {
     assert_eq!((outcomes.len(), usage.bounces), (50_000, 0));
 }
 
-/// What may be ended on its way is the same where it is not, and nothing where it is.
+/// Cancellable work gives the same result if it is not cancelled, and none if it is.
 #[test]
 fn work_that_may_be_ended_is_the_same_or_nothing() -> Result<(), Unfinished> {
     let case = Case::new(named_case("1910001000-459")?.parameters)?;
@@ -281,7 +281,7 @@ fn work_that_may_be_ended_is_the_same_or_nothing() -> Result<(), Unfinished> {
     Ok(())
 }
 
-/// Whatever is long tells of its progress, which only grows, and ends where it is told to.
+/// All long work reports its progress, which only grows, and ends when it is cancelled.
 #[test]
 fn all_long_work_can_be_watched_and_cancelled() -> Result<(), Unfinished> {
     let long = Parameters {
@@ -330,7 +330,7 @@ fn all_long_work_can_be_watched_and_cancelled() -> Result<(), Unfinished> {
     Ok(())
 }
 
-/// The same case gives the same bits, whether or not anything is asked of it on the way.
+/// The same case gives the same bits, whether or not its motion is sampled on the way.
 #[test]
 fn nothing_depends_on_sampling() {
     for f_o in [0.1, 0.27, 0.3, 0.5] {
@@ -359,7 +359,8 @@ fn nothing_depends_on_sampling() {
     }
 }
 
-/// Expansions that were not kept are computed again to the bit, whatever is asked for first.
+/// Expansions that were not kept are computed again with the same bits, in whatever order times are
+/// asked for.
 #[test]
 fn a_motion_is_the_same_however_little_of_it_is_kept() -> Result<(), CaseError> {
     let long = Parameters {
@@ -389,8 +390,8 @@ fn a_motion_is_the_same_however_little_of_it_is_kept() -> Result<(), CaseError> 
     Ok(())
 }
 
-/// Fused by an instruction or by a function: flights, impacts, sliding and rocking have the
-/// same bits.
+/// Products and sums fused by an instruction or by a function: flights, impacts, sliding and
+/// rocking have the same bits.
 #[test]
 fn both_compilations_give_the_same_bits() {
     let mut modes = [0; 3];

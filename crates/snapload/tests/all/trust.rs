@@ -1,4 +1,4 @@
-//! What runs tell of their own errors.
+//! The errors that runs report.
 
 use crate::agrees_with_closed_forms::string;
 use snapload::analysis::{
@@ -6,8 +6,8 @@ use snapload::analysis::{
 };
 use snapload::{Case, Mode, Parameters, Rules, Simulation, State, named_case};
 
-/// Neighbours as far off as may be have norms that differ by less than is told, and by more
-/// than a thousandth of it.
+/// The norms of neighbours at the largest possible distance differ by less than the reported error,
+/// and by more than a thousandth of it.
 #[test]
 fn neighbours_have_norms_within_the_errors() -> Result<(), Unfinished> {
     let certain = Parameters {
@@ -46,8 +46,8 @@ fn neighbours_have_norms_within_the_errors() -> Result<(), Unfinished> {
     Ok(())
 }
 
-/// Impacts of one instant, and one that ends the run, take nothing from what is known: the
-/// standard case settles at an impact, and goes on to rock after impulses that were passed on.
+/// Impacts of one instant, and an impact that ends the run, do not make extremes uncertain: the
+/// standard case settles at an impact, or rocks after impulses that were passed on.
 #[test]
 fn extremes_are_known_where_impacts_come_at_once() -> Result<(), Unfinished> {
     for stop_when_settled in [true, false] {
@@ -66,8 +66,8 @@ fn extremes_are_known_where_impacts_come_at_once() -> Result<(), Unfinished> {
     Ok(())
 }
 
-/// With cables taut no digits are at hand: neighbours of a body that rocks on both cables from
-/// its start keep within.
+/// With taut cables no known digits are available: neighbours of a body that rocks on both cables
+/// from its start stay within the errors.
 #[test]
 fn neighbours_of_taut_motion_are_within_the_errors() -> Result<(), Unfinished> {
     let rocking = Parameters {
@@ -101,7 +101,7 @@ fn neighbours_of_taut_motion_are_within_the_errors() -> Result<(), Unfinished> {
     Ok(())
 }
 
-/// Past the horizon nothing is known, but of the sum up to t = 10 where the horizon is later.
+/// Past the horizon nothing is known, except the sum up to t = 10 if the horizon is later.
 #[test]
 fn what_counts_impacts_past_the_horizon_is_not_known() -> Result<(), Unfinished> {
     let errors = |parameters: Parameters| -> Result<_, Unfinished> {
@@ -140,7 +140,7 @@ fn certainty_is_that_of_the_trusted_run() -> Result<(), Unfinished> {
     Ok(())
 }
 
-/// Without forcing nothing depends on when a motion begins, its exponents neither.
+/// Without forcing nothing depends on the start time of a motion, including its exponents.
 #[test]
 fn exponents_are_over_the_time_that_the_run_takes() {
     let case = Case::new(Parameters {
@@ -227,8 +227,8 @@ fn exponents_of(mut simulation: Simulation) -> (Vec<f64>, bool) {
     (monitor.verdict().exponents, slack)
 }
 
-/// A cable that stays taut leaves no deviation of its gap and none of the gap's rate: each cable that
-/// did so once closes two directions for good, and no more.
+/// A cable that stays taut leaves no deviation of its gap or of the gap's rate: each such cable
+/// closes two directions for good, and no more.
 #[test]
 fn a_cable_that_stays_taut_closes_two_directions() {
     let until = |name: &str, t_end: f64| {
@@ -245,7 +245,7 @@ fn a_cable_that_stays_taut_closes_two_directions() {
             .filter(|e| **e == f64::NEG_INFINITY)
             .count()
     };
-    // The body slides along a cable from 7.91 to 8.01, both are taut from 8.88 on, and from 8.16 on.
+    // The body slides along a cable from 7.91 to 8.01 and from 8.16 on; both are taut from 8.88 on.
     for (name, t_end, slack, expected) in [
         ("sliding-example", 7.9, true, 0),
         ("sliding-example", 8.0, false, 2),
@@ -258,8 +258,8 @@ fn a_cable_that_stays_taut_closes_two_directions() {
         assert_eq!(closed(&exponents), expected, "{name}: {exponents:?}");
         assert!(exponents.iter().all(|e| !e.is_nan()));
     }
-    // What is left of a body on two cables is one swing, which keeps areas (Liouville): the two
-    // exponents add up to what the beginning has left over the time.
+    // A body on two taut cables has one oscillation, which preserves areas (Liouville): the sum of
+    // its two exponents is the contribution of the beginning divided by the time.
     let [area, later] = [50.0, 100.0].map(|t| {
         let (exponents, _) = until("rocking-example", t);
         (exponents[0] + exponents[1]) * t
@@ -267,8 +267,8 @@ fn a_cable_that_stays_taut_closes_two_directions() {
     assert!((later - area).abs() < 0.1, "{area} {later}");
 }
 
-/// A pendulum that begins with a taut cable has no deviation along it from the first, and its swing
-/// keeps areas, so that its two exponents cancel.
+/// A pendulum that begins with a taut cable has no deviation along it from the start, and its swing
+/// preserves areas, so that its two exponents cancel.
 #[test]
 fn a_pendulum_has_two_exponents_that_cancel() {
     let system = string(1.0, 1.0, 0.5);

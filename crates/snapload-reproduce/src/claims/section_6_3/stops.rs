@@ -47,7 +47,7 @@ fn rotates_easily(tabled: &Tabled) -> Judged {
     let free: Vec<Parameters> = free.collect();
     let limit = |case: &Parameters| Ok(outcome(case)?.end.reason == Stop::RotationLimit);
     let [with, without] = [&forced, &free].map(|cases| from_starts(cases, FEW, limit));
-    // How many reach the limit, started from rest and with a spin.
+    // The numbers that reach the limit when started from rest and with a spin.
     let counts = |reached: &Vec<bool>| {
         let reached = forced.iter().zip(reached).filter(|(_, reached)| **reached);
         let (rest, spun): (Vec<_>, Vec<_>) = reached.partition(|(case, _)| case.vtheta == 0.0);
@@ -77,8 +77,8 @@ fn rotates_easily(tabled: &Tabled) -> Judged {
 fn parts_pass_first(tabled: &Tabled) -> Judged {
     const FORCES: [f64; 4] = [0.6, 0.7, 0.8, 0.9];
     let strong = shapes_under(tabled.study, &FORCES);
-    // How far the highest point is above the centre at any tilt, and where the centre is at the
-    // stop.
+    // The height of the highest point above the centre at any rotation, and the centre's height at
+    // the stop.
     let found = from_starts(&strong, FEW, |parameters| {
         let case = Case::new(chapter(*parameters))?;
         let (end, simulation) = (Outcome::of(&case).end, case.simulation());
@@ -104,11 +104,11 @@ fn parts_pass_first(tabled: &Tabled) -> Judged {
     )
 }
 
-/// The height of the start; what rises above it rises far.
+/// The height of the start; a body that rises above it has risen far.
 const FAR: f64 = 0.1;
 
-/// What becomes of a case that has settled in another 20 T: whether it stays low, over its members,
-/// and how it goes in words.
+/// The behaviour of a settled case in another 20 T: whether it stays low, over its members, and a
+/// description.
 fn gone_on(code: &str, case: Parameters, settled: &Run) -> Result<(Verdict, String), CaseError> {
     let from = settled.end().t;
     let mut case = past_settling(case);
@@ -165,7 +165,7 @@ fn rocks_while_settling() -> Judged {
 
 fn slides_for_a_while(tabled: &Tabled) -> Judged {
     const CODE: &str = "1921001000-559";
-    /// A time that a plot shows.
+    /// The shortest time that is visible in a plot.
     const WHILE: f64 = 0.1;
     let runs = near(&case(tabled.study, CODE)?.parameters, MANY, run)?;
     let slide = |run: &Trajectory| {
@@ -197,7 +197,8 @@ fn initial_spin() -> Judged {
         .values("same rest members", [same, rest, spins.len()]))
 }
 
-/// Whether a run that settles does so under a force below the critical one of its body and cables.
+/// Whether the runs that settle do so under a force below the critical one of their body and
+/// cables.
 fn below_critical(tabled: &Tabled) -> Judged {
     let settled: Vec<usize> = (0..tabled.codes.len())
         .filter(|k| tabled.own()[*k].end().reason == Stop::Settled)
@@ -230,8 +231,8 @@ fn below_critical(tabled: &Tabled) -> Judged {
         .value("above", words.collect::<Vec<_>>().join(", ")))
 }
 
-/// Whether a force that turns on an ellipse leads to the rotation limit at more amplitudes than one
-/// along the horizontal.
+/// Whether a force on an ellipse leads to the rotation limit at more amplitudes than one along the
+/// horizontal.
 fn ellipse_turns() -> Judged {
     let amplitudes = || (1..=100).map(|k| f64::from(k) / 100.0);
     let with = |r: f64, nu: f64| {

@@ -1,4 +1,4 @@
-//! Section 6.4.1: cable length, and the region in which the body moves.
+//! Section 6.4.1: the cable length, and the region in which the body moves.
 
 use crate::ReportError;
 use crate::claims::motions::{endings, exceeds, places};
@@ -73,12 +73,12 @@ pub(super) const JUDGES: &Judges<fn(&Tabled) -> Judged> = &[
 /// The height at which the width of the region is taken: half of that of the start.
 const HEIGHT: f64 = 0.05;
 
-/// How flat the bottom of the region is.
+/// The flatness of the region's bottom.
 #[derive(Clone, Copy)]
 struct Bottom {
     /// Slope of both boundaries where they meet, without rotation.
     slope: f64,
-    /// The largest x of the centre at a height, at any rotation.
+    /// The largest x of the centre at that height, at any rotation.
     reach: f64,
 }
 
@@ -95,11 +95,11 @@ impl Bottom {
     }
 }
 
-/// The largest x that the cables allow at a tilt in degrees, if they allow any.
+/// The largest x that the cables allow at a rotation in degrees, if they allow any.
 fn reach(r: f64, [a, b]: [f64; 2], tilt: f64) -> Option<f64> {
     let (s, c) = tilt.to_radians().sin_cos();
     let below = anchor_height(r, a) + b - HEIGHT - b * c;
-    // How far each fairlead may be from its anchor, across.
+    // The largest horizontal distance of each fairlead from its anchor.
     let [right, left] = [below - a * s, below + a * s].map(|d| (r * r - d * d).sqrt());
     let (least, most) = (1.0 - c * a + s * b - right, left - 1.0 + c * a + s * b);
     (least <= most).then_some(most)
@@ -119,8 +119,8 @@ fn flattens(bottoms: &[Bottom]) -> bool {
     bottoms.len() > 1 && bottoms.windows(2).all(|pair| pair[1].flatter_than(pair[0]))
 }
 
-/// Whether the bottom gets flatter with the width, of low bodies and of high ones, and whether no
-/// width's bottom gets sharper with the height.
+/// Whether the bottom becomes flatter with the width, for low bodies and for high ones, and whether
+/// no width's bottom becomes sharper with the height.
 fn by_size(low: &[Bottom], high: &[Bottom]) -> [Verdict; 2] {
     let flatter = |(p, q): (&Bottom, &Bottom)| q.reach >= p.reach && q.slope <= p.slope;
     [
@@ -146,7 +146,7 @@ fn points(run: &Run, until: f64) -> Vec<[f64; 2]> {
 fn wider(tabled: &Tabled) -> Judged {
     let members = tabled.of(["1910001000-359", "2910001000-359"])?;
     let until = |runs: &[&Run; 2]| min(runs.map(|run| run.end().t));
-    // The range of x of both runs, and that of y in parts of it.
+    // The range of x of both runs, and the range of y in parts of it.
     let ranges = members.iter().map(|runs| {
         let points = runs.map(|run| points(run, until(runs)));
         let range = |points: &[[f64; 2]], k: usize| {
@@ -164,8 +164,8 @@ fn wider(tabled: &Tabled) -> Judged {
     .by_start("flatness", ranges.iter().map(|of| of.1)))
 }
 
-/// Half-width and height of the frame that just holds the motions of Figs 6.1-6.5, and of the one
-/// that holds that of Fig. 6.6, by start.
+/// Half-width and height of the smallest frame around the motions of Figs 6.1-6.5, and of the one
+/// around that of Fig. 6.6, by start.
 fn frames(tabled: &Tabled) -> Result<Vec<[[f64; 2]; 2]>, ReportError> {
     // Figs 6.1-6.6.
     let members = tabled.of([
@@ -196,14 +196,14 @@ fn within(extent: [f64; 2], frame: [f64; 2]) -> bool {
         .all(|(extent, side)| *extent <= side)
 }
 
-/// The least frame that holds the other motions, and the last one when twice as large; none if it
-/// holds the last one as it is.
+/// The least frame that contains the other motions and, when twice as large, the last one; none if
+/// it contains the last one as it is.
 fn doubled(others: [f64; 2], last: [f64; 2]) -> Option<[f64; 2]> {
     let frame = [0, 1].map(|k| others[k].max(0.5 * last[k]));
     (!within(last, frame)).then_some(frame)
 }
 
-/// Which part of the least such frame the other motions fill, across and upwards.
+/// The part of the least such frame that the other motions fill, horizontally and vertically.
 fn filled(others: [f64; 2], last: [f64; 2]) -> Option<[f64; 2]> {
     let frame = doubled(others, last)?;
     Some([0, 1].map(|k| others[k] / frame[k]))
@@ -221,13 +221,13 @@ mod tests {
         let lens = (r * r - below * below).sqrt() - 1.0;
         assert!((Bottom::of(r, [0.0; 2]).reach - lens).abs() < 1e-12);
         assert_eq!(doubled([0.3, 0.2], [1.4, 1.6]), Some([0.7, 0.8]));
-        // What is no larger than the others is not cut by a frame that holds these.
+        // A motion that is no larger than the others is not cut off by a frame that contains these.
         assert_eq!(doubled([0.3, 0.2], [0.2, 0.2]), None);
         let widths = by_width(r, 0.0);
         let narrowing: Vec<Bottom> = widths.iter().rev().copied().collect();
         assert!(flattens(&widths) && !flattens(&narrowing) && !flattens(&widths[..1]));
         assert!(!widths[0].flatter_than(widths[0]));
-        // Narrowing bodies, and such as are no flatter when high.
+        // Bodies that narrow the region, and bodies that are no flatter when high.
         let judged = by_size(&narrowing, &narrowing);
         assert_eq!(judged, [Verdict::NotReproduced, Verdict::Reproduced]);
         assert_eq!(by_size(&widths, &narrowing)[1], Verdict::NotReproduced);

@@ -25,7 +25,7 @@ pub(super) const JUDGES: &Judges<fn(&Tabled) -> Judged> = &[
     ("6.4.1-35", |tabled| {
         let shapes = tabled.of(SHAPES.map(|(_, code)| code))?;
         let found = with_rotation(&shapes, inertia);
-        // Each circle against the square as wide.
+        // Each circle is compared with the square of the same width.
         let against = (0..3).all(|k| {
             inertia(SHAPES[k].0) > inertia(SHAPES[k + 3].0)
                 && rotation(shapes[0][k]) > rotation(shapes[0][k + 3])
@@ -40,9 +40,9 @@ pub(super) const JUDGES: &Judges<fn(&Tabled) -> Judged> = &[
     }),
     ("6.4.1-11", rarer_swings),
     ("6.4.1-38", |tabled| {
-        /// The fewest that are several.
+        /// The least number that counts as several.
         const SEVERAL: f64 = 2.0;
-        // The cases that have large swings at all.
+        // The cases that have large swings.
         let with = |k: &usize| swings(&tabled.own()[*k]).into_iter().any(Swing::is_large);
         let places: Vec<usize> = (0..tabled.codes.len()).filter(with).collect();
         let costly = |run: &Run| mean_loss(run, true) > SEVERAL * mean_loss(run, false);
@@ -56,7 +56,7 @@ pub(super) const JUDGES: &Judges<fn(&Tabled) -> Judged> = &[
             .values("with cases", [places.len(), tabled.codes.len()]))
     }),
     ("6.4.1-12", |tabled| {
-        /// The last rotation over the largest, if the rotations get smaller.
+        /// Rotations count as decreasing if the ratio of the last to the largest is below this.
         const SMALLER: f64 = 0.6;
         let ratios = tabled
             .of(RECTANGLES)?
@@ -85,13 +85,13 @@ const SHAPES: [([f64; 2], &str); 8] = [
 /// Figs 6.8-6.10: a = 0.1, 0.2, 0.3 with b = 0.1.
 const RECTANGLES: [&str; 3] = ["1911001000-359", "1921001000-359", "1931001000-359"];
 
-/// A rank correlation from which on one speaks of a rule.
+/// The least rank correlation that counts as a rule.
 const RULE: f64 = 0.5;
 
-/// A measure of a shape, by its half-sizes.
+/// A measure of a body's size, from its half-sizes.
 type Measure = fn([f64; 2]) -> f64;
 
-/// What a size may be.
+/// The possible measures of size.
 const SIZES: [(&str, Measure); 3] = [
     ("a + b", |[a, b]| a + b),
     ("half the diagonal", |[a, b]| a.hypot(b)),
@@ -99,7 +99,7 @@ const SIZES: [(&str, Measure); 3] = [
 ];
 
 /// Whether smaller bodies rotate more, by the rank correlations of each measure of size with the
-/// rotation from all starts: mixed where that hangs on the measure.
+/// rotation from all starts: mixed if that depends on the measure.
 fn smaller_rotate_more(of_sizes: &[Vec<f64>]) -> Verdict {
     let rule = |rho: &Vec<f64>| Verdict::robust(rho.iter().map(|rho| *rho <= -RULE));
     Verdict::families(of_sizes.iter().map(rule))
@@ -120,7 +120,7 @@ fn with_rotation(shapes: &[[&Run; 8]], measure: impl Fn([f64; 2]) -> f64) -> Vec
 }
 
 fn resisting() -> Judged {
-    // Each shape with half, all and twice its moment of inertia.
+    // Each shape with half, one and two times its moment of inertia.
     let cases = SHAPES.iter().flat_map(|(size, _)| {
         [0.5, 1.0, 2.0].map(|factor| {
             let inertia = Some(factor * inertia(*size));
@@ -133,7 +133,7 @@ fn resisting() -> Judged {
         let doublings = all.chunks(3).flat_map(|shape| shape.windows(2));
         doublings.filter(|pair| falling(pair)).count() as f64
     });
-    // As a rule: in three quarters of the doublings.
+    // A rule holds if it holds for three quarters of the doublings.
     let doublings = 2 * SHAPES.len();
     let rule = 0.75 * doublings as f64;
     let finding = Finding::measured("reduced", reduced, |count| count >= rule);
@@ -176,7 +176,7 @@ fn mean_loss(run: &Run, large: bool) -> f64 {
     }))
 }
 
-/// |θ| at the turns of a quarter of the run, 0 to 3.
+/// |θ| at the turning points of a quarter of the run, 0 to 3.
 fn quarter(run: &Run, which: u8) -> Vec<f64> {
     let at = |k: u8| run.end().t * f64::from(k) / 4.0;
     let mut turns = turns(run);
@@ -184,7 +184,7 @@ fn quarter(run: &Run, which: u8) -> Vec<f64> {
     turns.into_iter().map(|turn| turn.1.abs()).collect()
 }
 
-/// Largest rotation in the last quarter over that in the strongest.
+/// Ratio of the largest rotation in the last quarter to that in the strongest quarter.
 fn last_to_largest(run: &Run) -> f64 {
     let largest = |which: u8| quarter(run, which).into_iter().fold(0.0, f64::max);
     let most = (0..4).map(largest).fold(0.0, f64::max);
@@ -205,15 +205,15 @@ fn more_frequent(tabled: &Tabled) -> Judged {
 }
 
 fn close_to_rocking(tabled: &Tabled) -> Judged {
-    /// A run that rocks within this time after its end was close to it: a seventh of the period of
-    /// the forcing.
+    /// A run was close to rocking if it rocks within this time after its end: a seventh of the
+    /// period of the forcing.
     const CLOSE: f64 = 1.0;
-    /// How long it is looked for.
+    /// The time after the end in which rocking is searched for.
     const AFTER: f64 = 10.0;
     let own = tabled.of(RECTANGLES)?[0];
     let cases = RECTANGLES.map(|code| Ok(chapter(case(tabled.study, code)?.parameters)));
     let cases: Vec<Parameters> = cases.into_iter().collect::<Result<_, ReportError>>()?;
-    // How long after the end of a run the first rocking begins.
+    // The time from the end of a run to its first rocking.
     let starts = from_starts(&cases, MANY, |case| {
         let end = outcome(case)?.end.t;
         let on = Parameters {
@@ -238,8 +238,8 @@ fn close_to_rocking(tabled: &Tabled) -> Judged {
         .value("close", CLOSE))
 }
 
-/// Whether all of some cases come to rock within a time, by their waits from each start; mixed where
-/// some do and some do not.
+/// Whether some cases all begin to rock within a time, by their waiting times from each start;
+/// mixed if only some do.
 fn soon(waits: &[Vec<Option<f64>>], close: f64) -> Verdict {
     let near = |wait: &Option<f64>| wait.is_some_and(|wait| wait <= close);
     Verdict::families(

@@ -16,9 +16,9 @@ pub(super) const FREQUENCIES: [&str; 5] = [
     "1910001000-3520",
 ];
 type Runs<'a> = [&'a Run; 5];
-/// Of these the figures with stretches of one mark.
+/// The figures among these that have stretches of one mark.
 const STRETCHES: [usize; 3] = [0, 2, 4];
-/// The figures that are likened to braids.
+/// The figures that the chapter compares with braids.
 const BRAIDS: [usize; 2] = [1, 2];
 
 pub(super) const JUDGES: &Judges<fn(&[Runs]) -> Judged> = &[
@@ -34,7 +34,7 @@ pub(super) const JUDGES: &Judges<fn(&[Runs]) -> Judged> = &[
             .found("ends", own[0] < own[4]))
     }),
     ("6.4.1-28", |members| {
-        /// What is still plain to see in a plot.
+        /// The least snap velocity that is easy to see in a plot.
         const PLAIN: f64 = 3.0 * CLEAR;
         let longer = |runs: &Runs, above| {
             let with = STRETCHES.map(|k| longest(runs[k], above));
@@ -52,7 +52,7 @@ pub(super) const JUDGES: &Judges<fn(&[Runs]) -> Judged> = &[
     }),
     ("6.4.1-29", down_a_boundary),
     ("6.4.1-30", |members| {
-        /// A share of the time, in per cent, with which a plot looks the same throughout.
+        /// A share of the time, in per cent, from which on a plot looks uniform.
         const THROUGHOUT: f64 = 90.0;
         let by_start = members.iter().map(|runs| share(runs[0]));
         let throughout = |share: f64| share.max(100.0 - share) >= THROUGHOUT;
@@ -61,7 +61,7 @@ pub(super) const JUDGES: &Judges<fn(&[Runs]) -> Judged> = &[
             .value("throughout", THROUGHOUT))
     }),
     ("6.4.1-31", |members| {
-        /// The velocity of grazing snaps, in parts of that of direct ones.
+        /// The largest ratio of the velocities of grazing and of direct snaps.
         const SOFT: f64 = 0.6;
         let found = members.iter().map(|runs| harder_and_other(runs[0]));
         let found: Vec<[[f64; 2]; 2]> = found.collect();
@@ -87,7 +87,7 @@ pub(super) const JUDGES: &Judges<fn(&[Runs]) -> Judged> = &[
     ("6.4.1-34", towards_the_boundary),
 ];
 
-/// Stretches of impacts above some velocity on one cable.
+/// Sequences of impacts above some velocity on one cable.
 fn stretches(run: &Run, above: f64) -> Vec<Vec<&Impact>> {
     let hits: Vec<&Impact> = run.impacts().iter().filter(|hit| hit.v_n > above).collect();
     hits.chunk_by(|p, q| p.cable == q.cable)
@@ -100,10 +100,10 @@ fn longest(run: &Run, above: f64) -> usize {
     lengths.max().unwrap_or(0)
 }
 
-/// The fewest snaps that make a stretch.
+/// The least number of snaps in a stretch.
 const SEVERAL: usize = 5;
 
-/// By how much the body rises over each stretch of clear snaps.
+/// The rise of the body over each stretch of clear snaps.
 fn rises(run: &Run) -> Vec<f64> {
     let long = stretches(run, CLEAR)
         .into_iter()
@@ -113,9 +113,9 @@ fn rises(run: &Run) -> Vec<f64> {
 }
 
 fn down_a_boundary(members: &[Runs]) -> Judged {
-    /// A rise that one sees in a plot.
+    /// The least rise that is visible in a plot.
     const SEEN: f64 = 0.05;
-    // More fall in such stretches than rise.
+    // The body falls in more of these stretches than it rises in.
     let all = by_case(members, |run| {
         let rises = rises(run);
         2 * rises.iter().filter(|rise| **rise < 0.0).count() > rises.len()
@@ -130,8 +130,8 @@ fn down_a_boundary(members: &[Runs]) -> Judged {
         .found("rises_too", up >= SEEN))
 }
 
-/// Difference of the snap velocities of cables 1 and 2, each a line through its clear impacts, at
-/// times evenly spread over the span that they share; and that span.
+/// Difference of the snap velocities of cables 1 and 2, each interpolated linearly between its
+/// clear impacts, at times evenly spaced over their common span; and that span.
 fn difference(run: &Run) -> (Vec<f64>, f64) {
     let line = |cable: usize| -> Vec<(f64, f64)> {
         let own = clear(run).filter(|hit| hit.cable == cable);
@@ -150,7 +150,7 @@ fn difference(run: &Run) -> (Vec<f64>, f64) {
     (values, to - from)
 }
 
-/// A line through points, at a time.
+/// Linear interpolation between points, at a time.
 fn on_line(points: &[(f64, f64)], t: f64) -> f64 {
     let after = points.partition_point(|p| p.0 <= t);
     match (points.get(after.wrapping_sub(1)), points.get(after)) {
@@ -165,20 +165,21 @@ fn crossings(values: &[f64]) -> usize {
     values.windows(2).filter(cross).count()
 }
 
-/// The distance of lines that are near, in parts of that before and after.
+/// Lines count as near if their distance is below this part of that before and after.
 const NEAR: f64 = 1.0 / 3.0;
 
-/// Whether two lines, by their difference, draw near and part again without crossing.
+/// Whether two lines, given their difference, approach each other and separate without crossing.
 fn nears_and_parts(difference: &[f64]) -> bool {
     let near = |three: &[f64]| three[1] < NEAR * three[0].min(three[2]);
     crossings(difference) == 0 && extremes(difference).windows(3).any(near)
 }
 
-/// Lines that braid cross so often per T at least, and so many times as often as others.
+/// Lines count as braids if they cross at least this often per T, and this many times as often as
+/// the others.
 const OFTEN: f64 = 0.5;
 const MORE: f64 = 2.0;
 
-/// Whether of the rates of crossing in all figures those of braids stand out.
+/// Whether the crossing rates of the braids exceed those of the other figures.
 fn braids(rates: &[f64; 5]) -> bool {
     let least = min(BRAIDS.map(|k| rates[k]));
     least >= OFTEN && least > MORE * max([0, 3, 4].map(|k| rates[k]))
@@ -200,8 +201,8 @@ fn share(run: &Run) -> f64 {
     100.0 * mean(values.iter().map(|d| f64::from(u8::from(*d > 0.0))))
 }
 
-/// Mean snap velocity, and mean share of it in the speed of the attachment, at the clear impacts of
-/// the harder cable, then of the other.
+/// Mean snap velocity, and its mean share of the attachment's speed, at the clear impacts of the
+/// cable that snaps harder, then of the other.
 fn harder_and_other(run: &Run) -> [[f64; 2]; 2] {
     let of = |cable: usize| {
         let own = clear(run).filter(|hit| hit.cable == cable);
@@ -217,7 +218,7 @@ fn harder_and_other(run: &Run) -> [[f64; 2]; 2] {
     }
 }
 
-/// How the distance of the two lines goes up and down: its extremes, the ends among them.
+/// The local extremes of the distance of the two lines, including the ends.
 fn extremes(values: &[f64]) -> Vec<f64> {
     let distance: Vec<f64> = values.iter().map(|d| d.abs()).collect();
     let turning = distance
@@ -228,8 +229,8 @@ fn extremes(values: &[f64]) -> Vec<f64> {
     ends.0.into_iter().chain(turning).chain(ends.1).collect()
 }
 
-/// Mean snap velocity where the force pushes towards the struck cable over that where it does not;
-/// by the force at the instant of the impact, and by its mean since the impact before.
+/// Ratio of the mean snap velocity where the force pushes towards the struck cable to that where it
+/// does not; by the force at the instant of the impact, and by its mean since the previous impact.
 fn with_over_against(run: &Run) -> [f64; 2] {
     let system = run.system();
     let pairs = run.impacts().windows(2).filter(|pair| pair[1].v_n > CLEAR);
@@ -258,7 +259,7 @@ fn memory(run: &Run) -> f64 {
 }
 
 fn towards_the_boundary(members: &[Runs]) -> Judged {
-    // By reading of the force at a snap, figure and start.
+    // By definition of the force at a snap, figure and start.
     let ratios = [0, 1].map(|which| {
         BRAIDS.map(|k| {
             let ratios = members.iter().map(|runs| with_over_against(runs[k]));
@@ -272,7 +273,7 @@ fn towards_the_boundary(members: &[Runs]) -> Judged {
     let words = ratios.map(|figures| figures.map(|of| span(of, 2)).join(", "));
     let memories = members.iter().map(|runs| BRAIDS.map(|k| memory(runs[k])));
     let memories: Vec<f64> = memories.flatten().collect();
-    // Either reading of the force at a snap would do.
+    // It is enough if the claim holds for one definition of the force at a snap.
     Ok(Finding::new(Verdict::any(verdicts))
         .values("at_the_snap on_the_mean", words)
         .value("clear", CLEAR)

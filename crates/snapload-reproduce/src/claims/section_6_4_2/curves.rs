@@ -43,10 +43,10 @@ fn tabled(curve: &CriticalCurve, reading: Reading) -> Points {
     between(curve, reading, of_table_6_1(curve.key))
 }
 
-/// The parts of a curve: that over which the key varies in Table 6.1, and what is drawn below and
-/// above it, where that is enough to tell a trend from.
+/// The parts of a curve: that over which the key varies in Table 6.1, and the parts drawn below and
+/// above it, if they have enough points for a trend.
 fn parts(curve: &CriticalCurve) -> Vec<[f64; 2]> {
-    /// The fewest points that tell a trend.
+    /// The least number of points for a trend.
     const ENOUGH: usize = 10;
     let [from, to] = of_table_6_1(curve.key);
     let values = || curve.points.chapter.iter().map(|p| p.0);
@@ -78,10 +78,10 @@ fn neighbours(curve: &CriticalCurve, values: &[f64]) -> Result<Vec<Points>, Case
     (1..=FEW).map(of_start).collect()
 }
 
-/// A rank correlation that one sees as a trend.
+/// The least rank correlation that counts as a trend.
 const TREND: f64 = 0.5;
 
-/// Whether there is a curve: not where no amplitude exceeds over a whole part.
+/// Whether there is a curve, which is not the case if no amplitude exceeds in a whole part.
 fn exists(points: &Points) -> bool {
     points.iter().any(|p| p.1 < NEVER)
 }
@@ -135,7 +135,7 @@ fn trend(study: &Study, key: &str, r: f64, sign: f64) -> Judged {
         .values("trend largest", [TREND, LARGEST]))
 }
 
-/// The part of a motion whose impacts are counted.
+/// The end of the time in which impacts are counted.
 const EARLY: f64 = 5.0;
 
 /// Clear impacts per unit time, early in the motion.
@@ -163,7 +163,7 @@ fn impact_rates() -> Judged {
         verdicts.push(Verdict::robust(ranks.iter().map(|rho| *rho <= -TREND)));
         texts.push(format!("{} at f_o = {f_o}", span(ranks, 2)));
     }
-    // How far the force alone would carry the body.
+    // The displacement of the body by the force alone.
     let travel = |omega: f64| 0.09 / (omega * omega);
     Ok(Finding::new(Verdict::all(verdicts))
         .value("ranks", texts.join(", "))
@@ -177,7 +177,7 @@ fn symbol(curve: &CriticalCurve) -> String {
     known.to_owned()
 }
 
-/// By how much the second of three points stands out, up (1) or down (-1).
+/// The height of the second of three points above (1) or below (-1) the others.
 fn height(points: &[(f64, f64)], sign: f64) -> f64 {
     (sign * (points[1].1 - points[0].1)).min(sign * (points[1].1 - points[2].1))
 }
@@ -222,7 +222,8 @@ fn local_extremes(study: &Study) -> Judged {
 }
 
 fn jumps(study: &Study) -> Judged {
-    /// A change of the critical force that is much: a third of that of the standard case.
+    /// The least change of the critical force that counts as large: a third of that of the standard
+    /// case.
     const MUCH: f64 = 0.1;
     let rise = |pair: &[(f64, f64)]| {
         let known = pair.iter().all(|p| p.1 < NEVER);

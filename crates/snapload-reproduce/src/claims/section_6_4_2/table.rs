@@ -1,4 +1,4 @@
-//! Table 6.2 as it is proved, with what neighbours of its runs do.
+//! Table 6.2 by its proofs, with the results of neighbours of its runs.
 
 use crate::ReportError;
 use crate::claims::numbers::spearman;
@@ -11,7 +11,7 @@ use snapload::natural_inertia;
 /// An entry of Table 6.2.
 pub(super) struct Entry<'a> {
     pub(super) row: &'a CriticalRow,
-    /// The critical force that is proved; then the first amplitudes at which 5, 50 and 95 % of the
+    /// The proved critical force; then the first amplitudes at which 5, 50 and 95 % of the
     /// neighbours exceed.
     pub(super) members: [f64; 4],
 }
@@ -30,7 +30,7 @@ impl<'a> Entry<'a> {
         format!("r = {r}, {a} x {b}")
     }
 
-    /// The critical force that is proved.
+    /// The proved critical force.
     pub(super) fn own(&self) -> f64 {
         self.members[0]
     }
@@ -56,7 +56,8 @@ pub(super) type Column = Vec<f64>;
 /// The table.
 pub(super) struct Table<'a> {
     pub(super) entries: Vec<Entry<'a>>,
-    /// The critical forces that are proved; the first crossings by part of the neighbours.
+    /// The proved critical forces; then the first amplitudes at which parts of the neighbours
+    /// exceed.
     pub(super) columns: Vec<Column>,
     pub(super) published: Column,
 }
@@ -142,8 +143,8 @@ mod tests {
     use snapload::analysis::{CriticalForce, ExceedanceCurve, Exceeding, ForceScan, Share};
     use snapload::{CaseError, Stop};
 
-    /// A row that publishes a value: proved ends of amplitudes up to 0.4, of which those from 0.31 on
-    /// exceed, and how many of all neighbours exceed at two of them.
+    /// A row with a published value: proved ends of amplitudes up to 0.4, of which those from 0.31
+    /// on exceed, and the numbers of exceeding neighbours at two of them.
     fn row(published: f64, at: [(f64, usize); 2]) -> Result<CriticalRow, CaseError> {
         let none = || CriticalForce {
             first: None,
@@ -196,11 +197,12 @@ mod tests {
     fn an_altered_published_value_is_not_reproduced() -> Result<(), CaseError> {
         let agreed = [(0.31, 100), (0.2, 0)];
         assert_eq!(row(0.31, agreed)?.verdict(), Verdict::Reproduced);
-        // One that settles, and one that exceeds though it is not the first.
+        // One amplitude that settles, and one that exceeds although it is not the first.
         for published in [0.25, 0.33] {
             assert_eq!(row(published, agreed)?.verdict(), Verdict::NotReproduced);
         }
-        // Five of a hundred neighbours exceed below, or do not at it: nothing is sure.
+        // Five of a hundred neighbours exceed below it, or do not exceed at it, so that nothing is
+        // certain.
         for at in [[(0.3, 5), (0.2, 0)], [(0.31, 95), (0.2, 0)]] {
             assert_eq!(row(0.31, at)?.verdict(), Verdict::NotDecidable);
         }

@@ -1,4 +1,4 @@
-//! How soon and how well energy is dissipated.
+//! How soon and how effectively energy is dissipated.
 
 use super::{Sweep, Sweeps, Swept, USUAL, below_critical, place};
 use crate::claims::numbers::{count, max, min, span};
@@ -9,7 +9,7 @@ use snapload::{CaseError, Parameters, Playback, Stop};
 pub(super) const JUDGES: &Judges<fn(&Sweeps) -> Judged> =
     &[("6.4.3-18", dissipated), ("6.4.3-20", optimum)];
 
-/// A way to tell how well energy is dissipated: the larger, the better.
+/// A measure of how effectively energy is dissipated; larger is better.
 type Effect = (&'static str, fn(&Swept) -> f64);
 const EFFECTS: [Effect; 3] = [
     ("energy lost in the impacts", |run| run.lost),
@@ -17,7 +17,7 @@ const EFFECTS: [Effect; 3] = [
     ("least sum of snap velocities", |run| -run.norms.rho3),
 ];
 
-/// Where among runs that settle a figure is greatest: the place and the force.
+/// Whether a quantity is greatest at an inner one of the runs, and the force of that run.
 fn greatest(runs: &[&Swept], of: fn(&Swept) -> f64) -> Option<(bool, f64)> {
     let values: Vec<f64> = runs.iter().map(|run| of(run)).collect();
     let k = place(&values, 0, values.len(), 1.0)?;
@@ -58,16 +58,16 @@ fn optimum(sweeps: &Sweeps) -> Judged {
         .by_start("lost", lost))
 }
 
-/// Of the energy that a body has at the start above its lowest place, at least so much is gone if one
-/// calls it dissipated.
+/// Energy counts as dissipated if at least this part is gone of what the body has at the start
+/// above its lowest position.
 const GONE: f64 = 0.9;
-/// By when, and up to which time the runs are looked at.
+/// The time by which it has to be gone, and the end of the runs.
 const SOON: f64 = 10.0;
 
-/// When a run exceeds, if it does, and its mechanical energy at t = 10.
+/// The time at which a run exceeds, if it does, and its mechanical energy at t = 10.
 type Left = (Option<f64>, f64);
 
-/// What a case comes to that nothing but the limits ends.
+/// The result for a case that only the limits end.
 fn without_stops(case: &Parameters) -> Result<Left, CaseError> {
     let case = Parameters {
         stop_when_sliding: false,
@@ -79,8 +79,8 @@ fn without_stops(case: &Parameters) -> Result<Left, CaseError> {
     Ok((exceeds, Playback::new(&run).at(SOON).energy))
 }
 
-/// Whether a run has dissipated its energy by t = 10: it did not exceed till then, and has little of
-/// the energy left that it began with.
+/// Whether a run has dissipated its energy by t = 10: it has not exceeded until then, and has
+/// little of its first energy left.
 fn is_dissipated((exceeds, energy): &Left) -> bool {
     exceeds.is_none_or(|t| t > SOON) && *energy <= (1.0 - GONE) * Parameters::STANDARD.y
 }
@@ -148,7 +148,7 @@ mod tests {
             greatest(&runs.each_ref(), EFFECTS[0].1).is_some_and(|best| best.0)
         };
         assert!(inside([1.0, 3.0, 2.0]));
-        // Least in between is no optimum, nor is the most at an end.
+        // A minimum in between is no optimum, nor is a maximum at an end.
         assert!(!inside([3.0, 1.0, 2.0]) && !inside([1.0, 2.0, 3.0]));
         Ok(())
     }

@@ -52,7 +52,7 @@ pub(super) const JUDGES: &Judges<fn(&Sweeps) -> Judged> = &[
         Ok(finding.values("short long", [0, 1].map(|k| words(&lengths[k]))))
     }),
     ("6.4.3-21", |sweeps| {
-        // A moment of inertia that no impact turns.
+        // A moment of inertia so large that no impact turns the body.
         let heavy = |case| Parameters {
             inertia: Some(1e6),
             ..chapter(case)
@@ -69,12 +69,12 @@ pub(super) const JUDGES: &Judges<fn(&Sweeps) -> Judged> = &[
     }),
 ];
 
-/// Whether ρ1 is constant for a body that turns and not for one that can not.
+/// Whether ρ1 is constant for a body that can turn and not for one that can not.
 fn owed_to_turning(held: f64, turning: f64) -> bool {
     held >= STEADY && turning < STEADY
 }
 
-/// The point mass in the place of the body.
+/// The point mass in place of the body.
 fn point(parameters: Parameters) -> Parameters {
     Parameters {
         a: 0.0,
@@ -98,7 +98,8 @@ fn not_lower(rigid: &[f64], points: &[f64]) -> Verdict {
     Verdict::robust(rigid.iter().zip(points).map(|(p, q)| p >= q))
 }
 
-/// The first amplitude at which a body reaches the upper bound, at whatever rotation, from each start.
+/// The first amplitude at which a body reaches the upper bound, at whatever rotation, from each
+/// start.
 fn first_at_bound(parameters: &Parameters) -> Result<Vec<f64>, CaseError> {
     near(parameters, FEW, |case| {
         for f_o in ForceScan::new(0.01, 3.0)?.amplitudes() {
@@ -132,7 +133,7 @@ fn largest_snaps(
     each(&cases, |case| Ok((case.f_o, run(case)?.norms().rho1)))
 }
 
-/// The amplitudes over which ρ1 of the rigid body was looked at.
+/// The amplitudes at which ρ1 of the rigid body was computed.
 fn same_forces(sweeps: &Sweeps) -> impl Iterator<Item = f64> {
     sweeps.short[0].iter().map(|run| run.f_o)
 }
@@ -192,14 +193,15 @@ fn way_to_first_impact() -> Judged {
             p.1, q.1
         ));
     }
-    // Farther, and the more so the stronger the force.
+    // The path is longer, and the more so the stronger the force.
     let more = found.windows(2).all(|pair| pair[1].0 > pair[0].0);
     Ok(Finding::of(more && found.iter().all(|f| f.0 > 0.0))
         .found("earlier", found.iter().all(|f| f.0 < 0.0 && f.1))
         .value("ways", texts.join(", ")))
 }
 
-/// The way of the centre until the first impact: its speed at the middle of each of many steps.
+/// The length of the centre's path up to the first impact, from its speed at the middle of each of
+/// many steps.
 fn way(run: &Trajectory) -> f64 {
     let steps = 400;
     let until = run.impacts().first().map_or(run.end().t, |impact| impact.t);

@@ -33,7 +33,7 @@ pub(super) const JUDGES: &Judges<fn(&Sweeps) -> Judged> = &[
             .value("association", -ASSOCIATION))
     }),
     ("6.4.3-14", |sweeps| {
-        /// A change that one sees in a plot.
+        /// The least change that is visible in a plot.
         const SEEN: f64 = 0.05;
         let swings = |sweep: &Sweep| figure(sweep, |run| run.largest_swing);
         let changes = |sweep: &Sweep| ups_and_downs(&swings(sweep)).unwrap_or_default();
@@ -49,16 +49,17 @@ pub(super) const JUDGES: &Judges<fn(&Sweeps) -> Judged> = &[
     }),
 ];
 
-/// A figure of the swings: its mean and deviation in both halves of the amplitudes, and its rank
+/// A quantity of the swings: its mean and deviation in both halves of the amplitudes, and its rank
 /// correlation with these.
 type Growth = ([(f64, f64); 2], f64);
 
-/// Whether a figure is constant under weak forces, and grows to more than twice under strong ones.
+/// Whether a quantity is constant under weak forces, and grows to more than twice that under strong
+/// ones.
 fn constant_then_grows(([low, high], rho): &Growth) -> bool {
     is_constant(*low) && high.0 > 2.0 * low.0 && *rho > TREND
 }
 
-/// Of a figure of the swings under weak forces and under strong ones.
+/// The finding on a quantity of the swings under weak forces and under strong ones.
 fn told(sweeps: &Sweeps, figure: fn(&Swept) -> f64) -> Finding {
     let of = |sweep: &Sweep| {
         let rho = spearman(&over_force(below_critical(sweep), figure));
@@ -76,14 +77,14 @@ fn told(sweeps: &Sweeps, figure: fn(&Swept) -> f64) -> Finding {
         .values("constant trend", [100.0 * CONSTANT, TREND])
 }
 
-/// A rank correlation that one sees as a trend.
+/// The least rank correlation that counts as a trend.
 const TREND: f64 = 0.5;
 
-/// A rank correlation that one calls an association.
+/// The least rank correlation that counts as an association.
 const ASSOCIATION: f64 = 0.4;
 
-/// Rank correlations of ρ2 and of ρ3 with the sum of the large swings and with the largest rotation:
-/// each as it is, and of what the force amplitude leaves of both.
+/// Rank correlations of ρ2 and of ρ3 with the sum of the large swings and with the largest
+/// rotation: each as it is, and with the effect of the force amplitude removed.
 fn associations(sweep: &[Swept]) -> [[f64; 2]; 4] {
     let rotations: [fn(&Swept) -> f64; 2] = [
         |run: &Swept| run.large_swings.iter().sum(),
@@ -100,7 +101,7 @@ fn associations(sweep: &[Swept]) -> [[f64; 2]; 4] {
     })
 }
 
-/// Whether more rotation goes with smaller sums beyond what the force alone brings about.
+/// Whether more rotation is associated with smaller sums beyond the effect of the force alone.
 fn is_associated(all: &[[f64; 2]; 4]) -> bool {
     max(all.iter().map(|rho| rho[1])) < -ASSOCIATION
 }
@@ -115,8 +116,7 @@ fn given(of_two: f64, with_first: f64, with_second: f64) -> f64 {
     }
 }
 
-/// By how much swings rise, fall and rise again, in parts of where they come from; nothing if there
-/// are too few.
+/// The relative changes of swings that rise, fall and rise again; none if there are too few.
 fn ups_and_downs(swings: &[f64]) -> Option<[f64; 3]> {
     let top = place(swings, 1, swings.len().saturating_sub(1), 1.0)?;
     let low = place(swings, top + 1, swings.len(), -1.0)?;
@@ -132,7 +132,7 @@ mod tests {
 
     #[test]
     fn what_the_force_brings_about_is_no_association() {
-        // Both follow a third quantity and nothing else.
+        // Both depend on a third quantity only.
         assert!(given(0.64, 0.8, 0.8).abs() < 1e-12);
         assert!((given(-0.66, 0.0, 0.0) + 0.66).abs() < 1e-12);
         assert_eq!(given(0.5, 1.0, 0.5), 0.0);
@@ -145,7 +145,7 @@ mod tests {
         assert!(constant_then_grows(&growth(0.02, 1.6)));
         assert!(!constant_then_grows(&growth(0.1, 1.6)));
         assert!(!constant_then_grows(&growth(0.02, 0.7)));
-        // None at first, some later.
+        // Zero under weak forces, but not under strong ones.
         assert!(constant_then_grows(&([(0.0, 0.0), (0.5, 0.9)], 0.6)));
     }
 

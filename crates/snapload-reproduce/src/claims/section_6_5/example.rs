@@ -1,4 +1,4 @@
-//! The two examples that rock, and what is said of the stronger one, f_o = 0.27.
+//! The two examples that rock, and the claims on the stronger one, f_o = 0.27.
 
 use super::{Material, kind};
 use crate::claims::numbers::{max, min};
@@ -25,7 +25,8 @@ pub(super) const JUDGES: &Judges<fn(&Material) -> Judged> = &[
             .found("all_go_on", of.strong.iter().all(Rocking::goes_on)))
     }),
     ("6.5.2.2-14", |of| {
-        /// What is left of a motion that dies out, and of one that does not.
+        /// A motion dies out if its remaining part is below the first number, and does not above
+        /// the second.
         const DYING: f64 = 0.1;
         const LASTING: f64 = 0.5;
         let [weak, strong] = [&of.weak, &of.strong]
@@ -41,10 +42,10 @@ pub(super) const JUDGES: &Judges<fn(&Material) -> Judged> = &[
 
 /// Times between the samples of a rocking motion.
 const SAMPLE: f64 = 0.02;
-/// Below this height the body is at the bottom.
+/// Below this height the body is at the bottom of the region.
 pub(super) const LOW: f64 = 0.05;
 
-/// A run that comes to rock.
+/// A run that begins to rock.
 pub(super) struct Rocking {
     pub(super) run: Trajectory,
     /// When the first rocking begins; the end of a run that does not rock.
@@ -60,12 +61,12 @@ fn from_rocking(run: &Trajectory) -> &[ModeInterval] {
     &modes[first.unwrap_or(modes.len())..]
 }
 
-/// Whether a run rocks from its first rocking to the end of its time.
+/// Whether a run rocks from its first rocking to its end.
 pub(super) fn rocks_on(run: &Trajectory) -> bool {
     from_rocking(run).len() == 1 && run.end().reason == Stop::EndTime
 }
 
-/// Whether a run comes out of its first rocking.
+/// Whether a run leaves its first rocking.
 pub(super) fn leaves_rocking(run: &Trajectory) -> bool {
     from_rocking(run).len() > 1
 }
@@ -93,7 +94,7 @@ impl Rocking {
         min(rocking.flat_map(|now| now.tensions.into_iter().take(cables)))
     }
 
-    /// The largest of a figure in 20 T of its motion.
+    /// The largest value of a quantity in 20 T of its motion.
     fn largest(&self, from: f64, figure: impl Fn(&Motion) -> f64) -> f64 {
         let motion = self.motion.iter();
         max(motion
@@ -101,12 +102,12 @@ impl Rocking {
             .map(figure))
     }
 
-    /// The same of the last 20 T.
+    /// The same in the last 20 T.
     fn largest_late(&self, figure: impl Fn(&Motion) -> f64) -> f64 {
         self.largest(self.run.end().t - 20.0, figure)
     }
 
-    /// The largest |θ| of the last 20 T over that of the first.
+    /// The ratio of the largest |θ| in the last 20 T to that in the first.
     fn remaining(&self) -> f64 {
         let turned = |now: &Motion| now.state.theta.abs();
         self.largest_late(turned) / self.largest(self.start, turned)

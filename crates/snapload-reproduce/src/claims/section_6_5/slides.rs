@@ -1,4 +1,4 @@
-//! What makes a body slide, and what ends it.
+//! Why a body begins to slide, and what ends a slide.
 
 use super::{Material, kind};
 use crate::claims::motions::{push, weight_push};
@@ -23,10 +23,10 @@ pub(super) const JUDGES: &Judges<fn(&Material) -> Judged> = &[
     }),
 ];
 
-/// The part that one would tell as how it goes.
+/// The least part that counts as nearly all.
 const NEARLY_ALL: f64 = 0.8;
 
-/// Of a statement that should hold of nearly all slides.
+/// The finding on a statement that should hold for nearly all slides.
 fn nearly_all(of: &Material, part: fn(&Slides) -> usize) -> Finding {
     let holds = Finding::robust(&of.slides, |slides| slides.are_nearly_all(part(slides)));
     of.told(holds)
@@ -35,22 +35,22 @@ fn nearly_all(of: &Material, part: fn(&Slides) -> usize) -> Finding {
         .values("shortest nearly", [SHORTEST, 100.0 * NEARLY_ALL])
 }
 
-/// What becomes of the slides of many runs.
+/// The counts of the slides of many runs.
 #[derive(Clone, Copy, Default)]
 pub(super) struct Slides {
     all: usize,
-    /// So many begin while the wave pushes into the boundary.
+    /// The number that begin while the wave pushes the body into the boundary.
     pushed: usize,
-    /// So many begin while it pushes more than the weight does.
+    /// The number that begin while it pushes harder than the weight does.
     more: usize,
-    /// So many end once it does not.
+    /// The number that end when it no longer pushes.
     turned: usize,
-    /// So many end as the other cable is hit.
+    /// The number that end with a snap of the other cable.
     hit: usize,
 }
 
 impl Slides {
-    /// Of all slides that a plot shows, but for one that ends with its run.
+    /// The counts of all slides that are visible in a plot, without one that ends with its run.
     pub(super) fn of(runs: &[Trajectory]) -> Self {
         let mut found = Self::default();
         for run in runs {
@@ -60,7 +60,7 @@ impl Slides {
             let slides = run.modes().iter().filter(|mode| kind(mode) == "sliding");
             for mode in slides.filter(seen) {
                 let inside = 0.01 * (mode.t_end - mode.t_start);
-                // Of the wave and of the weight, into the boundary.
+                // The components of the wave's force and of the weight into the boundary.
                 let pushes = |now: Motion| {
                     let cable = now.taut.iter().next().unwrap_or(0);
                     let wave = push(run.system(), cable, now.t, &now.state);
@@ -78,13 +78,13 @@ impl Slides {
         found
     }
 
-    /// Whether so many of them are nearly all.
+    /// Whether a number of them is nearly all.
     fn are_nearly_all(&self, part: usize) -> bool {
         part as f64 > NEARLY_ALL * self.all as f64
     }
 }
 
-/// A slide shorter than this is none to the eye.
+/// A shorter slide is not visible.
 const SHORTEST: f64 = 0.05;
 
 #[cfg(test)]

@@ -31,7 +31,7 @@ pub(super) const JUDGES: &Judges<fn(&Material) -> Judged> = &[
             .list("tension", of.weak.iter().map(Rocking::least_tension)))
     }),
     ("6.5.2.2-07", |of| {
-        /// A wait that one calls none.
+        /// The longest waiting time that counts as none.
         const AT_ONCE: f64 = 0.01;
         let waits: Vec<f64> = of.weak.iter().map(|of| of.start - sticks(of)).collect();
         Ok(Finding::robust(&waits, |wait| *wait < AT_ONCE)
@@ -71,14 +71,14 @@ pub(super) const JUDGES: &Judges<fn(&Material) -> Judged> = &[
             .values("below plain", [below.max(0.0), CLEAR]))
     }),
     ("6.5.2.2-10", |of| {
-        /// A rank correlation from which on the one goes with the other.
+        /// The least rank correlation that counts as a relation.
         const GOES_WITH: f64 = 0.5;
         let rho = bouncing(of)?.into_iter().map(|of| turned_away(&clear(&of)));
         let finding = Finding::measured("rho", rho, |rho| rho > GOES_WITH);
         Ok(finding.values("goes_with plain", [GOES_WITH, CLEAR]))
     }),
     ("6.5.2.2-11", |of| {
-        /// The largest miss of a circle, in parts of its radius.
+        /// The largest distance from a circle, as a part of its radius, that counts as circular.
         const ROUND: f64 = 0.01;
         let system = of.weak[0].run.system();
         let (widest, wide) = (largest(&of.weak[0], |now| now.state.theta.abs()), 1.4);
@@ -93,7 +93,7 @@ pub(super) const JUDGES: &Judges<fn(&Material) -> Judged> = &[
     }),
 ];
 
-/// The largest of a figure while rocking.
+/// The largest value of a quantity while rocking.
 fn largest(of: &Rocking, figure: impl Fn(&Motion) -> f64) -> f64 {
     max(of.motion.iter().map(figure))
 }
@@ -104,21 +104,21 @@ fn sticks(of: &Rocking) -> f64 {
     first.map_or(f64::NAN, |mode| mode.t_start)
 }
 
-/// An impact as seen from the arc on which the body rocks.
+/// An impact relative to the arc on which the body rocks.
 #[derive(Clone, Copy)]
 struct Above {
     clear: bool,
     /// Height of the centre above the arc at the same x.
     height: f64,
-    /// Rotation away from the one on the arc there.
+    /// Rotation relative to that on the arc at the same x.
     turned: f64,
 }
 
-/// Heights of which rounding decides whether they are above or below.
+/// Heights below this have a sign that depends on rounding.
 const ROUNDING: f64 = 1e-9;
 
-/// The impacts of the bouncing, until the first cable sticks: those of the motion in many digits, then
-/// of its neighbours.
+/// The impacts of the bouncing, until the first cable sticks: those of the motion in many digits,
+/// then of its neighbours.
 fn bouncing(of: &Material) -> Result<Vec<Vec<Above>>, ReportError> {
     let own = &case(of.study, "1910001000-159")?.exact;
     let mut members = vec![above_arc(own.system(), own.impacts().iter())];
@@ -142,7 +142,7 @@ fn above_arc<'a>(system: &System, hits: impl Iterator<Item = &'a Impact>) -> Vec
     above.collect()
 }
 
-/// Those that a plot shows.
+/// The impacts that are visible in a plot.
 fn clear(impacts: &[Above]) -> Vec<Above> {
     impacts
         .iter()
@@ -151,14 +151,14 @@ fn clear(impacts: &[Above]) -> Vec<Above> {
         .collect()
 }
 
-/// Rank correlation of the height above the arc and the rotation away from that on it.
+/// Rank correlation of the height above the arc and the rotation relative to that on it.
 fn turned_away(impacts: &[Above]) -> f64 {
     let points = impacts.iter().map(|hit| (hit.height, hit.turned));
     spearman(&points.collect::<Vec<_>>())
 }
 
-/// The place at which both cables are straight, for a given x (0) or θ (2): Newton's iteration in
-/// the two other coordinates, followed from the lowest place.
+/// The position at which both cables are straight, for a given x (0) or θ (2): Newton's iteration
+/// in the two other coordinates, followed from the lowest position.
 fn on_arc(system: &System, given: usize, value: f64) -> State {
     let steps = 8;
     let [p, q] = if given == 0 { [1, 2] } else { [0, 1] };
@@ -187,7 +187,7 @@ fn on_arc(system: &System, given: usize, value: f64) -> State {
 }
 
 /// Generalised forces on the rotation while the body rocks, as root mean squares: of the horizontal
-/// and of the vertical part of the wave, and of the weight.
+/// and of the vertical component of the wave, and of the weight.
 #[derive(Clone, Copy)]
 struct Forces {
     horizontal: f64,
@@ -211,22 +211,22 @@ impl Forces {
         }
     }
 
-    /// Whether of the wave's two parts the horizontal one is what counts.
+    /// Whether the horizontal component of the wave dominates the vertical one.
     fn wave_is_horizontal(self) -> bool {
         self.vertical < LITTLE * self.horizontal
     }
 
-    /// Whether the horizontal force outdoes the weight, too.
+    /// Whether the horizontal force also dominates the weight.
     fn horizontal_controls(self) -> bool {
         self.wave_is_horizontal() && self.weight < self.horizontal
     }
 }
 
-/// The part of a force that does not count.
+/// The largest ratio at which a force is negligible.
 const LITTLE: f64 = 0.2;
 
-/// Radius of the circle x² + y² = 2my + c nearest to the arc, and its largest miss over the radius.
-/// The arc is symmetric, so the centre has x = 0.
+/// Radius of the circle x² + y² = 2my + c nearest to the arc, and its largest distance from the arc
+/// as a part of the radius. The arc is symmetric, so the centre has x = 0.
 fn fit_circle(system: &System, widest: f64) -> (f64, f64) {
     let theta = |k: i32| widest * f64::from(k) / 20.0;
     let points: Vec<State> = (-20..=20).map(|k| on_arc(system, 2, theta(k))).collect();

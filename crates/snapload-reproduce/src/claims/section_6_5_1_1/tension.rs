@@ -40,7 +40,7 @@ pub(super) fn loss(of: &Material) -> Judged {
         .value("seen", count(blind, |q| q.said_lost())))
 }
 
-/// Circles whose cable points to their centre, β = α, which 6.44 can not judge.
+/// Circles whose cable points to their centre, β = α, for which 6.44 is not defined.
 fn pointing_to_the_centre() -> Vec<Sliding> {
     let mut numbers = Numbers::new(SEED + 1);
     let mut state = || {

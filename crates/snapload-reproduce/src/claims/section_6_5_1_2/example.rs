@@ -15,7 +15,8 @@ pub(super) const JUDGES: &Judges<fn(&Example) -> Judged> = &[
             .values("members up down", [of.members, count(0), count(1)]))
     }),
     ("6.5.1.2-18", |of| {
-        /// Speed of a resting connection point, in parts of the centre's.
+        /// The largest ratio of the connection point's speed to the centre's at which the point
+        /// counts as resting.
         const TURNS: f64 = 0.5;
         let least = || of.stories.iter().map(Story::least_turning);
         Ok(of
@@ -58,7 +59,7 @@ pub(super) const JUDGES: &Judges<fn(&Example) -> Judged> = &[
             .found("never", going_on == 0))
     }),
     ("6.5.1.2-10", |of| {
-        // What is proved of the example itself, then what its neighbours do.
+        // The proved slides of the example itself, then those of its neighbours.
         let proved = slides(CASE)
             .into_iter()
             .filter_map(|(_, v_n)| v_n)
@@ -137,7 +138,7 @@ pub(super) const JUDGES: &Judges<fn(&Example) -> Judged> = &[
         Ok(ends.list("times", rocks.map(|(now, _)| now.t)))
     }),
     ("6.5.1.2-15", |of| {
-        /// A kinetic energy that is not rest.
+        /// The least kinetic energy that does not count as rest.
         const MOVING: f64 = 1e-3;
         let kinetic = |s: &Story| s.rocks.map(|(now, _)| now.energy - now.state.y);
         let moves = |s: &Story| s.rocks_after_slide() && kinetic(s) > Some(MOVING);
@@ -153,9 +154,9 @@ pub(super) const JUDGES: &Judges<fn(&Example) -> Judged> = &[
 const CASE: &str = "sliding-example";
 /// Cable 2, the left one, of g2.
 const LEFT: usize = 1;
-/// A slide shorter than this moves nothing that one could see; it is passed over.
+/// A shorter slide moves the body by nothing visible, and is skipped.
 const SHORTEST: f64 = 5e-4;
-/// The fewest hits that are many.
+/// The least number of hits that counts as many.
 const MANY_HITS: usize = 3;
 
 fn is_many(hits: usize) -> bool {
@@ -169,7 +170,7 @@ fn turns_back(motion: &[Motion]) -> bool {
     turns.any(|turns| turns)
 }
 
-/// The example and its neighbours: those that slide, of so many.
+/// The example and its neighbours: those that slide, and the number of all.
 pub(super) struct Example<'a> {
     stories: Vec<Story<'a>>,
     members: usize,
@@ -183,7 +184,7 @@ impl<'a> Example<'a> {
         }
     }
 
-    /// Of a statement on all members; it does not hold of one without a slide.
+    /// The finding on a statement about all members; it does not hold for one without a slide.
     fn robust(&self, holds: impl Fn(&Story) -> bool) -> Finding {
         let absent = std::iter::repeat_n(false, self.members - self.stories.len());
         let members = self.stories.iter().map(holds).chain(absent);
@@ -191,30 +192,30 @@ impl<'a> Example<'a> {
     }
 }
 
-/// A slide: how long it lasts, and its motion at many times.
+/// A slide: its duration, and its motion at many times.
 struct Slide {
     lasts: f64,
     motion: Vec<Motion>,
 }
 
-/// What happens in one run, in the chapter's order of events.
+/// The events of one run, in the chapter's order.
 struct Story<'a> {
     run: &'a Trajectory,
     /// The first slide.
     first: ModeInterval,
-    /// Where it starts.
+    /// The motion at its start.
     start: Motion,
     /// Its slides.
     slides: Vec<Slide>,
     /// The hits of cable 1 while it slides on cable 2.
     hits: Vec<Impact>,
-    /// The first rocking after a slide, and whether that came just before.
+    /// The first rocking after a slide, and whether it followed immediately.
     rocks: Option<(Motion, bool)>,
 }
 
 impl<'a> Story<'a> {
     fn of(run: &'a Trajectory) -> Option<Self> {
-        /// Times of a slide at which it is looked at.
+        /// The number of times at which a slide is evaluated.
         const TIMES: usize = 200;
         let mut playback = Playback::new(run);
         let slid = |mode: &ModeInterval| mode.taut.len() == 1;
@@ -255,7 +256,7 @@ impl<'a> Story<'a> {
         modes.iter().find(|mode| mode.t_end > t).map(|m| m.taut)
     }
 
-    /// Least speed of the taut cable's fairlead over that of the centre, while sliding.
+    /// Least ratio of the speed of the taut cable's fairlead to that of the centre, while sliding.
     fn least_turning(&self) -> f64 {
         let ratio = |now: &Motion| {
             let speed = attachment_speed(self.run.system(), now.taut.iter().next()?, &now.state);
@@ -264,7 +265,7 @@ impl<'a> Story<'a> {
         min(self.sliding().filter_map(ratio))
     }
 
-    /// Its slides that one could see.
+    /// Its visible slides.
     fn seen(&self) -> impl Iterator<Item = &[Motion]> {
         let long = self.slides.iter().filter(|slide| slide.lasts > SHORTEST);
         long.map(|slide| slide.motion.as_slice())
@@ -293,7 +294,7 @@ impl<'a> Story<'a> {
         impacts.filter(move |impact| impact.t >= from && impact.t <= to)
     }
 
-    /// How far y rises from the first slide on, and falls from there to the first rocking.
+    /// The rise of y from the first slide on, and its fall from there to the first rocking.
     fn rise_and_fall(&self) -> Option<[f64; 2]> {
         let (rocking, _) = self.rocks?;
         let (from, to) = (self.start.t, rocking.t);
@@ -303,7 +304,7 @@ impl<'a> Story<'a> {
         Some([top - self.start.state.y, top - rocking.state.y])
     }
 
-    /// Where both cables are hit at the same x.
+    /// The range of x in which both cables are hit.
     fn overlap(&self) -> Option<[f64; 2]> {
         let places = |cable: usize| {
             let own = self.impacts().filter(move |i| i.cable == cable);

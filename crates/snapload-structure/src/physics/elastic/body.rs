@@ -1,4 +1,4 @@
-//! A body on lines that stretch: what they do at a state, and how it is accelerated.
+//! A body on lines that stretch: the forces of the lines at a state, and the acceleration.
 
 use super::law::Spring;
 use snapload::{State, System, TautSet, Waves};
@@ -11,7 +11,7 @@ pub(super) struct SprungBody<'a> {
     waves: RefCell<Waves>,
 }
 
-/// What one line does at one state.
+/// The state of one line.
 pub(super) struct Stretch {
     /// Unit vector along the line.
     n: [f64; 2],
@@ -74,7 +74,7 @@ impl<'a> SprungBody<'a> {
         (0..self.springs.len()).filter(pulls).collect()
     }
 
-    /// The event function of a line: positive while it goes on as it does, pulling or not.
+    /// The event function of a line: positive as long as it continues to pull, or not to pull.
     pub(super) fn until_change(&self, line: usize, state: &State, pulls: bool) -> f64 {
         let Stretch { stretch, force, .. } = self.stretch(line, state);
         match (pulls, stretch <= 0.0) {
@@ -84,7 +84,7 @@ impl<'a> SprungBody<'a> {
         }
     }
 
-    /// The largest angular frequency sqrt(k w) of a line that pulls; 1 where none is quicker.
+    /// The largest angular frequency sqrt(k w) of a pulling line; at least 1.
     pub(super) fn quickest(&self, state: &State, pulling: TautSet) -> f64 {
         let body = &self.system.body;
         pulling.iter().fold(1.0, |quickest: f64, line| {
@@ -93,7 +93,7 @@ impl<'a> SprungBody<'a> {
         })
     }
 
-    /// The accelerations, with the force of the water's memory.
+    /// The accelerations, including the force of the water's memory.
     pub(super) fn acceleration(
         &self,
         t: f64,

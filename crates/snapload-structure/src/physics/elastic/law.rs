@@ -1,10 +1,10 @@
-//! The law of one line that stretches: a spring with a damper beside it that can only pull.
+//! The law of a line that stretches: a spring and a damper in parallel that can only pull.
 
 use crate::physics::prepared::Prepared;
 use crate::structure::LineSi;
 use snapload::CaseError;
 
-/// Less restitution takes a damper that is all there is of the line.
+/// For a smaller restitution the damper would dominate the line.
 const LEAST_RESTITUTION: f64 = 0.01;
 
 /// A line as spring and damper, in the engine's units.
@@ -20,18 +20,18 @@ impl Spring {
     /// The force of spring and damper at the stretch δ = |P − A| − r:
     ///
     /// ```text
-    /// T = k δ + c δ̇,    which the line pulls with while δ > 0 and T > 0
+    /// T = k δ + c δ̇,    with which the line pulls while δ > 0 and T > 0
     /// ```
     ///
-    /// The linear dashpot of T. Schwager and T. Pöschel, *Granular Matter* 9 (2007) 465, which lets
-    /// go where the force is back at zero; with a damper that is before the stretch is.
+    /// The linear dashpot of T. Schwager and T. Pöschel, *Granular Matter* 9 (2007) 465, which
+    /// releases when the force returns to zero; with a damper that is before the stretch does.
     pub fn force(&self, stretch: f64, rate: f64) -> f64 {
         self.rate * stretch + self.damping * rate
     }
 }
 
-/// The damping ratio ζ = c/(2 sqrt(k m)) of a spring and damper from which a mass rebounds at e
-/// times its speed, let go of when the force is back at zero:
+/// The damping ratio ζ = c/(2 sqrt(k m)) of a spring and damper from which a mass rebounds with e
+/// times its speed, if it is released when the force returns to zero:
 ///
 /// ```text
 /// e = exp(−2ζ arccos ζ/sqrt(1 − ζ²)),    with arcosh and ζ² − 1 beyond ζ = 1
@@ -69,7 +69,7 @@ pub fn damping_ratio(restitution: f64) -> f64 {
 }
 
 /// The lines of a structure as springs, `stiffer` times as stiff as they are, with dampers that
-/// give its restitution at the effective mass M/w that each line has to stop where the structure
+/// give its restitution for the effective mass M/w of the body along each line, where the structure
 /// rests on lines that do not stretch.
 ///
 /// # Errors
@@ -93,14 +93,14 @@ pub fn springs(prepared: &Prepared, stiffer: f64) -> Result<Vec<Spring>, CaseErr
 }
 
 impl Prepared {
-    /// The mass M/w that a line has to stop where the body rests, in the engine's units.
+    /// The effective mass M/w of the body along a line at rest, in the engine's units.
     pub(in crate::physics) fn mass_along(&self, line: usize) -> f64 {
         let (rest, system) = (&self.rest, &self.model.system);
         let (at, cable) = (
             self.model.at_rest(rest.place_m, rest.theta_rad),
             &system.cables[line],
         );
-        // The normal is the span over the line's length, and shorter than 1 where the line is
+        // The normal is the span divided by the line's length, and shorter than 1 if the line is
         // slack.
         let [x, y] = cable.span(&at).components();
         let along = x.hypot(y) / cable.length();
@@ -108,7 +108,7 @@ impl Prepared {
     }
 }
 
-/// The same without dampers, which a body at rest does not feel.
+/// The same without dampers, which have no effect on a body at rest.
 ///
 /// # Errors
 /// A [`CaseError`] if a line has no stiffness.

@@ -1,12 +1,12 @@
 //! The motion on lines that stretch.
 //!
-//! Between the instants at which a line takes hold or lets go the forces are smooth. So the motion
-//! is integrated from one such instant to the next with the set of pulling lines fixed, by the pair
-//! of order 8 of Dormand and Prince, and the instants are found on its dense output, at [`LOOKS`]
-//! places in each step and then by bisection.
+//! Between the instants at which a line begins or ceases to pull the forces are smooth. So the
+//! motion is integrated from one such instant to the next with the set of pulling lines fixed, by
+//! the Dormand-Prince pair of order 8, and the instants are found on its dense output, at [`LOOKS`]
+//! points of each step and then by bisection.
 //!
-//! Library: `differential-equations` (DOP853 with dense output, few dependencies). Its own
-//! detection of events passes over the first step and over two crossings within one, so only its
+//! Library: `differential-equations` (DOP853 with dense output, few dependencies). Its own event
+//! detection misses events in the first step and two crossings within one step, so only its
 //! integrator is used.
 
 use super::body::SprungBody;
@@ -20,34 +20,35 @@ use snapload::{CaseError, State, Stop, TautSet};
 
 /// Tolerance of a step, relative and absolute, in the engine's units.
 const TOLERANCE: f64 = 1e-11;
-/// Steps are no longer than this part of 1/ω, ω = sqrt(k w) of the stiffest line that pulls: the
-/// dense output, on which lines let go, is of order 7 and would else be less exact than the steps.
+/// Steps are no longer than this part of 1/ω, ω = sqrt(k w) of the stiffest pulling line: the dense
+/// output, on which releases are located, is of order 7 and would otherwise be less accurate than
+/// the steps.
 const STEP: f64 = 0.25;
-/// The number of such steps between two looks at whether to stop.
+/// The number of such steps between two checks whether to stop.
 const TOGETHER: f64 = 4000.0;
-/// The longest time in one go while no line pulls.
+/// The longest integration in one call while no line pulls.
 const AT_A_TIME: f64 = 1.0;
-/// Places in a step at which forces are looked at.
+/// Points in a step at which forces are evaluated.
 const LOOKS: u32 = 16;
-/// A force below zero by less than this, where a line has just taken hold or let go, is rounding.
+/// A negative force smaller than this just after a line has begun or ceased to pull is rounding.
 const NOISE: f64 = 1e-12;
-/// A time shorter than this is none.
+/// A shorter time counts as zero.
 const INSTANT: f64 = 10.0 * f64::EPSILON;
 
-/// The components of a state, and behind them the water's memory as far as a body has one, each of
-/// its complex states as two numbers.
+/// The components of a state, followed by the water's memory if the body has one, each of its
+/// complex states as two numbers.
 type Components<const N: usize> = [f64; N];
 
-/// The components of a body without memory, of one with a usual memory, and of one with the longest
-/// that is computed.
+/// The number of components for a body without memory, with a usual memory, and with the longest
+/// memory supported.
 const DRY: usize = 6;
 const WET: usize = DRY + 2 * USUAL_MEMORY;
 const WETTEST: usize = DRY + 2 * MOST_MEMORY;
-/// The number of states of the memory of a body that is its own mirror image, as a rule.
+/// The usual number of memory states of a mirror-symmetric body.
 const USUAL_MEMORY: usize = 32;
 const LONG_MEMORY: usize = USUAL_MEMORY + 1;
-/// At most: that of twelve pairs of poles for each freedom, and some more for memories that are
-/// given.
+/// The largest number: that of twelve pairs of poles for each degree of freedom, and some more for
+/// memories that are given.
 const MOST_MEMORY: usize = 64;
 
 /// The motion with one set of pulling lines, from `begin` on.
@@ -63,7 +64,7 @@ fn state_of<const N: usize>(y: &Components<N>) -> State {
     State::from_components(std::array::from_fn(|i| y[i]))
 }
 
-/// What the water remembers of them.
+/// The water's memory among the components.
 fn memory_of<const N: usize>(y: &Components<N>) -> &[[f64; 2]] {
     y[DRY..].as_chunks().0
 }
@@ -85,7 +86,7 @@ impl<const N: usize> ODE<f64, Components<N>> for Phase<'_, N> {
     }
 }
 
-/// An integrator of so many components with dense output.
+/// An integrator of N components with dense output.
 trait Method<const N: usize>:
     OrdinaryNumericalMethod<f64, Components<N>> + Interpolation<f64, Components<N>>
 {
@@ -119,14 +120,15 @@ impl<'a, const N: usize> Phase<'a, N> {
         })
     }
 
-    /// The event function of a line, which is positive while it goes on as the phase has it.
+    /// The event function of a line, which is positive as long as the line behaves as the phase
+    /// assumes.
     fn until_change(&self, line: usize, state: &State) -> f64 {
         self.body
             .until_change(line, state, self.pulling.contains(line))
     }
 
-    /// A line that no longer does what the phase has it do. `fresh` are lines that have just taken
-    /// hold or let go, and whose force is zero but for rounding.
+    /// A line that no longer behaves as the phase assumes. `fresh` are lines that have just begun
+    /// or ceased to pull, and whose force is zero up to rounding.
     fn changed(&self, state: &State, fresh: &mut TautSet) -> Option<usize> {
         for line in 0..self.body.springs.len() {
             let left = self.until_change(line, state);
@@ -139,7 +141,8 @@ impl<'a, const N: usize> Phase<'a, N> {
         None
     }
 
-    /// Follows it until a line changes, or for a time; returns when, the components there, and the line.
+    /// Follows the phase until a line changes, or for a time; returns the time, the components
+    /// there, and the line.
     fn follow(
         &self,
         time: f64,
@@ -184,7 +187,7 @@ impl<'a, const N: usize> Phase<'a, N> {
 }
 
 impl<M: Method<N>, const N: usize> Steps<'_, M, N> {
-    /// Makes one step that holds the tolerance; `false` at the end.
+    /// Makes one step within the tolerance; `false` at the end.
     fn advance(&mut self) -> Result<bool, CaseError> {
         if (self.end - self.method.t()).abs() <= INSTANT {
             return Ok(false);
@@ -231,7 +234,7 @@ impl<M: Method<N>, const N: usize> Steps<'_, M, N> {
 /// infinite.
 ///
 /// # Errors
-/// A [`CaseError`] if there are not as many springs as lines, or the integrator gives up, and
+/// A [`CaseError`] if there are not as many springs as lines, or the integrator fails, and
 /// [`Unfinished::Cancelled`].
 pub fn run_elastic(
     prepared: &Prepared,
@@ -299,7 +302,8 @@ fn run<const N: usize>(
     Ok(record.finish(t, state, pulling, stop))
 }
 
-/// The limit that a state is beyond, as for lines that do not stretch. It is asked for now and then, so that a run may end a little later than it should.
+/// The limit that a state exceeds, as for lines that do not stretch. It is checked from time to
+/// time, so that a run may end a little late.
 fn exceeded(prepared: &Prepared, state: &State) -> Option<Stop> {
     let (system, rules) = (&prepared.model.system, &prepared.model.rules);
     let mut limits = rules.limits.iter();

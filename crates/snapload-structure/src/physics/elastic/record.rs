@@ -1,4 +1,4 @@
-//! What is kept of a motion on lines that stretch.
+//! The record of a motion on lines that stretch.
 
 use super::body::SprungBody;
 use crate::options::looks;
@@ -12,19 +12,19 @@ use serde::Serialize;
 use snapload::{CaseError, MAX_CABLES, Sampling, State, Stop, TautSet};
 use std::iter::Peekable;
 
-/// A line that pulls for a while.
+/// A time interval in which a line pulls.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Pull {
     /// The line, by index from 0.
     #[serde(serialize_with = "number_of_line")]
     pub line: usize,
-    /// When it took hold \[s\].
+    /// When it began to pull \[s\].
     pub from_s: f64,
-    /// When it let go, or the run ended \[s\].
+    /// When it ceased to pull, or the run ended \[s\].
     pub to_s: f64,
-    /// Speed at which it was being stretched when it took hold \[m/s\].
+    /// The rate of its stretch when it began to pull \[m/s\].
     pub speed_m_s: f64,
-    /// Speed at which it was getting shorter when it let go; none if it pulls to the end \[m/s\].
+    /// The rate of its contraction when it ceased to pull; none if it pulls to the end \[m/s\].
     pub rebound_m_s: Option<f64>,
     /// The largest tension \[N\].
     pub peak_n: f64,
@@ -32,7 +32,7 @@ pub struct Pull {
     pub peak_s: f64,
 }
 
-/// State and tensions at one time.
+/// State and tensions at a time.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Look {
     /// The time \[s\].
@@ -46,7 +46,7 @@ pub struct Look {
 /// A motion on lines that stretch.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct ElasticRun {
-    /// Every pull, in the order in which lines took hold.
+    /// Every pull, in the order of their beginnings.
     pub pulls: Vec<Pull>,
     /// The motion at the times asked for.
     pub looks: Vec<Look>,
@@ -54,17 +54,17 @@ pub struct ElasticRun {
     pub end_s: f64,
     /// The state then, in the engine's units.
     pub end: State,
-    /// What ended it before its time.
+    /// What ended it early, if anything.
     pub stop: Option<Stop>,
-    /// The largest rotation either way \[rad\].
+    /// The largest rotation in either direction \[rad\].
     pub turned_rad: f64,
-    /// How far it went from where it rests on these lines, to either side \[m\].
+    /// The largest horizontal distance from the position of rest on these lines \[m\].
     pub excursion_m: f64,
-    /// How a floating body lay in the still water.
+    /// The extreme positions of a floating body relative to the still water.
     pub waterline: Option<Waterline>,
     /// The largest tension of each line after the transient \[N\].
     pub peaks_n: Vec<f64>,
-    /// The smallest, 0 where it goes slack; none where the run ends before \[N\].
+    /// The smallest, 0 if it goes slack; none if the run ends before the transient is over \[N\].
     pub least_n: Vec<Option<f64>>,
     /// Crest and trough of every wave of tension of every line after the transient \[N\].
     pub waves_n: Vec<[f64; 2]>,
@@ -78,11 +78,11 @@ impl ElasticRun {
     }
 }
 
-/// Writes down a motion.
+/// Records a motion.
 pub(super) struct Record<'a> {
     scales: &'a Scales,
     structure: &'a Structure,
-    /// Where the body rests on these lines \[m\].
+    /// The x of the position of rest on these lines \[m\].
     rest_x_m: f64,
     body: &'a SprungBody<'a>,
     /// The times of the looks that are still to come, before the end \[s\].
@@ -90,9 +90,9 @@ pub(super) struct Record<'a> {
     kept: bool,
     transient_s: f64,
     run: ElasticRun,
-    /// The wave of tension that each line is in.
+    /// The current wave of tension of each line.
     waves: Vec<WavesOfTension>,
-    /// The pull that each line is in, by its place among the pulls.
+    /// The current pull of each line, by its index among the pulls.
     open: Vec<Option<usize>>,
 }
 
@@ -157,7 +157,7 @@ impl<'a> Record<'a> {
         self.scales.force_n * self.body.stretch(line, state).force.max(0.0)
     }
 
-    /// Takes note of a state on the way.
+    /// Records a state along the motion.
     pub(super) fn see(&mut self, t: f64, state: &State, pulling: TautSet) {
         let t_s = t * self.scales.time_s;
         self.run.turned_rad = self.run.turned_rad.max(state.theta.abs());
@@ -188,7 +188,7 @@ impl<'a> Record<'a> {
         }
     }
 
-    /// Takes note of lines that take hold or let go.
+    /// Records that lines begin or cease to pull.
     pub(super) fn change(&mut self, t: f64, state: &State, before: TautSet, after: TautSet) {
         let t_s = t * self.scales.time_s;
         for line in 0..self.open.len() {

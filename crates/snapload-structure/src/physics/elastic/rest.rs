@@ -1,17 +1,17 @@
-//! Where the body rests on lines that stretch.
+//! The position of rest on lines that stretch.
 //!
-//! Lines that pull have stretched, so the body rests higher than on lines that do not, and which of
-//! several lines carries how much follows from their stiffness. The place of rest is the least
-//! potential energy of buoyancy and springs,
+//! Pulling lines are stretched, so that the body rests higher than on lines that do not stretch,
+//! and the distribution of the load among several lines follows from their stiffness. The position
+//! of rest is the minimum of the potential energy of buoyancy and springs,
 //!
 //! ```text
 //! V = −F·(x, y) + Σ ½ k_i max(δ_i, 0)²,    ∇V = −(F, 0) + Σ T_i (n_i, s_i),    T_i = k_i max(δ_i, 0)
 //! ```
 //!
-//! to which ½ qᵀCq − F_cᵀq of the hydrostatics comes for a floating body, q = (x, y, θ). It is
+//! to which ½ qᵀCq − F_cᵀq of the hydrostatics is added for a floating body, q = (x, y, θ). It is
 //! found by the method of Levenberg and Marquardt (J. Nocedal and S. Wright, *Numerical
-//! Optimization* (2006), chapter 4): Newton's step with as much of the identity added to the second
-//! derivatives as it takes to go down.
+//! Optimization* (2006), chapter 4): Newton's step with a multiple of the identity added to the
+//! second derivatives, large enough for the energy to decrease.
 
 use super::body::SprungBody;
 use super::law::Spring;
@@ -22,11 +22,11 @@ use nalgebra::{Matrix3, Vector3};
 use snapload::{CaseError, State};
 use std::f64::consts::FRAC_PI_2;
 
-/// A force that is left over, in the engine's units, at rest.
+/// The largest residual force at rest, in the engine's units.
 const BALANCED: f64 = 1e-12;
-/// Steps of the search.
+/// The most steps of the search.
 const STEPS: usize = 400;
-/// Step of the differences that stand for derivatives of rows.
+/// Step of the difference quotients for the derivatives of rows.
 const DIFFERENCE: f64 = 1e-6;
 /// What lines have to do for a body to rest on them.
 const HELD: &str = "lines that hold the body at rest as they stretch";
@@ -34,11 +34,11 @@ const HELD: &str = "lines that hold the body at rest as they stretch";
 const DAMPING: [f64; 2] = [1e-6, 1e12];
 
 impl Prepared {
-    /// The same structure about its place of rest on springs, from which it starts in the waves at
-    /// that depth, unless the case has a start of its own.
+    /// The same structure about its position of rest on springs, from which it starts in the waves
+    /// at that depth, unless the case gives a start.
     ///
     /// # Errors
-    /// A [`CaseError`] if it rests nowhere on them.
+    /// A [`CaseError`] if it has no position of rest on them.
     pub fn on_springs(&self, springs: &[Spring]) -> Result<Self, CaseError> {
         let still = self.model.still();
         let body = SprungBody::new(&still, springs);
@@ -65,9 +65,11 @@ impl Prepared {
             relaxed_n: None,
         };
         let structure = self.structure.clone();
-        // From a start of its own it is compared with lines that do not stretch, in the same waves.
+        // With a start of the case the run is compared with lines that do not stretch, in the same
+        // waves.
         let model = match structure.start_m {
-            // Nor does it change about what a floating body's water is told.
+            // The coefficients of a floating body refer to the mean position, which does not change
+            // either.
             None if structure.afloat.is_some() => self.model.clone(),
             Some(_) => self.model.clone(),
             None => Model::about(&structure, rest.place_m, &[]),
@@ -77,8 +79,9 @@ impl Prepared {
         Ok(sprung)
     }
 
-    /// How the force on a body that rests on springs, as [`Prepared::on_springs`] has it, changes
-    /// with its place: the second derivatives of V over (x, y, θ), in the engine's units.
+    /// The derivative of the force on a body at rest on springs, as by [`Prepared::on_springs`],
+    /// with respect to its position: the second derivatives of V over (x, y, θ), in the engine's
+    /// units.
     pub(in crate::physics) fn stiffness_on(&self, springs: &[Spring]) -> Matrix3<f64> {
         let body = SprungBody::new(&self.model.system, springs);
         let at = self.model.at_rest(self.rest.place_m, self.rest.theta_rad);
@@ -86,7 +89,7 @@ impl Prepared {
     }
 }
 
-/// V at a place, and ∇V.
+/// V at a position, and ∇V.
 fn energy(body: &SprungBody, at: &State) -> (f64, Vector3<f64>) {
     let force = body.system.forcing.constant;
     let mut energy = -(force.x * at.x + force.y * at.y);
@@ -108,9 +111,9 @@ fn energy(body: &SprungBody, at: &State) -> (f64, Vector3<f64>) {
     (energy, gradient)
 }
 
-/// The second derivatives of V, Σ k_i ((n_i, s_i)ᵀ(n_i, s_i) + δ_i ∇(n_i, s_i)) over the lines that
-/// are stretched. Only the rows are differentiated by differences, as a line may be stretched by less
-/// than their step.
+/// The second derivatives of V, Σ k_i ((n_i, s_i)ᵀ(n_i, s_i) + δ_i ∇(n_i, s_i)) over the stretched
+/// lines. Only the rows are differentiated numerically, as the stretch of a line may be smaller
+/// than the step of the differences.
 fn curvature(body: &SprungBody, at: &State) -> Matrix3<f64> {
     let water = body.system.floating.as_ref();
     let mut curvature = water.map_or(Matrix3::zeros(), |water| Matrix3::from(water.stiffness));
@@ -141,7 +144,7 @@ fn least_energy(body: &SprungBody, start: State) -> Result<State, CaseError> {
         let scale = body.springs.iter().map(|spring| spring.rate).sum::<f64>();
         let second = curvature(body, &at);
         if gradient.amax() <= BALANCED * scale.max(1.0) {
-            // A last step of Newton's leaves only rounding.
+            // A last Newton step reduces the error to rounding.
             let step = second.lu().solve(&-gradient);
             return Ok(step.map_or(at, |step| moved(&at, &step)));
         }
@@ -151,7 +154,7 @@ fn least_energy(body: &SprungBody, start: State) -> Result<State, CaseError> {
             let tried = step.map(|step| moved(&at, &step));
             if let Some(tried) = tried
                 && let (energy, slope) = energy(body, &tried)
-                // Close to rest V is the same but for rounding, and its slope decides.
+                // Close to rest the values of V differ only by rounding, and its gradient decides.
                 && (energy < least || slope.amax() < 0.5 * gradient.amax())
             {
                 (at, least, gradient) = (tried, energy, slope);

@@ -1,11 +1,11 @@
 //! The spread of neighbours through a bounce, of one run or of several side by side in the lanes of
 //! the processor.
 //!
-//! What a bounce does to deviations is [`BounceMap`]; what its rounding adds is what
-//! [`crate::analysis::trust::rounding`] says of any step, written out for one closed cable: a
-//! position is off along the end of that cable and by a turn about it, and, where the other gap is
-//! known better, as far as that allows. Whether neighbours may leave the run's sequence of events is
-//! asked by bounds here, without roots: where one of them does not hold,
+//! The effect of a bounce on deviations is [`BounceMap`]; its rounding is treated as
+//! [`crate::analysis::trust::rounding`] does for any step, written out for one closed cable: the
+//! rounded position may be off along the end of that cable and by a turn about it, and, where the
+//! other gap is known better, only as far as that allows. Whether neighbours may have other events
+//! than the run is decided by bounds here, without roots; where a bound does not hold,
 //! [`crate::analysis::trust::causes`] decides.
 #![expect(
     clippy::needless_range_loop,
@@ -25,7 +25,7 @@ use crate::motion::two_cable_flight::EARLY;
 /// Bounds are computed in rounded arithmetic; this factor makes them safe.
 const SAFE: f64 = 1.001;
 
-/// What is followed of a run.
+/// The data of a run that are carried through bounces.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Followed<L> {
     pub(super) parts: Parts<L>,
@@ -34,7 +34,7 @@ pub(super) struct Followed<L> {
     pub(super) tolerance: L,
 }
 
-/// What is known of the neighbours of a bounce.
+/// The spread of the neighbours through a bounce.
 pub(super) struct Through<L: Lane> {
     /// Squares of the standard deviations just before the impact.
     pub(super) met: [L; 7],
@@ -44,7 +44,7 @@ pub(super) struct Through<L: Lane> {
 }
 
 impl<L: Lane> Followed<L> {
-    /// Each of its numbers with the other's.
+    /// Applies a function to each of its numbers and the other's.
     #[inline(always)]
     pub(super) fn pairwise<M>(&mut self, other: &Followed<M>, mut each: impl FnMut(&mut L, &M)) {
         self.parts.pairwise(&other.parts, &mut each);
@@ -52,7 +52,8 @@ impl<L: Lane> Followed<L> {
         each(&mut self.tolerance, &other.tolerance);
     }
 
-    /// The parts just before the impact: told at the previous event's time, and at its own.
+    /// The parts just before the impact: at the previous event's time, and at the impact's own
+    /// time.
     #[inline(always)]
     pub(super) fn before(&self, bounced: &Bounced<L>, map: &BounceMap<L>) -> [Rows<L, COLUMNS>; 2] {
         let mut rows = self.parts.rows;
@@ -63,7 +64,7 @@ impl<L: Lane> Followed<L> {
         [along, rows]
     }
 
-    /// Carries the parts through a bounce, where they are, as they are many.
+    /// Carries the parts through a bounce, in place, as they are large.
     #[inline(always)]
     pub(super) fn carry(&mut self, bounced: &Bounced<L>, map: &BounceMap<L>) -> Through<L> {
         let rounding = BounceRounding::of(self, bounced);
@@ -94,15 +95,15 @@ impl<L: Lane> Followed<L> {
     }
 }
 
-/// Standard deviations of what rounding does in a bounce.
+/// Standard deviations of the rounding in a bounce.
 struct BounceRounding<L> {
     /// Across the end of the cable that snaps, where the impact is located.
     location: L,
     /// Along its end: by x and by y.
     along: [L; 2],
-    /// How the body is displaced as it is turned by a rounding.
+    /// The displacement of the body when rounding turns it.
     turned: [L; 3],
-    /// Of the velocities, the time, and the direction and the turn that the law is told.
+    /// Of the velocities, the time, and of the direction and the rotation that the impact law uses.
     speed: L,
     spin: L,
     time: L,
@@ -112,7 +113,7 @@ struct BounceRounding<L> {
 }
 
 impl<L: Lane> BounceRounding<L> {
-    /// Of a bounce, with the signs of the step.
+    /// The rounding of a bounce, multiplied by the signs of the step.
     #[inline(always)]
     fn of(followed: &Followed<L>, bounced: &Bounced<L>) -> Self {
         let mut rounding = Self::sizes(bounced, followed.slant);
@@ -155,7 +156,7 @@ impl<L: Lane> BounceRounding<L> {
         }
     }
 
-    /// Gives them the signs of a step: that of the location is another.
+    /// Multiplies them by the signs of a step; the location has a sign of its own.
     #[inline(always)]
     fn give(&mut self, sign: L, other_sign: L) {
         self.location = self.location * other_sign;
@@ -172,7 +173,8 @@ impl<L: Lane> BounceRounding<L> {
         self.turn = self.turn * sign;
     }
 
-    /// An impact that is located late is one of a place off across the end of the cable.
+    /// Adds the error of the impact's location, which is a displacement across the end of the
+    /// cable.
     #[inline(always)]
     fn add_location(&self, bounced: &Bounced<L>, rows: &mut Rows<L, COLUMNS>) {
         let n = bounced.facts.normal.n;
@@ -181,7 +183,8 @@ impl<L: Lane> BounceRounding<L> {
         add_products(half(&mut rows[1], 1), location, n.y);
     }
 
-    /// What is stored after the impact, and what its law is told: each part in a place of its own.
+    /// Adds the rounding of the stored state and of the impact law's inputs, each in its own
+    /// column.
     #[inline(always)]
     fn add(&self, map: &BounceMap<L>, rows: &mut Rows<L, COLUMNS>) {
         let [first, second] = self.along.map(Some);
@@ -210,7 +213,7 @@ impl<L: Lane> BounceRounding<L> {
         add(half(&mut rows[6], 1), [None, None, Some(self.time), None]);
     }
 
-    /// A bound on the squares of what is added to the place and the time.
+    /// A bound on the squares of what is added to the position and the time.
     #[inline(always)]
     fn place_squared(&self) -> L {
         let mut sum = self.time * self.time;
@@ -224,14 +227,14 @@ impl<L: Lane> BounceRounding<L> {
     }
 }
 
-/// Half of a row: as much as a processor takes in at once.
+/// Half of a row, which is as much as a vector register holds.
 #[inline(always)]
 fn half<L>(row: &mut [L; COLUMNS], which: usize) -> &mut [L; COLUMNS / 2] {
     &mut row.as_chunks_mut().0[which]
 }
 
-/// Adds what there is to half of a row. Of one run zeros are added to the rest of it: an entry that
-/// is written by itself has to reach the cache before the row can be taken in again.
+/// Adds the given entries to half of a row. For a single run zeros are added to the other entries:
+/// writing one entry alone would delay the next read of the whole row.
 #[inline(always)]
 fn add<L: Lane>(half: &mut [L; COLUMNS / 2], more: [Option<L>; COLUMNS / 2]) {
     for (entry, more) in half.iter_mut().zip(more) {
@@ -241,7 +244,7 @@ fn add<L: Lane>(half: &mut [L; COLUMNS / 2], more: [Option<L>; COLUMNS / 2]) {
     }
 }
 
-/// The same with products of what there is and a factor.
+/// The same with the entries multiplied by a factor.
 #[inline(always)]
 fn add_products<L: Lane>(half: &mut [L; COLUMNS / 2], more: [Option<L>; COLUMNS / 2], factor: L) {
     for (entry, more) in half.iter_mut().zip(more) {
@@ -251,7 +254,7 @@ fn add_products<L: Lane>(half: &mut [L; COLUMNS / 2], more: [Option<L>; COLUMNS 
     }
 }
 
-/// Standard deviation across the end of the cable that snaps, of where the impact is located.
+/// Standard deviation of the impact's location across the end of the cable that snaps.
 #[inline(always)]
 fn location<L: Lane>(bounced: &Bounced<L>, slant: L, moved: [L; 3]) -> L {
     let before = bounced.before;
@@ -261,8 +264,8 @@ fn location<L: Lane>(bounced: &Bounced<L>, slant: L, moved: [L; 3]) -> L {
     let [gap, _] = bounced.each(|k| bounced.from.gaps[k][0]);
     let [gap_error, _] = bounced.each(|k| bounced.from.gaps[k][1]);
     let [reach, _] = bounced.each(|k| bounced.two_cables.reach[k]);
-    // Where the cable leads in another direction, its end is reached elsewhere; but one that was
-    // closed at the start has its end there.
+    // An error of the cable's direction displaces its end; but a cable that was closed at the start
+    // has its end where the body is.
     let speed = before.velocity().length_bound();
     let flown = before.vtheta.abs().mul_add(reach, speed) * s;
     let place = before.x.abs() + before.y.abs();
@@ -278,9 +281,9 @@ fn location<L: Lane>(bounced: &Bounced<L>, slant: L, moved: [L; 3]) -> L {
     square.sqrt()
 }
 
-/// How far rounding displaces the body along the end of the cable, by x and by y, and how it does
-/// that as it turns it. This changes the other gap; where that is known better, it is what that gap
-/// allows.
+/// The displacements of the body by rounding along the end of the cable, in x and in y, and by
+/// turning it. They change the other gap; where that gap is known better, they are limited to what
+/// its error allows.
 #[inline(always)]
 fn displacements<L: Lane>(bounced: &Bounced<L>, [x, y, theta]: [L; 3]) -> ([L; 2], [L; 3]) {
     let Normal { n, arm } = bounced.facts.normal;
@@ -314,11 +317,11 @@ fn displacements<L: Lane>(bounced: &Bounced<L>, [x, y, theta]: [L; 3]) -> ([L; 2
 struct Reach<L> {
     /// Of each component, at the neighbour's own impact.
     met: [L; 7],
-    /// Of the time by which the impact comes later, and of its normal velocity.
+    /// For the delay of the impact, and for its normal velocity.
     later: L,
     closing: L,
-    /// Along the other cable, at whatever time it is told; of the rotation and of the height
-    /// likewise.
+    /// Along the other cable, the larger of the values at the previous event's time and at the
+    /// impact's; for the rotation and the height, bounds that hold at both times.
     other: L,
     theta: L,
     height: L,
@@ -344,7 +347,7 @@ impl<L: Lane> Reach<L> {
         }
     }
 
-    /// A bound on the square of the error. What rounding adds to the place is told by
+    /// A bound on the square of the error. What rounding adds to the position is given by
     /// `place_added`, as (a + b)² ≤ (1 + 1/64) a² + 65 b².
     #[inline(always)]
     fn error(&self, after: &Rows<L, COLUMNS>, place_added: L) -> L {
@@ -358,14 +361,14 @@ impl<L: Lane> Reach<L> {
         sum * (ERROR * ERROR)
     }
 
-    /// Whether all neighbours have the impact, in time, and rebound from it.
+    /// Whether all neighbours have the impact before the end of time, and rebound from it.
     #[inline(always)]
     fn meets_all(&self, bounced: &Bounced<L>) -> L::Mask {
         const SQUARE: f64 = REACH * REACH * SAFE;
         let (two_cables, before) = (bounced.two_cables, bounced.before);
         let [one, two] = two_cables.reach;
         let reach = one.larger(two);
-        // The gap's closing slows down by no more than |P̈|.
+        // The closing velocity of the gap decreases at most at the rate |P̈|.
         let slowing = (before.vtheta * before.vtheta).mul_add(reach, two_cables.force[0]);
         let v_n = bounced.v_n;
         let closes = (self.later * slowing * slowing * (4.0 * SQUARE)).below(v_n * v_n);
@@ -375,8 +378,9 @@ impl<L: Lane> Reach<L> {
         closes & rebounds & (self.met[6] * SQUARE).below(left * left)
     }
 
-    /// Whether the other gap stays open by more than neighbours reach. Where that cable was closed
-    /// at the start of the flight it is closed for all of them, and they spread from there.
+    /// Whether the other gap stays open by more than the neighbours' reach. A cable that was closed
+    /// at the start of the flight is closed for all neighbours then, and their gaps spread from
+    /// zero.
     #[inline(always)]
     fn leaves_the_other_open(&self, bounced: &Bounced<L>) -> L::Mask {
         let [_, gap] = bounced.each(|k| bounced.from.gaps[k][0]);
@@ -396,7 +400,7 @@ impl<L: Lane> Reach<L> {
         largest.below(L::ZERO) & margin.below(largest * largest)
     }
 
-    /// Whether no neighbour comes to a limit.
+    /// Whether no neighbour reaches a limit.
     #[inline(always)]
     fn stops_nowhere(&self, bounced: &Bounced<L>) -> L::Mask {
         const SQUARE: f64 = REACH * REACH * SAFE;

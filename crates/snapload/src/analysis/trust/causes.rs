@@ -9,10 +9,10 @@ use crate::motion::simulation::{Simulation, Step};
 use crate::motion::start::START_TOLERANCE;
 use crate::motion::step_map::Deviation;
 
-/// Neighbours are held to reach this many standard deviations.
+/// Neighbours are assumed to be within this many standard deviations.
 pub(super) const REACH: f64 = 3.0;
 
-/// How far neighbours are spread at some instant.
+/// The spread of the neighbours at some instant.
 pub(super) struct Spread<'a> {
     covariance: &'a CovarianceFactor,
     /// Standard deviation of each component.
@@ -28,45 +28,45 @@ impl<'a> Spread<'a> {
         }
     }
 
-    /// How far neighbours reach along a linear function of the state.
+    /// The largest deviation of the neighbours along a linear function of the state.
     #[inline(always)]
     fn reach(&self, direction: &[f64; 6]) -> f64 {
         REACH * self.covariance.along(direction)
     }
 
-    /// A bound on that for every function with derivatives of at most these sizes.
+    /// A bound on the reach along every function whose derivatives are at most these.
     #[inline(always)]
     fn at_most(&self, slopes: &[f64; 6]) -> f64 {
         let mut sum = 0.0;
         for (slope, size) in slopes.iter().zip(&self.sizes) {
-            // Nothing times what is lost is nothing.
+            // Zero slopes are skipped, as 0 × ∞ would be NaN.
             sum += if *slope > 0.0 { slope * size } else { 0.0 };
         }
         REACH * sum
     }
 }
 
-/// Where the neighbours of a step are just before its event.
+/// The spread of the neighbours of a step just before its event.
 pub(super) struct Neighbours<'a> {
-    /// At the time of the event before.
+    /// At the time of the previous event.
     pub(super) along: Spread<'a>,
-    /// Each at its own event.
+    /// Each neighbour at the time of its own event.
     pub(super) met: Spread<'a>,
-    /// Standard deviation of the time at which rounding lets the event be located.
+    /// Standard deviation of the error, by rounding, of the time at which the event is located.
     pub(super) late: f64,
 }
 
-/// How the run comes to its event.
+/// How the run approaches its event.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Approach {
     /// ż just before it.
     pub(super) rate: [f64; 6],
-    /// −∇h/ḣ: how much later the event comes for a deviation.
+    /// −∇h/ḣ, the delay of the event per deviation.
     pub(super) delay: [f64; 6],
 }
 
 impl Neighbours<'_> {
-    /// By how much time they reach before or after the event of the run.
+    /// The largest time by which neighbours reach the event before or after the run.
     #[inline(always)]
     fn reach_in_time(&self, approach: &Approach) -> f64 {
         let (along, late) = (self.along.covariance.along(&approach.delay), self.late);
@@ -109,8 +109,8 @@ pub(super) fn cause(
     may.then_some(HorizonCause::StopRule)
 }
 
-/// A cable that is closed at the start of a run, and might be slack within what is in doubt, or
-/// leave or snap where it rests.
+/// The cause at the start, if there is one: a cable that is closed in the run may be slack within
+/// the uncertainty, or leave or snap where it rests.
 pub(super) fn cause_at_start(
     simulation: &Simulation,
     covariance: &CovarianceFactor,
@@ -134,8 +134,9 @@ pub(super) fn cause_at_start(
     Some(HorizonCause::Start { cable })
 }
 
-/// Whether a run that begins at a limit, or on its cables at the settling height, may stop there
-/// and a neighbour not. No neighbour begins beyond a limit by more than the start's tolerance.
+/// Whether a run that starts at a limit, or on its cables at the settling height, may stop there
+/// while a neighbour does not. No neighbour starts beyond a limit by more than the start's
+/// tolerance.
 pub(super) fn may_stop_at_start(simulation: &Simulation, spread: &Spread) -> bool {
     let (system, rules, state) = (simulation.system(), simulation.rules(), simulation.state());
     let near = |place: f64, margin: f64| place.abs() <= margin;
@@ -153,8 +154,8 @@ pub(super) fn may_stop_at_start(simulation: &Simulation, spread: &Spread) -> boo
     limits || settles && !simulation.closed().is_empty()
 }
 
-/// Whether the event comes so late that a neighbour, `met` just before the same event, may run out of
-/// time first.
+/// Whether the event is so close to the end of time that a neighbour may reach the end of time
+/// first.
 #[inline(always)]
 fn may_run_out_of_time(simulation: &Simulation, step: &Step, met: &Spread) -> bool {
     let left = simulation.rules().t_end - step.t_end;
@@ -172,7 +173,7 @@ pub(super) struct Closing {
 }
 
 impl Closing {
-    /// Of a step that ends with one cable's impact.
+    /// The closing of a step that ends with one cable's impact.
     #[inline(always)]
     pub(super) fn of(simulation: &Simulation, step: &Step, approach: &Approach) -> Option<Self> {
         let mut struck = step.event.reached.gaps.iter();
@@ -201,17 +202,18 @@ impl Closing {
     }
 }
 
-/// With the gap closing at v_n, slowing down at |α|, neighbours that lag by more than v_n/(2|α|) in
-/// time, which is v_n²/(2|α|) along the normal, do not reach the end of the cable at all.
+/// Whether a neighbour may miss the impact: with the gap closing at v_n and slowing down at |α|,
+/// neighbours that lag by more than v_n/(2|α|) in time, which is v_n²/(2|α|) along the normal, do
+/// not reach the end of the cable at all.
 #[inline(always)]
 fn may_miss(approach: &Approach, neighbours: &Neighbours, closing: &Closing) -> bool {
     let Closing { v_n, alpha, .. } = *closing;
     alpha < 0.0 && neighbours.reach_in_time(approach) * 2.0 * -alpha >= v_n
 }
 
-/// Whether some neighbours snap slowly enough to stick and others do not: from there on their
-/// impacts have other numbers. Where the cable is not pulled on, none sticks; where nothing
-/// rebounds, all do.
+/// Whether some neighbours snap slowly enough to stick and others do not, after which the numbers
+/// of their impacts differ. Where the cable would have no tension, none sticks; where e = 0, all
+/// do.
 #[inline(always)]
 fn may_or_may_not_stick(
     simulation: &Simulation,
@@ -240,8 +242,8 @@ fn may_or_may_not_stick(
     off <= neighbours.met.reach(&[x, y, theta, n.x, n.y, arm])
 }
 
-/// Whether a cable that stays slack comes within reach of being taut, along the stretch or at its
-/// end, which is another instant for each neighbour.
+/// Whether a cable that stays slack comes within the neighbours' reach of being taut, along the
+/// stretch or at its end, which is at another time for each neighbour.
 #[inline(always)]
 fn may_snap(simulation: &Simulation, step: &Step, neighbours: &Neighbours, cable: usize) -> bool {
     let Neighbours { along, met, .. } = neighbours;
@@ -262,7 +264,7 @@ fn may_snap(simulation: &Simulation, step: &Step, neighbours: &Neighbours, cable
         || simulation.comes_near(step, cable, margin)
 }
 
-/// Whether neighbours may meet, or fail to meet, a stop rule where the run does not.
+/// Whether neighbours may meet a stop rule that the run does not meet, or the other way round.
 #[inline(always)]
 fn may_stop(simulation: &Simulation, step: &Step, neighbours: &Neighbours) -> bool {
     let (system, rules) = (simulation.system(), simulation.rules());
@@ -290,8 +292,8 @@ fn may_stop(simulation: &Simulation, step: &Step, neighbours: &Neighbours) -> bo
     exceeds || settles
 }
 
-/// Whether neighbours may turn round just before a limit that the run still reaches: as for a
-/// graze, where they lag by more than the rate over twice the slowing-down.
+/// Whether neighbours may turn round just before a limit that the run still reaches, as in a graze:
+/// those do that lag by more than the rate over twice the deceleration.
 #[inline(always)]
 fn may_fall_short(
     simulation: &Simulation,

@@ -1,4 +1,4 @@
-//! How far a run can be trusted if its values are exact, and nothing more.
+//! How far a run can be trusted if its values are exact, without errors and exponents.
 
 use crate::analysis::outcomes::side_by_side;
 use crate::analysis::progress::{Cancelled, Counter};
@@ -85,15 +85,15 @@ impl<L: Doubles> LaneFollowers<L> for Followed<L> {
     }
 }
 
-/// What rounding leaves of a run.
+/// The horizon of a run whose only uncertainty is rounding.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Certainty {
-    /// Where trust ends; none if nowhere.
+    /// Where trust ends; none if the whole run can be trusted.
     pub horizon: Option<Horizon>,
 }
 
 impl Certainty {
-    /// Of a case; the run is followed as far as its horizon.
+    /// The certainty of a case; the run is followed up to its horizon.
     pub fn of(case: &Case) -> Self {
         let mut simulation = case.simulation();
         let mut monitor = SpreadMonitor::of_exact_case(case, &simulation);
@@ -107,8 +107,8 @@ impl Certainty {
         }
     }
 
-    /// Of many cases, and what their runs come to, in their order: side by side, on one thread. Each
-    /// has the bits that it has by itself.
+    /// The certainties of many cases, and the outcomes of their runs, in their order: side by side,
+    /// on one thread. Each has the same bits as when computed by itself.
     ///
     /// # Errors
     /// [`Cancelled`] if the work that is counted is to end before.
@@ -120,7 +120,7 @@ impl Certainty {
         Self::beside_outcomes(lanes, &mut cases, counter)
     }
 
-    /// Compiled here, once.
+    /// Not generic, so that it is compiled once, here.
     fn beside_outcomes(
         lanes: Lanes,
         cases: &mut dyn Iterator<Item = Case>,

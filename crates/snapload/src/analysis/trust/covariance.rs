@@ -3,28 +3,28 @@
 use crate::analysis::trust::parts::{COLUMNS, LAST, Parts, square, squares};
 use crate::motion::step_map::{Block, Deviation, combined};
 
-/// So many parts a deviation needs: as many as it has components.
+/// The number of parts that describe a deviation: as many as it has components.
 pub(super) const PARTS: usize = 7;
 
-/// Where the deviations (w, τ) of a run's neighbours lie: the sum of independent parts, each one
-/// standard deviation long.
+/// The spread of the deviations (w, τ) of a run's neighbours: the sum of independent parts, each
+/// one standard deviation long.
 #[derive(Clone, Debug)]
 pub(super) struct CovarianceFactor {
     /// For the start and for rounding.
     pub(super) parts: Parts<f64>,
     /// For each uncertain parameter.
     pub(super) columns: Vec<Deviation>,
-    /// Rows of the parts that tell of the water's memory, if the body floats: real and imaginary part
-    /// of each state in turn.
+    /// The rows of the parts for the water's memory, if the body floats: the real and the imaginary
+    /// part of each state in turn.
     pub(super) memory: Vec<[f64; COLUMNS]>,
 }
 
-/// A spread beyond this is no longer followed: nothing is known, and squares would leave the range
-/// of doubles.
+/// A spread beyond this is not carried further: its directions no longer mean anything, and its
+/// squares would leave the range of doubles.
 pub(super) const LOST: f64 = 1e30;
 
 impl CovarianceFactor {
-    /// One part along each component, so long.
+    /// One part along each component, of the given size.
     pub(super) fn along_components(sizes: &Deviation) -> Self {
         let mut parts = Parts::none();
         for (i, (row, size)) in parts.rows.iter_mut().zip(sizes).enumerate() {
@@ -37,7 +37,8 @@ impl CovarianceFactor {
         }
     }
 
-    /// The same after a linear map of deviations, which the parameters' have been through already.
+    /// The same after a linear map of the parts; `columns` are the parameters' deviations, already
+    /// mapped.
     #[inline(always)]
     pub(super) fn carried(
         &self,
@@ -53,8 +54,8 @@ impl CovarianceFactor {
         }
     }
 
-    /// The same with seven parts, so that the last column is free for one more. Those of a floating
-    /// body stay: they have more rows than could be turned into seven columns.
+    /// The same with seven parts, so that the last column is free for one more. The parts of a
+    /// floating body are kept as they are: with the water's memory they have more than seven rows.
     #[inline(always)]
     pub(super) fn with_seven(mut self) -> Self {
         if self.memory.is_empty() && self.parts.rows.iter().any(|row| row[LAST] != 0.0) {
@@ -63,9 +64,9 @@ impl CovarianceFactor {
         self
     }
 
-    /// The same with one more part, in the column that is left free for it; of a floating body it is
-    /// added to another with a sign that follows no rule ([`crate::analysis::trust::parts`]). `memory`
-    /// are its rows of the water's memory, for a unit of `late`.
+    /// The same with one more part, in the column that is left free for it; of a floating body it
+    /// is added to another with a sign that follows no rule ([`crate::analysis::trust::parts`]).
+    /// `memory` are its rows of the water's memory, for a unit of `late`.
     #[inline(always)]
     pub(super) fn with_part(mut self, part: &Deviation, memory: &[f64], late: f64) -> Self {
         if !self.memory.is_empty() {
@@ -102,8 +103,8 @@ impl CovarianceFactor {
         self.parts.rows = seven(all);
     }
 
-    /// Adds each of the parts to one of a floating body's, with a sign that follows no rule, and lets
-    /// them change places.
+    /// Adds each of the new parts to one of a floating body's parts, with a pseudorandom sign, and
+    /// permutes those.
     fn add_by_sign(&mut self, more: &Block<COLUMNS>) {
         let [_, sign] = self.parts.signs();
         for (row, more) in self.parts.rows.iter_mut().zip(more) {
@@ -117,7 +118,7 @@ impl CovarianceFactor {
         }
     }
 
-    /// Whether nothing is known any more.
+    /// Whether the spread is too large to be carried further.
     #[inline(always)]
     pub(super) fn is_lost(&self) -> bool {
         let small = |component: &f64| component.abs() < LOST;
@@ -160,11 +161,11 @@ impl CovarianceFactor {
     }
 }
 
-/// Parts made seven by turning them into each other (Householder's reflections), which leaves the
-/// covariance as it is: component by component, all but one are rid of it.
+/// Reduces the parts to seven by Householder's reflections, which leave the covariance as it is:
+/// component by component, that row becomes zero in all but one of the remaining parts.
 #[inline(always)]
 fn seven<const N: usize>(mut all: [[f64; N]; 7]) -> Block<COLUMNS> {
-    // One after the other by hand: which is which is then known when it is compiled.
+    // Unrolled by hand, so that the indices are constants for the compiler.
     reflect::<0, N>(&mut all);
     reflect::<1, N>(&mut all);
     reflect::<2, N>(&mut all);
@@ -179,8 +180,8 @@ fn seven<const N: usize>(mut all: [[f64; N]; 7]) -> Block<COLUMNS> {
     parts
 }
 
-/// Turns the parts from the I-th on into each other, so that only the first of them has anything in
-/// row I.
+/// Reflects the parts from the I-th on, so that only the first of them has a nonzero entry in row
+/// I.
 #[inline(always)]
 fn reflect<const I: usize, const N: usize>(all: &mut [[f64; N]; 7]) {
     let [.., pivot] = &mut all[..=I] else {
@@ -195,8 +196,8 @@ fn reflect<const I: usize, const N: usize>(all: &mut [[f64; N]; 7]) {
     if length == 0.0 {
         return;
     }
-    // With the length taken off its first component the mirror's square is 2 length (length −
-    // first), and neither difference cancels.
+    // With the length subtracted from its first component, the squared length of the mirror vector
+    // is 2 length (length − first), where neither difference cancels.
     mirror[I] = first - length;
     let scale = 1.0 / (length * mirror[I]);
     for component in &mut pivot[I..] {

@@ -4,8 +4,8 @@
 //! carried along the run by the linearised motion ([`crate::motion::tangent::Tangent`]) as the
 //! spread of (w, τ), the deviation of state and time told at the events. An *error* is two standard
 //! deviations of that: one neighbour in twenty is further off. The *horizon* is the first event
-//! where the error passes a tolerance, or where neighbours within three standard deviations may have
-//! another event than the run: there the linearisation ends, and with it the knowledge of what
+//! where the error passes a tolerance, or where neighbours within three standard deviations may
+//! have another event than the run: there the linearisation ends, and with it the knowledge of what
 //! follows.
 
 mod bounces;
@@ -31,20 +31,21 @@ use crate::case::parameters::Parameters;
 use crate::case::value::Value;
 use crate::motion::trajectory::Trajectory;
 
-/// What of a run is uncertain. The motion is computed from the values given; each may be off by up
-/// to its uncertainty, either way, all values in between being equally likely.
+/// The uncertainties of a run. The motion is computed from the values given; each may be off by up
+/// to its uncertainty in either direction, all values in between being equally likely.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Uncertainty {
     /// Of each component of the start: x, y, θ, ẋ, ẏ, θ̇.
     pub start: [f64; 6],
     /// Of parameters, by name of their key.
     pub keys: Vec<(&'static str, f64)>,
-    /// A result with a larger error, which is two standard deviations, is not known.
+    /// A result whose error, which is two standard deviations, is larger than this counts as
+    /// unknown.
     pub tolerance: f64,
 }
 
 impl Default for Uncertainty {
-    /// No more than rounding, and three digits asked for.
+    /// Rounding alone, and a tolerance that asks for three digits.
     fn default() -> Self {
         Self {
             start: [0.0; 6],
@@ -58,7 +59,7 @@ impl Default for Uncertainty {
 pub const START_KEYS: [&str; 6] = ["x", "y", "theta", "vx", "vy", "vtheta"];
 
 impl Uncertainty {
-    /// With every component of the start off by up to `size`.
+    /// With an uncertainty of `size` in every component of the start.
     pub fn of_start(size: f64) -> Self {
         Self {
             start: [size; 6],
@@ -66,7 +67,7 @@ impl Uncertainty {
         }
     }
 
-    /// The uncertainties of the start of a case: what it does not have can not be in doubt.
+    /// The uncertainties of a case's start; a component that the case does not have has none.
     pub(crate) fn of_start_of(&self, parameters: &Parameters) -> [f64; 6] {
         let mut start = self.start;
         for (size, key) in start.iter_mut().zip(START_KEYS) {
@@ -78,7 +79,7 @@ impl Uncertainty {
     }
 
     /// Sets the uncertainty of one key of a case, or of every start value where no key is named; 0
-    /// takes it back.
+    /// removes it.
     ///
     /// # Errors
     /// As for [`Uncertainty::set`], and if the case has no such start value.
@@ -98,7 +99,7 @@ impl Uncertainty {
         self.set(key, size)
     }
 
-    /// Sets the uncertainty of one key; 0 takes it back.
+    /// Sets the uncertainty of one key; 0 removes it.
     ///
     /// # Errors
     /// A [`CaseError`] if the key is unknown or holds no number of the motion, or if `size` is
@@ -128,7 +129,7 @@ impl Uncertainty {
     }
 }
 
-/// The keys, but for those of the start, that a motion depends on smoothly.
+/// The keys, besides those of the start, that the motion depends on smoothly.
 pub const UNCERTAIN_KEYS: [&str; 8] = ["r", "e", "a", "b", "inertia", "f_o", "nu", "omega"];
 
 /// Why a run can not be trusted any further.
@@ -141,18 +142,19 @@ pub enum HorizonCause {
         /// The cable.
         cable: usize,
     },
-    /// A cable comes so close to being taut that a neighbour may snap there and then.
+    /// A cable comes so close to being taut that it may snap there for a neighbour.
     NearMiss {
         /// The cable.
         cable: usize,
     },
-    /// A cable snaps about as slowly as lets it stick: a neighbour may bounce once more, or once
-    /// less.
+    /// A cable snaps at about the speed below which it sticks: a neighbour may bounce once more, or
+    /// once less.
     Sticking {
         /// The cable.
         cable: usize,
     },
-    /// Several cables snap at one instant: which is first decides what follows.
+    /// Several cables snap at one instant: their order, which may differ for neighbours, decides
+    /// what follows.
     Simultaneous,
     /// The start is at the end of a cable, and a neighbour may begin slack.
     Start {
@@ -183,28 +185,28 @@ impl HorizonCause {
 pub struct Horizon {
     /// When \[T\].
     pub t: f64,
-    /// The number of the impact, from 1; of the next one where trust ends between impacts.
+    /// The number of the impact, from 1; where trust ends between impacts, of the next one.
     pub impact: usize,
     /// Why.
     pub cause: HorizonCause,
 }
 
 impl Horizon {
-    /// Whether the impact of this number, from 1, is before it.
+    /// Whether the impact of this number, from 1, is before the horizon.
     pub fn is_after(&self, impact: usize) -> bool {
         impact < self.impact
     }
 }
 
-/// An impact so slow, for how its gap closes, that it magnifies deviations by more than a hundred:
-/// the linearisation diverges there like 1/v_n.
+/// An impact so slow, compared with the acceleration of its gap, that it magnifies deviations by
+/// more than a hundred: the linearisation diverges there like 1/v_n.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Graze {
     /// The number of the impact, from 1.
     pub impact: usize,
     /// Normal velocity v_n⁻ \[L/T\].
     pub v_n: f64,
-    /// By how much a deviation of the state can grow in it.
+    /// The largest factor by which a deviation of the state can grow at it.
     pub factor: f64,
 }
 
@@ -220,8 +222,8 @@ pub struct Trust {
     /// Error of the time at which the run ends \[T\]: nothing where that is the end of the time
     /// asked for, infinite past the horizon.
     pub end_error: f64,
-    /// Errors of the states in which the run begins and ends, as they are told at impacts; that of
-    /// the end is infinite past the horizon.
+    /// Errors of the states in which the run begins and ends, in the same measure as at impacts;
+    /// that of the end is infinite past the horizon.
     pub edge_errors: [f64; 2],
     /// Impacts that magnify deviations.
     pub grazes: Vec<Graze>,

@@ -1,4 +1,4 @@
-//! Follows a run and keeps account of what is known of it.
+//! Follows a run and keeps account of its errors.
 
 use crate::analysis::lyapunov::Frame;
 use crate::analysis::trust::spread::{LinearMap, Observer, SpreadMonitor};
@@ -10,7 +10,7 @@ use crate::motion::bounce_map::BounceMap;
 use crate::motion::simulation::{Simulation, Step};
 use crate::motion::step_map::StepMap;
 
-/// An impact that magnifies more than this is told.
+/// An impact that magnifies deviations by more than this is reported as a graze.
 const MAGNIFIES: f64 = 100.0;
 
 /// Follows a run, step by step, and says in the end how far it can be trusted.
@@ -22,7 +22,7 @@ pub struct TrustMonitor {
     grazes: Vec<Graze>,
     begin: f64,
     end: f64,
-    /// Errors of the states in which the run begins and to which it has come.
+    /// Errors of the state in which the run begins and of the latest state.
     edge_errors: [f64; 2],
 }
 
@@ -38,12 +38,12 @@ impl Kernel for Following<'_> {
 }
 
 impl TrustMonitor {
-    /// Of a motion about to begin, whose start may be off by `start`.
+    /// A monitor of a motion about to begin, whose start may be off by `start`.
     pub fn new(simulation: &Simulation, start: &[f64; 6], tolerance: f64) -> Self {
         Self::of(SpreadMonitor::new(simulation, start, tolerance), simulation)
     }
 
-    /// Of a case, with all that is in doubt.
+    /// A monitor of a case with all its uncertainties.
     ///
     /// # Errors
     /// A [`CaseError`] if a key that is in doubt has no value in this case.
@@ -52,7 +52,7 @@ impl TrustMonitor {
         Ok(Self::of(spread, case.start()))
     }
 
-    /// Of the simulation of a case whose values are exact, so that rounding alone is in doubt.
+    /// A monitor of a case whose values are exact, so that rounding is the only uncertainty.
     pub fn of_exact_case(case: &Case, simulation: &Simulation) -> Self {
         Self::of(SpreadMonitor::of_exact_case(case, simulation), simulation)
     }
@@ -96,7 +96,7 @@ impl TrustMonitor {
         self.spread.horizon
     }
 
-    /// What there is to say, at the end of the run or wherever it has come to.
+    /// The trust in the run, at its end or as far as it has come.
     pub fn verdict(self) -> Trust {
         let [first_error, last_error] = self.edge_errors;
         let [end_error, last_error] = match self.spread.horizon {
@@ -114,7 +114,7 @@ impl TrustMonitor {
     }
 }
 
-/// What is kept of what the latest step does to deviations.
+/// The records to which the effect of the latest step on deviations is added.
 struct Records<'a> {
     frame: &'a mut Frame,
     grazes: &'a mut Vec<Graze>,

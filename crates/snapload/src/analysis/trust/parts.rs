@@ -1,31 +1,32 @@
 //! The independent parts whose squares make up a covariance, of one run or of several side by side.
 //!
 //! A part is a deviation (w, τ) one standard deviation long; the parts p_1 … p_8 of a run stand for
-//! the covariance Σ p_k p_kᵀ. The covariance itself is not carried: a slow impact divides by v_n, and
-//! the squares of what it leaves cancel to nothing, or to less, where the parts still have their
-//! digits.
+//! the covariance Σ p_k p_kᵀ. The covariance itself is not carried: a slow impact divides by v_n,
+//! and the large squares that this makes cancel later, with a loss of digits, or even to negative
+//! numbers, where the parts keep their digits.
 //!
-//! Every step adds as many new parts by its rounding. To carry them all apart is impossible, and to
-//! turn them into eight again (Householder's reflections) takes several times as long as the step
-//! itself. Instead *each new part is added to an old one, with a sign that follows no rule*: of
-//! (p ± q)(p ± q)ᵀ = ppᵀ + qqᵀ ± (pqᵀ + qpᵀ) the last summand is zero on average over the signs. As
-//! deviations are carried linearly, the average over the signs is the exact covariance at every later
-//! time, too. One choice of signs is off by what the last summands come to: nothing where one step's
-//! rounding outgrows what later steps add, as it does where neighbours part exponentially, and, where
-//! the roundings of many steps count alike, as much as a standard deviation that is measured from
-//! eight samples, a quarter of it. The parts change places after each step, so that the same kind of
-//! rounding comes into each.
+//! The rounding of every step adds as many new parts. To carry all of them separately is
+//! impossible, and to combine them into eight again (Householder's reflections) takes several times
+//! as long as the step itself. Instead *each new part is added to an old one, with a pseudorandom
+//! sign*: of (p ± q)(p ± q)ᵀ = ppᵀ + qqᵀ ± (pqᵀ + qpᵀ) the last summand is zero on average over the
+//! signs. As deviations are carried linearly, the average over the signs is the exact covariance at
+//! every later time, too. The error of a single choice of signs is the sum of these last summands.
+//! It is negligible where the rounding of one step outgrows what later steps add, as it does where
+//! neighbours diverge exponentially; where the roundings of many steps count alike, it is as large
+//! as the error of a standard deviation that is estimated from eight samples, which is a quarter.
+//! The parts are permuted after each step, so that each of them receives the same kinds of
+//! rounding.
 
 use crate::arithmetic::elementary::rounded;
 use crate::arithmetic::lane::Lane;
 use crate::motion::bounce_map::Rows;
 
-/// As many as a vector register of a processor holds.
+/// The number of columns: as many as a vector register of a processor holds.
 pub(super) const COLUMNS: usize = 8;
-/// The place of the parts beside those of the seven components.
+/// The index of the part beside those of the seven components.
 pub(super) const LAST: usize = COLUMNS - 1;
 
-/// Deviations one standard deviation long, as columns. A row fills a line of a processor's cache.
+/// Deviations one standard deviation long, as columns. A row fills one line of a processor's cache.
 #[derive(Clone, Copy, Debug)]
 #[repr(C, align(64))]
 pub(super) struct Parts<L> {
@@ -34,7 +35,7 @@ pub(super) struct Parts<L> {
 }
 
 impl<L: Lane> Parts<L> {
-    /// None yet.
+    /// Parts that are all zero.
     #[inline(always)]
     pub(super) fn none() -> Self {
         Self {
@@ -49,7 +50,7 @@ impl<L: Lane> Parts<L> {
         Self { rows, ..*self }
     }
 
-    /// The signs of this step: one, and one that is independent of it.
+    /// The signs of this step: two that are independent of each other.
     #[inline(always)]
     pub(super) fn signs(&self) -> [L; 2] {
         let Signs(u) = self.signs;
@@ -57,7 +58,7 @@ impl<L: Lane> Parts<L> {
         [sign(u), sign(u.abs() - 0.25)]
     }
 
-    /// The parts change places, and signs, for the next step.
+    /// Permutes the parts, and advances the signs, for the next step.
     #[inline(always)]
     pub(super) fn rotate(&mut self) {
         for row in &mut self.rows {
@@ -67,7 +68,7 @@ impl<L: Lane> Parts<L> {
         self.signs = self.signs.next();
     }
 
-    /// Each of its numbers with the other's.
+    /// Applies a function to each of its numbers and the other's.
     #[inline(always)]
     pub(super) fn pairwise<M>(&mut self, other: &Parts<M>, mut each: impl FnMut(&mut L, &M)) {
         for (row, others) in self.rows.iter_mut().zip(&other.rows) {
@@ -99,7 +100,7 @@ pub(super) fn square<L: Lane>(row: &[L; COLUMNS]) -> L {
     (sums[0] + sums[2]) + (sums[1] + sums[3])
 }
 
-/// A sequence of signs without order, the same for every run: the first bits of the numbers of a
+/// A pseudorandom sequence of signs, the same for every run: the first bits of the numbers of a
 /// linear congruential generator of 26 bits, as fractions of one around zero, which doubles hold
 /// exactly.
 #[derive(Clone, Copy, Debug)]
@@ -164,7 +165,7 @@ mod tests {
     }
 
     /// On average over the signs the parts make up the covariance, and a single choice of signs is
-    /// seldom far from it.
+    /// rarely far from it.
     #[test]
     fn parts_stand_for_the_covariance() {
         let mut signs = Signs(0.0);
@@ -200,7 +201,7 @@ mod tests {
         assert!(share < 0.1, "{share}");
     }
 
-    /// No sign follows from those before: neither do they come in runs, nor in turns.
+    /// Signs are not correlated with those before: they neither come in runs nor alternate.
     #[test]
     fn signs_have_no_order() {
         let mut parts = Parts::<f64>::none();

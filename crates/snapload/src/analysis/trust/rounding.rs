@@ -3,16 +3,16 @@
 //! Every rounding is off by anything up to half of the last place: a standard deviation of
 //! ε/√12 ≈ 0.29 ε of a number in \[1, 2), 0.25 ε on average of any. It acts in three ways.
 //!
-//! - *The event is located a little too early or too late*, where the gap as it is computed, and
-//!   not the gap, is zero: by its rounding over ġ. What is then told at the event has gone on along
-//!   its motion by that much, and snaps from there; see [`location`]. A slow snap makes
-//!   this large, as it divides by v_n.
+//! - *The event is located a little too early or too late*, where the computed gap, instead of the
+//!   true one, is zero; the error of the time is the gap's rounding over ġ. The state at the
+//!   computed event has continued along its motion by that time, and the impact happens from there;
+//!   see [`location`]. At a slow snap this is large, as it divides by v_n.
 //! - *The law of impact* is computed from a rounded position and from rounded velocities.
 //! - *What is stored* is rounded: positions, velocities, and the time, which also is the phase of
 //!   the forcing.
 //!
-//! A cable that is closed is known to be so, and computed with a gap of exactly zero: positions are
-//! off along it and not across.
+//! A closed cable is known to be closed, and its gap is taken as exactly zero: its rounded position
+//! may be off along the cable's end and not across it.
 
 use crate::analysis::trust::covariance::PARTS;
 use crate::analysis::trust::parts::COLUMNS;
@@ -29,27 +29,27 @@ use crate::motion::step_map::{Block, Deviation, StepMap};
 /// Standard deviation of a number that is rounded three times on its way, relative to it: √3 ε/4.
 pub(super) const ROUNDING: f64 = 0.43 * f64::EPSILON;
 
-/// What a bound on the error of a gap is of the standard deviation across the cable's end, with the
-/// length: g = |d|² − r² changes by 2r times that, and the bound is a sum of about eight roundings at
-/// their worst.
+/// The ratio of the standard deviation across the cable's end, times its length, to the bound on
+/// the error of its gap: g = |d|² − r² changes by 2r times that deviation, and the bound is a sum
+/// of about eight roundings at their worst.
 pub(super) const BOUND_OF_GAP: f64 = 1.0 / 16.0;
 
-/// What rounding does in one step.
+/// The rounding errors of one step.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Rounding {
     /// Standard deviation of the time at which the event is located.
     pub(super) late: f64,
-    /// What that leaves, one standard deviation late, as it is told before the event's law.
+    /// The deviation that one standard deviation of delay leaves, before the event's law.
     pub(super) location: Deviation,
-    /// What else there is after the law: independent parts as columns.
+    /// The other errors after the law: independent parts as columns.
     pub(super) parts: Block<COLUMNS>,
 }
 
 impl Rounding {
-    /// Of the step that `simulation` has just made.
+    /// The rounding of the step that `simulation` has just made.
     #[inline(always)]
     pub(super) fn of_step(simulation: &Simulation, step: &Step, map: &StepMap, slant: f64) -> Self {
-        // Where the event leaves the body: a position does not change in it.
+        // The position at the end: an event does not change it.
         let (system, metric) = (simulation.system(), Metric::of_step(simulation));
         let closed = Constraints::of(system, &step.before, step.event.closed, metric);
         let (late, location) = location(simulation, step, map, &closed, slant);
@@ -61,9 +61,9 @@ impl Rounding {
     }
 }
 
-/// How many roundings the cables of a case are off by in their direction: their anchors are at the
-/// height h = √(r² − (1 − a)²), which loses digits where the cables are hardly longer than they have
-/// to be.
+/// The error of the cables' direction in a case, as a number of roundings: their anchors are at the
+/// height h = √(r² − (1 − a)²), which loses digits where the cables are hardly longer than they
+/// have to be.
 pub(super) fn slant(case: &Case) -> f64 {
     let Parameters { r, a, .. } = *case.parameters();
     let squares = [r * r, (1.0 - a) * (1.0 - a)];
@@ -71,7 +71,7 @@ pub(super) fn slant(case: &Case) -> f64 {
     ((squares[0] + squares[1]) / (h * r)).max(1.0)
 }
 
-/// What rounding leaves of a start: its numbers are doubles, and not those that were meant.
+/// The rounding of a start: its numbers are doubles next to the numbers that were meant.
 pub(super) fn of_start(system: &System, state: &State, t: f64, closed: TautSet) -> Block<COLUMNS> {
     let sizes = state.components().map(f64::abs);
     let mut parts = diagonal(sizes, t);
@@ -79,8 +79,8 @@ pub(super) fn of_start(system: &System, state: &State, t: f64, closed: TautSet) 
     parts
 }
 
-/// By how much a step is late, and where it is then: gone on along its motion, and put back onto the
-/// cables that are closed there.
+/// The delay of a step's event, and the deviation at the late event: the state has continued along
+/// its motion, and is projected onto the cables that are closed there.
 #[inline(always)]
 fn location(
     simulation: &Simulation,
@@ -92,7 +92,7 @@ fn location(
     let struck = step.event.reached.gaps.iter().next();
     let s = step.t_end - step.t_start;
     let (first, last) = (&step.start, &step.before);
-    // A gap is computed from what it was and from how far its end has moved since.
+    // A gap is computed from its earlier value and from the displacement of its end since.
     let place = |start: f64, end: f64| match struck {
         Some(_) => 0.0,
         None => start.abs().max(end.abs()),
@@ -114,8 +114,8 @@ fn location(
         let v_n = tether.normal(last).velocity(last);
         let contact = simulation.contact_at_start(step, cable);
         let known = across(contact.error, tether.length()) / v_n;
-        // Where the cable leads in another direction, its end is reached elsewhere; but one that was
-        // closed at the start has its end there.
+        // An error of the cable's direction displaces its end; but a cable that was closed at the
+        // start has its end where the body is.
         let reach = tether.fairlead().length();
         let moved = if contact.gap == 0.0 {
             s * (last.velocity().length() + last.vtheta.abs() * reach)
@@ -134,7 +134,7 @@ fn location(
     (late, location)
 }
 
-/// What the rounding of the law's result, and of what it is computed from, leaves.
+/// The rounding of the law's result and of its inputs.
 #[inline(always)]
 fn stored(
     simulation: &Simulation,
@@ -165,7 +165,7 @@ fn stored(
         .keep_parts(&mut parts, 3);
     add_residual(system, step, &mut parts);
     if let (Some(law), Some(cable)) = (map.slopes_of_law(), step.event.closed.iter().next()) {
-        // The law is told a direction that is off by a rounding, and a rotation likewise.
+        // The direction and the rotation that the law uses are rounded.
         let length = 0.5 * slant * system.cables[cable].length();
         for (row, slopes) in parts[3..6].iter_mut().zip(law) {
             for (j, size) in [length, length, 1.0].into_iter().enumerate() {
@@ -176,8 +176,8 @@ fn stored(
     parts
 }
 
-/// What is left of the normal velocities where several impulses are solved for: W p = b holds up to
-/// the rounding of its summands, and cables that hardly differ in direction make much of it.
+/// The remaining normal velocities where several impulses are solved for: W p = b holds up to the
+/// rounding of its summands, and cables of nearly the same direction magnify it.
 #[inline(always)]
 fn add_residual(system: &System, step: &Step, parts: &mut Block<COLUMNS>) {
     let (mut count, mut summands) = (0, 0.0);
@@ -204,7 +204,8 @@ fn add_residual(system: &System, step: &Step, parts: &mut Block<COLUMNS>) {
     }
 }
 
-/// A part for each component and for the time, which is rounded as such and as the forcing's phase.
+/// One part for each component and one for the time, which is rounded both as a time and as the
+/// forcing's phase.
 #[inline(always)]
 fn diagonal(sizes: [f64; 6], t: f64) -> Block<COLUMNS> {
     let mut parts = [[0.0; COLUMNS]; 7];
@@ -215,9 +216,9 @@ fn diagonal(sizes: [f64; 6], t: f64) -> Block<COLUMNS> {
     parts
 }
 
-/// Where the gap of a slack cable is known better than the positions are, as it has been carried on
-/// since the cable was closed: the displacement keeps that gap, too, but for what is not known of
-/// it. Of several cables it is the one whose gap is known best.
+/// Where the gap of a slack cable is known better than the positions are, because it has been
+/// carried forward since the cable was closed, displacements are limited to those that change this
+/// gap by no more than its error. Of several cables it is the one whose gap is known best.
 #[inline(always)]
 fn keep_known_gap(
     simulation: &Simulation,
@@ -255,23 +256,23 @@ fn keep_known_gap(
     }
 }
 
-/// Standard deviation of a place across a cable's end, of a bound on the error of its gap.
+/// Standard deviation of a position across a cable's end, from a bound on the error of its gap.
 #[inline(always)]
 fn across(error: f64, length: f64) -> f64 {
     error / length * BOUND_OF_GAP
 }
 
-/// By how much x, y and θ yield where a body is put back onto its cables.
+/// The metric in which a body is projected onto its cables.
 #[derive(Clone, Copy)]
 enum Metric {
-    /// Each by itself.
+    /// A factor for each of x, y and θ.
     Diagonal([f64; 3]),
     /// M⁻¹.
     Full(Matrix3),
 }
 
 impl Metric {
-    /// Each as a force would move it.
+    /// The metric of the mass matrix.
     #[inline(always)]
     fn of_masses(system: &System) -> Self {
         match system.body.mass {
@@ -280,7 +281,8 @@ impl Metric {
         }
     }
 
-    /// As the step that `simulation` has just made does it: a bounce does not turn the body.
+    /// The metric of the projection in the step that `simulation` has just made: a bounce does not
+    /// turn the body.
     #[inline(always)]
     fn of_step(simulation: &Simulation) -> Self {
         if simulation.has_bounced() {
@@ -305,7 +307,7 @@ impl Metric {
         }
     }
 
-    /// Takes off what a displacement has along a normal, M⁻¹ n times so much.
+    /// Subtracts from a displacement the multiple `across` of M⁻¹ n.
     #[inline(always)]
     fn take_off(self, displacement: [&mut f64; 3], n: &[f64; 3], across: f64) {
         match self {
@@ -326,7 +328,7 @@ impl Metric {
 /// The normals of some cables in (x, y, θ), orthonormal in a metric; three at most are independent.
 struct Constraints {
     normals: [[f64; 3]; 3],
-    /// What each had of its length that is independent of those before it.
+    /// The length of the part of each normal that is independent of those before it.
     lengths: [f64; 3],
     count: usize,
     metric: Metric,
@@ -370,7 +372,7 @@ impl Constraints {
         Some(left)
     }
 
-    /// Moves a displacement back to where it stretches no cable of the set.
+    /// Projects a displacement so that it stretches no cable of the set.
     #[inline(always)]
     fn keep(&self, displacement: &mut [f64; 3]) {
         for normal in &self.normals[..self.count] {
@@ -383,7 +385,8 @@ impl Constraints {
         }
     }
 
-    /// The same for what rounding displaces, or adds to the velocity, in the three rows from `row`.
+    /// The same for each part of the rounding, for the displacement or velocity in the three rows
+    /// from `row`.
     #[inline(always)]
     fn keep_parts(&self, parts: &mut Block<COLUMNS>, row: usize) {
         let rows = &mut parts[row..row + 3];
@@ -398,7 +401,7 @@ impl Constraints {
     }
 }
 
-/// What each part displaces along a normal, of which three rows are given.
+/// The displacement of each part along a normal, from its three rows.
 #[inline(always)]
 fn across_parts(rows: &[[f64; COLUMNS]], normal: &[f64; 3]) -> [f64; COLUMNS] {
     let mut across = [0.0; COLUMNS];

@@ -1,4 +1,4 @@
-//! Follows the spread of a run's neighbours, as far as there is any knowledge of them.
+//! Follows the spread of a run's neighbours up to the end of trust.
 
 use crate::analysis::trust::bounces::Followed;
 use crate::analysis::trust::causes::{
@@ -19,22 +19,22 @@ use crate::motion::simulation::{Simulation, Step};
 use crate::motion::step_map::{Block, Deviation, StepMap, combined};
 use crate::motion::tangent::Tangent;
 
-/// So many standard deviations make an error: 95 % of what is distributed normally lies within.
+/// An error is this many standard deviations: 95 % of a normal distribution lies within.
 pub(super) const ERROR: f64 = 2.0;
 
-/// The rounding of so many steps is added up exactly; later bounces add theirs as
-/// [`crate::analysis::trust::parts`] says. Where deviations grow, the first roundings come to most of
-/// the error, and are too few for an average.
+/// The rounding of this many steps is added up exactly; later bounces add theirs as
+/// [`crate::analysis::trust::parts`] describes. Where deviations grow, most of the error comes from
+/// the first few roundings, which are too few for an average over signs.
 const EXACT_STEPS: u32 = 4;
 
 /// The spread of a run's neighbours, and where the knowledge of it ends.
 #[derive(Clone, Debug)]
 pub(super) struct SpreadMonitor {
     tolerance: f64,
-    /// Made for the first step that is followed by it.
+    /// Made for the first step that needs it.
     tangent: Option<Box<Tangent>>,
     pub(super) covariance: CovarianceFactor,
-    /// How many roundings the cables are off by in their direction.
+    /// The error of the cables' direction, as a number of roundings.
     slant: f64,
     keys: Vec<UncertainKey>,
     /// The impacts so far.
@@ -42,12 +42,12 @@ pub(super) struct SpreadMonitor {
     /// The steps so far, up to [`EXACT_STEPS`].
     steps: u32,
     pub(super) horizon: Option<Horizon>,
-    /// Whether no digit is left.
+    /// Whether the spread is too large to be carried further.
     lost: bool,
     pub(super) end_error: f64,
 }
 
-/// What a step does to deviations.
+/// The effect of a step on deviations.
 pub(super) enum LinearMap<'a> {
     /// That of a bounce.
     Bounce(&'a BounceMap<f64>),
@@ -65,8 +65,8 @@ impl LinearMap<'_> {
         }
     }
 
-    /// Whether it is certain, without a look at the system, that the closing of the gap does not
-    /// slow down.
+    /// Whether it is certain, from these numbers alone, that the closing of the gap does not slow
+    /// down.
     #[inline(always)]
     pub(super) fn surely_quickens(&self) -> bool {
         match self {
@@ -89,22 +89,22 @@ impl LinearMap<'_> {
         }
     }
 
-    /// How the gap of the one cable that snaps closes, if it does.
+    /// How the gap of the cable that snaps closes, if exactly one does.
     #[inline(always)]
     pub(super) fn closing(&self, simulation: &Simulation, step: &Step) -> Option<Closing> {
         Closing::of(simulation, step, &self.approach())
     }
 }
 
-/// What is shown what each step does to deviations. A closure would be compiled without the
-/// processor's own instructions.
+/// Receives the effect of each step on deviations. It is no closure, because a closure would be
+/// compiled without the processor's own instructions.
 pub(super) trait Observer {
-    /// Is shown what a bounce does.
+    /// Receives the effect of a bounce.
     fn see_bounce(&mut self, map: &BounceMap<f64>)
     where
         Self: Sized;
-    /// Is shown what any step does. It comes from behind a pointer, so that the following of a step
-    /// is compiled once for all observers.
+    /// Receives the effect of any step. The observer is called through a pointer, so that the
+    /// following of a step is compiled once for all observers.
     fn see_step(&mut self, map: &StepMap);
 }
 
@@ -130,7 +130,7 @@ impl Kernel for Carrying<'_> {
     }
 }
 
-/// A bounce that neighbours may not share, and the parts of their spread just before it.
+/// A bounce that some neighbours may not have, and the parts of their spread just before it.
 struct Asking<'a> {
     monitor: &'a mut SpreadMonitor,
     simulation: &'a Simulation,
@@ -149,7 +149,7 @@ impl Kernel for Asking<'_> {
 }
 
 impl SpreadMonitor {
-    /// Of a motion about to begin, whose start may be off by `start`.
+    /// The spread of a motion about to begin, whose start may be off by `start`.
     pub(super) fn new(simulation: &Simulation, start: &[f64; 6], tolerance: f64) -> Self {
         let [x, y, theta, vx, vy, vtheta] = start.map(uniform);
         let mut covariance =
@@ -169,7 +169,7 @@ impl SpreadMonitor {
             simulation.time(),
             simulation.closed(),
         ));
-        // Water that has been at rest has nothing to remember that could be in doubt.
+        // Water that has been at rest has no memory, so that there is nothing uncertain in it.
         covariance.memory = vec![[0.0; COLUMNS]; 2 * simulation.memory().len()];
         let cause = cause.or_else(|| {
             may_stop_at_start(simulation, &Spread::of(&covariance))
@@ -194,7 +194,7 @@ impl SpreadMonitor {
         }
     }
 
-    /// Of a case, with all that is in doubt.
+    /// The spread of a case with all its uncertainties.
     ///
     /// # Errors
     /// A [`CaseError`] if a key that is in doubt has no value in this case.
@@ -211,7 +211,7 @@ impl SpreadMonitor {
         Ok(monitor)
     }
 
-    /// Of the simulation of a case whose values are exact, so that rounding alone is in doubt.
+    /// The spread of a case whose values are exact, so that rounding is the only uncertainty.
     pub(super) fn of_exact_case(case: &Case, simulation: &Simulation) -> Self {
         let tolerance = Uncertainty::default().tolerance;
         Self {
@@ -226,8 +226,8 @@ impl SpreadMonitor {
         ERROR * relative(&squares, state, 0.0).sqrt()
     }
 
-    /// Takes in the step that `simulation` has just made, and shows what it does to deviations;
-    /// returns the error at its event.
+    /// Takes in the step that `simulation` has just made, and passes its effect on deviations to
+    /// the observer; returns the error at its event.
     #[inline(always)]
     pub(super) fn follow(
         &mut self,
@@ -262,12 +262,12 @@ impl SpreadMonitor {
             .get_or_insert_with(|| Box::new(Tangent::new(simulation.system())))
     }
 
-    /// Whether bounces may be followed as [`crate::analysis::trust::parts`] says.
+    /// Whether the rounding of bounces may be added as [`crate::analysis::trust::parts`] describes.
     pub(super) fn adds_by_signs(&self) -> bool {
         self.steps == EXACT_STEPS && self.keys.is_empty()
     }
 
-    /// Past an event that neighbours may not share, or with no digit left, nothing is known.
+    /// Past the horizon, and where the spread is too large, the error is unknown.
     #[inline(always)]
     fn is_lost(&self) -> bool {
         let other_events = self
@@ -276,7 +276,7 @@ impl SpreadMonitor {
         other_events || self.lost
     }
 
-    /// What bounces are followed by.
+    /// The data that are carried through bounces.
     #[inline(always)]
     pub(super) fn followed(&self) -> Followed<f64> {
         Followed {
@@ -286,7 +286,7 @@ impl SpreadMonitor {
         }
     }
 
-    /// Goes on from where bounces that were followed elsewhere have led, so many impacts later.
+    /// Continues from the result of bounces that were followed in a lane, `impacts` impacts later.
     pub(super) fn go_on(&mut self, followed: Followed<f64>, impacts: u64) {
         self.covariance.parts = followed.parts;
         self.impacts += impacts as usize;
@@ -318,8 +318,7 @@ impl SpreadMonitor {
         self.judge(step, &[through.met, after])
     }
 
-    /// Whether neighbours may have another event than a bounce, of which the parts just before it
-    /// are given.
+    /// Whether neighbours may have another event than a bounce, given the parts just before it.
     #[inline(always)]
     fn ask_for_cause(
         &mut self,
@@ -348,7 +347,7 @@ impl SpreadMonitor {
         }
     }
 
-    /// Carries the spread through any step, as long as there is any knowledge of it.
+    /// Carries the spread through any step, unless it has become unknown.
     #[inline(always)]
     fn carry(&mut self, simulation: &Simulation, step: &Step, observer: &mut dyn Observer) -> f64 {
         let map = self.tangent(simulation).of_step(simulation, step);
@@ -385,7 +384,7 @@ impl SpreadMonitor {
         self.judge(step, &squares)
     }
 
-    /// The error at an event, of the squares of the standard deviations just before it and after.
+    /// The error at an event, from the variances just before and just after it.
     #[inline(always)]
     fn judge(&mut self, step: &Step, [before, after]: &[Deviation; 2]) -> f64 {
         let largest = larger(
@@ -406,7 +405,7 @@ impl SpreadMonitor {
         if self.is_lost() { f64::INFINITY } else { error }
     }
 
-    /// Trust ends once.
+    /// Records where trust ends; only the first call has an effect.
     #[inline(always)]
     fn lose(&mut self, step: &Step, cause: HorizonCause) {
         self.horizon.get_or_insert(Horizon {
@@ -417,7 +416,7 @@ impl SpreadMonitor {
     }
 }
 
-/// The largest of some squares, of each relative to that of its value where that is above 1.
+/// The largest of some variances, each relative to the square of its value where that is above 1.
 #[inline(always)]
 fn relative(squares: &Deviation, state: &State, t: f64) -> f64 {
     let [x, y, theta, vx, vy, vtheta] = state.components();

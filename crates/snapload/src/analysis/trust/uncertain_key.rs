@@ -1,4 +1,4 @@
-//! A parameter that is in doubt, beside a run.
+//! An uncertain parameter along a run.
 
 use crate::arithmetic::dual::Dual;
 use crate::case::Case;
@@ -49,7 +49,7 @@ impl UncertainKey {
         })
     }
 
-    /// The deviation just before the event told at the time of the last one, just before it at its
+    /// The deviation just before the event at the time of the previous one, just before it at its
     /// own time, and after it.
     pub(super) fn step(&mut self, map: &StepMap) -> [Deviation; 3] {
         let Some(step) = self.simulation.step() else {

@@ -1,17 +1,18 @@
-//! The library's operations, each compiled here once: what a number of so many words does is compiled
-//! anew in every crate that uses it, and takes from here all that takes time.
+//! The library's operations, which are not generic, so that each is compiled once, here: a number
+//! of so many words is compiled again in every crate that uses it, and calls these for all
+//! expensive parts.
 //!
-//! A result is rounded to nearest, to so many bits; there is none where it has no value.
+//! A result is rounded to nearest, to a number of bits; there is none where it has no value.
 
 use dashu_float::round::mode::HalfEven;
 use dashu_float::{Context, FBig, FpError, Repr};
 use dashu_int::{IBig, Sign, UBig};
 use std::cmp::Ordering;
 
-/// A number as the library has it.
+/// A number in the library's representation.
 pub(super) type Number = Repr<2>;
 
-/// What becomes of one number or of two.
+/// An operation on one number or on two.
 pub(super) type Unary = fn(usize, &Number) -> Option<Number>;
 pub(super) type Binary = fn(usize, &Number, &Number) -> Option<Number>;
 
@@ -25,7 +26,7 @@ fn known<E>(result: Result<Rounded, E>) -> Option<Number> {
     result.ok().map(Rounded::into_repr)
 }
 
-/// Of a significand, an integer, least significant byte first.
+/// From a significand, an integer, least significant byte first.
 pub(super) fn number(significand: &[u8], exponent: i64, negative: bool) -> Number {
     let sign = if negative {
         Sign::Negative
@@ -36,8 +37,8 @@ pub(super) fn number(significand: &[u8], exponent: i64, negative: bool) -> Numbe
     Repr::new(IBig::from_parts(sign, magnitude), exponent as isize)
 }
 
-/// Writes the significand of a number, of which the rest is zero; its exponent and whether it is
-/// negative. None where there is no room for it.
+/// Writes the significand of a number, padded with zeros; returns its exponent and whether it is
+/// negative. None if the significand does not fit.
 pub(super) fn write(number: &Number, significand: &mut [u8]) -> Option<(i64, bool)> {
     let (sign, magnitude) = number.significand().clone().into_parts();
     let bytes = magnitude.to_le_bytes();

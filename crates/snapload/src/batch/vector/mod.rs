@@ -1,7 +1,7 @@
 //! Several doubles side by side: in plain Rust, and in the registers of x86 processors.
 //!
-//! Every operation is the one that IEEE 754 defines, lane by lane, so all of these give the same
-//! bits. `mul_add` always fuses; a multiply and an add apart never do.
+//! Every operation is the one that IEEE 754 defines, lane by lane, so that all of these give the
+//! same bits. `mul_add` always fuses; a separate multiply and add never do.
 
 use crate::arithmetic::elementary;
 use crate::arithmetic::elementary::Doubles;
@@ -31,11 +31,11 @@ pub(crate) mod x86;
 
 /// Two vectors as one, or the answers of comparing them.
 ///
-/// Of two registers it is faster than one: the arithmetic of a bounce is a chain in which each
-/// result waits for the one before, and with two chains a processor has something to do meanwhile.
-/// Pairs of pairs of doubles are the vector for every processor. Neither loops nor closures stand
-/// here: a closure that is not inlined is compiled without the processor's own instructions, and
-/// hundreds of loops over two in one function took a quarter of the time to compile the engine.
+/// Two registers are faster than one: the arithmetic of a bounce is a chain in which each result
+/// waits for the one before, and with two chains the processor is busy during the wait. Pairs of
+/// pairs of doubles are the vector for every processor. There are no loops and no closures here: a
+/// closure that is not inlined is compiled without the processor's own instructions, and hundreds
+/// of loops over two elements in one function took a quarter of the time to compile the engine.
 #[derive(Clone, Copy)]
 pub(crate) struct Pair<V>(V, V);
 

@@ -1,15 +1,15 @@
 //! Vectors in the registers of x86 processors: four doubles with AVX2, eight with AVX-512.
 //!
-//! `unsafe` here says only that the processor has the instructions, and one proof holds for all of
-//! it: a value of these types exists only in a scheduler of [`crate::batch::lanes`], and the two
-//! functions there that make such schedulers ask the processor first, for [`Avx2`] whether it has
-//! AVX2 and FMA, for [`Avx512`] whether it has AVX-512F. That most of it is compiled with the
-//! instructions enabled is for speed.
+//! `unsafe` here relies only on the processor having the instructions, and one proof holds for all
+//! of it: a value of these types exists only in a scheduler of [`crate::batch::lanes`], and the two
+//! functions there that make such schedulers first check the processor, for [`Avx2`] for AVX2 and
+//! FMA, for [`Avx512`] for AVX-512F. Most of it is compiled with the instructions enabled, for
+//! speed.
 //!
-//! Libraries weighed: a draft over `pulp` 0.22, whose pace was not measured, was a quarter
-//! shorter than this. It needs `unsafe` all the same, for its tokens and for the constants of a vector,
-//! and brings five more crates, 24,000 lines in `pulp` alone. `wide` chooses its instructions when
-//! it is compiled, not by the processor at hand.
+//! Libraries considered: a draft over `pulp` 0.22, whose speed was not measured, was a quarter
+//! shorter than this. It needs `unsafe` as well, for its tokens and for the constants of a vector,
+//! and adds five crates, 24,000 lines in `pulp` alone. `wide` chooses its instructions when it is
+//! compiled, not by the processor at hand.
 #![expect(unsafe_code, reason = "the instructions of a processor; see above")]
 #![expect(
     unused_unsafe,

@@ -1,4 +1,4 @@
-//! The steps of a motion that are bounces, made here or in a lane.
+//! The steps of a motion that are bounces, computed here or in a lane.
 
 use crate::arithmetic::plane::Rotation;
 use crate::arithmetic::processor::apart;
@@ -15,8 +15,8 @@ use crate::motion::simulation::{Event, Progress, Simulation, Step};
 use crate::motion::two_cables::{AfterImpact, TwoCableSystem};
 
 impl<T: Real> Simulation<T> {
-    /// The bounce that the motion makes next, if it is one. The same number that comes here by
-    /// itself comes to [`bounce`] in a lane, so it is one in both or in neither.
+    /// The bounce that the motion makes next, if it is one. [`bounce`] receives the same numbers
+    /// here and in a lane, so that a step is a bounce in both or in neither.
     #[inline(always)]
     pub(super) fn next_bounce(&mut self) -> Option<Bounce<T>> {
         (self.bounce_start, self.facts) = (None, None);
@@ -28,7 +28,7 @@ impl<T: Real> Simulation<T> {
         bounce.arrived.then_some(bounce)
     }
 
-    /// The motion as [`bounce`] takes it; none if a cable is taut or at rest.
+    /// The motion in the form of [`bounce`]; none if a cable is taut or at rest.
     #[inline(always)]
     pub(crate) fn after_impact(&self) -> Option<AfterImpact<T>> {
         let [first, second, ..] = &self.contacts;
@@ -46,7 +46,7 @@ impl<T: Real> Simulation<T> {
         })
     }
 
-    /// What a lane needs to carry the motion on; none if it does not fly freely now.
+    /// The data that a lane needs to continue the motion; none if it does not fly freely now.
     pub(crate) fn lane_start(&self) -> Option<(&TwoCableSystem<T>, AfterImpact<T>)> {
         Some((self.two_cables.as_ref()?, self.after_impact()?))
     }
@@ -59,7 +59,7 @@ impl<T: Real> Simulation<T> {
         }
     }
 
-    /// Goes on from where bounces made elsewhere have led.
+    /// Continues after bounces that were made in a lane.
     pub(crate) fn resume(&mut self, after_impact: &AfterImpact<T>, progress: Progress<T>) {
         if after_impact.t > self.t {
             self.standstill = 0;
@@ -116,9 +116,8 @@ impl<T: Real> Simulation<T> {
         }
     }
 
-    /// Makes a bounce: moves to its end. The result stays none where the law is still to be
-    /// applied, as what follows is more than one cable's impulse. It is written where it is kept,
-    /// as it is large.
+    /// Makes a bounce: moves to its end. The result is none if the law is still to be applied,
+    /// because more than one cable's impulse follows. The step is written in place, as it is large.
     #[inline(always)]
     pub(super) fn take(
         &mut self,
@@ -160,7 +159,7 @@ impl<T: Real> Simulation<T> {
         })
     }
 
-    /// Takes the flight of a bounce into the extremes.
+    /// Includes the flight of a bounce in the extremes.
     fn cover(&mut self, bounce: &Bounce<T>) {
         let next = &bounce.next;
         if let (false, Some(two_cables), Some(from)) =

@@ -1,13 +1,13 @@
-//! What nothing but the tests asks for: the same step by other instructions, and what is known of a
-//! bounce, to be held to what is known of any step.
+//! Functions for tests only: the same step with other instructions, and facts about a bounce to
+//! compare with those of a general step.
 
 use crate::arithmetic::processor::plain;
 use crate::motion::bounce_map::{BounceMap, Rows};
 use crate::motion::simulation::kernels::NextStep;
 use crate::motion::simulation::{Simulation, Step};
 
-/// What a bounce does to deviations (w, τ), a column for each of them: by itself and, where the name
-/// says so, with all before it.
+/// The effect of a bounce on deviations (w, τ), one column for each deviation, after each of its
+/// stages.
 #[derive(Clone, Copy, Debug)]
 pub struct BounceStages {
     /// Along the flight.
@@ -16,19 +16,20 @@ pub struct BounceStages {
     pub met: [[f64; 7]; 7],
     /// Then through the law of impact.
     pub after: [[f64; 7]; 7],
-    /// All of it from one time to one time.
+    /// The whole bounce, for deviations at one common time.
     pub at_one_time: [[f64; 7]; 7],
-    /// The square of the factor by which a deviation can grow because the impact comes at another time.
+    /// The square of the largest factor by which a deviation can grow because the impact comes at
+    /// another time.
     pub magnification_squared: f64,
 }
 
 impl Simulation {
-    /// [`Simulation::step`] by no instructions but those that every processor of the family has.
+    /// [`Simulation::step`] with only the instructions that every processor of the family has.
     pub fn step_plain(&mut self) -> Option<Step> {
         plain(NextStep(self))
     }
 
-    /// What the latest step did to deviations, if it was a bounce.
+    /// The effect of the latest step on deviations, if it was a bounce.
     pub fn bounce_stages(&self, step: &Step) -> Option<BounceStages> {
         let map = BounceMap::of(&self.bounced(step)?);
         let mut rows: Rows<f64, 7> = [[0.0; 7]; 7];

@@ -1,5 +1,4 @@
-//! What happens at the end of a step: the law that is applied, the next taut set, and the rules
-//! that stop a run.
+//! The end of a step: the law that is applied, the next taut set, and the rules that stop a run.
 
 use crate::arithmetic::processor::apart;
 use crate::arithmetic::real::Real;
@@ -13,14 +12,14 @@ use crate::motion::impact::{ImpactResult, impact};
 use crate::motion::projection::project_velocity;
 use crate::motion::simulation::{CONVERGING, Event, LastImpacts, Simulation};
 
-/// A tension below this is negative beyond rounding: the cable would have to push \[F\].
+/// A tension below this is negative by more than rounding: the cable would have to push \[F\].
 const PUSHES: f64 = -1e-7;
-/// After a tension is lost the motion is first looked at 2^−LATER of a step later, then at each
+/// After a tension is lost the motion is first evaluated 2^−LATER of a step later, then at each
 /// doubling of that, up to half a step.
 const LATER: i32 = 28;
 
 impl<T: Real> Simulation<T> {
-    /// Applies the law of what was reached.
+    /// Applies the law of the event.
     #[inline(always)]
     pub(super) fn apply_law(&mut self, event: &Event) -> Option<ImpactResult<T>> {
         let reached = event.reached;
@@ -87,9 +86,9 @@ impl<T: Real> Simulation<T> {
         })
     }
 
-    /// Where several cables have snapped slowly in turn, each throwing the others off by less than
-    /// `v_stick`, the closed ones that leave by less: those snaps accumulate, and all of them come
-    /// to rest at once.
+    /// If several cables have snapped slowly in turn, each opening the others more slowly than
+    /// `v_stick`, the closed cables that open more slowly than that: those snaps accumulate, and
+    /// all of them come to rest at once.
     #[inline(always)]
     fn caught(&self, result: &ImpactResult<T>, closed: TautSet) -> TautSet {
         if self.slow_snaps < CONVERGING || self.slow_cables.len() < 2 {
@@ -99,14 +98,14 @@ impl<T: Real> Simulation<T> {
         closed.iter().filter(slow).collect()
     }
 
-    /// Another event has come between slow snaps.
+    /// Resets the row of slow snaps, because another event has come between.
     pub(super) fn end_slow_row(&mut self) {
         self.slow_snaps = 0;
         self.slow_cables = TautSet::SLACK;
     }
 
     /// Whether a closed cable has no normal velocity after the result. A struck one was closing; if
-    /// its normal velocity is not positive all the same, it is zero but for rounding.
+    /// its normal velocity is nevertheless not positive, it is zero up to rounding.
     #[inline(always)]
     fn unmoved(&self, result: &ImpactResult<T>, cable: usize, struck: TautSet) -> bool {
         if struck.contains(cable) && result.v_before[cable] <= T::ZERO {
@@ -118,9 +117,8 @@ impl<T: Real> Simulation<T> {
         result.v_after[cable].abs() <= rounding * UNMOVED
     }
 
-    /// Of the cables at rest after an impact those that are so once the slow ones have stuck: one
-    /// that hands its load over to a cable that sticks is let go with the velocity that this takes
-    /// away.
+    /// Of the cables at rest after an impact, those that still are after the slow ones have stuck:
+    /// a cable whose load a sticking cable takes over opens with the velocity that this takes away.
     #[inline(always)]
     fn still_at_rest(&self, at_rest: TautSet, slow: TautSet) -> TautSet {
         if slow.intersection(self.active.taut).is_empty() {
@@ -136,7 +134,7 @@ impl<T: Real> Simulation<T> {
         at_rest.iter().filter(still).collect()
     }
 
-    /// Takes in an instant of impact.
+    /// Counts an instant of impact.
     pub(super) fn count(&mut self, result: &ImpactResult<T>, hit: TautSet) {
         self.impacts += hit.len() as u64;
         if hit.is_empty() {
@@ -156,8 +154,8 @@ impl<T: Real> Simulation<T> {
         };
     }
 
-    /// Time need not move on from one bounce to the next where they accumulate; steps of no length
-    /// count like impacts, so that every run has an end.
+    /// Where bounces accumulate the time may not change from one to the next; steps of zero length
+    /// are counted like impacts, so that every run ends.
     pub(super) fn check_progress(&mut self, t_start: T) {
         self.standstill = if self.t > t_start {
             0
@@ -169,12 +167,6 @@ impl<T: Real> Simulation<T> {
         }
     }
 
-    /// Cables lose their tension: they leave, whatever rounding says of the sign of a zero.
-    ///
-    /// Where others hold closed as well, a carrying cable without tension may hand its load over to
-    /// one of them. Which, the instant itself does not say, so it is decided a little later on the
-    /// same motion, when the tension would be negative: there the problem on accelerations tells
-    /// who goes on carrying, and who leaves.
     /// The cables that are taut from a time on, among candidates.
     #[inline(always)]
     fn taut_next(
@@ -191,6 +183,12 @@ impl<T: Real> Simulation<T> {
         taut_next(&self.system, &around, state, memory_force, candidates)
     }
 
+    /// Cables lose their tension: they open, whatever sign rounding gives to a tension of zero.
+    ///
+    /// Where other closed cables remain, one of them may take over the load of a carrying cable
+    /// that has lost its tension. The instant itself does not decide which; so the problem on
+    /// accelerations is solved a little later on the same motion, where the tension would be
+    /// negative.
     fn release(&mut self, released: TautSet) {
         self.end_slow_row();
         let ActiveSet { taut, carrying } = self.active;
@@ -214,7 +212,7 @@ impl<T: Real> Simulation<T> {
         };
     }
 
-    /// The rules that are looked at at events; `stuck` are the cables that just stuck.
+    /// Checks the rules that apply at events; `stuck` are the cables that just stuck.
     #[inline(always)]
     pub(super) fn check_rules(&mut self, stuck: TautSet) {
         let y = self.state.y;

@@ -10,7 +10,7 @@ use crate::model::state::State;
 use crate::model::system::System;
 use crate::motion::start::StartError;
 
-/// A start to be made: a system, its rules, the time and the state.
+/// A start to be computed: a system, its rules, the time and the state.
 struct Start<T>(System<T>, Rules<T>, T, State<T>);
 
 impl<T: Real> Kernel for Start<T> {
@@ -43,8 +43,8 @@ impl<T: Real> Kernel for NextStep<'_, T> {
     }
 }
 
-/// Numbers over which a motion can be stepped. The step over doubles is compiled here, once: it is
-/// the whole engine, which every crate that steps would otherwise compile anew.
+/// Numbers over which a motion can be stepped. The step over doubles is compiled once, here: it
+/// contains the whole engine, which every crate that steps would otherwise compile again.
 pub trait Steps: Real {
     /// [`Simulation::step`].
     fn step(simulation: &mut Simulation<Self>) -> Option<Step<Self>> {

@@ -1,4 +1,4 @@
-//! What the latest step of a motion was like within.
+//! The motion within the latest step.
 
 use crate::arithmetic::processor::{Kernel, dispatch_over};
 use crate::arithmetic::real::Real;
@@ -18,15 +18,15 @@ use crate::motion::simulation::{Simulation, Step};
 use crate::motion::taut_series::Series;
 use std::borrow::Cow;
 
-/// Instants along a step at which tensions are looked at.
+/// The number of instants along a step at which tensions are evaluated.
 const INSTANTS: usize = 17;
 
 /// The motion along a stretch.
 pub(in crate::motion) enum Stretch<'a, T: Real> {
     /// In closed form: slack, under few sinusoids.
     Closed(Cow<'a, Flight<T>>),
-    /// By a series: cables are taut, the water resists or carries, the mass is not the unit one, or
-    /// the sinusoids are many.
+    /// By a series: with taut cables, drag, afloat, with a mass other than the unit one, or under
+    /// many sinusoids.
     Expanded(&'a Series<T>),
 }
 
@@ -87,7 +87,7 @@ impl<T: Real> Stretch<'_, T> {
         }
     }
 
-    /// What is known of the gap of a slack cable then.
+    /// The gap of a slack cable at that time, with its error.
     #[inline(always)]
     pub(super) fn contact(&self, cable: usize, s: T) -> Contact<T> {
         match self {
@@ -123,8 +123,8 @@ impl<T: Real> Stretch<'_, T> {
     }
 }
 
-/// The latest step. The motion along it, which may have to be made anew, is asked for only where it
-/// is looked at.
+/// The latest step. The motion along it, which may have to be computed again, is computed only
+/// where it is needed.
 struct Latest<'a, T: Real> {
     simulation: &'a Simulation<T>,
     step: &'a Step<T>,
@@ -168,7 +168,7 @@ impl<T: Real> Simulation<T> {
         self.motion(step.taut).state(s)
     }
 
-    /// What the water remembered when the latest step began.
+    /// The state of the water's memory when the latest step began.
     #[inline(always)]
     pub(crate) fn memory_at_start(&self) -> Box<[Complex<T>]> {
         let mut memory: Box<[Complex<T>]> = self.memory().into();
@@ -187,7 +187,7 @@ impl<T: Real> Simulation<T> {
         }
     }
 
-    /// What acts on the body from outside at a time of the latest step.
+    /// The external forces on the body at a time of the latest step.
     #[inline(always)]
     pub(crate) fn surroundings(&self, t: T) -> Surroundings<T> {
         self.waves.at(&self.system, t)
@@ -240,13 +240,13 @@ impl<T: Real> Simulation<T> {
         self.bounce_start.is_some()
     }
 
-    /// What is known of the gap of a cable at the time reached.
+    /// The gap of a cable at the time reached, with its error.
     pub(crate) fn contact(&self, cable: usize) -> &Contact<T> {
         &self.contacts[cable]
     }
 
-    /// What was known of the gap of a slack cable at the start of the latest step; exactly 0 where
-    /// it was closed.
+    /// The gap of a slack cable at the start of the latest step, with its error; exactly 0 if it
+    /// was closed.
     #[inline(always)]
     pub(crate) fn contact_at_start(&self, step: &Step<T>, cable: usize) -> Contact<T> {
         match (self.expanded(step.taut), &self.bounce_start) {
@@ -263,10 +263,10 @@ impl<T: Real> Simulation<T> {
         }
     }
 
-    /// Whether a cable that the latest step leaves slack came, before its end, within `margin` > 0
-    /// of a gap of zero. Of a cable that was closed at the start all neighbours have zero there,
-    /// too, and the margin grows from nothing; one that lost its tension there and opens all along has
-    /// neighbours that do so, too, each from its own release.
+    /// Whether a cable that is slack in the latest step came, before its end, within `margin` > 0
+    /// of a gap of zero. If a cable was closed at the start, its gap is zero there for all
+    /// neighbours, and the margin grows from zero; if it lost its tension there and opens
+    /// throughout, so it does for all neighbours, each from its own release.
     #[inline(always)]
     pub(crate) fn comes_near(&self, step: &Step<T>, cable: usize, margin: T) -> bool {
         let s = step.t_end - step.t_start;
@@ -307,7 +307,7 @@ impl<T: Real> Simulation<T> {
         (speed * speed + tether.length() * accel) * 2.0
     }
 
-    /// A bound on what a limit bounds along the latest step, close where it is above `floor`.
+    /// A bound, along the latest step, on the quantity of a limit, close where it is above `floor`.
     #[inline(always)]
     pub(crate) fn largest_within(&self, step: &Step<T>, limit: Limit, floor: T) -> T {
         let latest = Latest {
@@ -333,8 +333,8 @@ impl<T: Real> Simulation<T> {
             .reduce(|a, b| if b.value > a.value { b } else { a })
     }
 
-    /// The least and the largest tension of each cable along the latest step, as they are at
-    /// seventeen instants evenly spaced; 0 of a cable that is slack \[F\].
+    /// The least and the largest tension of each cable along the latest step, at seventeen evenly
+    /// spaced instants; 0 for a cable that is slack \[F\].
     pub fn tension_ranges(&self, step: &Step<T>) -> [[T; 2]; MAX_CABLES] {
         if step.taut.is_empty() {
             return [[T::ZERO; 2]; MAX_CABLES];
@@ -402,7 +402,7 @@ impl<T: Real> Simulation<T> {
     }
 }
 
-/// Makes a range hold a value.
+/// Extends a range so that it includes a value.
 #[inline(always)]
 fn widen<T: Real>([least, largest]: &mut [T; 2], value: T) {
     *least = least.min(value);

@@ -1,4 +1,4 @@
-//! What may be reached within a step of taut motion: its event functions, as polynomials.
+//! The event functions of a step of taut motion, as polynomials.
 
 use crate::arithmetic::polynomial::{ORDER, Polynomial};
 use crate::arithmetic::real::Real;
@@ -7,13 +7,14 @@ use crate::motion::events::{EventFunction, HasEvents, Jet, Jets};
 use crate::motion::limits::{TautMotion, Watched};
 use crate::motion::taut_series::Series;
 
-/// A tension below this along a whole step is none \[F\].
+/// A tension that stays below this along a whole step counts as zero \[F\].
 const NOTHING: f64 = 1e-7;
-/// How many times as far as a resting cable a taut one that carries nothing may be off its length.
+/// The tolerance for the length of a taut cable without tension, as a multiple of that of a resting
+/// one.
 const HELD: f64 = 64.0;
 
 impl<T: Real> Series<T> {
-    /// Whether a taut cable stays taut within the step: it carries, or its gap is no more than
+    /// Whether a taut cable stays taut within the step: it carries, or its gap is zero up to
     /// rounding.
     #[inline(always)]
     pub(super) fn holds(&self, cable: usize) -> bool {
@@ -46,7 +47,7 @@ impl<T: Real> Series<T> {
                     left_out: self.contacts[cable].error + self.left_out[cable],
                 }
             };
-            // Where not all taut cables carry, one whose tension is zero all along is no event.
+            // If not all taut cables carry, one whose tension is zero throughout has no event.
             let nothing = taut != carrying
                 && carrying.contains(cable)
                 && event.series.derivative_bound(0, step, event.order) <= T::from_decimal(NOTHING);

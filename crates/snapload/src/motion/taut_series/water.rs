@@ -1,4 +1,4 @@
-//! The part of linear water in the series of a motion.
+//! The contribution of linear water to the series of a motion.
 
 use crate::arithmetic::polynomial::ORDER;
 use crate::arithmetic::real::Real;
@@ -10,7 +10,7 @@ use crate::motion::taut_series::{STILL, Series};
 use crate::motion::water_series::{SeriesEnd, derivatives_of_forcing};
 
 impl<T: Real> Series<T> {
-    /// Adds the k-th coefficients of what linear water does.
+    /// Adds the k-th coefficients of the forces of linear water.
     #[inline(always)]
     pub(super) fn extend_water(&mut self, system: &System<T>, k: usize) {
         let (place, velocity) = (self.place(k), self.velocity(k));
@@ -28,7 +28,7 @@ impl<T: Real> Series<T> {
         self.turning[k] = before + system.body.mass.load_of_moment(moment);
     }
 
-    /// Takes the memory to the last order, and finds what the series leave out.
+    /// Extends the memory to the last order, and finds the truncation error of the series.
     #[inline(always)]
     pub(super) fn close_water(&mut self, system: &System<T>) {
         let orders = [ORDER - 1, ORDER];
@@ -54,8 +54,8 @@ impl<T: Real> Series<T> {
         self.place(k + 1).map(|next| next * (k + 1) as f64)
     }
 
-    /// The longest part of a step, by halves of an octave, on which what the series leave out of the
-    /// gaps is a part of a rounding of how far the cables' ends move.
+    /// The longest part of a step, found by repeated division by √2, on which the truncation error
+    /// of the gaps is below a part of a rounding of the displacements of the cables' ends.
     #[inline(always)]
     pub(super) fn shortened(&self, system: &System<T>, mut step: T) -> T {
         if self.is_followed_by_its_terms(system) {
@@ -81,17 +81,18 @@ impl<T: Real> Series<T> {
         step
     }
 
-    /// Where the motion has singularities its products have the same ones, and their last terms
-    /// are about as small as its own: so it is with taut cables and a unit mass. Slack flight is a
-    /// sum of exponentials, as is that of a floating body, or little else where drag is weak: its
-    /// squares grow twice as fast, and what a series of them leaves out is 2^28 times as much.
+    /// Whether the last terms of the series also show the size of its products' truncation errors.
+    /// Where the motion has singularities its products have the same ones, and their last terms are
+    /// about as small as its own: so it is with taut cables and a unit mass. Slack flight is a sum
+    /// of exponentials, as is that of a floating body, or nearly so where drag is weak: its squares
+    /// grow twice as fast, and the truncation error of their series is 2^28 times as large.
     fn is_followed_by_its_terms(&self, system: &System<T>) -> bool {
         self.water.is_none() && system.body.mass.is_unit() && !self.active.taut.is_empty()
     }
 
-    /// What the series of the place leave out up to a time `s`, at most, and those of velocity and
-    /// memory where there is one. With drag or taut cables that is no sum of known terms: the last
-    /// ones of the series are below rounding there, and nothing is added.
+    /// Bound on the truncation error of the series of the position up to a time `s`, and of those
+    /// of velocity and memory if there is a memory. With drag or taut cables there is no such
+    /// bound: the last terms of the series are below rounding there, and nothing is added.
     #[inline(always)]
     pub(super) fn left_out_of_motion(&self, s: T) -> T {
         match &self.water {
@@ -107,14 +108,14 @@ impl<T: Real> Series<T> {
         }
     }
 
-    /// What the series leave out of each gap up to a time `s`, at most:
+    /// Bound on the truncation error of each gap up to a time `s`:
     ///
-    /// - of |d|², the products beyond the last order;
-    /// - of d, |ρ| times what is left out of (cos θ, sin θ). These solve ċ = −θ̇ s, ṡ = θ̇ c but for the
-    ///   products beyond the last order, and rotations do not let an error grow;
-    /// - of place and rotation, what is left out of the motion.
+    /// - for |d|², the products beyond the last order;
+    /// - for d, |ρ| times the error of (cos θ, sin θ). These solve ċ = −θ̇ s, ṡ = θ̇ c up to the
+    ///   products beyond the last order, and a rotation does not let an error grow;
+    /// - for position and rotation, the error of the motion.
     ///
-    /// An error of d makes one of 2r times that, as |d| ≤ r up to the first closing.
+    /// An error of d changes the gap by 2r times that error, as |d| ≤ r up to the first closing.
     #[inline(always)]
     pub(super) fn left_out_of_gaps(&self, system: &System<T>, s: T) -> PerCable<T> {
         let mut left_out = [T::ZERO; MAX_CABLES];
@@ -164,8 +165,8 @@ impl<T: Real> Series<T> {
     }
 }
 
-/// What the series of the place in a slack flight by waves alone leaves out is at most this times
-/// s^n, n = [`ORDER`] + 1: Σ ‖a_j‖ Ω_j^{n−2}/n!. Zero with drag.
+/// The truncation error of the position in a slack flight by waves alone is at most this times s^n,
+/// n = [`ORDER`] + 1: Σ ‖a_j‖ Ω_j^{n−2}/n!. Zero with drag.
 pub(super) fn waves_left_out<T: Real>(system: &System<T>) -> T {
     match system.drag {
         Some(_) => T::ZERO,
@@ -188,9 +189,9 @@ mod tests {
     use crate::motion::taut_series::Series;
     use crate::motion::waves::Waves;
 
-    /// The gap of a body in a quick wave at the end of a step is that of its closed form, within the
-    /// error told: with coefficients of drag that are zero, and among eight waves of no height. A step
-    /// chosen by the place alone is too long for the gap, which is of its square.
+    /// The gap of a body in a short wave at the end of a step agrees with its closed form within
+    /// the stated error: with drag coefficients of zero, and among eight waves of zero height. A
+    /// step chosen by the position alone would be too long for the gap, which is quadratic in it.
     #[test]
     fn gaps_in_quick_waves_are_those_of_the_closed_form() {
         let drag = Drag {

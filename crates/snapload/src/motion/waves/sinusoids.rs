@@ -1,4 +1,4 @@
-//! The sinusoids about a system, each frequency once, and their sums over one stretch of time.
+//! The sinusoids of a system, each frequency once, and their sums over one stretch of time.
 
 use crate::arithmetic::polynomial::{ORDER, Polynomial};
 use crate::arithmetic::processor::Kernel;
@@ -10,18 +10,19 @@ use crate::model::system::{FEW_SINUSOIDS, System};
 const TERMS: usize = 36;
 /// h Ω.
 pub(super) const RADIANS: f64 = 2.0;
-/// Numbers that a processor works on at once.
+/// The numbers of one vector register.
 type Quad<T> = [T; 4];
-/// Force (2) and velocity of the water (2); excitation (3), and nothing.
+/// Force (2) and velocity of the water (2); excitation (3), and an unused zero.
 type Parts<T> = [Quad<T>; 2];
-/// So many sinusoids are summed up at once.
+/// The number of sinusoids that are summed up at once.
 const TOGETHER: usize = 32;
-/// So many orders are summed up at once, an even number: as many sums as a processor has room for.
+/// The number of orders that are summed up at once, which is even: as many sums as fit into the
+/// registers.
 const BLOCK: usize = 12;
-/// So many coefficients about another time are found at once.
+/// The number of coefficients about another time that are found at once.
 const CHAINS: usize = 6;
 
-/// All of one frequency.
+/// All sinusoids of one frequency.
 #[derive(Clone, Debug)]
 struct Sinusoid<T> {
     omega: T,
@@ -31,12 +32,12 @@ struct Sinusoid<T> {
     factors: [T; TERMS],
 }
 
-/// All frequencies, and what does not change.
+/// All frequencies, and the numbers that do not change.
 #[derive(Clone, Debug)]
 pub(super) struct Sinusoids<T> {
     each: Vec<Sinusoid<T>>,
     constant: Parts<T>,
-    /// How many of the quads are not zero: the second is a floating body's.
+    /// The number of quads that are not zero: the second is needed for a floating body only.
     quads: usize,
     /// h.
     pub(super) half: T,
@@ -45,7 +46,7 @@ pub(super) struct Sinusoids<T> {
 /// One stretch: the polynomial in u.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Stretch<T> {
-    /// Which of the stretches from time zero; none before it is made.
+    /// The number of the stretch, counted from time zero; none before it is summed up.
     pub(super) index: Option<i64>,
     /// t_m.
     middle: T,
@@ -53,7 +54,7 @@ pub(super) struct Stretch<T> {
     terms: [[Quad<T>; TERMS]; 2],
 }
 
-/// The series of what acts from outside about a time.
+/// The series of the external forces about a time.
 pub(crate) struct Expanded<T: Real> {
     pub(crate) force: [Polynomial<T>; 2],
     pub(crate) water: [Polynomial<T>; 2],
@@ -61,7 +62,8 @@ pub(crate) struct Expanded<T: Real> {
 }
 
 impl<T: Real> Sinusoids<T> {
-    /// None where they are few, which in arithmetics that are slow anyway they always count as.
+    /// None if they are few; over number types other than doubles, which are slow anyway, always
+    /// none.
     pub(super) fn of(system: &System<T>) -> Option<Self> {
         if !T::FUSES {
             return None;
@@ -123,7 +125,7 @@ fn factors<T: Real>(radians: T) -> [T; TERMS] {
     factors
 }
 
-/// Those of one frequency as one, in order of their frequencies.
+/// Merges sinusoids of equal frequency, and sorts them by frequency.
 fn merged<T: Real>(mut each: Vec<Sinusoid<T>>) -> Vec<Sinusoid<T>> {
     each.sort_by(|a, b| a.omega.to_f64().total_cmp(&b.omega.to_f64()));
     each.dedup_by(|next, kept| {
@@ -175,8 +177,9 @@ impl<T: Real> Kernel for Summing<'_, T> {
     }
 }
 
-/// Adds one quad of some sinusoids, of which the sine and the cosine at the middle are given. A block
-/// of orders at a time, so that a sum stays where it is while one sinusoid after the other is added.
+/// Adds one quad of some sinusoids, given the sine and the cosine at the middle. A block of orders
+/// is added at a time, so that its sums stay in registers while one sinusoid after the other is
+/// added.
 #[inline(always)]
 fn add<T: Real>(
     waves: &[Sinusoid<T>],
@@ -220,7 +223,7 @@ const SHARES: [f64; TERMS] = {
 };
 
 impl<T: Real> Stretch<T> {
-    /// None that has been made.
+    /// A stretch that is not summed up yet.
     pub(super) fn unmade() -> Self {
         Self {
             index: None,
@@ -247,7 +250,7 @@ impl<T: Real> Stretch<T> {
         }
     }
 
-    /// The same polynomial about another time, as far as a series goes.
+    /// The same polynomial about another time, up to the order of a series.
     #[inline(always)]
     pub(super) fn expanded(&self, half: T, t: T) -> Expanded<T> {
         let u = (t - self.middle) / half;
@@ -276,10 +279,10 @@ impl<T: Real> Stretch<T> {
     }
 }
 
-/// The first coefficients about `u`, by repeated division by a linear factor: each is the last number
-/// of a chain of sums from the highest power down, and the next chain runs over the numbers of the
-/// one before. Some chains run at once, each one number behind the one before it, as a single one
-/// would wait for each of its sums.
+/// The first coefficients about `u`, by repeated division by a linear factor: each is the last
+/// number of a chain of sums from the highest power down, and the next chain runs over the numbers
+/// of the one before. Some chains run at once, each one number behind the one before it, as the
+/// sums of a single chain would have to wait for each other.
 #[inline(always)]
 fn shifted<T: Real>(terms: &[Quad<T>; TERMS], u: T) -> [Quad<T>; ORDER + 1] {
     let mut terms = *terms;
@@ -302,7 +305,7 @@ fn shifted<T: Real>(terms: &[Quad<T>; TERMS], u: T) -> [Quad<T>; ORDER + 1] {
     found
 }
 
-/// One step of the rule of Horner: the sum times `u`, plus the next term.
+/// One step of Horner's rule: the sum times `u`, plus the next term.
 #[inline(always)]
 fn horner<T: Real>(sum: &mut Quad<T>, u: T, term: &Quad<T>) {
     for (sum, term) in sum.iter_mut().zip(term) {
@@ -311,7 +314,7 @@ fn horner<T: Real>(sum: &mut Quad<T>, u: T, term: &Quad<T>) {
 }
 
 impl<T: Real> Expanded<T> {
-    /// Each sinusoid by itself.
+    /// The sums with each sinusoid evaluated by itself.
     #[inline(always)]
     pub(super) fn of(system: &System<T>, t: T) -> Self {
         let mut force = [Polynomial::default(); 2];
