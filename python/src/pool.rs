@@ -27,8 +27,8 @@ pub(crate) fn pool(_py: Python<'_>) -> PyResult<Arc<ThreadPool>> {
         other => {
             // Dropping a pool waits for its threads, which do not exist in this process.
             std::mem::forget(other);
-            // The receiver of a result learns of a panic by the closed channel, so that no other
-            // handler is needed.
+            // A panic closes the channel of the result, which tells the receiver; without a handler
+            // rayon would abort the process.
             let pool = ThreadPoolBuilder::new().panic_handler(|_| {}).build();
             let pool = Arc::new(pool.map_err(of_program)?);
             *known = Some((here, Arc::clone(&pool)));
