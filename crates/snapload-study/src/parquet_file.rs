@@ -62,11 +62,16 @@ macro_rules! of_each {
 impl Values {
     /// An empty column.
     pub(crate) fn none(holds: Holds) -> Self {
+        Self::with_room(holds, 0)
+    }
+
+    /// An empty column with room for so many values.
+    pub(crate) fn with_room(holds: Holds, count: usize) -> Self {
         match holds {
-            Holds::Numbers => Self::Numbers(Vec::new()),
-            Holds::Counts => Self::Counts(Vec::new()),
-            Holds::Flags => Self::Flags(Vec::new()),
-            Holds::Words => Self::Words(Vec::new()),
+            Holds::Numbers => Self::Numbers(Vec::with_capacity(count)),
+            Holds::Counts => Self::Counts(Vec::with_capacity(count)),
+            Holds::Flags => Self::Flags(Vec::with_capacity(count)),
+            Holds::Words => Self::Words(Vec::with_capacity(count)),
         }
     }
 

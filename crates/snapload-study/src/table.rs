@@ -168,8 +168,26 @@ pub(crate) fn fields() -> Vec<Field> {
         .collect()
 }
 
+/// So many rows stay in the processor's caches while their columns are taken from them one by one.
+const BLOCK: usize = 256;
+
 /// Rows as columns; `range` are their indices in the study, from 0.
 pub(crate) fn columns_of(range: Range<u64>, rows: &[&Row]) -> Vec<Values> {
+    let fields = fields();
+    let with_room = |field: &Field| Values::with_room(field.holds, rows.len());
+    let mut columns: Vec<Values> = fields.iter().map(with_room).collect();
+    let mut start = range.start;
+    for block in rows.chunks(BLOCK) {
+        let end = start + block.len() as u64;
+        for (column, more) in columns.iter_mut().zip(columns_of_block(start..end, block)) {
+            column.append(more);
+        }
+        start = end;
+    }
+    columns
+}
+
+fn columns_of_block(range: Range<u64>, rows: &[&Row]) -> Vec<Values> {
     let mut columns = vec![Values::Counts(range.map(signed).map(Some).collect())];
     for (k, (_, get)) in Parameters::keys().enumerate() {
         columns.push(key_values(rows, k, get));

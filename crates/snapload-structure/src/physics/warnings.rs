@@ -347,6 +347,7 @@ fn governing_wave(structure: &Structure, z_m: f64) -> Option<(f64, LinearWave)> 
             (height, 2.0 * PI / sea.peak_period_s)
         }
     };
-    let wave = LinearWave::new(&structure.site, height / 2.0, omega, z_m);
-    Some((height, wave))
+    // Waves of no height are still water.
+    let wave = || LinearWave::new(&structure.site, height / 2.0, omega, z_m);
+    (height > 0.0).then(|| (height, wave()))
 }
