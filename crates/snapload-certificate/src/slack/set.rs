@@ -45,10 +45,15 @@ impl<const N: usize> Set<N> {
     /// Jacobian is within `jacobian` everywhere on the hull.
     ///
     /// By the mean value theorem, row by row, the image lies in image + J B r. With any invertible
-    /// B' that is c' + B' r', where c' is the middle of `image`, δ its radius and r' = (B'⁻¹ J B) r
-    /// + B'⁻¹ δ. Let B'ᵀB' = 1 + E and ε < 1 bound the sums of |E| along rows. Then B'⁻¹ y = (1 +
-    /// E)⁻¹ B'ᵀ y, and by Neumann's series (1 + E)⁻¹ z differs from z by no more than ε/(1 − ε) max
-    /// |z|, at most 2 ε max |z| for ε ≤ 1/2.
+    /// B' that is c' + B' r', where c' is the middle of `image`, δ its radius and
+    ///
+    /// ```text
+    /// r' = (B'⁻¹ J B) r + B'⁻¹ δ
+    /// ```
+    ///
+    /// Let B'ᵀB' = 1 + E and ε < 1 bound the sums of |E| along rows. Then B'⁻¹ y = (1 + E)⁻¹ B'ᵀ y,
+    /// and by Neumann's series (1 + E)⁻¹ z differs from z by no more than ε/(1 − ε) max |z|, at most
+    /// 2 ε max |z| for ε ≤ 1/2.
     pub(crate) fn mapped<const M: usize>(
         &self,
         image: &[Ball; M],

@@ -9,9 +9,9 @@ use snapload::{
 };
 use std::f64::consts::PI;
 
-/// A ball on a table that moves as A sin ωt, seen from the table: the relative height y has ÿ = −1
-/// + Γ sin ωt, Γ = Aω², and the constraint y ≥ 0 is a cable of such length that it is never taut at
-/// its other end.
+/// A ball on a table that moves as A sin ωt, seen from the table: the relative height y obeys
+/// ÿ = −1 + Γ sin ωt, Γ = Aω², and the constraint y ≥ 0 is a cable of such length that it is never
+/// taut at its other end.
 #[derive(Clone, Copy, Debug)]
 struct Table {
     e: f64,
