@@ -1,15 +1,15 @@
 """Dynamics of bodies on cables that go slack and snap taut.
 
-A floating breakwater moored by two cables rides in waves; the cables go slack, snap taut, and each snap is an
-impact. The same engine as the command ``snapload``, with the same bits.
+A floating breakwater moored by two cables moves in waves. The cables go slack and snap taut, and each snap is an
+impact. The package has the engine of the command ``snapload`` and gives the same results to the last bit.
 
 >>> import snapload
 >>> run = snapload.Case(f_o=0.31).run()
 >>> run.end.reason, len(run.impacts)
 ('rotation_limit', 12)
 
-All quantities are nondimensional: lengths in L, half the distance of the anchors; masses in m, the body's; forces
-in F, its net buoyancy; times in T = sqrt(m L / F).
+All quantities are nondimensional. Lengths are in L, half the distance between the anchors; masses in m, the mass of
+the body; forces in F, its net buoyancy; times in T = sqrt(m L / F).
 """
 
 from __future__ import annotations

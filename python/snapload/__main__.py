@@ -6,7 +6,7 @@ from . import _engine
 
 
 def main() -> None:
-    """Does what the command line asks for, and ends with its exit status."""
+    """Executes the command line, and ends with its exit status."""
     sys.exit(_engine.command(["snapload", *sys.argv[1:]]))
 
 

@@ -1,4 +1,4 @@
-"""A run as a moving picture."""
+"""Animations of a run."""
 
 from __future__ import annotations
 
@@ -35,13 +35,13 @@ _WRITERS = {".gif": "pillow", ".mp4": "ffmpeg", ".html": "html"}
 
 
 class Animation:
-    """A moving picture of a run; made by :meth:`snapload.Run.animate`.
+    """An animation of a run, returned by :meth:`snapload.Run.animate`.
 
-    The last value of a notebook's cell shows it, with buttons.
+    A notebook shows it, with buttons, if it is the last value of a cell.
 
     See Also
     --------
-    snapload.Run.plot : Pictures that stand still.
+    snapload.Run.plot : Draws static pictures.
 
     Examples
     --------
@@ -82,26 +82,26 @@ class Animation:
         return self._html
 
     def save(self, path: str | PathLike[str]) -> Path:
-        """Write the animation as GIF, MP4 (which takes ffmpeg) or HTML, by the ending of the file.
+        """Write the animation as GIF, MP4 (which needs ffmpeg) or HTML, depending on the file extension.
 
         Parameters
         ----------
         path : path-like
-            The file; one that is there is written over.
+            The file to write; an existing file is overwritten.
 
         Returns
         -------
         pathlib.Path
-            The file.
+            The path of the file.
 
         Raises
         ------
         ValueError
-            If the ending is another one, or ffmpeg is asked for and not there.
+            If the extension is a different one, or ffmpeg is needed and not available.
 
         See Also
         --------
-        snapload.Run.animate : Makes the animation.
+        snapload.Run.animate : Creates the animation.
 
         Examples
         --------
@@ -139,7 +139,7 @@ class Animation:
 
 
 def _scene_data(run: BaseRun, start: float, stop: float, count: int) -> dict[str, Any]:
-    """What there is to see: what stands still, and at every time where the body is and which cables are taut."""
+    """The data of the scene: its fixed parts, and at each time the position of the body and the taut cables."""
     geometry = run._geometry()
     outline, size = geometry.outline(), geometry.size()
     anchors = [list(anchor) for anchor, _, _ in geometry.cables]
@@ -171,7 +171,7 @@ def _scene_data(run: BaseRun, start: float, stop: float, count: int) -> dict[str
 
 
 def _scene(ax: Axes, scene: dict[str, Any]) -> Callable[[int], list[Artist]]:
-    """Draws what stands still, and returns what moves the rest to a picture."""
+    """Draws the fixed parts, and returns the function that moves the other parts to a frame."""
     anchors, fairleads, outline, path, frames = (
         np.array(scene[name]) for name in ("anchors", "fairleads", "outline", "path", "frames")
     )

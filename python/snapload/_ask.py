@@ -1,4 +1,4 @@
-"""Questions about one case, which the engine knows by name."""
+"""Questions about one case, which the engine identifies by name."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from ._check import engine_of
 def ask(
     question: str, case: Case, tell: Callable[[int], object] | None = None, /, **options: object
 ) -> tuple[Any, str]:
-    """The answer of a question, as its JSON and in words; `tell` is told how much is done.
+    """The answer to a question, as JSON and in words; `tell` is called with the progress.
 
     The engine checks the options, and has defaults for those that are left out.
     """

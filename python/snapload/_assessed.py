@@ -1,4 +1,4 @@
-"""What structures come to: answers with units."""
+"""Results of the analysis of structures, with units."""
 
 from __future__ import annotations
 
@@ -22,10 +22,10 @@ else:
 
 
 class _Answer:
-    """What is common to the answers."""
+    """The common part of all results."""
 
     def __init__(self, data: dict[str, Any], told: str) -> None:
-        #: Everything that the command writes as JSON: SI units, each in the name of its key.
+        #: Everything that the command writes as JSON. Each key ends in the SI unit of its value.
         self.data = data
         self._told = told
 
@@ -37,16 +37,16 @@ class _Answer:
 
 
 class Assessment(_Answer):
-    """What one wave or one record of a sea does to a structure.
+    """The response of a structure to one regular wave or one record of a sea.
 
     Attributes
     ----------
     data : dict
-        Everything that ``snapload assess --json`` writes: SI units, each in the name of its key.
+        Everything that ``snapload assess --json`` writes. Each key ends in the SI unit of its value.
 
     See Also
     --------
-    snapload.Structure.assess : Makes one.
+    snapload.Structure.assess : Runs a structure and returns its assessment.
 
     Examples
     --------
@@ -64,13 +64,14 @@ class Assessment(_Answer):
 
     @property
     def standing(self) -> str:
-        """How it stands: ``holds``, ``breaks``, ``exceeds`` (turned over or on the floor), ``open`` or ``unknown``.
+        """The verdict in one word: ``holds``, ``breaks``, ``exceeds``, ``open`` or ``unknown``.
 
-        It is open where tensions are not to be relied on, or where a line would break before anything is judged.
+        ``exceeds`` means that the body turned over or reached the sea floor. ``open`` means that the tensions are not
+        reliable, or that a line would break before anything is judged.
 
         See Also
         --------
-        snapload.Assessment.verdict : The same in words.
+        snapload.Assessment.verdict : The verdict in a sentence.
 
         Examples
         --------
@@ -82,11 +83,11 @@ class Assessment(_Answer):
 
     @property
     def verdict(self) -> str:
-        """The answer in a sentence or two.
+        """The verdict in a sentence or two.
 
         See Also
         --------
-        snapload.Assessment.standing : The same in one word.
+        snapload.Assessment.standing : The verdict in one word.
 
         Examples
         --------
@@ -98,11 +99,11 @@ class Assessment(_Answer):
 
     @property
     def lines(self) -> xarray.Dataset:
-        """What each line comes to: tensions [N], snaps, the part of the time it is slack, utilisation.
+        """Results of each line: tensions [N], snaps, fraction of the time in which it is slack, utilisation.
 
         See Also
         --------
-        snapload.Assessment.snaps : Each snap by itself.
+        snapload.Assessment.snaps : Results of each snap.
 
         Examples
         --------
@@ -115,11 +116,11 @@ class Assessment(_Answer):
 
     @property
     def snaps(self) -> xarray.Dataset:
-        """Every snap and jolt of 1 cm/s or more, in the order in which they come.
+        """Every snap and jolt of 1 cm/s or more, in order of time.
 
         See Also
         --------
-        snapload.Assessment.lines : What they come to, line by line.
+        snapload.Assessment.lines : Results of each line.
 
         Examples
         --------
@@ -132,11 +133,11 @@ class Assessment(_Answer):
 
     @property
     def checks(self) -> xarray.Dataset:
-        """The checks by the rule of ``[design]``; none without that table.
+        """Design checks by the rule in the table ``[design]``; empty without that table.
 
         See Also
         --------
-        snapload.Assessment.verdict : The answer without factors.
+        snapload.Assessment.verdict : The verdict without safety factors.
 
         Examples
         --------
@@ -148,7 +149,7 @@ class Assessment(_Answer):
         return rows_of(self.data["checks"], "check")
 
     def motion(self, times: ArrayLike) -> xarray.Dataset:
-        """Place, rotation and tensions at times.
+        """Return position, rotation and tensions at given times.
 
         Parameters
         ----------
@@ -158,12 +159,12 @@ class Assessment(_Answer):
         Returns
         -------
         xarray.Dataset
-            ``x_m``, ``z_m`` and ``theta_rad`` along ``t_s``, and ``tension_n``, 0 where a line is slack, along
-            ``t_s`` and ``line``.
+            ``x_m``, ``z_m`` and ``theta_rad`` along ``t_s``, and ``tension_n`` along ``t_s`` and ``line``. The tension
+            of a slack line is 0.
 
         See Also
         --------
-        snapload.Elastic.motion : The same on lines that stretch.
+        snapload.Elastic.motion : The motion with elastic lines.
 
         Examples
         --------
@@ -178,16 +179,16 @@ class Assessment(_Answer):
         return motion_of(self._engine.motion(values.tolist()))
 
     def to_html(self, path: str | PathLike[str]) -> None:
-        """Write the page for a design note.
+        """Write the results as an HTML page for a design note.
 
         Parameters
         ----------
         path : str or path
-            Where to.
+            The file to write.
 
         See Also
         --------
-        snapload.Seas.to_html : The page of many records.
+        snapload.Seas.to_html : Writes the page of many records.
 
         Examples
         --------
@@ -203,7 +204,7 @@ class Assessment(_Answer):
 
 
 class Seas(_Answer):
-    """What many records of a sea do to a structure.
+    """The response of a structure to many records of a sea.
 
     Attributes
     ----------
@@ -212,7 +213,7 @@ class Seas(_Answer):
 
     See Also
     --------
-    snapload.Structure.seas : Makes one.
+    snapload.Structure.seas : Runs the records and returns this result.
 
     Examples
     --------
@@ -229,11 +230,11 @@ class Seas(_Answer):
 
     @property
     def words(self) -> str:
-        """The answer in a sentence or two.
+        """The result in a sentence or two.
 
         See Also
         --------
-        snapload.Seas.largest_tensions_n : The numbers that it rests on.
+        snapload.Seas.largest_tensions_n : The largest tensions, on which it is based.
 
         Examples
         --------
@@ -247,11 +248,11 @@ class Seas(_Answer):
 
     @property
     def checks(self) -> xarray.Dataset:
-        """The checks by the rule of ``[design]``, each over all records; none without that table.
+        """Design checks by the rule in the table ``[design]`` over all records; empty without that table.
 
         See Also
         --------
-        snapload.Assessment.checks : Those of one record.
+        snapload.Assessment.checks : The checks of one record.
 
         Examples
         --------
@@ -265,11 +266,11 @@ class Seas(_Answer):
 
     @property
     def largest_tensions_n(self) -> xarray.DataArray:
-        """The largest tension of each record, in a snap or held [N]; empty where tensions are not known.
+        """The largest tension of each record [N], in a snap or in a taut line; empty if tensions are not known.
 
         See Also
         --------
-        snapload.Seas.words : What they come to.
+        snapload.Seas.words : The result in words.
 
         Examples
         --------
@@ -283,16 +284,16 @@ class Seas(_Answer):
         return xarray.DataArray(values, dims="record", name="largest_tensions_n", attrs=about("largest_tensions_n"))
 
     def to_html(self, path: str | PathLike[str]) -> None:
-        """Write the page.
+        """Write the results as an HTML page.
 
         Parameters
         ----------
         path : str or path
-            Where to.
+            The file to write.
 
         See Also
         --------
-        snapload.Assessment.to_html : The page of one record.
+        snapload.Assessment.to_html : Writes the page of one record.
 
         Examples
         --------
@@ -309,7 +310,7 @@ class Seas(_Answer):
 
 
 class Elastic(_Answer):
-    """A structure on lines that stretch, beside the same on lines that do not.
+    """A structure with elastic lines, compared with the same structure with inextensible lines.
 
     Attributes
     ----------
@@ -318,7 +319,7 @@ class Elastic(_Answer):
 
     See Also
     --------
-    snapload.Structure.elastic : Makes one.
+    snapload.Structure.elastic : Runs both models and returns this result.
 
     Examples
     --------
@@ -334,11 +335,11 @@ class Elastic(_Answer):
 
     @property
     def standing(self) -> str:
-        """How it stands on lines that stretch: ``holds``, ``breaks``, ``exceeds`` or ``unknown``.
+        """The verdict with elastic lines in one word: ``holds``, ``breaks``, ``exceeds``, ``open`` or ``unknown``.
 
         See Also
         --------
-        snapload.Elastic.verdict : The same in words.
+        snapload.Elastic.verdict : The verdict in a sentence.
 
         Examples
         --------
@@ -350,11 +351,11 @@ class Elastic(_Answer):
 
     @property
     def verdict(self) -> str:
-        """The answer in a sentence or two.
+        """The verdict in a sentence or two.
 
         See Also
         --------
-        snapload.Elastic.standing : The same in one word.
+        snapload.Elastic.standing : The verdict in one word.
 
         Examples
         --------
@@ -366,11 +367,11 @@ class Elastic(_Answer):
 
     @property
     def checks(self) -> xarray.Dataset:
-        """The checks of the lines that stretch by the rule of ``[design]``; none without that table.
+        """Design checks of the elastic lines by the rule in the table ``[design]``; empty without that table.
 
         See Also
         --------
-        snapload.Assessment.checks : Those of lines that do not stretch.
+        snapload.Assessment.checks : The checks of inextensible lines.
 
         Examples
         --------
@@ -383,11 +384,11 @@ class Elastic(_Answer):
 
     @property
     def lines(self) -> xarray.Dataset:
-        """What each line comes to: spring, damper, largest tension, the part of the time it is slack.
+        """Results of each line: spring, damper, largest tension, fraction of the time in which it is slack.
 
         See Also
         --------
-        snapload.Elastic.pulls : Each pull by itself.
+        snapload.Elastic.pulls : Results of each pull.
 
         Examples
         --------
@@ -400,11 +401,11 @@ class Elastic(_Answer):
 
     @property
     def pulls(self) -> xarray.Dataset:
-        """Every pull, in the order in which lines took hold.
+        """Every pull, in the order in which the lines became taut.
 
         See Also
         --------
-        snapload.Elastic.lines : What they come to, line by line.
+        snapload.Elastic.lines : Results of each line.
 
         Examples
         --------
@@ -417,11 +418,11 @@ class Elastic(_Answer):
 
     @property
     def motion(self) -> xarray.Dataset:
-        """Place, rotation and tensions on lines that stretch, every ``every`` seconds.
+        """Position, rotation and tensions with elastic lines, every ``every`` seconds.
 
         See Also
         --------
-        snapload.Assessment.motion : The same on lines that do not stretch.
+        snapload.Assessment.motion : The motion with inextensible lines.
 
         Examples
         --------

@@ -1,4 +1,4 @@
-"""The values that keys take in a study."""
+"""The values of keys in a study."""
 
 from __future__ import annotations
 
@@ -49,7 +49,7 @@ def values_of(values: str | NDArray[Any]) -> NDArray[Any]:
 
 
 def table_of(cases: Any) -> bytes:
-    """A table of cases as the CSV file that the command line would read; an empty cell where a value is missing."""
+    """A table of cases as a CSV file for the command line, with an empty cell for each missing value."""
     names = getattr(cases, "column_names", getattr(cases, "columns", None))
     if names is None and isinstance(cases, Mapping):
         names = cases.keys()
@@ -80,29 +80,29 @@ def _cell(value: Any, count: bool) -> str:
 
 
 def evenly(first: float | str, last: float | str, count: int) -> NDArray[np.float64]:
-    """Make evenly spaced values, each the double nearest to the decimal that one would write.
+    """Return evenly spaced values, each the double nearest to the decimal that one would write.
 
     Parameters
     ----------
     first, last : float or str
         The first and the last value.
     count : int
-        How many, both among them.
+        The number of values, including the first and the last.
 
     Returns
     -------
     numpy.ndarray, shape (count,)
-        The values. ``numpy.linspace`` rounds on the way, so that some of its values are a last digit off the decimal;
-        in a chaotic motion that is another case.
+        The values. ``numpy.linspace`` rounds intermediate results, so that some of its values differ from the decimal
+        in the last digit. In a chaotic motion such a value is a different case.
 
     Raises
     ------
     ValueError
-        If they are no range.
+        If the values do not form a range.
 
     See Also
     --------
-    snapload.sweep : Runs a case at such values.
+    snapload.sweep : Runs a case at evenly spaced values.
 
     Examples
     --------

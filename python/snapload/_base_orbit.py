@@ -1,4 +1,4 @@
-"""What there is to ask of any periodic orbit."""
+"""The common part of all periodic orbits."""
 
 from __future__ import annotations
 
@@ -39,11 +39,11 @@ _SHOWN = 8
 
 
 class NoOrbitError(ValueError):
-    """There is no orbit where one was looked for; the words say what was found instead.
+    """Raised if no orbit was found; the message says what was found instead.
 
     See Also
     --------
-    snapload.Case.orbit : Looks for one.
+    snapload.Case.orbit : Searches for an orbit.
 
     Examples
     --------
@@ -58,34 +58,34 @@ class NoOrbitError(ValueError):
 
 @dataclass(frozen=True)
 class Admissible:
-    """Whether a body can have an orbit, and what it is like between its events.
+    """Whether an orbit is a possible motion of the body, with its extreme values between events.
 
-    As a flag it is `yes`: ``if orbit.admissible: ...``.
+    In a condition it has the value of `yes`: ``if orbit.admissible: ...``.
 
     Attributes
     ----------
     yes : bool
-        Whether a body can have it.
+        Whether the orbit is a possible motion of the body.
     largest_gap : float or None
-        The largest gap g between events, where a cable comes nearest [L^2]; None if none comes near.
+        The largest gap g between events, where a cable comes closest to being taut [L^2]; None if none comes close.
     least_tension : float or None
-        The least tension of a taut cable [F]; None if none is taut.
+        The smallest tension of a taut cable [F]; None if no cable is taut.
     least_v_n : float or None
-        The least normal velocity of a snap [L/T]; None if there is none.
+        The smallest normal velocity of a snap [L/T]; None if there is no snap.
     y_max : float
         The highest y of the centre [L].
     theta_max : float
-        The largest rotation, either way [rad].
+        The largest rotation in either direction [rad].
     why_not : tuple of str
-        Why no body can; empty if one can.
+        The reasons why the orbit is not a possible motion; empty if it is one.
 
     See Also
     --------
-    snapload.Orbit : What it is told of.
+    snapload.Orbit : The orbit that has this attribute.
 
     Examples
     --------
-    A sequence that closes, but in which cable 2 would have to push:
+    A periodic solution in which cable 2 would have to push:
 
     >>> import snapload
     >>> case = snapload.Case(body="point", r=1.4, e=0.9, nu=0, omega=3, f_o=0.5)
@@ -107,9 +107,9 @@ class Admissible:
 
 
 class BaseOrbit:
-    """A motion that repeats itself after whole periods of the forcing.
+    """A motion that repeats itself after a whole number of forcing periods.
 
-    Whoever derives from it says of what it is an orbit, and how it is found again.
+    A derived class has the case or system of the orbit, and computes the orbit again if necessary.
     """
 
     #: Whether it is told in the scales L, m, F and T, and not in units of one's own.
@@ -144,7 +144,7 @@ class BaseOrbit:
         self.events = _events(told["events"])
 
     def _again(self) -> tuple[_engine.Orbit | None, str]:
-        """The orbit found again, from where it is."""
+        """Computes the orbit again from its own state."""
         raise NotImplementedError
 
     @property
@@ -153,28 +153,28 @@ class BaseOrbit:
 
     @property
     def _engine(self) -> _engine.Orbit:
-        """The orbit of the engine. One that came from another process has left it there."""
+        """The orbit of the engine. It does not travel to other processes, where it is computed again."""
         if self._made is None:
             self._made = orbit_or_error(*self._again())
         return self._made
 
     def curve(self, pieces: int = 400) -> np.recarray[Any, Any]:
-        """Trace one lap as its sequence of events has it, whether a body can have it or not.
+        """Compute one period of the orbit from its sequence of events, admissible or not.
 
         Parameters
         ----------
         pieces : int
-            In about so many pieces of equal time; every flight has eight at the least.
+            The approximate number of pieces of equal time; every flight has at least eight.
 
         Returns
         -------
         numpy.recarray, shape (n,)
-            Fields ``leg``, the number of the stretch between two events, from 0; ``taut``, how many cables are taut in
-            it; ``t``, and the state ``x`` to ``vtheta``. At an event there are two rows, before and after it.
+            Fields ``leg``, the number of the interval between two events, from 0; ``taut``, how many cables are taut
+            in it; ``t``; and the state ``x`` to ``vtheta``. At an event there are two rows, before and after it.
 
         See Also
         --------
-        run : The motion as it is run.
+        run : Simulates the motion.
 
         Examples
         --------
@@ -196,31 +196,31 @@ class BaseOrbit:
     def plot(
         self, x: str = "x", y: str = "y", ax: matplotlib.axes.Axes | None = None, **style: Any
     ) -> matplotlib.axes.Axes:
-        """Draw one lap into axes of Matplotlib, and return them.
+        """Draw one period of the orbit into Matplotlib axes, and return the axes.
 
         Parameters
         ----------
         x, y : {"t", "x", "y", "theta", "vx", "vy", "vtheta"}
-            What is drawn along either axis.
+            The quantities on the horizontal and the vertical axis.
         ax : matplotlib.axes.Axes, optional
-            Where to draw; new ones, of the width of a column, if left out.
+            Axes to draw into; if left out, new ones of the width of a column.
         **style
-            Passed on to the lines, such as ``color`` or ``linewidth``.
+            Properties of the lines, such as ``color`` or ``linewidth``.
 
         Returns
         -------
         matplotlib.axes.Axes
-            The axes, to compose further. The black dot is the section; a snap of cable 1 is a cross, of cable 2 a
-            circle. A lap that no body can have is dashed and grey.
+            The axes, for further changes. The black dot is the section. A cross is a snap of cable 1, a circle a snap
+            of cable 2. An orbit that is not admissible is dashed and grey.
 
         Raises
         ------
         ValueError
-            If there is no such quantity.
+            If a quantity is unknown.
 
         See Also
         --------
-        curve : The numbers of the picture.
+        curve : The data of the picture.
 
         Examples
         --------
@@ -241,7 +241,7 @@ class BaseOrbit:
     __hash__ = None  # type: ignore[assignment]
 
     def _of(self) -> object:
-        """What it is an orbit of."""
+        """The case or system of the orbit."""
         raise NotImplementedError
 
     def __str__(self) -> str:
@@ -261,19 +261,19 @@ class BaseOrbit:
 
 
 def complexes(pairs: Iterable[tuple[float, float]]) -> NDArray[np.complex128]:
-    """Pairs of real and imaginary part as numbers."""
+    """Pairs of real and imaginary parts as complex numbers."""
     return np.array([complex(*pair) for pair in pairs], dtype=np.complex128)
 
 
 def orbit_or_error(orbit: _engine.Orbit | None, why: str) -> _engine.Orbit:
-    """The orbit, or what is raised where there is none."""
+    """Returns the orbit, or raises an error if there is none."""
     if orbit is None:
         raise NoOrbitError(f"no orbit was found: {why}")
     return orbit
 
 
 def start_of(start: Start) -> dict[str, Any]:
-    """A start by its keys."""
+    """A start as a dict of its keys."""
     if isinstance(start, Mapping):
         return {str(key): value for key, value in start.items()}
     values = np.asarray(start)
@@ -284,7 +284,7 @@ def start_of(start: Start) -> dict[str, Any]:
 
 
 def wanted(periods: int | None, symbol: Iterable[int | str] | None, phase: float, cables: int = 2) -> Wanted:
-    """What is looked for, checked as far as the engine does not."""
+    """The options of a search, with those checks that the engine does not make."""
     if periods is not None:
         periods = whole("orbit.periods", periods)
     if symbol is None:

@@ -1,4 +1,4 @@
-"""What there is to ask of any finished run."""
+"""The common part of all finished runs."""
 
 from __future__ import annotations
 
@@ -33,9 +33,9 @@ Picture = Literal["trajectory", "rotation", "velocities", "tensions"]
 
 
 class BaseRun:
-    """A finished run of a case or of a system of one's own.
+    """A finished run of a case or of a user-defined system.
 
-    Whoever derives from it says how the run is made once more, which gives the same bits, and what stands where.
+    A derived class repeats the run if necessary, which gives the same bits, and describes the geometry.
     """
 
     _made: _engine.Run | None
@@ -44,7 +44,7 @@ class BaseRun:
     _in_scales = True
 
     def _again(self) -> _engine.Run:
-        """The run once more."""
+        """Repeats the run."""
         raise NotImplementedError
 
     def _geometry(self) -> Geometry:
@@ -53,7 +53,7 @@ class BaseRun:
 
     @property
     def _engine(self) -> _engine.Run:
-        """The run of the engine. One that came from another process has left it there: it is run once more."""
+        """The run of the engine. It does not travel to other processes, where the run is repeated."""
         if self._made is None:
             again = self._again()
             if json.loads(again.head()) != self._head:
@@ -67,11 +67,11 @@ class BaseRun:
 
     @cached_property
     def end(self) -> End:
-        """How it ended.
+        """How the run ended.
 
         See Also
         --------
-        outcome : Whether that is certain.
+        outcome : Whether the end is certain.
 
         Examples
         --------
@@ -83,11 +83,11 @@ class BaseRun:
 
     @cached_property
     def norms(self) -> Norms:
-        """Norms of the snaps, and the largest height and rotation.
+        """Norms of the snaps, the largest height and the largest rotation.
 
         See Also
         --------
-        impacts : What they are made of.
+        impacts : The impacts, from which the norms are computed.
 
         Examples
         --------
@@ -99,11 +99,11 @@ class BaseRun:
 
     @cached_property
     def outcome(self) -> Outcome:
-        """Whether the end is certain, and how the neighbours end if not; there is none with ``trust=False``.
+        """Whether the end is certain, and how neighbours end if it is not; not available with ``trust=False``.
 
         See Also
         --------
-        trust : How far the run is known.
+        trust : How far the run can be trusted.
 
         Examples
         --------
@@ -122,7 +122,7 @@ class BaseRun:
 
     @cached_property
     def trust(self) -> Trust:
-        """How far the run can be trusted; there is nothing with ``trust=False``.
+        """How far the run can be trusted; not available with ``trust=False``.
 
         See Also
         --------
@@ -146,21 +146,22 @@ class BaseRun:
 
     @property
     def _horizon(self) -> float:
-        """Past this nothing is known; infinite where trust goes to the end, or was not asked for."""
+        """The time of the horizon of trust; infinite if trust reaches the end or was not computed."""
         horizon = self.trust.t if self._trusted else None
         return np.inf if horizon is None else horizon
 
     @cached_property
     def impacts(self) -> Table:
-        """The impacts, a row an impact and cable.
+        """The impacts, with one row for each impact and cable.
 
         Columns ``t`` [T], ``cable`` (from 1), ``v_n`` [L/T], ``impulse`` [m L/T], ``energy_lost`` [F L],
-        ``before_x`` to ``before_vtheta`` and ``after_x`` to ``after_vtheta``, and, with trust, ``digits``, the
-        decimal digits that are expected to be right. A row with ``v_n = 0`` is an impulse passed into a taut cable.
+        ``before_x`` to ``before_vtheta`` and ``after_x`` to ``after_vtheta``. With trust there is also ``digits``, the
+        number of decimal digits that are expected to be right. A row with ``v_n = 0`` is an impulse that is
+        transmitted to a taut cable.
 
         See Also
         --------
-        modes : What goes on between them.
+        modes : The modes of motion between the impacts.
 
         Examples
         --------
@@ -177,7 +178,7 @@ class BaseRun:
 
         See Also
         --------
-        impacts : What ends some of them.
+        impacts : The impacts, some of which end a mode interval.
 
         Examples
         --------
@@ -192,12 +193,12 @@ class BaseRun:
     def exponents(self) -> Table:
         """The spectrum of finite-time Lyapunov exponents, the largest first.
 
-        Columns ``direction``, from 1, and ``exponent`` [1/T], minus infinity in the two directions that a cable closes
-        which has stayed taut. Six of them, four of a point mass; none without trust.
+        Columns ``direction``, from 1, and ``exponent`` [1/T], minus infinity in the two directions that are removed by
+        a cable that has stayed taut. There are six exponents, or four for a point mass; none without trust.
 
         See Also
         --------
-        snapload.sensitivities : How the first impacts change with each key.
+        snapload.sensitivities : Computes how the first impacts change with each key.
 
         Examples
         --------
@@ -216,27 +217,27 @@ class BaseRun:
         )
 
     def motion(self, dt: float) -> np.recarray[Any, Any]:
-        """Play the motion at 0, dt, 2 dt, ... and at the end.
+        """Return the motion at the times 0, dt, 2 dt, ... and at the end.
 
         Parameters
         ----------
         dt : float
-            Step [T].
+            Time step [T].
 
         Returns
         -------
         numpy.recarray, shape (n,)
             Fields ``t`` [T], ``x``, ``y`` [L], ``theta`` [rad], ``vx``, ``vy`` [L/T], ``vtheta`` [rad/T], the
-            tensions ``T1``, ``T2`` and so on, one a cable [F], and ``energy`` [F L]; also as attributes.
+            tensions ``T1``, ``T2`` and so on of the cables [F], and ``energy`` [F L]; also as attributes.
 
         Raises
         ------
         ValueError
-            If dt is not above 0, or gives more than ten million rows.
+            If `dt` is not above 0, or gives more than ten million rows.
 
         See Also
         --------
-        at : Plays it at any times.
+        at : Returns the motion at any times.
 
         Examples
         --------
@@ -248,7 +249,10 @@ class BaseRun:
         return self._records(self._engine.motion(number("dt", dt)))
 
     def at(self, t: ArrayLike) -> np.recarray[Any, Any]:
-        """Play the motion at any times, held to the span of the run; at the instant of an event, just after it.
+        """Return the motion at any times.
+
+        Times outside the run are replaced by its start or its end. At the time of an event the state is that just
+        after the event.
 
         Parameters
         ----------
@@ -258,7 +262,7 @@ class BaseRun:
         Returns
         -------
         numpy.recarray, shape of `t`
-            As :meth:`motion`.
+            The fields of :meth:`motion`.
 
         Raises
         ------
@@ -267,7 +271,7 @@ class BaseRun:
 
         See Also
         --------
-        motion : Plays it at even steps.
+        motion : Returns the motion at even time steps.
 
         Examples
         --------
@@ -291,32 +295,32 @@ class BaseRun:
     def plot(
         self, what: Picture = "trajectory", ax: matplotlib.axes.Axes | None = None, **style: Any
     ) -> matplotlib.axes.Axes:
-        """Draw the run into axes of Matplotlib, and return them.
+        """Draw the run into Matplotlib axes, and return the axes.
 
         Parameters
         ----------
         what : {"trajectory", "rotation", "velocities", "tensions"}
-            The path of the centre; the rotation over time; the normal velocity of each snap, a cross for cable 1 and
-            a circle for cable 2; the tensions over time.
+            The picture to draw: the path of the centre; the rotation over time; the normal velocity of each snap,
+            with a cross for cable 1 and a circle for cable 2; or the tensions over time.
         ax : matplotlib.axes.Axes, optional
-            Where to draw; new ones, of the width of a column, if left out.
+            Axes to draw into; if left out, new ones of the width of a column.
         **style
-            Passed on to the lines, such as ``color`` or ``linewidth``.
+            Properties of the lines, such as ``color`` or ``linewidth``.
 
         Returns
         -------
         matplotlib.axes.Axes
-            The axes, to compose further. What lies past the horizon of trust is grey.
+            The axes, for further changes. The motion past the horizon of trust is grey.
 
         Raises
         ------
         ValueError
-            If there is no such picture.
+            If the picture is unknown.
 
         See Also
         --------
-        overview : All four pictures.
-        animate : The run as a moving picture.
+        overview : Draws all four pictures.
+        animate : Creates an animation of the run.
 
         Examples
         --------
@@ -329,12 +333,12 @@ class BaseRun:
         return draw(self, what, ax, style)
 
     def overview(self, figure: matplotlib.figure.Figure | None = None) -> matplotlib.figure.Figure:
-        """Draw all four pictures into one figure of the width of a page.
+        """Draw all four pictures into one figure of page width.
 
         Parameters
         ----------
         figure : matplotlib.figure.Figure, optional
-            An empty one to draw into.
+            An empty figure to draw into.
 
         Returns
         -------
@@ -343,7 +347,7 @@ class BaseRun:
 
         See Also
         --------
-        plot : One of them.
+        plot : Draws one of the pictures.
 
         Examples
         --------
@@ -358,21 +362,21 @@ class BaseRun:
     def animate(
         self, *, start: float = 0.0, stop: float | None = None, seconds: float = 8.0, fps: int = 25
     ) -> _animate.Animation:
-        """Make a moving picture of the run: body, cables, path.
+        """Create an animation of the run with body, cables and path.
 
         Parameters
         ----------
         start, stop : float, optional
-            From and to [T]; all of the run if left out.
+            Start and end of the shown part [T]; the whole run if left out.
         seconds : float
-            How long it plays.
+            Duration of the animation [s].
         fps : int
-            Pictures a second.
+            Frames per second.
 
         Returns
         -------
         Animation
-            Shows itself in a notebook, as HTML5 with buttons; ``save("run.gif")``, ``"run.mp4"`` or
+            The animation. A notebook shows it as HTML5 with buttons; ``save("run.gif")``, ``"run.mp4"`` or
             ``"run.html"`` writes a file.
 
         Raises
@@ -382,7 +386,7 @@ class BaseRun:
 
         See Also
         --------
-        plot : Pictures that stand still.
+        plot : Draws static pictures.
 
         Examples
         --------
@@ -402,7 +406,7 @@ class BaseRun:
 
     @property
     def _words(self) -> tuple[str, list[tuple[str, str]]]:
-        """What there is to read, as one text, and the same as labels and texts."""
+        """The summary as one text, and as pairs of label and text."""
         raise NotImplementedError
 
     def _in_short(self, of: str) -> str:

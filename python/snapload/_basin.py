@@ -1,4 +1,4 @@
-"""Which starts of a window stay below the limits, and which attractors they come to."""
+"""Safe basins, their erosion, and basins of attraction over a window of two keys."""
 
 from __future__ import annotations
 
@@ -30,44 +30,45 @@ _WHOLE = 1000
 
 
 def safe_basin(case: Case, *, trust: bool = True, progress: bool = True, **window: Unpack[Axes]) -> xarray.Dataset:
-    """Run every start of a window, and tell which stay below the limits, as ``snapload basin`` does.
+    """Compute which starts of a window stay below the limits (safe basin), as ``snapload basin`` does.
 
     Parameters
     ----------
     case : Case
-        What all starts have in common. A run that settles or goes on to ``t_end`` is safe.
+        The case with all keys that do not vary. A run that settles or continues to ``t_end`` is safe.
     trust : bool
-        Whether to look at the neighbours of each cell, which takes most of the time.
+        Whether to run the neighbours of each cell, which takes most of the time.
     progress : bool
-        Whether to show a bar if it takes long.
+        Whether to show a progress bar if the computation takes long.
     **window : array_like or str
-        The evenly spaced values of the two keys, or ``"first:last:n"``: any two, such as ``x`` and ``y``.
+        The evenly spaced values of any two keys, such as ``x`` and ``y``, as arrays or as ``"first:last:n"``.
 
     Returns
     -------
     xarray.Dataset
-        Over the two keys: ``outcome``, words for how the run ended (empty where the start is beyond a cable or a
-        limit, and no part of the window), ``outcome_code`` the same as numbers for maps, ``t`` when, ``legal``,
-        ``safe``, and with trust ``decided``, whether the neighbours at 1e-8 end alike, and ``trusted``, whether the
-        horizon of trust lies past the end. Attributes: ``legal``, ``safe`` and ``undecided`` cells; ``fraction`` and
-        ``gim``, the global integrity measure, with ``interval95``; and where both keys are starts ``lim``, the distance
-        of the nearest unsafe start from the equilibrium, ``if``, the radius of the largest disc without unsafe starts,
-        and ``iim``, the least unsafe velocity. NaN where there is none, ``lim`` and ``iim`` also where another start
-        key is not 0, so that the equilibrium is not in the plane of the two. ``cell`` is the size of a cell.
+        Variables over the two keys: ``outcome``, how the run ended, in words (empty where the start is beyond a cable
+        or a limit and therefore not in the window); ``outcome_code``, the same as numbers for maps; ``t``, the time of
+        the end; ``legal``; ``safe``; and with trust ``decided``, whether the neighbours at 1e-8 end alike, and
+        ``trusted``, whether the horizon of trust lies past the end. Attributes: the numbers of ``legal``, ``safe`` and
+        ``undecided`` cells; ``fraction`` and ``gim``, the global integrity measure, with ``interval95``; and
+        ``cell``, the size of a cell. If both keys are start values, there are also ``lim``, the distance of the
+        nearest unsafe start from the equilibrium, ``if``, the radius of the largest disc without unsafe starts, and
+        ``iim``, the smallest unsafe velocity. They are NaN where there is no such value; ``lim`` and ``iim`` are also
+        NaN where another start key is not 0, because the equilibrium is then not in the plane of the two keys.
 
     Raises
     ------
     ValueError
-        If there are not two keys, or one can not take a value.
+        If there are not exactly two keys, or a value of a key is not allowed.
 
     See Also
     --------
-    snapload.erosion : How it shrinks along a third key.
-    snapload.plot_basin : Draws it.
+    snapload.erosion : Computes how the basin shrinks along a third key.
+    snapload.plot_basin : Draws the basin.
 
     Notes
     -----
-    Python's lock is released meanwhile, and Ctrl-C ends it.
+    Python's lock is released during the computation, and Ctrl-C interrupts it.
 
     Examples
     --------
@@ -106,43 +107,43 @@ with_keys(safe_basin, defaults=False)
 def basins_of_attraction(
     case: Case, *, transient: int = 300, progress: bool = True, **window: Unpack[Axes]
 ) -> tuple[xarray.DataArray, dict[int, Orbit]]:
-    """Follow every start of a window, and tell which attractor it comes to: ``snapload basin --kind attractor``.
+    """Compute which attractor each start of a window reaches, as ``snapload basin --kind attractor`` does.
 
     Parameters
     ----------
     case : Case
-        What all starts have in common.
+        The case with all keys that do not vary.
     transient : int
-        Periods of the forcing before attractors are looked at.
+        Forcing periods to skip before attractors are identified.
     progress : bool
-        Whether to show a bar if it takes long.
+        Whether to show a progress bar if the computation takes long.
     **window : array_like or str
-        The evenly spaced values of the two keys, or ``"first:last:n"``.
+        The evenly spaced values of the two keys, as arrays or as ``"first:last:n"``.
 
     Returns
     -------
     labels : xarray.DataArray
-        Over the two keys: the number of the attractor, from 1, that with most cells first; 0 where the motion goes on
-        without a period; -1 where the start is not legal; -2 and below where the motion stops at a limit, as
-        ``flag_values`` and ``flag_meanings`` tell. Attributes: ``legal`` cells, ``cells`` of each attractor and their
-        ``fractions``.
+        The number of the attractor over the two keys, counted from 1 in order of decreasing numbers of cells; 0 where
+        the motion continues without a period; -1 where the start is not legal; -2 and below where the motion stops at
+        a limit, as ``flag_values`` and ``flag_meanings`` describe. Attributes: the number of ``legal`` cells, and the
+        ``cells`` of each attractor with their ``fractions``.
     attractors : dict of int to Orbit
-        The orbit of each label, where both keys are starts and the orbit is closed.
+        The orbit of each label, if both keys are start values and the orbit could be computed.
 
     Raises
     ------
     ValueError
-        If there are not two keys, or one can not take a value.
+        If there are not exactly two keys, or a value of a key is not allowed.
 
     See Also
     --------
-    snapload.safe_basin : Which starts stay below the limits.
+    snapload.safe_basin : Computes which starts stay below the limits.
     snapload.plot_basin : Draws the labels.
 
     Notes
     -----
-    The stops by settling and sliding are off, and the motion may come to rest on its cables, which is an attractor,
-    too. Python's lock is released meanwhile, and Ctrl-C ends it.
+    Runs do not stop when the body settles or slides. A motion may come to rest on its cables, which is an attractor,
+    too. Python's lock is released during the computation, and Ctrl-C interrupts it.
 
     Examples
     --------
@@ -195,44 +196,45 @@ def erosion(
     progress: bool = True,
     **window: Unpack[Axes],
 ) -> xarray.Dataset:
-    """Tell how the safe part of a window shrinks along a third key, as ``snapload erosion`` does.
+    """Compute how the safe part of a window shrinks along a third key, as ``snapload erosion`` does.
 
     Parameters
     ----------
     case : Case
-        What all starts have in common.
+        The case with all keys that do not vary.
     over : dict of str to array_like or str
         The third key and its values, such as ``{"f_o": "0:0.6:21"}``.
     trust : bool
-        Whether to look at the neighbours of each cell, which takes most of the time.
+        Whether to run the neighbours of each cell, which takes most of the time.
     progress : bool
-        Whether to show a bar if it takes long.
+        Whether to show a progress bar if the computation takes long.
     **window : array_like or str
-        The evenly spaced values of the two keys of the window, or ``"first:last:n"``.
+        The evenly spaced values of the two keys of the window, as arrays or as ``"first:last:n"``.
 
     Returns
     -------
     xarray.Dataset
-        Over the third key: ``gim`` between ``low`` and ``high`` (95 %), ``lim``, ``if`` and ``iim`` as
-        :func:`snapload.safe_basin` has them, the cells that are ``legal``, ``safe`` and ``undecided`` (NaN without
-        trust), and ``decided_fraction``, the safe part of the decided cells. The attribute ``knee`` is the last value
-        up to which that part never falls below nine tenths of what it is at the first one; NaN if it never does.
-        ``knee_between`` has the least and the greatest value that it has, however the undecided cells end, NaN for one
-        beyond the last value; without trust, where all cells count as decided, it is not there.
+        Variables over the third key: ``gim`` with its 95 % interval from ``low`` to ``high``; ``lim``, ``if`` and
+        ``iim`` as in :func:`snapload.safe_basin`; the numbers of cells that are ``legal``, ``safe`` and ``undecided``
+        (NaN without trust); and ``decided_fraction``, the safe fraction of the decided cells. The attribute ``knee``
+        is the last value up to which that fraction never falls below nine tenths of its value at the first one; NaN
+        if it never does. The attribute ``knee_between`` has the smallest and the largest possible ``knee``, whatever
+        the ends of the undecided cells; NaN stands for one beyond the last value. Without trust all cells count as
+        decided, and ``knee_between`` is absent.
 
     Raises
     ------
     ValueError
-        If there are not two keys and a third one, or one can not take a value.
+        If there are not two keys and a third one, or a value of a key is not allowed.
 
     See Also
     --------
-    snapload.safe_basin : The window at one value.
-    snapload.plot_erosion : Draws it.
+    snapload.safe_basin : Computes the window at one value.
+    snapload.plot_erosion : Draws the erosion.
 
     Notes
     -----
-    Python's lock is released meanwhile, and Ctrl-C ends it.
+    Python's lock is released during the computation, and Ctrl-C interrupts it.
 
     Examples
     --------
@@ -308,7 +310,7 @@ def _coords(sides: list[tuple[str, Any]]) -> dict[str, Any]:
 
 
 def _measures(told: dict[str, Any]) -> dict[str, Any]:
-    """The measures as attributes that any file of xarray can hold."""
+    """The measures as attributes of a kind that every file format of xarray can store."""
     names = ("legal", "safe", "fraction", "undecided", "past_horizon", "gim", "lim", "if", "iim")
     return {name: or_nan(told[name]) for name in names} | {"interval95": np.array(told["interval95"])}
 

@@ -1,4 +1,4 @@
-"""Pictures of basins, erosion and diagrams with Matplotlib, that can be told apart without colour."""
+"""Pictures of basins, erosion and diagrams with Matplotlib, which are readable without colour."""
 
 from __future__ import annotations
 
@@ -69,7 +69,7 @@ def draw_basin(basin: xarray.Dataset | xarray.DataArray, ax: Axes | None) -> Axe
 
 
 def _of_ends(outcomes: NDArray[Any]) -> tuple[NDArray[np.int64], list[tuple[str, str]]]:
-    """The cells by how they end, as numbers from 1, and how each number is drawn; 0 is no start."""
+    """The end of each cell as a number from 1, and the style of each number; 0 is no legal start."""
     numbers = np.zeros(outcomes.shape, dtype=np.int64)
     looks: list[tuple[str, str]] = []
     for word in dict.fromkeys([*_ENDS, *REASONS]):
@@ -87,7 +87,7 @@ def _look_of(reason: str) -> tuple[str, str]:
 
 
 def _of_labels(labels: xarray.DataArray) -> tuple[NDArray[np.int64], list[tuple[str, str]]]:
-    """The same of labels of attractors."""
+    """The number and the style of each cell, from labels of attractors."""
     values = np.asarray(labels.values)
     words = dict(zip(labels.attrs["flag_values"].tolist(), labels.attrs["flag_meanings"].split(), strict=True))
     numbers = np.zeros(values.shape, dtype=np.int64)
@@ -123,7 +123,7 @@ def _edges(values: NDArray[Any]) -> NDArray[np.float64]:
 
 
 def draw_erosion(eroded: xarray.Dataset, ax: Axes | None) -> Axes:
-    """Draws the part that is safe, and distances."""
+    """Draws the safe fraction and the distances."""
     if not hasattr(eroded, "data_vars") or not {"gim", "lim", "if"} <= set(eroded.data_vars):
         allowed = "what snapload.erosion gives"
         raise TypeError(f"eroded, a {type(eroded).__name__}, is not allowed; allowed: {allowed}")

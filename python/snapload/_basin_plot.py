@@ -21,25 +21,25 @@ def plot_basin(
     Parameters
     ----------
     basin : xarray.Dataset or xarray.DataArray
-        What :func:`snapload.safe_basin` gives, or the labels of :func:`snapload.basins_of_attraction`.
+        The result of :func:`snapload.safe_basin`, or the labels of :func:`snapload.basins_of_attraction`.
     ax : matplotlib.axes.Axes, optional
-        Where to draw; new ones, of the width of a column, if left out.
+        Axes to draw into; if left out, new ones of the width of a column.
 
     Returns
     -------
     matplotlib.axes.Axes
-        The axes, to compose further. Safe cells are light, those that reach a limit dark, starts that can not be
-        white. Cells that are not decided are hatched.
+        The axes, for further changes. Safe cells are light, cells that reach a limit are dark, and starts that are
+        not legal are white. Undecided cells are hatched.
 
     Raises
     ------
     TypeError
-        If it is something else.
+        If the argument is something else.
 
     See Also
     --------
-    snapload.safe_basin : Makes a safe basin.
-    snapload.basins_of_attraction : Makes labels.
+    snapload.safe_basin : Computes a safe basin.
+    snapload.basins_of_attraction : Computes labels of attractors.
 
     Examples
     --------
@@ -54,28 +54,29 @@ def plot_basin(
 
 
 def plot_erosion(eroded: xarray.Dataset, ax: matplotlib.axes.Axes | None = None) -> matplotlib.axes.Axes:
-    """Draw how a safe basin shrinks: its part of the window, and the distances of its robust core.
+    """Draw how a safe basin shrinks: its fraction of the window, and its integrity measures as distances.
 
     Parameters
     ----------
     eroded : xarray.Dataset
-        What :func:`snapload.erosion` gives.
+        The result of :func:`snapload.erosion`.
     ax : matplotlib.axes.Axes, optional
-        Where to draw; new ones, of the width of a column, if left out.
+        Axes to draw into; if left out, new ones of the width of a column.
 
     Returns
     -------
     matplotlib.axes.Axes
-        The axes of the part, to compose further; those of the distances lie over them, with their scale on the right.
+        The axes of the fraction, for further changes. The axes of the distances lie over them, with their scale on
+        the right.
 
     Raises
     ------
     TypeError
-        If it is something else.
+        If the argument is something else.
 
     See Also
     --------
-    snapload.erosion : Makes it.
+    snapload.erosion : Computes the erosion of a safe basin.
 
     Examples
     --------
@@ -93,34 +94,34 @@ def plot_erosion(eroded: xarray.Dataset, ax: matplotlib.axes.Axes | None = None)
 def plot_diagram(
     diagram: xarray.Dataset, y: str = "x", ax: matplotlib.axes.Axes | None = None, **style: Any
 ) -> matplotlib.axes.Axes:
-    """Draw the section points of an attractor against its key.
+    """Draw the section points of an attractor against the key that varies.
 
     Parameters
     ----------
     diagram : xarray.Dataset
-        What :func:`snapload.orbit_diagram` gives.
+        The result of :func:`snapload.orbit_diagram`.
     y : {"x", "y", "theta", "vx", "vy", "vtheta"}
-        Which value of the state.
+        The value of the state to draw.
     ax : matplotlib.axes.Axes, optional
-        Where to draw; new ones, of the width of a column, if left out.
+        Axes to draw into; if left out, new ones of the width of a column.
     **style
-        Passed on to the points, such as ``color`` or ``markersize``.
+        Properties of the points, such as ``color`` or ``markersize``.
 
     Returns
     -------
     matplotlib.axes.Axes
-        The axes, to compose further. Values at which the motion stopped at a limit are marked at the bottom.
+        The axes, for further changes. Values at which the motion stopped at a limit are marked at the bottom.
 
     Raises
     ------
     TypeError
-        If it is something else.
+        If the argument is something else.
     ValueError
-        If there is no such quantity.
+        If the quantity is unknown.
 
     See Also
     --------
-    snapload.orbit_diagram : Makes it.
+    snapload.orbit_diagram : Computes the diagram.
 
     Examples
     --------

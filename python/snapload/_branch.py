@@ -1,4 +1,4 @@
-"""Branches: an orbit as a key changes, with everything that happens to it on the way."""
+"""Branches of periodic orbits along a key, with their bifurcations and other events."""
 
 from __future__ import annotations
 
@@ -38,21 +38,21 @@ Ordinate = Literal["x", "y", "theta", "vx", "vy", "vtheta", "largest_multiplier"
 class Branch:
     """A branch of periodic orbits of a case along one key.
 
-    Made by :func:`snapload.continuation` and :meth:`switch`.
+    Returned by :func:`snapload.continuation` and :meth:`switch`.
 
     Attributes
     ----------
     case : Case
-        The case whose orbit it was begun with.
+        The case of the orbit from which the branch was started.
     along : str
-        The key that changes.
+        The key that varies.
     ends : tuple of dict
-        Its two ends: the value ``at``, and ``because`` of what it ends there.
+        The two ends of the branch: ``at``, the value of the key, and ``because``, the reason why it ends there.
 
     See Also
     --------
-    snapload.continuation : Follows one.
-    snapload.orbit_diagram : The attractor against a key, by simulation.
+    snapload.continuation : Computes a branch.
+    snapload.orbit_diagram : Computes the attractor against a key by simulation.
 
     Examples
     --------
@@ -87,7 +87,7 @@ class Branch:
 
     @property
     def _followed(self) -> _engine.Branch:
-        """The branch of the engine. One that came from another process has left it there: it is followed again."""
+        """The branch of the engine. It does not travel to other processes, where it is computed again."""
         if self._made is None:
             orbit, along, options = self._begun
             made = _engine.continuation(orbit._engine, along, *options, None)
@@ -100,12 +100,13 @@ class Branch:
     def points(self) -> xarray.Dataset:
         """The points along the branch, over ``point``, with the key and the arclength as coordinates.
 
-        ``x`` to ``vtheta`` are the state at the section, ``multipliers`` complex, ``stability`` words, ``stable``
-        whether neighbours come back, ``admissible`` whether a body can have the orbit, and ``why_not``.
+        ``x`` to ``vtheta`` are the state at the section, ``multipliers`` the complex Floquet multipliers, ``stability``
+        the stability in words, ``stable`` whether nearby motions converge to the orbit, ``admissible`` whether the
+        orbit is a possible motion of the body, and ``why_not`` the reasons if it is not.
 
         See Also
         --------
-        orbit : The orbit at one of them.
+        orbit : Returns the orbit at a point.
 
         Examples
         --------
@@ -157,16 +158,16 @@ class Branch:
 
     @cached_property
     def events(self) -> Table:
-        """What happens along the branch, in the order of its points.
+        """Bifurcations and other events along the branch, in the order of its points.
 
         Columns ``kind`` (fold, period_doubling, neimark_sacker, graze, corner, tension_lost, or a limit such as
         rotation_limit or upper_bound), ``value`` of the key, ``arclength``, the state ``x`` to ``vtheta``, ``cable``
-        (0 where none is meant), ``t`` in the lap, ``normal_acceleration`` and ``sqrt_coefficient`` of a graze,
-        ``largest_multiplier``, and ``admissible`` (1 or 0). What there is none of is NaN.
+        (0 if no cable is involved), ``t`` within the period, ``normal_acceleration`` and ``sqrt_coefficient`` of a
+        graze, ``largest_multiplier``, and ``admissible`` (1 or 0). Missing values are NaN.
 
         See Also
         --------
-        switch : Goes over to the branch that is born at one of them.
+        switch : Follows the branch that bifurcates at an event.
 
         Examples
         --------
@@ -180,11 +181,11 @@ class Branch:
 
     @property
     def origins(self) -> Table:
-        """The period doublings of other branches by which this one was come to, with the columns of `events`.
+        """Period doublings at which this branch was reached from other branches, with the columns of `events`.
 
         See Also
         --------
-        switch : Goes over to another branch.
+        switch : Follows a branch that bifurcates from this one.
 
         Examples
         --------
@@ -199,26 +200,26 @@ class Branch:
         return len(self._told["points"])
 
     def orbit(self, point: int) -> Orbit:
-        """Give the orbit at a point.
+        """Return the orbit at a point.
 
         Parameters
         ----------
         point : int
-            The number of the point, from 0; from the end if it is below.
+            The index of the point, from 0; a negative index counts from the end.
 
         Returns
         -------
         Orbit
-            Of the case with the value that the key has there.
+            The orbit, whose case has the value of the key at that place.
 
         Raises
         ------
         IndexError
-            If there is no such point.
+            If the index is out of range.
 
         See Also
         --------
-        event : The orbit at an event.
+        event : Returns the orbit at an event.
 
         Examples
         --------
@@ -231,26 +232,26 @@ class Branch:
         return self._orbit(self._followed.point(range(len(self))[point]))
 
     def event(self, event: int) -> Orbit:
-        """Give the orbit at an event.
+        """Return the orbit at an event.
 
         Parameters
         ----------
         event : int
-            The number of the row of `events`, from 0; from the end if it is below.
+            The row of `events`, from 0; a negative index counts from the end.
 
         Returns
         -------
         Orbit
-            Of the case with the value that the key has there.
+            The orbit, whose case has the value of the key at that place.
 
         Raises
         ------
         IndexError
-            If there is no such event.
+            If the index is out of range.
 
         See Also
         --------
-        orbit : The orbit at a point.
+        orbit : Returns the orbit at a point.
 
         Examples
         --------
@@ -277,39 +278,40 @@ class Branch:
         points: int | None = None,
         progress: bool = True,
     ) -> Branch:
-        """Go over to the branch that is born at an event: of orbits of twice the length at a period doubling.
+        """Follow the branch that bifurcates at an event: orbits of twice the period at a period doubling.
 
         Parameters
         ----------
         kind : {"period_doubling"}
             The kind of the event.
         number : int, optional
-            Which one of those that `events` has of the kind, counted from 1; the nearest one along the branch if left
-            out.
+            The number of the event among those of its kind in `events`, counted from 1; the nearest one along the
+            branch if left out.
         between : (float, float) or str, optional
-            The least and the greatest value of the key; those of this branch if left out.
+            The smallest and the largest value of the key; those of this branch if left out.
         step : float, optional
             Length of the first step; that of this branch if left out.
         points : int, optional
-            Points at most; those of this branch if left out.
+            Maximum number of points in each direction; that of this branch if left out.
         progress : bool
-            Whether to show a bar if it takes long.
+            Whether to show a progress bar if the computation takes long.
 
         Returns
         -------
         Branch
-            The new branch. One of its two halves is followed; the other one is the same a lap later.
+            The new branch. Only one of its two halves is followed; the other has the same orbits, one period of the
+            original orbit later.
 
         Raises
         ------
         NoOrbitError
-            If there is no such event, or no direction is found there.
+            If there is no such event, or no direction of the new branch is found there.
         ValueError
-            If nothing is born at that kind of event, or an option is out of its range.
+            If no branch bifurcates at that kind of event, or an option is out of its range.
 
         See Also
         --------
-        events : Where something is born.
+        events : The events of this branch.
 
         Examples
         --------
@@ -340,31 +342,32 @@ class Branch:
         return born
 
     def plot(self, y: Ordinate = "y", ax: matplotlib.axes.Axes | None = None, **style: Any) -> matplotlib.axes.Axes:
-        """Draw the branch into axes of Matplotlib, and return them.
+        """Draw the branch into Matplotlib axes, and return the axes.
 
         Parameters
         ----------
         y : {"x", "y", "theta", "vx", "vy", "vtheta", "largest_multiplier"}
-            What is drawn against the key: a value of the state at the section, or the size of the largest multiplier.
+            The quantity to draw against the key: a value of the state at the section, or the modulus of the largest
+            multiplier.
         ax : matplotlib.axes.Axes, optional
-            Where to draw; new ones, of the width of a column, if left out.
+            Axes to draw into; if left out, new ones of the width of a column.
         **style
-            Passed on to the lines, such as ``linewidth``.
+            Properties of the lines, such as ``linewidth``.
 
         Returns
         -------
         matplotlib.axes.Axes
-            The axes, to compose further. Stable orbits are a thick line, unstable ones dashed, neutral ones
-            dash-dotted, and those that no body can have dotted and grey. Events are marked by their kind.
+            The axes, for further changes. The line is thick for stable orbits, dashed for unstable ones, dash-dotted
+            for neutral ones, and dotted and grey for orbits that are not admissible. Events are marked by their kind.
 
         Raises
         ------
         ValueError
-            If there is no such quantity.
+            If the quantity is unknown.
 
         See Also
         --------
-        points : The numbers of the picture.
+        points : The data of the picture.
 
         Examples
         --------

@@ -1,4 +1,4 @@
-"""What happens along a branch, as a table."""
+"""The events along a branch, as a table."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from ._table import Table, numbers
 
 
 def events_table(rows: list[dict[str, Any]]) -> Table:
-    """A row an event."""
+    """One row for each event."""
     column = partial(numbers, rows)
 
     largest = [np.abs(complexes(row["multipliers"])).max() for row in rows]

@@ -1,4 +1,4 @@
-"""Pictures of branches with Matplotlib, that can be told apart without colour."""
+"""Pictures of branches with Matplotlib, which are readable without colour."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""A case, and the built-in ones."""
+"""Cases, and the built-in cases."""
 
 from __future__ import annotations
 
@@ -21,31 +21,32 @@ _SHOWN = ("r", "e", "a", "b", "f_o", "nu", "omega")
 
 
 class Case(KeyValues, HasOrbits):
-    """A breakwater on two cables: body, cables, waves, start and stop rules, checked once.
+    """A breakwater moored by two cables: body, cables, waves, start and stop rules.
 
     Parameters
     ----------
     code : str, optional
-        A built-in case to begin with (see :data:`snapload.cases`); the standard case if left out.
+        The built-in case to start from (see :data:`snapload.cases`); the standard case if left out.
     {parameters}
 
     Raises
     ------
     ValueError
-        If a key is unknown or can not take its value; the words are those of the command line.
+        If a key is unknown or its value is not allowed, with the message of the command line.
 
     See Also
     --------
     snapload.cases : The built-in cases.
-    snapload.sweep : Many cases at once.
-    snapload.System : Other bodies, cables and forces.
+    snapload.sweep : Runs many cases.
+    snapload.System : Describes other bodies, cables and forces.
 
     Notes
     -----
-    The model and its sources are told in the manual, under "The model". Lengths are in L, half the distance of
-    the anchors; masses in m, the body's; forces in F, its net buoyancy; times in T = sqrt(m L / F).
+    The manual describes the model and its sources under "The model". Lengths are in L, half the distance between the
+    anchors; masses in m, the mass of the body; forces in F, its net buoyancy; times in T = sqrt(m L / F).
 
-    A case is a mapping of all keys in effect: ``case["f_o"]``, ``dict(case)`` and ``Case(**case)`` work.
+    All values are checked when the case is created. A case is a mapping of all keys in effect: ``case["f_o"]``,
+    ``dict(case)`` and ``Case(**case)`` work.
 
     Examples
     --------
@@ -79,24 +80,24 @@ class Case(KeyValues, HasOrbits):
 
     @classmethod
     def from_file(cls, path: str | PathLike[str]) -> Self:
-        """Read a case from a TOML file, one ``key = value`` a line, as the command line reads it.
+        """Read a case from a TOML file with one ``key = value`` per line, as the command line does.
 
         Parameters
         ----------
         path : path-like
-            The file.
+            The file to read.
 
         Returns
         -------
         Case
-            Its name is that of the file.
+            The case, whose name is the path of the file.
 
         Raises
         ------
         ValueError
-            If it is not TOML, or a key in it is wrong.
+            If the file is not TOML, or a key in it is wrong.
         OSError
-            If it can not be read.
+            If the file can not be read.
 
         See Also
         --------
@@ -125,17 +126,17 @@ class Case(KeyValues, HasOrbits):
             raise ValueError(f"{fspath(path)}: {error}") from None
 
     def to_file(self, path: str | PathLike[str]) -> None:
-        """Write the keys that were given as a TOML file, which :meth:`from_file` and the command line read.
+        """Write the given keys to a TOML file, which :meth:`from_file` and the command line can read.
 
         Parameters
         ----------
         path : path-like
-            The file; one that is there is written over.
+            The file to write; an existing file is overwritten.
 
         Raises
         ------
         OSError
-            If it can not be written.
+            If the file can not be written.
 
         See Also
         --------
@@ -160,17 +161,17 @@ class Case(KeyValues, HasOrbits):
             file.writelines(lines)
 
     def replace(self, **keys: Unpack[Keys]) -> Self:
-        """Change some keys; what follows from them, such as the inertia, follows anew.
+        """Return a case with some keys changed; derived values, such as the inertia, are computed again.
 
         Parameters
         ----------
         **keys
-            Those to change, as for :class:`Case`; ``inertia=None`` is the natural one.
+            Keys to change, as for :class:`Case`; ``inertia=None`` means the natural inertia.
 
         Returns
         -------
         Case
-            Another case; this one stays as it is. ``copy.replace`` does the same.
+            A new case; this one does not change. ``copy.replace`` does the same.
 
         Raises
         ------
@@ -197,7 +198,7 @@ class Case(KeyValues, HasOrbits):
 
     @property
     def name(self) -> str:
-        """Code of a built-in case, name of a file, or ``standard case``.
+        """The code of a built-in case, the name of a file, or ``standard case``.
 
         See Also
         --------
@@ -212,12 +213,12 @@ class Case(KeyValues, HasOrbits):
         return self._engine.name
 
     def keys(self) -> dict[str, Any]:
-        """Give every key in effect with its value.
+        """Return every key in effect with its value.
 
         Returns
         -------
         dict
-            In the order of the schema; ``inertia`` is None for a point mass.
+            Keys and values in the order of the schema; ``inertia`` is None for a point mass.
 
         See Also
         --------
@@ -252,42 +253,42 @@ class Case(KeyValues, HasOrbits):
         members: int | None = None,
         seed: int = 1,
     ) -> Run:
-        """Run the case to its end, and say how far the run can be trusted.
+        """Run the case to its end, and compute how far the run can be trusted.
 
         Parameters
         ----------
         trust : bool
-            Whether to say how far the run can be trusted. The motion is the same to the bit; the manual tells what
-            trust costs, under "How far to trust a result".
+            Whether to compute how far the run can be trusted. The motion is the same to the bit; the manual states the
+            cost under "How far to trust a result".
         uncertainty : float or dict of str to float, optional
-            How far the start may be off, either way: one size for every start value, or a size for each key. If left
-            out, nothing but rounding; neighbours are then drawn from 1e-12 about every start value.
+            Uncertainty of the start in either direction: one size for every start value, or a size for each key. If
+            left out, only rounding is uncertain; neighbours are then drawn from 1e-12 about every start value.
         tolerance : float
             Error of state and time above which a result counts as not known.
         members : int, optional
-            Neighbours to run where the end is past the horizon; 0 for none. If left out, 1000, or 200 if those
-            end alike.
+            Number of neighbours to run if the end is past the horizon of trust; 0 for none. If left out, 1000, or 200
+            if those end alike.
         seed : int
-            Which neighbours.
+            Seed of the neighbours.
 
         Returns
         -------
         Run
-            The finished run: how it ended, impacts, modes, norms, trust, motion.
+            The finished run with its end, impacts, modes, norms, trust and motion.
 
         Raises
         ------
         ValueError
-            If an option is out of its range, or a key can not be in doubt.
+            If an option is out of its range, or a key can not be uncertain.
 
         See Also
         --------
-        snapload.ensemble : Neighbours of a case, wherever its horizon is.
-        snapload.sweep : Many cases.
+        snapload.ensemble : Runs neighbours of a case, wherever its horizon is.
+        snapload.sweep : Runs many cases.
 
         Notes
         -----
-        Python's lock is released meanwhile, and Ctrl-C ends it.
+        Python's lock is released during the computation, and Ctrl-C interrupts it.
 
         Examples
         --------
@@ -357,18 +358,18 @@ def _restore(cls: type[Case], name: str, given: dict[str, Any]) -> Case:
 
 
 class _Unknown(KeyError):
-    """No such key or code, told without the quotes that a KeyError puts about its words."""
+    """An unknown key or code; its message has no quotes, which a KeyError would add."""
 
     def __str__(self) -> str:
         return Exception.__str__(self)
 
 
 class Cases(Mapping[str, Case]):
-    """The built-in cases by code: those of Table 6.1 of the thesis, and the examples of its section 6.5.
+    """The built-in cases by code: the cases of Table 6.1 of the thesis and the examples of its section 6.5.
 
     See Also
     --------
-    snapload.Case : Begins with one of them, as ``Case("sliding-example", e=0.7)``.
+    snapload.Case : Can start from one of them, as in ``Case("sliding-example", e=0.7)``.
 
     Examples
     --------

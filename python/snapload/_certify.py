@@ -1,4 +1,4 @@
-"""A run beside its proof."""
+"""The proof of a run."""
 
 from __future__ import annotations
 
@@ -22,31 +22,31 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True, repr=False, eq=False)
 class Certificate(Result):
-    """What is proved of a run, and how much of the run's own doubles it confirms.
+    """What is proved about a run, and how many digits of the run in doubles it confirms.
 
     Attributes
     ----------
     proved : bool
         Whether the proof reaches the end of the run.
     end : str or None
-        How the run ends, as :attr:`End.reason <snapload.End>` has it; None where the proof does not reach the end.
+        How the run ends, as in :attr:`End.reason <snapload.End>`; None if the proof does not reach the end.
     t : str
-        When the last thing that is proved happens [T]: the end, or the last impact; a decimal, each digit of which is
+        The time of the last proved event [T], which is the end or the last impact, as a decimal of which each digit is
         right.
     undecided : str or None
-        What ended the proof before the end of the run.
+        The reason why the proof stopped before the end of the run.
     bits : int
-        Bits of the numbers that it took.
+        Number of bits of the numbers in the proof.
     impacts : Table
         The proved impacts: ``cable``; ``t`` [T] and ``v_n`` [L/T] as the nearest doubles, and as decimals in
         ``t_exact`` and ``v_n_exact``, which `decimal.Decimal` reads.
     digits : numpy.ndarray, shape (number of rows of the run's impacts,)
-        So many digits of the time of each impact of the run are confirmed; NaN where no such impact is proved, from
-        the first one of another cable on, and for impulses that pass into a taut cable.
+        The number of confirmed digits of the time of each impact of the run. NaN if no such impact is proved, from the
+        first impact in a different cable on, and for impulses that are transmitted to a taut cable.
     departure : int or None
-        The first impact of the run, from 1, that is not the proved one in five digits; None where there is none.
+        The first impact of the run, from 1, that differs from the proved one within five digits; None if there is none.
     text : str
-        The certificate, which ``snapload certify --check`` takes.
+        The certificate, which ``snapload certify --check`` can check.
 
     See Also
     --------
@@ -77,11 +77,11 @@ class Certificate(Result):
         Parameters
         ----------
         path : str or path
-            Where to.
+            The file to write.
 
         See Also
         --------
-        snapload.Run.certify : Makes the certificate.
+        snapload.Run.certify : Creates the certificate.
 
         Examples
         --------

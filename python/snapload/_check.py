@@ -1,4 +1,4 @@
-"""What options may be, told in the words of the engine."""
+"""Checks of options, with the messages of the engine."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ Uncertainty: TypeAlias = float | Mapping[str, float] | None
 
 
 def engine_of(case: Case) -> _engine.Case:
-    """The case of the engine, of what has to be a case."""
+    """The engine's case of an argument that has to be a case."""
     from ._case import Case
 
     if isinstance(case, Case):
@@ -29,14 +29,14 @@ def engine_of(case: Case) -> _engine.Case:
 
 
 def whole(option: str, value: SupportsIndex, most: int | None = None) -> int:
-    """A whole number that an option takes, which the engine knows by its name."""
+    """A whole number that is allowed for an option, which the engine identifies by name."""
     return _engine.whole(option, value, most)
 
 
 def threads_for(asked: SupportsIndex, callers: int) -> int:
-    """As many threads as asked for, up to a few for each that the machine runs at a time.
+    """The requested number of threads, limited to a few for each thread that the machine runs at a time.
 
-    Where these are fewer a warning says so, at the code that called the package through so many functions.
+    If it is reduced, there is a warning at the code that called the package through `callers` functions.
     """
     threads, fewer = _engine.threads_for(number := whole("threads", asked))
     if fewer:
@@ -45,7 +45,7 @@ def threads_for(asked: SupportsIndex, callers: int) -> int:
 
 
 def number(name: str, value: SupportsFloat) -> float:
-    """A number; which ones are allowed the engine says."""
+    """A number; the engine checks whether it is allowed."""
     try:
         if not isinstance(value, (str, bytes)):
             return float(value)
@@ -55,7 +55,7 @@ def number(name: str, value: SupportsFloat) -> float:
 
 
 def plain(uncertainty: Uncertainty) -> dict[str, float] | float | None:
-    """As the engine takes it."""
+    """An uncertainty in the form that the engine expects."""
     if uncertainty is None:
         return None
     if isinstance(uncertainty, Mapping):
@@ -68,6 +68,6 @@ def plain(uncertainty: Uncertainty) -> dict[str, float] | float | None:
 
 
 def there(path: str) -> str:
-    """A file that can be opened; if not, the error is Python's own, such as ``FileNotFoundError``."""
+    """A file that can be opened; otherwise Python's own error is raised, such as ``FileNotFoundError``."""
     with open(path, "rb"):
         return path

@@ -1,4 +1,4 @@
-"""An orbit followed as a key changes."""
+"""Continuation of a periodic orbit in a key."""
 
 from __future__ import annotations
 
@@ -19,27 +19,27 @@ def continuation(
     points: int = 2000,
     progress: bool = True,
 ) -> Branch:
-    """Follow an orbit as a key changes, in both directions and round folds, as ``snapload branch`` does.
+    """Follow an orbit as a key changes, in both directions and around folds, as ``snapload branch`` does.
 
     Parameters
     ----------
     orbit : Orbit
-        Where to begin.
+        The orbit from which the branch is started.
     key : str
-        The key of the case that changes.
+        The key of the case to vary.
     between : (float, float) or str
-        The least and the greatest value of the key, or ``"low:high"``. The value of the orbit's case lies between.
+        The smallest and the largest value of the key, or ``"low:high"``. The value in the orbit's case lies between.
     step : float
-        Length of the first step, in the space of state, times of events, and the key.
+        Length of the first step, in the space of the state, the event times and the key.
     points : int
-        Points in either direction at most.
+        Maximum number of points in each direction.
     progress : bool
-        Whether to show a bar if it takes long.
+        Whether to show a progress bar if the computation takes long.
 
     Returns
     -------
     Branch
-        Its points and events, from one end to the other.
+        The branch with its points and events, from one end to the other.
 
     Raises
     ------
@@ -48,14 +48,15 @@ def continuation(
 
     See Also
     --------
-    snapload.Case.orbit : Finds an orbit to begin with.
-    Branch.switch : Goes over to another branch.
+    snapload.Case.orbit : Finds an orbit to start from.
+    Branch.switch : Follows a branch that bifurcates from this one.
 
     Notes
     -----
-    By pseudo-arclength, with the sequence of events held. Every point is run for one lap; a sequence that closes need
-    not be a motion, and ``points.admissible`` says where it is. Python's lock is released meanwhile, and Ctrl-C ends
-    it.
+    The method is pseudo-arclength continuation with the sequence of events held fixed. Every orbit is also simulated
+    for one period, because a solution for a sequence of events need not be a possible motion;
+    ``points.admissible`` says where it is one. Python's lock is released during the computation, and Ctrl-C
+    interrupts it.
 
     Examples
     --------

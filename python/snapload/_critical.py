@@ -1,4 +1,4 @@
-"""The critical force, and why one number is not enough."""
+"""The critical force, and all other force amplitudes that exceed the limits."""
 
 from __future__ import annotations
 
@@ -32,24 +32,24 @@ class CriticalForce(Result):
     Attributes
     ----------
     f_cr : float or None
-        The smallest one that exceeds [F]; None if none does.
+        The smallest amplitude that exceeds a limit [F]; None if none does.
     reason : str or None
-        How its run ends: at which limit, such as ``rotation_limit`` or ``upper_bound``.
+        The limit at which its run ends, such as ``rotation_limit`` or ``upper_bound``.
     t : float or None
-        When [T].
+        The time of that end [T].
     exceeding : numpy.ndarray, shape (n, 2)
-        All that exceed, as intervals of neighbouring amplitudes ``[from, to]`` [F]. The set is no interval: an
-        amplitude above the critical one may settle.
+        All amplitudes that exceed a limit, as intervals ``[from, to]`` of adjacent amplitudes [F]. There may be several
+        intervals, because a run with an amplitude above the critical one may settle.
     probability : numpy.recarray or None
-        With an ensemble, at each amplitude: ``f_o``, whether the end is ``certain``, ``count`` of the members that
-        exceed, ``part``, and the 95 % interval from ``low`` to ``high``.
+        With an ensemble, at each amplitude: ``f_o``; whether the end is ``certain``; ``count``, the number of members
+        that exceed a limit; ``part``, their fraction; and the 95 % interval of it from ``low`` to ``high``.
     passes : dict of str to float or None
-        With an ensemble, the smallest amplitudes at which at least 5, 50 and 95 % of the neighbours exceed: ``p05``,
-        ``p50``, ``p95``. At a larger one fewer may exceed again.
+        With an ensemble, the smallest amplitudes at which at least 5, 50 and 95 % of the neighbours exceed a limit:
+        ``p05``, ``p50``, ``p95``. At a larger amplitude the percentage may be lower again.
 
     See Also
     --------
-    snapload.critical_force : Finds it.
+    snapload.critical_force : Computes the critical force.
 
     Examples
     --------
@@ -70,17 +70,17 @@ class CriticalForce(Result):
     _shown = ("f_cr", "reason", "t", "exceeding")
 
     def plot(self, ax: matplotlib.axes.Axes | None = None) -> matplotlib.axes.Axes:
-        """Draw which amplitudes exceed, or how probably.
+        """Draw which amplitudes exceed a limit, or with which probability.
 
         Parameters
         ----------
         ax : matplotlib.axes.Axes, optional
-            Where to draw; new ones if left out.
+            Axes to draw into; new ones if left out.
 
         Returns
         -------
         matplotlib.axes.Axes
-            The axes, to compose further.
+            The axes, for further changes.
 
         See Also
         --------
@@ -169,35 +169,36 @@ def critical_force(
     seed: int = 1,
     progress: bool = True,
 ) -> CriticalForce | xarray.Dataset:
-    """Run a case at evenly spaced force amplitudes, and find which exceed the limits.
+    """Run a case at evenly spaced force amplitudes, and find those that exceed the limits.
 
     Parameters
     ----------
     case : Case
-        The case; its own ``f_o`` does not matter. With ``stop_when_sliding=True`` a run that begins to slide ends
-        there, as in the studies of the thesis.
+        The case; its own ``f_o`` has no effect. With ``stop_when_sliding=True`` a run ends when the body begins to
+        slide, as in the studies of the thesis.
     over : dict of str to array_like or str, optional
-        Values of other keys, as :func:`snapload.sweep` takes them: the answer is given for all their combinations.
+        Values of other keys, as for :func:`snapload.sweep`. The result is computed for all their combinations.
     step, largest : float
         The amplitudes are step, 2 step, ... up to the largest [F].
     members : int
-        With a number above 0, so many neighbours are run at each amplitude where one run can not tell, for the
-        probability of exceeding.
+        The number of neighbours to run at each amplitude where one run can not decide, to compute the probability of
+        exceeding a limit; 0 for none.
     uncertainty : float or dict of str to float, optional
-        What is in doubt of the neighbours: one size for every start value, or a size for each key. If left out,
-        nothing but rounding; neighbours are then drawn from 1e-12 about every start value.
+        Uncertainty of the neighbours: one size for every start value, or a size for each key. If left out, only
+        rounding is uncertain; neighbours are then drawn from 1e-12 about every start value.
     tolerance : float
         Error of state and time above which a result counts as not known.
     seed : int
-        Which neighbours.
+        Seed of the neighbours.
     progress : bool
-        Whether to show a bar if it takes long.
+        Whether to show a progress bar if the computation takes long.
 
     Returns
     -------
     CriticalForce or xarray.Dataset
-        The smallest amplitude that exceeds, and all others. With `over` a dataset over those keys: ``f_cr``, NaN where
-        none exceeds, ``reason``, ``t``, and ``exceeds`` over ``f_o``, too, which of all amplitudes exceed.
+        The smallest amplitude that exceeds a limit, and all others that do. With `over`, a dataset over those keys
+        with ``f_cr`` (NaN if no amplitude exceeds a limit), ``reason``, ``t``, and ``exceeds``, which says over these
+        keys and ``f_o`` which amplitudes exceed a limit.
 
     Raises
     ------
@@ -206,12 +207,12 @@ def critical_force(
 
     See Also
     --------
-    snapload.ensemble : How neighbours end at one amplitude.
+    snapload.ensemble : Runs neighbours at one amplitude.
 
     Notes
     -----
-    The critical force is that of section 6.4.2 of the thesis. Amplitudes above it may settle again, so one number does
-    not tell where the limits are kept.
+    The critical force is defined in section 6.4.2 of the thesis. Runs with larger amplitudes may settle again, so the
+    critical force alone does not say at which amplitudes the limits are kept.
 
     Examples
     --------
@@ -247,7 +248,7 @@ def critical_force(
 def _over(
     engine: _engine.Case, over: Mapping[str, ArrayLike], step: float, largest: float, progress: bool
 ) -> xarray.Dataset:
-    """The answer for every combination of some keys."""
+    """The result for every combination of some keys."""
     from ._dataset import ABOUT, attributes, labels
 
     if "f_o" in over:

@@ -1,4 +1,4 @@
-"""The rows of a study on the workers of Dask."""
+"""Computation of a study on Dask workers."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ _DEATHS = 10
 
 
 def chunk(plan: Plan, start: int, stop: int) -> bytes:
-    """Some rows of a study as a Parquet file; what a worker computes, on the one thread it gives to a task."""
+    """Some rows of a study as a Parquet file, computed by a worker on the one thread of a task."""
     return plan.study.chunk(start, stop, 1)
 
 
@@ -32,7 +32,7 @@ def sweep_on(
     store: _engine.Store,
     tell: Callable[[int], object] | None,
 ) -> None:
-    """Has the workers compute what is missing, keeps each chunk as it comes, and completes the file."""
+    """Computes the missing rows on the workers, stores each chunk when it arrives, and completes the file."""
     import distributed
 
     # Dask has no type annotations.

@@ -32,7 +32,7 @@ LABEL = 30
 
 @cache
 def attributes() -> dict[str, dict[str, str]]:
-    """Long name and units of every key and result after CF, from the one schema."""
+    """Long name and units of every key and result after the CF conventions, from the schema."""
     described = {}
     for entry in (*_engine.keys(), *_engine.columns()):
         name, title, meaning, unit = entry["name"], entry["title"], entry["meaning"], dict(entry["cf"])
@@ -52,7 +52,7 @@ def labels(axes: list[tuple[str, Any]]) -> dict[str, Any]:
 def dataset(
     path: str, description: str, version: str, cases: int, first: int, count: int, chunks: Any
 ) -> xarray.Dataset:
-    """The rows of a file: over the axes of a grid, or over ``row`` where it is no grid or not all of it."""
+    """The rows of a file over the axes of a grid, or over ``row`` if they are not a complete grid."""
     study = tomllib.loads(description)
     keys = [entry["name"] for entry in _engine.keys()]
     results = [entry["name"] for entry in _engine.columns()]
@@ -93,7 +93,7 @@ def dataset(
 
 
 def _along(path: str, axes: dict[str, Any]) -> dict[str, Any]:
-    """The values along each axis, as they stand in the rows: the first axis is the slowest."""
+    """The values along each axis, read from the rows; the first axis varies slowest."""
     counts = [_count(values) for values in axes.values()]
     coords = {}
     for place, key in enumerate(axes):
@@ -107,14 +107,14 @@ def _along(path: str, axes: dict[str, Any]) -> dict[str, Any]:
 
 
 def _count(values: Any) -> int:
-    """How many values an axis of a study file has."""
+    """The number of values of an axis of a study file."""
     if isinstance(values, str):
         return int(values.rsplit(":", 1)[1])
     return len(values) if isinstance(values, list) else 1
 
 
 def _rows(path: str, name: str, start: int, stop: int, codes: list[str] | None = None) -> NDArray[Any]:
-    """Some rows of one column. Words that are missing are empty ones, which files can hold."""
+    """Some rows of one column. Missing words are empty strings, which files can store."""
     kind, data, words = _engine.read_column(path, name, start, stop)
     if kind != "words":
         return np.frombuffer(data, dtype=kind)
@@ -125,9 +125,9 @@ def _rows(path: str, name: str, start: int, stop: int, codes: list[str] | None =
 
 
 class _Column(BackendArray):
-    """A column of a file in the shape of its grid, read when it is asked for.
+    """A column of a file in the shape of its grid, which is read when it is needed.
 
-    What is asked for along the first dimension tells which rows are read.
+    The index along the first dimension decides which rows are read.
     """
 
     def __init__(self, path: str, name: str, shape: tuple[int, ...], codes: list[str] | None = None) -> None:
@@ -154,7 +154,7 @@ class _Column(BackendArray):
 
 
 def flags(words: list[str]) -> dict[str, Any]:
-    """What the numbers of the ends mean after CF, for maps; -1 where there was no run."""
+    """The meaning of the numbers of the ends after the CF conventions, for maps; -1 if there was no run."""
     return {
         "long_name": "why the run ended, as a number",
         "flag_values": np.arange(-1, len(words), dtype=np.int8),

@@ -1,4 +1,4 @@
-"""Where the cables are, and what the body looks like from outside, for pictures."""
+"""Geometry of the cables and the outline of the body, for pictures."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ _SEEN = 0.012
 
 @dataclass(frozen=True)
 class Geometry:
-    """What pictures of a run show beside its motion."""
+    """The geometry that pictures of a run show in addition to its motion."""
 
     #: Anchor, fairlead in the body's frame, and length of each cable.
     cables: tuple[tuple[Point, Point, float], ...]
@@ -49,9 +49,9 @@ class Geometry:
         return max(self.body, _SEEN) * np.column_stack([np.cos(angles), np.sin(angles)])
 
     def size(self) -> float:
-        """How far the outline reaches from the centre along either axis."""
+        """The largest distance of the outline from the centre along either axis."""
         return max(float(np.abs(self.outline()).max()), _SEEN)
 
     def centres(self) -> list[Point]:
-        """About which point each cable leads the centre of a body that stays upright."""
+        """The point about which each taut cable guides the centre of a body that stays upright."""
         return [(anchor[0] - fairlead[0], anchor[1] - fairlead[1]) for anchor, fairlead, _ in self.cables]

@@ -29,7 +29,7 @@ _Variable = tuple[str, list[str], list[int], list[float] | list[str]]
 
 
 class Asked(TypedDict, total=False):
-    """What may be asked beside the coefficients; see :meth:`Hydro.from_file`."""
+    """Options of the analysis besides the coefficients; see :meth:`Hydro.from_file`."""
 
     mass: float | None
     centre: tuple[float, float] | None
@@ -51,29 +51,29 @@ class Asked(TypedDict, total=False):
 
 @dataclass(frozen=True, repr=False, eq=False)
 class Hydro:
-    """What the water does to a floating body, and what follows without a simulation.
+    """Hydrodynamic coefficients of a floating body, and the results that need no simulation.
 
-    Made by :meth:`from_file` or :meth:`from_dataset`. All quantities are in kg, m, N, s and rad; pitch is positive
-    from z to x; time goes as exp(-iωt).
+    Use :meth:`from_file` or :meth:`from_dataset` to create it. All quantities are in kg, m, N, s and rad. Positive
+    pitch turns z towards x, and the time dependence is exp(-iωt).
 
     Attributes
     ----------
     natural : list of dict
-        Natural motions without lines: ``freedom``, ``period_s`` by the file, ``damped_period_s`` and
-        ``damping_ratio`` by the memory.
+        Natural modes without lines: ``freedom``, ``period_s`` from the coefficients of the file, and
+        ``damped_period_s`` and ``damping_ratio`` from the fitted memory.
     rest : dict or None
-        The place of rest on lines, with tensions and small motion about it.
+        The equilibrium with the lines, with tensions and the small motion about it.
     quality : dict
-        What the memory is off by: ``blocks``, ``entries``, ``least_eigenvalue``, ``states``.
+        The quality of the fitted memory: ``blocks``, ``entries``, ``least_eigenvalue``, ``states``.
     warnings : list of str
-        What to know of file, memory and answers.
+        Warnings about the file, the memory and the results.
     answer : dict
-        All of it, as ``snapload hydro --json`` writes it.
+        All results, as ``snapload hydro --json`` writes them.
 
     See Also
     --------
     Hydro.from_file : Reads the file of a panel code.
-    Hydro.from_dataset : Takes a dataset of Capytaine.
+    Hydro.from_dataset : Reads a dataset of Capytaine.
 
     Examples
     --------
@@ -93,40 +93,42 @@ class Hydro:
     @classmethod
     def from_file(cls, path: str | PathLike[str], **asked: Unpack[Asked]) -> Hydro:
         """
-        Read the file of a panel code, fit the memory and answer.
+        Read the file of a panel code, fit the memory and compute all results.
 
         Parameters
         ----------
         path : str or os.PathLike
-            Capytaine's ``.nc``; one of WAMIT's ``.1``, ``.3`` and ``.hst`` with the others beside it; Nemoh's folder.
+            Capytaine file (``.nc``), one of the WAMIT files ``.1``, ``.3`` and ``.hst`` with the others in the same
+            folder, or Nemoh folder.
         **asked
-            What may be asked beside the coefficients, all by default the file's or nothing:
+            Options of the analysis. By default each has the value of the file, or is not used:
 
-            - ``mass``, ``centre`` (x, z), ``inertia``: the body's, its inertia about the centre of gravity;
-            - ``damping``: linear damping of surge, heave and pitch beside that of waves;
-            - ``force``: a constant force beside weight and buoyancy;
-            - ``lines``: each (anchor x, anchor z, fairlead x, fairlead z, length), fairleads from the reference point;
-            - ``pairs``: pairs of poles of the memory, else as many as are needed for 1 %;
-            - ``body``: which, where there are several;
+            - ``mass``, ``centre`` (x, z), ``inertia``: mass, centre of gravity and moment of inertia about it;
+            - ``damping``: linear damping of surge, heave and pitch in addition to wave radiation;
+            - ``force``: a constant load in addition to weight and buoyancy;
+            - ``lines``: each as (anchor x, anchor z, fairlead x, fairlead z, length), with fairleads relative to the
+              reference point;
+            - ``pairs``: number of pole pairs of the memory, by default as many as 1 % accuracy needs;
+            - ``body``: the name of the body, if the file has several;
             - ``density``, ``gravity``, ``depth``, ``reference``, ``displaced_mass``, ``file_centre``,
-              ``unit_length``, ``first_column``: what the file does not say, as ``snapload hydro --help`` has it;
-              where it does, both have to agree.
+              ``unit_length``, ``first_column``: values that the file does not contain, as described in
+              ``snapload hydro --help``; a value that the file does contain has to agree.
 
         Returns
         -------
         Hydro
-            The coefficients with all that follows from them.
+            The coefficients and all results.
 
         Raises
         ------
         ValueError
-            If something is missing, breaks a convention or is no number; the words say which.
+            If a value is missing, breaks a convention or is not a number; the message says which.
         OSError
-            If there is no such file.
+            If the file does not exist.
 
         See Also
         --------
-        Hydro.from_dataset : The same of a dataset that Capytaine has just computed.
+        Hydro.from_dataset : Reads a dataset that Capytaine has just computed.
 
         Examples
         --------
@@ -141,28 +143,29 @@ class Hydro:
     @classmethod
     def from_dataset(cls, dataset: xarray.Dataset, **asked: Unpack[Asked]) -> Hydro:
         """
-        Take a dataset of Capytaine as it is, fit the memory and answer.
+        Read a dataset of Capytaine, fit the memory and compute all results.
 
         Parameters
         ----------
         dataset : xarray.Dataset
-            What ``assemble_dataset`` or ``fill_dataset`` returned, complex, or with complex values apart.
+            The result of ``assemble_dataset`` or ``fill_dataset``, with complex values or with their real and
+            imaginary parts apart.
         **asked
             As for :meth:`Hydro.from_file`.
 
         Returns
         -------
         Hydro
-            The coefficients with all that follows from them.
+            The coefficients and all results.
 
         Raises
         ------
         ValueError
-            If something is missing, breaks a convention or is no number; the words say which.
+            If a value is missing, breaks a convention or is not a number; the message says which.
 
         See Also
         --------
-        Hydro.from_file : The same of a file.
+        Hydro.from_file : Reads a file.
 
         Examples
         --------
@@ -192,15 +195,15 @@ class Hydro:
     @cached_property
     def dataset(self) -> xarray.Dataset:
         """
-        Coefficients, response and memory as xarray, with units.
+        Coefficients, response and memory as an xarray dataset with units.
 
         ``added_mass``, ``radiation_damping`` and ``excitation_force`` over ``omega``; ``response`` and
         ``response_of_the_memory`` per metre of wave; the memory as ``pole`` and ``residue``, with the
-        ``added_mass_inf`` that belongs to it.
+        corresponding ``added_mass_inf``.
 
         See Also
         --------
-        Hydro.kernel : The memory over time.
+        Hydro.kernel : The memory as a function of time.
 
         Examples
         --------
@@ -212,7 +215,7 @@ class Hydro:
 
     def kernel(self, t: ArrayLike) -> NDArray[np.float64]:
         """
-        Evaluate the memory K(t) = Re Σ R exp(pt).
+        Evaluate the memory function K(t) = Re Σ R exp(pt).
 
         Parameters
         ----------
@@ -226,7 +229,7 @@ class Hydro:
 
         See Also
         --------
-        Hydro.dataset : Its poles and residues.
+        Hydro.dataset : Has the poles and residues of the memory.
 
         Examples
         --------
@@ -250,7 +253,7 @@ class Hydro:
 
 
 def _plain(key: str, value: Any) -> Any:
-    """What is asked as JSON can tell it, which has no number that is not finite."""
+    """An option as JSON can represent it; JSON has only finite numbers."""
     if key == "pairs":
         return whole(key, value)
     if isinstance(value, str):
@@ -265,7 +268,7 @@ def _plain(key: str, value: Any) -> Any:
 
 
 def _variables(dataset: xarray.Dataset) -> list[_Variable]:
-    """Every variable of a dataset, complex ones with a dimension of their own."""
+    """Every variable of a dataset; complex ones get an additional dimension for their parts."""
     variables: list[_Variable] = []
     for name, variable in dataset.variables.items():
         values, dims = np.asarray(variable.values), [str(dim) for dim in variable.dims]
@@ -290,7 +293,7 @@ def _complex(pairs: object) -> NDArray[np.complex128]:
 
 
 def _dataset(answer: dict[str, Any]) -> xarray.Dataset:
-    """The answers as a dataset, with Capytaine's names."""
+    """The results as a dataset with the names of Capytaine."""
     matrix = ("influenced_dof", "radiating_dof")
     wave = ("wave_direction", "omega", "influenced_dof")
     excitation = answer["excitation"]

@@ -1,4 +1,4 @@
-"""Modules that are imported when something of them is used."""
+"""Modules that are imported when they are first used."""
 
 from __future__ import annotations
 
@@ -7,10 +7,10 @@ from typing import Any
 
 
 class Later:
-    """Stands for a module.
+    """A placeholder for a module.
 
-    Annotations name types of libraries that the package does not load by itself. With this in their place
-    ``typing.get_type_hints`` finds them, and nobody else pays for them.
+    Annotations name types of libraries that the package does not load by itself. With this placeholder
+    ``typing.get_type_hints`` finds the types, and the libraries are not loaded otherwise.
     """
 
     def __init__(self, name: str) -> None:

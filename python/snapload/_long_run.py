@@ -1,4 +1,4 @@
-"""Long motions: sections, Lyapunov exponents, and the attractor against a key."""
+"""Long motions: sections, Lyapunov exponents, and bifurcation diagrams."""
 
 from __future__ import annotations
 
@@ -38,32 +38,34 @@ def section(
     at: Literal["periods", "impacts"] = "periods",
     progress: bool = True,
 ) -> xarray.Dataset:
-    """Follow a long motion, and keep its state once a period of the forcing, as ``snapload section`` does.
+    """Sample the state of a long motion once per forcing period, as ``snapload section`` does.
 
     Parameters
     ----------
     case : Case
         The case, with its start.
     periods : int
-        Periods of the forcing in all.
+        Total number of forcing periods.
     keep : int
-        Periods that are kept, the last ones.
+        Number of forcing periods to keep, at the end of the motion.
     phase : float
-        Time of the section, in periods of the forcing. The start is the state then: another phase is another motion.
+        Time of the section, in periods of the forcing. The start is the state at that time, so another phase gives
+        another motion.
     at : {"periods", "impacts"}
-        Where the points are: once a period, or at every impact of the kept periods.
+        Where points are taken: once per period, or at every impact of the kept periods.
     progress : bool
-        Whether to show a bar if it takes long.
+        Whether to show a progress bar if the computation takes long.
 
     Returns
     -------
     xarray.Dataset
-        ``x`` to ``vtheta`` over ``k``, the number of the period; or over ``impact`` ``t``, ``phase``, ``cable``,
-        ``v_n``, ``impulse`` and the state, with velocities before and after. Over ``direction`` the Lyapunov exponents
-        in a unit of time with their standard errors: ``exponent``, minus infinity where a taut cable closes a
-        direction, and ``exponent_se``, NaN where fewer than five periods are kept.
-        Attributes: ``period`` of the motion in periods of the forcing (NaN if it has none), ``snaps`` a period,
-        ``y_max``, ``theta_max``, and if it stopped at a limit ``stop`` and ``stop_t``.
+        With ``at="periods"``, ``x`` to ``vtheta`` over ``k``, the number of the period. With ``at="impacts"``,
+        ``t``, ``phase``, ``cable``, ``v_n``, ``impulse`` and the state over ``impact``, with velocities before and
+        after the impact. In both cases, over ``direction``, the Lyapunov exponents per unit of time with their
+        standard errors: ``exponent``, minus infinity where a taut cable removes a direction, and ``exponent_se``, NaN
+        if fewer than five periods are kept. Attributes: ``period`` of the motion in periods of the forcing (NaN if it
+        is not periodic), ``snaps`` per period, ``y_max``, ``theta_max``, and, if the motion stopped at a limit,
+        ``stop`` and ``stop_t``.
 
     Raises
     ------
@@ -72,13 +74,13 @@ def section(
 
     See Also
     --------
-    snapload.orbit_diagram : The same against a key.
-    snapload.Case.orbit : Its orbit, if it is periodic.
+    snapload.orbit_diagram : Computes the section points against a key.
+    snapload.Case.orbit : Finds the orbit of a periodic motion.
 
     Notes
     -----
-    The stops by settling and sliding are off. A motion that stops before the first point leaves a dataset without
-    points, and a warning. Python's lock is released meanwhile, and Ctrl-C ends it.
+    The motion does not stop when the body settles or slides. If it stops before the first point, the dataset has no
+    points, and there is a warning. Python's lock is released during the computation, and Ctrl-C interrupts it.
 
     Examples
     --------
@@ -133,23 +135,23 @@ def section(
 class LyapunovSpectrum(Result):
     """Lyapunov exponents of a long motion, the largest first.
 
-    ``values, errors = snapload.lyapunov_spectrum(case)`` takes them apart.
+    ``values, errors = snapload.lyapunov_spectrum(case)`` unpacks the exponents and their standard errors.
 
     Attributes
     ----------
     values : numpy.ndarray
-        The exponents [1/T]: six, four of a point mass; minus infinity where contact closes a direction.
+        The exponents [1/T]: six, or four for a point mass; minus infinity where a taut cable removes a direction.
     standard_errors : numpy.ndarray
-        Their standard errors [1/T], from twenty batches of periods, with what growth that still slows down may fall
-        by; NaN of fewer than four periods.
+        The standard errors [1/T], from twenty batches of periods. They include the amount by which a growth rate that
+        is still decreasing may fall; NaN for fewer than four periods.
     periods : int
-        Over how many periods of the forcing they are means.
+        Number of forcing periods over which the exponents are averaged.
     transient : int
-        How many were left out before.
+        Number of forcing periods before these that were left out.
 
     See Also
     --------
-    snapload.lyapunov_spectrum : Makes it.
+    snapload.lyapunov_spectrum : Computes the exponents.
 
     Examples
     --------
@@ -172,18 +174,18 @@ class LyapunovSpectrum(Result):
 def lyapunov_spectrum(
     case: Case, *, periods: int = 1000, transient: int = 400, progress: bool = True
 ) -> LyapunovSpectrum:
-    """Compute the Lyapunov exponents of the motion that a case comes to.
+    """Compute the Lyapunov exponents of the long-term motion of a case.
 
     Parameters
     ----------
     case : Case
         The case, with its start.
     periods : int
-        Periods of the forcing over which they are means.
+        Number of forcing periods over which the exponents are averaged.
     transient : int
-        Periods that are left out before.
+        Number of forcing periods before these that are left out.
     progress : bool
-        Whether to show a bar if it takes long.
+        Whether to show a progress bar if the computation takes long.
 
     Returns
     -------
@@ -193,15 +195,15 @@ def lyapunov_spectrum(
     Raises
     ------
     ValueError
-        If the motion stops at a limit before, or an option is out of its range.
+        If the motion stops at a limit before the end, or an option is out of its range.
 
     See Also
     --------
-    snapload.section : The motion itself.
+    snapload.section : Samples the motion itself.
 
     Notes
     -----
-    Of any motion that snaps in slack flight alone the sum is 2 ln e times the snaps in unit time.
+    If all snaps happen in slack flight, the sum of the exponents is 2 ln e times the number of snaps per unit of time.
 
     Examples
     --------
@@ -230,43 +232,47 @@ def orbit_diagram(
     progress: bool = True,
     **axis: Unpack[Axes],
 ) -> xarray.Dataset:
-    """Follow the attractor along the values of a key, each value begun where the one before ended.
+    """Compute a bifurcation diagram: follow the attractor along the values of a key.
+
+    The motion at each value starts from the final state of the motion at the previous value.
 
     Parameters
     ----------
     case : Case
-        The case, with the start that the first value begins with.
+        The case, whose start is the start at the first value.
     periods : int
-        Periods of the forcing in all, at each value.
+        Total number of forcing periods at each value.
     keep : int
-        Periods that are kept, the last ones.
+        Number of forcing periods to keep, at the end of the motion.
     phase : float
-        Time of the section, in periods of the forcing. The start is the state then: another phase is another motion.
+        Time of the section, in periods of the forcing. The start is the state at that time, so another phase gives
+        another motion.
     down : bool
-        Whether to go from the last value to the first. Where up and down differ there is more than one attractor.
+        Whether to go from the last value to the first. If both directions give different results, there is more than
+        one attractor.
     progress : bool
-        Whether to show a bar if it takes long.
+        Whether to show a progress bar if the computation takes long.
     **axis : array_like or str
-        The values of the one key that changes, or ``"first:last:n"``.
+        The values of the one key that varies, or ``"first:last:n"``.
 
     Returns
     -------
     xarray.Dataset
-        ``x`` to ``vtheta`` over the key and ``k``, NaN where the motion stopped at a limit. Over the key ``period`` in
-        periods of the forcing (NaN without one), ``snaps`` a period, the largest Lyapunov ``exponent`` (minus infinity
-        where taut cables close all directions) with ``exponent_se``, ``y_max``, ``stop`` (empty if it did not), and
-        ``restarted``: whether the value began with the case's own start again. The values stand in the order in which
-        they were followed.
+        Over the key and ``k``: ``x`` to ``vtheta``, NaN where the motion stopped at a limit. Over the key: ``period``
+        in periods of the forcing (NaN if the motion is not periodic), ``snaps`` per period, the largest Lyapunov
+        ``exponent`` (minus infinity where taut cables remove all directions) with ``exponent_se``, ``y_max``, ``stop``
+        (empty if the motion did not stop), and ``restarted``, whether the motion started from the start of the case
+        again. The values are in the order in which they were followed.
 
     Raises
     ------
     ValueError
-        If there is not one key, it can not take a value, or an option is out of its range.
+        If there is not exactly one key, a value of it is not allowed, or an option is out of its range.
 
     See Also
     --------
-    snapload.continuation : Follows unstable orbits, too.
-    snapload.plot_diagram : Draws it.
+    snapload.continuation : Follows stable and unstable orbits.
+    snapload.plot_diagram : Draws the diagram.
 
     Examples
     --------
@@ -327,7 +333,7 @@ _OF_VALUES = {
 
 
 def of_state(name: str) -> dict[str, Any]:
-    """What is told of a value of the state at a section."""
+    """The attributes of a value of the state at a section."""
     from ._dataset import attributes
 
     about = attributes()[name]
@@ -378,7 +384,7 @@ def _stopped(told: dict[str, Any]) -> str:
 
 
 def _count(values: str | NDArray[Any]) -> int:
-    """How many values there are, for a bar; what is no range is refused by the engine."""
+    """The number of values, for a progress bar; the engine refuses a range that is not valid."""
     if isinstance(values, str):
         last = values.rsplit(":", 1)[1]
         return int(last) if last.strip().isdigit() else 1

@@ -1,4 +1,4 @@
-"""Neighbours of a case: how they end."""
+"""Ensembles of neighbours of a case, and how they end."""
 
 from __future__ import annotations
 
@@ -19,20 +19,20 @@ else:
 
 @dataclass(frozen=True)
 class Share:
-    """A part of an ensemble.
+    """The members of an ensemble that end in the same way.
 
     Attributes
     ----------
     count : int
-        So many members.
+        The number of these members.
     part : float
-        The part, from 0 to 1.
+        Their fraction of the ensemble, from 0 to 1.
     low, high : float
-        The interval that holds the probability with 95 % confidence (Wilson 1927).
+        The interval that contains the probability with 95 % confidence (Wilson 1927).
 
     See Also
     --------
-    snapload.Ensemble : The whole that it is a part of.
+    snapload.Ensemble : The whole ensemble.
 
     Examples
     --------
@@ -55,11 +55,11 @@ class Ensemble:
     Attributes
     ----------
     members : int
-        How many were run.
+        The number of members that were run.
     seed : int
-        Which.
+        The seed of the members.
     ends : dict of str to Share
-        By reason, the most frequent first.
+        The members by the reason of their end, the most frequent first.
 
     See Also
     --------
@@ -95,36 +95,36 @@ def ensemble(
     seed: int = 1,
     progress: bool = True,
 ) -> Ensemble:
-    """Run neighbours of a case, drawn evenly from what its uncertainty allows, and count how they end.
+    """Run neighbours of a case, drawn uniformly from its uncertainty, and count how they end.
 
     Parameters
     ----------
     case : Case
-        The case in their middle.
+        The case at the centre of the neighbours.
     members : int
-        How many.
+        Number of neighbours.
     uncertainty : float or dict of str to float, optional
-        How far the start may be off, either way: one size for every start value, or a size for each key. If left
-        out, nothing but rounding; neighbours are then drawn from 1e-12 about every start value.
+        Uncertainty of the start in either direction: one size for every start value, or a size for each key. If left
+        out, only rounding is uncertain; neighbours are then drawn from 1e-12 about every start value.
     seed : int
-        Which neighbours; the first hundred of a thousand are the same as a hundred.
+        Seed of the neighbours; the first hundred of a thousand are the same as a hundred.
     progress : bool
-        Whether to show a bar if it takes long.
+        Whether to show a progress bar if the computation takes long.
 
     Returns
     -------
     Ensemble
-        How many end in which way.
+        The number of neighbours for each kind of end.
 
     Raises
     ------
     ValueError
-        If an option is out of its range, or a key can not be in doubt.
+        If an option is out of its range, or a key can not be uncertain.
 
     See Also
     --------
-    snapload.Case.run : Runs neighbours only where one run can not tell.
-    snapload.critical_force : The same at many force amplitudes.
+    snapload.Case.run : Runs neighbours only if one run can not decide.
+    snapload.critical_force : Runs neighbours at many force amplitudes.
 
     Examples
     --------

@@ -1,4 +1,4 @@
-"""Periodic orbits: of the attractor, near a start, and all that random starts lead to."""
+"""Periodic orbits: that of the attractor, that near a start, and those found from random starts."""
 
 from __future__ import annotations
 
@@ -23,66 +23,66 @@ _V_STICK = 1e-7
 
 
 class Orbit(BaseOrbit):
-    """A motion of a case that repeats itself after whole periods of the forcing.
+    """A motion of a case that repeats itself after a whole number of forcing periods.
 
-    Made by :meth:`snapload.Case.orbit` and :func:`snapload.find_orbits`.
+    Returned by :meth:`snapload.Case.orbit` and :func:`snapload.find_orbits`.
 
     Attributes
     ----------
     case : Case
-        The case that it is an orbit of.
+        The case of the orbit.
     state : numpy.ndarray, shape (6,)
         x, y, theta, vx, vy, vtheta at the section [L, rad, L/T, rad/T].
     phase : float
         Time of the section, in periods of the forcing.
     periods : int
-        Its length in periods of the forcing.
+        Period of the orbit, in periods of the forcing.
     smallest_periods : int
-        After how many of them it first repeats itself: fewer where it is a shorter orbit several times.
+        Number of forcing periods after which it first repeats itself; fewer if a shorter orbit is repeated.
     period : float
-        Its length [T].
+        Period of the orbit [T].
     symbol : tuple of str
-        Its events in their order: ``2`` is a snap of cable 2, ``stick 2`` says that the cable stays taut, ``release
-        2`` that its tension ends.
+        The events in order of time: ``2`` is a snap of cable 2, ``stick 2`` means that the cable stays taut, and
+        ``release 2`` that it loses its tension.
     events : Table
         ``t`` [T], ``kind`` (snap, stick, release), ``cable``, ``v_n`` [L/T], ``impulse`` [m L/T].
     modes : tuple of dict
-        Which cables are taut from when to when: ``from``, ``to``, ``taut``.
+        The intervals with a fixed set of taut cables: ``from``, ``to``, ``taut``.
     multipliers : numpy.ndarray of complex
-        The Floquet multipliers, the largest first: six, four of a point mass.
+        The Floquet multipliers, the largest first: six, or four for a point mass.
     zeros_from_contact : int
-        How many of them are exactly 0, as a taut cable closes two directions.
+        The number of multipliers that are exactly 0, because a taut cable removes two directions.
     exponents : numpy.ndarray
-        ln|multiplier| / period [1/T]; minus infinity of a multiplier that is 0.
+        ln|multiplier| / period [1/T]; minus infinity for a multiplier of 0.
     product : float
         The product of the multipliers without those zeros.
     product_rule : float or None
-        What it has to be, e^2N for N snaps; None where a cable is taut on the way.
+        The exact value of that product, e^2N for N snaps; None if a cable is taut in some interval.
     stable : bool or str
-        True or False, ``"neutral"`` where multipliers lie on the unit circle and none outside, ``"superstable"`` where
-        all are 0.
+        True or False, ``"neutral"`` if multipliers lie on the unit circle and none outside, ``"superstable"`` if all
+        are 0.
     attracts : bool
-        Whether neighbours come back to it: it is stable or superstable.
+        Whether nearby motions converge to it, that is, whether it is stable or superstable.
     admissible : Admissible
-        Whether a body can have it, and why not.
+        Whether it is a possible motion of the body and, if not, why.
     return_error : float or None
-        How far the motion is off when it is run for one lap; None where it stops before.
+        The error of the state after one simulated period; None if the motion stops before.
     error_bound : float or None
-        A bound on the error of the state where one is proved.
+        A proved bound on the error of the state; None without a proof.
     proved : bool
-        Whether it is.
+        Whether the orbit is proved to exist.
     proof : dict or None
-        What is proved: ``state``, ``events`` with their ``t`` and ``v_n`` as decimals, each digit of which is right;
-        ``alone_within``, a distance within which there is no other orbit of this length; ``prime``, whether it takes no
-        fewer periods; or ``why_not``. None where no proof was tried.
+        The result of the proof: ``state`` and ``events`` with ``t`` and ``v_n`` as decimals of which each digit is
+        right; ``alone_within``, a distance within which there is no other orbit of this period; ``prime``, whether the
+        orbit has no smaller period; or ``why_not``, the reason why the proof failed. None if no proof was tried.
     start_distance : float or None
-        The largest difference of `state` from the start that was given; None if none was. Far from it another orbit may
-        have been meant.
+        The largest difference between `state` and the given start; None if no start was given. If it is large, the
+        orbit may not be the intended one.
 
     See Also
     --------
-    snapload.Case.orbit : Finds one.
-    snapload.continuation : Follows it as a key changes.
+    snapload.Case.orbit : Finds an orbit.
+    snapload.continuation : Follows an orbit as a key changes.
 
     Examples
     --------
@@ -115,24 +115,24 @@ class Orbit(BaseOrbit):
         return self.case
 
     def prove(self) -> Orbit:
-        """Prove that there is such an orbit, in numbers of many digits.
+        """Prove with numbers of many digits that the orbit exists.
 
         Returns
         -------
         Orbit
-            The same orbit with `proved`, `error_bound` and `proof`. The theorem is about the case as the decimals that
-            it is written in: the lap has these snaps, each at a velocity above zero, and no others, no limit is
-            reached, and there is one such orbit within `error_bound` of `state`. Orbits with a taut cable are not
-            proved.
+            The same orbit with `proved`, `error_bound` and `proof`. The decimals in which the case is written are
+            taken as exact. The theorem says that one period of the motion has exactly these snaps, each at a velocity
+            above zero, that no limit is reached, and that there is one such orbit within `error_bound` of `state`.
+            Orbits with a taut cable are not proved.
 
         Raises
         ------
         ValueError
-            If it is an orbit of no case.
+            If the orbit does not belong to a case.
 
         See Also
         --------
-        snapload.find_orbits : Proves all that it finds, if asked to.
+        snapload.find_orbits : Proves all orbits that it finds, with ``prove=True``.
 
         Examples
         --------
@@ -144,28 +144,29 @@ class Orbit(BaseOrbit):
         return Orbit(self.case, self._engine.proved(), self.start_distance)
 
     def run(self, laps: int = 1, *, trust: bool = True) -> Run:
-        """Run the motion from the orbit's state at a whole period of the forcing.
+        """Simulate the motion from the state of the orbit at a whole period of the forcing.
 
         Parameters
         ----------
         laps : int
-            How many times round.
+            Number of periods of the orbit.
         trust : bool
-            Whether to say how far the run can be trusted.
+            Whether to compute how far the run can be trusted.
 
         Returns
         -------
         Run
-            The finished run, with the stops by settling and sliding off. An unstable orbit is left after some laps.
+            The finished run, which does not stop when the body settles or slides. The motion leaves an unstable orbit
+            after some periods.
 
         Raises
         ------
         ValueError
-            If no body can begin there.
+            If the start is not legal.
 
         See Also
         --------
-        curve : One lap as its sequence of events has it.
+        curve : Computes one period from the sequence of events.
 
         Examples
         --------
@@ -190,23 +191,23 @@ class Orbit(BaseOrbit):
 
 
 class SystemOrbit(BaseOrbit):
-    """A motion of a system of one's own that repeats itself after whole periods of its first sinusoid.
+    """A motion of a user-defined system that repeats itself after whole periods of its first sinusoid.
 
-    Made by :meth:`snapload.System.orbit`. Its attributes are those of :class:`snapload.Orbit`, in your own units.
+    Returned by :meth:`snapload.System.orbit`. It has the attributes of :class:`snapload.Orbit`, in your own units.
 
     Attributes
     ----------
     system : System
-        The system that it is an orbit of.
+        The system of the orbit.
 
     See Also
     --------
-    snapload.System.orbit : Finds one.
-    snapload.Orbit : The same of a case.
+    snapload.System.orbit : Finds an orbit.
+    snapload.Orbit : An orbit of a case.
 
     Examples
     --------
-    A ball that a table shakes, hung on a rope: it jumps once a period (Holmes 1982).
+    A ball on a rope that is shaken like a ball on a vibrating table: one impact in each period (Holmes 1982).
 
     >>> import math, snapload
     >>> rope, shaken = snapload.Cable((0, 5), 5), snapload.Sinusoid((0, 1.2), 3, phase=(0, -math.pi / 2))
@@ -236,28 +237,28 @@ class SystemOrbit(BaseOrbit):
         return self.system
 
     def run(self, laps: int = 1, *, trust: bool = True) -> SystemRun:
-        """Run the motion from the orbit's state at a whole period of the forcing.
+        """Simulate the motion from the state of the orbit at a whole period of the forcing.
 
         Parameters
         ----------
         laps : int
-            How many times round.
+            Number of periods of the orbit.
         trust : bool
-            Whether to say how far the run can be trusted.
+            Whether to compute how far the run can be trusted.
 
         Returns
         -------
         SystemRun
-            The finished run, with the stops by settling and sliding off.
+            The finished run, which does not stop when the body settles or slides.
 
         Raises
         ------
         ValueError
-            If no body can begin there.
+            If the start is not legal.
 
         See Also
         --------
-        curve : One lap as its sequence of events has it.
+        curve : Computes one period from the sequence of events.
 
         Examples
         --------
@@ -282,7 +283,7 @@ class SystemOrbit(BaseOrbit):
 
 
 class HasOrbits:
-    """What a case has for being one whose motion may repeat itself."""
+    """The methods of a case that find periodic orbits."""
 
     _engine: _engine.Case
 
@@ -295,42 +296,43 @@ class HasOrbits:
         phase: float = 0.0,
         progress: bool = True,
     ) -> Orbit:
-        """Find the periodic orbit that the motion comes to, or the one near a start, closed to rounding.
+        """Find the periodic orbit that the motion converges to, or the one near a start, to rounding.
 
         Parameters
         ----------
         start : dict of str to float, or array_like of six, optional
-            The state at the section near which the orbit is; values left out are the case's own. The orbit may be an
-            unstable one. If left out, the motion of the case is followed over many periods.
+            A state at the section that is near the orbit; values left out are those of the case. The orbit may be
+            unstable. If left out, the motion of the case is followed over many periods.
         periods : int, optional
-            Length in periods of the forcing; 1 near a start, what the motion has otherwise.
+            Period of the orbit in periods of the forcing; if left out, 1 near a start, else that of the motion.
         symbol : iterable of int, optional
-            The cables that snap, in their order, such as ``[2, 1]``; any if left out.
+            The cables that snap, in order, such as ``[2, 1]``; any sequence if left out.
         phase : float
             Time of the section, in periods of the forcing.
         progress : bool
-            Whether to show a bar if it takes long.
+            Whether to show a progress bar if the computation takes long.
 
         Returns
         -------
         Orbit
-            The orbit, with its multipliers, and whether a body can have it.
+            The orbit, with its multipliers and its admissibility.
 
         Raises
         ------
         NoOrbitError
-            If there is none; the words say what there is instead.
+            If there is no such orbit; the message says what was found instead.
         ValueError
             If an option is out of its range.
 
         See Also
         --------
-        snapload.find_orbits : All that random starts lead to.
-        snapload.section : A long motion that need not repeat itself.
+        snapload.find_orbits : Finds orbits from random starts.
+        snapload.section : Samples a long motion, which need not be periodic.
 
         Notes
         -----
-        The stops by settling and sliding are off. Python's lock is released meanwhile, and Ctrl-C ends it.
+        The motion does not stop when the body settles or slides. Python's lock is released during the computation, and
+        Ctrl-C interrupts it.
 
         Examples
         --------
@@ -362,31 +364,31 @@ def find_orbits(
     prove: bool = False,
     progress: bool = True,
 ) -> list[Orbit]:
-    """Look for periodic orbits from random starts, stable and unstable ones.
+    """Search for stable and unstable periodic orbits from random starts.
 
     Parameters
     ----------
     case : Case
-        The case.
+        The case to search.
     starts : int
-        How many starts. A thousand take about a second.
+        Number of starts. A thousand starts take about a second.
     seed : int
-        Which starts.
+        Seed of the random starts.
     periods : int, optional
-        Length in periods of the forcing; 1 if left out.
+        Period of the orbits in periods of the forcing; 1 if left out.
     symbol : iterable of int, optional
-        The cables that snap, in their order; any if left out.
+        The cables that snap, in order; any sequence if left out.
     phase : float
         Time of the section, in periods of the forcing.
     prove : bool
-        Whether to prove each of them, as :meth:`Orbit.prove` does.
+        Whether to prove each orbit, as :meth:`Orbit.prove` does.
     progress : bool
-        Whether to show a bar if it takes long.
+        Whether to show a progress bar if the computation takes long.
 
     Returns
     -------
     list of Orbit
-        Those found that a body can have, each once, the most stable ones first.
+        The admissible orbits that were found, each once, the most stable first.
 
     Raises
     ------
@@ -395,12 +397,12 @@ def find_orbits(
 
     See Also
     --------
-    snapload.Case.orbit : The one near a start.
+    snapload.Case.orbit : Finds the orbit near a start.
 
     Notes
     -----
-    Python's lock is released meanwhile, and Ctrl-C ends it. More starts may find more orbits; nothing says that all are
-    found.
+    Python's lock is released during the computation, and Ctrl-C interrupts it. More starts may
+    find more orbits; it is not certain that all are found.
 
     Examples
     --------
@@ -419,7 +421,7 @@ def find_orbits(
 def orbit_of_system(
     system: System, start: Start | None, periods: int | None, symbol: Iterable[int | str] | None, phase: float
 ) -> SystemOrbit:
-    """The orbit near a start, or near that of the system."""
+    """The orbit near a given start, or near the start of the system."""
     waves = system.forcing.sinusoids
     if not waves or waves[0].omega == 0:
         allowed = "forces with a sinusoid of a frequency above 0, a period of which is one of the orbit"

@@ -1,4 +1,4 @@
-"""Pictures of orbits and branches with Matplotlib, that can be told apart without colour."""
+"""Pictures of orbits and branches with Matplotlib, which are readable without colour."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ _SIGNS = {
 
 
 def label(name: str, in_scales: bool = True) -> str:
-    """The name of an axis; units of one's own are not known here."""
+    """The name of an axis; the units of user-defined systems are unknown."""
     sign, scale = _SIGNS[name]
     return f"{sign} [{scale}]" if in_scales or scale == "rad" else sign
 
@@ -41,7 +41,7 @@ def new_axes(ax: Axes | None, height: float = 0.8) -> Axes:
 
 
 def legend_above(ax: Axes, columns: int = 3) -> None:
-    """Names of what is drawn, over the axes, where nothing is hidden by them."""
+    """A legend above the axes, where it hides nothing."""
     if ax.get_legend_handles_labels()[0]:
         ax.legend(
             fontsize="small",
@@ -56,7 +56,7 @@ def legend_above(ax: Axes, columns: int = 3) -> None:
 
 
 def draw_orbit(orbit: BaseOrbit, x: str, y: str, ax: Axes | None, style: dict[str, Any]) -> Axes:
-    """Draws one lap."""
+    """Draws one period of an orbit."""
     for name, quantity in (("x", x), ("y", y)):
         if quantity not in _SIGNS:
             raise ValueError(f"{name} = {quantity!r} is not allowed; allowed: {', '.join(map(repr, _SIGNS))}")

@@ -1,4 +1,4 @@
-"""The parts of a system of one's own: body, cables, forces."""
+"""The parts of a user-defined system: body, cables, forces."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ LARGEST = 1e6
 
 
 def within(name: str, value: SupportsFloat, low: float = -LARGEST, high: float = LARGEST, above: bool = False) -> float:
-    """A number within bounds, of which the lower one is open where it has to be above."""
+    """A number within bounds; with `above` the lower bound itself is excluded."""
     plain = number(name, value)
     if (low < plain if above else low <= plain) and plain <= high:
         return plain
@@ -53,15 +53,15 @@ class Body:
     Parameters
     ----------
     mass : float
-        Its mass, what moves along of the water included. With a mass of 1 slack flight under up to eight
-        sinusoids is computed in closed form, else as a Taylor series. With few sinusoids the closed form is up to
-        several times as fast.
+        The mass, including the added mass of the water. With a mass of 1, slack flight under up to eight sinusoids is
+        computed in closed form, otherwise as a Taylor series. With few sinusoids the closed form is up to several
+        times as fast.
     inertia : float, optional
-        Moment of inertia about the centre. A point mass, which does not turn, if left out.
+        Moment of inertia about the centre. If left out, the body is a point mass, which does not rotate.
     radius : float, optional
-        Of a circle about the centre.
+        Radius of a circle about the centre.
     half_size : (float, float), optional
-        Half width and half height of a rectangle about the centre, in place of the radius.
+        Half width and half height of a rectangle about the centre, instead of the radius.
 
     Raises
     ------
@@ -70,11 +70,11 @@ class Body:
 
     See Also
     --------
-    snapload.System : What it is a part of.
+    snapload.System : The system that has this body.
 
     Notes
     -----
-    The outline is drawn, and the upper bound asks for its highest point; the motion does not depend on it.
+    The outline is used for pictures, and its highest point for the upper bound. The motion does not depend on it.
 
     Examples
     --------
@@ -117,11 +117,11 @@ class Cable:
     Parameters
     ----------
     anchor : (float, float)
-        Where it is fixed, x and y.
+        The position of the anchor, x and y.
     length : float
-        How long it is.
+        The length of the cable.
     fairlead : (float, float)
-        Where it is made fast to the body: x and y from the centre, with the body upright.
+        The point of attachment on the body: x and y from the centre, with the body upright.
 
     Raises
     ------
@@ -130,7 +130,7 @@ class Cable:
 
     See Also
     --------
-    snapload.System : What it is a part of.
+    snapload.System : The system that has this cable.
 
     Examples
     --------
@@ -150,16 +150,16 @@ class Cable:
 
 @dataclass(frozen=True)
 class Sinusoid:
-    """A force that swings at one frequency: amplitude times cos(omega t + phase), along x and along y.
+    """A sinusoidal force: amplitude times cos(omega t + phase), along x and along y.
 
     Parameters
     ----------
     amplitude : (float, float)
-        Largest force along x and along y.
+        Force amplitude along x and along y.
     omega : float
         Angular frequency.
     phase : float or (float, float)
-        Phase at t = 0 [rad], of both or along x and along y.
+        Phase at t = 0 [rad], one for both directions or one each along x and along y.
 
     Raises
     ------
@@ -168,7 +168,7 @@ class Sinusoid:
 
     See Also
     --------
-    snapload.Forcing : What it is a part of.
+    snapload.Forcing : The forces that include this one.
 
     Examples
     --------
@@ -191,14 +191,14 @@ class Sinusoid:
 
 @dataclass(frozen=True)
 class Forcing:
-    """The forces on the centre of the body but for those of the cables: a constant one, and sinusoids.
+    """The forces on the centre of the body except those of the cables: a constant force and sinusoids.
 
     Parameters
     ----------
     constant : (float, float)
-        The constant force, x and y; weight or buoyancy are a part of it.
+        The constant force, x and y, including weight or buoyancy.
     sinusoids : iterable of Sinusoid
-        Any number of them.
+        Any number of sinusoidal forces.
 
     Raises
     ------
@@ -207,7 +207,7 @@ class Forcing:
 
     See Also
     --------
-    snapload.System : What it is a part of.
+    snapload.System : The system that has these forces.
 
     Examples
     --------
@@ -225,6 +225,6 @@ class Forcing:
 
 
 def put(part: object, **values: object) -> None:
-    """Sets what was checked, of a part that can not be changed later."""
+    """Sets checked values of a part, which can not be changed later."""
     for name, value in values.items():
         object.__setattr__(part, name, value)

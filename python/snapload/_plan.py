@@ -1,4 +1,4 @@
-"""Which cases a study has, in a form that travels to other processes."""
+"""The cases of a study, in a form that can be sent to other processes."""
 
 from __future__ import annotations
 
@@ -52,7 +52,7 @@ class Plan:
 
 
 def plan(case: Case, trust: bool, axes: Mapping[str, Any], random: int | None, seed: int | None, cases: Any) -> Plan:
-    """What a call of ``sweep`` asks for, checked."""
+    """The plan of a call of ``sweep``, after checks."""
     engine_of(case)
     if cases is not None:
         if axes or random is not None:

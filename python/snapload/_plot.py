@@ -1,4 +1,4 @@
-"""Pictures of a run with Matplotlib, in colours that everybody can tell apart (Okabe & Ito 2008)."""
+"""Pictures of a run with Matplotlib, in colours that everybody can distinguish (Okabe & Ito 2008)."""
 
 from __future__ import annotations
 
@@ -73,7 +73,7 @@ def cables_of(run: BaseRun) -> dict[int, tuple[str, str]]:
 
 
 def named(run: BaseRun, name: str, scale: str) -> str:
-    """The name of an axis, with the scale that it is told in; units of one's own are not known here."""
+    """The name of an axis with its scale; the units of user-defined systems are unknown."""
     return f"{name} [{scale}]" if run._in_scales else name
 
 
@@ -94,7 +94,7 @@ def times_of(run: BaseRun, start: float, stop: float, of_flight: int = _OF_FLIGH
 
 
 def _stretches(run: BaseRun) -> list[tuple[str, float, float, bool]]:
-    """Mode intervals, cut where trust ends: mode, from, to, whether it is past the horizon."""
+    """Mode intervals, divided where trust ends: mode, start, end, whether it is past the horizon."""
     horizon = run._horizon
     stretches = []
     for mode, start, stop in zip(run.modes["mode"], run.modes["t_start"], run.modes["t_end"], strict=True):
@@ -143,7 +143,7 @@ def _trajectory(run: BaseRun, ax: Axes, style: dict[str, Any]) -> None:
 
 
 def _over_time(run: BaseRun, ax: Axes, of: str, label: str | None, look: dict[str, Any]) -> None:
-    """A quantity over time, grey past the horizon. Breaks where a tension jumps are left open."""
+    """A quantity over time, grey past the horizon. The curve is interrupted where a tension jumps."""
     label = look.pop("label", label)
     for place, (_, start, stop, doubtful) in enumerate(_stretches(run)):
         times = times_of(run, start, stop)
@@ -195,7 +195,7 @@ def _tensions(run: BaseRun, ax: Axes, style: dict[str, Any]) -> None:
 
 
 def legend(ax: Axes) -> None:
-    """Names of the lines, in a row over all that is drawn."""
+    """A legend in one row above the curves."""
     low, high = ax.get_ylim()
     ax.set_ylim(low, high + 0.15 * (high - low))
     ax.legend(

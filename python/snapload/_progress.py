@@ -1,4 +1,4 @@
-"""A bar of progress, in terminals and notebooks."""
+"""A progress bar for terminals and notebooks."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from contextlib import contextmanager
 
 @contextmanager
 def bar(what: str, whole: int, shown: bool, begun: int = 0) -> Iterator[Callable[[int], object] | None]:
-    """A bar that appears after half a second; gives what is told how many are done."""
+    """A bar that appears after half a second; yields a function that is called with the number done."""
     if not shown:
         yield None
         return

@@ -1,4 +1,4 @@
-"""The chapter of the thesis, reproduced."""
+"""Reproduction of chapter 6 of the thesis."""
 
 from __future__ import annotations
 
@@ -10,19 +10,20 @@ from ._progress import bar
 
 
 def reproduce(out: str | PathLike[str] = "reproduction", *, progress: bool = True) -> Path:
-    """Compute the tables, figures and claims of the chapter as one report, as ``snapload reproduce`` does.
+    """Compute the tables, figures and claims of chapter 6 as one report, as ``snapload reproduce`` does.
 
     Parameters
     ----------
     out : path-like
-        Directory of the report, created if absent; files of an earlier one are written over.
+        Directory of the report, created if absent; files of an earlier report are overwritten.
     progress : bool
-        Whether to show a bar if it takes long.
+        Whether to show a progress bar if the computation takes long.
 
     Returns
     -------
     pathlib.Path
-        ``report.html``, one page that needs nothing else; the tables as CSV and the figures as SVG stand beside it.
+        The path of ``report.html``, a self-contained page. The tables as CSV and the figures as SVG are in the same
+        directory.
 
     Raises
     ------
@@ -31,7 +32,7 @@ def reproduce(out: str | PathLike[str] = "reproduction", *, progress: bool = Tru
 
     See Also
     --------
-    snapload.cases : The cases that it runs.
+    snapload.cases : The cases of the report.
 
     Examples
     --------

@@ -1,4 +1,4 @@
-"""What all results have in common."""
+"""The common part of all results."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ import numpy as np
 
 
 class Result:
-    """Equal where all that it holds is equal, arrays among it; shown by what stands in ``_shown``."""
+    """A result is equal to another if all its fields, including arrays, are; its repr has those in ``_shown``."""
 
     _shown: ClassVar[tuple[str, ...]] = ()
     __hash__ = None  # type: ignore[assignment]
@@ -26,7 +26,7 @@ class Result:
 
 
 def same(one: object, other: object) -> bool:
-    """Whether two values are equal, arrays by what they hold."""
+    """Whether two values are equal; arrays are compared by their elements."""
     if isinstance(one, np.ndarray) or isinstance(other, np.ndarray):
         return np.asarray(one).dtype == np.asarray(other).dtype and np.array_equal(one, other)  # type: ignore[arg-type]
     return one == other

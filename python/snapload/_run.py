@@ -18,9 +18,9 @@ Options: TypeAlias = tuple[dict[str, float] | float | None, float, int | None, i
 
 
 class Run(BaseRun):
-    """A finished run: how it ended, its impacts and modes, its norms, and how far it can be trusted.
+    """A finished run with its end, impacts, modes and norms, and how far it can be trusted.
 
-    Made by :meth:`snapload.Case.run`.
+    Returned by :meth:`snapload.Case.run`.
 
     Attributes
     ----------
@@ -29,8 +29,8 @@ class Run(BaseRun):
 
     See Also
     --------
-    snapload.Case.run : Makes it.
-    snapload.sweep : Runs many cases, and keeps what they come to.
+    snapload.Case.run : Runs a case.
+    snapload.sweep : Runs many cases, and stores their results.
 
     Examples
     --------
@@ -56,26 +56,26 @@ class Run(BaseRun):
         return Geometry.of_case(self.case)
 
     def to_json(self, dt: float | None = None) -> str:
-        """Write the run as the line of JSON that ``snapload run --json -`` writes.
+        """Return the run as the line of JSON that ``snapload run --json -`` writes.
 
         Parameters
         ----------
         dt : float, optional
-            Step of the motion [T], which is left out without it.
+            Time step of the motion [T]; without it the motion is left out.
 
         Returns
         -------
         str
-            One line.
+            One line of JSON.
 
         Raises
         ------
         ValueError
-            If dt is not allowed, or the run was made without trust.
+            If `dt` is not allowed, or the run was made without trust.
 
         See Also
         --------
-        motion : The motion as an array.
+        motion : Returns the motion as an array.
 
         Examples
         --------
@@ -86,28 +86,28 @@ class Run(BaseRun):
         return self._engine.to_json(dt)
 
     def certify(self) -> Certificate:
-        """Prove the run in exact arithmetic: which impacts the motion has, when, and how it ends.
+        """Prove in exact arithmetic which impacts the motion has, when they happen, and how it ends.
 
-        The case counts as the decimals that its keys are written in, the shortest of each double. Where cables stay
-        taut the proof goes on with them; that can take minutes.
+        The values of the keys count as decimals, each the shortest one of its double. Where cables stay taut, the proof
+        continues with the taut motion, which can take minutes.
 
         Returns
         -------
         Certificate
-            What is proved, and how many digits of this run it confirms.
+            The result of the proof, and how many digits of this run it confirms.
 
         Raises
         ------
         ValueError
-            If the decimals of the case make no legal case or start.
+            If the decimals of the case do not give a legal case or start.
 
         See Also
         --------
-        snapload.verify : The same run with many digits, without a proof.
+        snapload.verify : Repeats the run with many digits, without a proof.
 
         Notes
         -----
-        Python's lock is released meanwhile, and Ctrl-C ends it.
+        Python's lock is released during the computation, and Ctrl-C interrupts it.
 
         Examples
         --------
@@ -131,7 +131,7 @@ class Run(BaseRun):
 
     @cached_property
     def _words(self) -> tuple[str, list[tuple[str, str]]]:
-        """What the command prints, and the same as labels and texts."""
+        """The summary that the command prints, and the same as pairs of label and text."""
         if self._options is None:
             lines = [("End", f"{self.end.reason.replace('_', ' ')} at t = {self.end.t:.4f}")]
             return repr(self), lines

@@ -1,4 +1,4 @@
-"""Between metres, kilograms, newtons and seconds and the scales of a case."""
+"""Conversion between SI units and the scales of a case."""
 
 from __future__ import annotations
 
@@ -33,14 +33,14 @@ MOTION = {"t": "T", "x": "L", "y": "L", "theta": "rad", "vx": "L/T", "vy": "L/T"
 
 @dataclass(frozen=True)
 class Scales:
-    """The length, the mass and the force that a case is told in, in SI units.
+    """The scales of length, mass and force of a case, in SI units.
 
     Parameters
     ----------
     length : float
-        Half the distance of the anchors, L [m].
+        Half the distance between the anchors, L [m].
     mass : float
-        The mass of the body, m, with its added mass [kg].
+        The mass of the body including its added mass, m [kg].
     force : float
         The net buoyancy of the body, F [N].
 
@@ -51,11 +51,11 @@ class Scales:
 
     See Also
     --------
-    snapload.Case : What is told in them.
+    snapload.Case : The case whose quantities have these scales.
 
     Notes
     -----
-    Structures that are given by their depth, waves and lines are for :class:`snapload.Structure`.
+    Use :class:`snapload.Structure` for structures that are given by depth, waves and lines.
 
     Examples
     --------
@@ -92,7 +92,7 @@ class Scales:
 
         See Also
         --------
-        factor : The value of any product of scales.
+        factor : Returns the value of any product of scales.
 
         Examples
         --------
@@ -103,26 +103,26 @@ class Scales:
         return float(np.sqrt(self.mass * self.length / self.force))
 
     def factor(self, scale: str) -> float:
-        """Give the SI value of a product of scales, as metadata of results have it.
+        """Return the SI value of a product of scales, in the notation of the metadata of results.
 
         Parameters
         ----------
         scale : str
-            Such as ``"L/T"`` or ``"m L^2"``.
+            The product, such as ``"L/T"`` or ``"m L^2"``.
 
         Returns
         -------
         float
-            By what to multiply a number in these scales.
+            The factor by which a number in these scales is multiplied.
 
         Raises
         ------
         ValueError
-            If it is no such product.
+            If it is not such a product.
 
         See Also
         --------
-        si : Multiplies whole results.
+        si : Converts whole results.
 
         Examples
         --------
@@ -137,29 +137,29 @@ class Scales:
         return float(value)
 
     def case(self, base: Case | None = None, /, **keys: Unpack[Keys]) -> Case:
-        """Make a case of keys in SI units.
+        """Create a case from keys in SI units.
 
         Parameters
         ----------
         base : Case, optional
-            What all other keys are taken from, in scales as any case; the standard case if left out.
+            The case from which all other keys are taken, in scales as any case; the standard case if left out.
         **keys
-            Those to change, as for :class:`snapload.Case`, but in m, kg, N, s, and products of them. What has no unit,
-            such as ``e``, stays.
+            Keys to change, as for :class:`snapload.Case`, but in m, kg, N, s, and products of them. Keys without a
+            unit, such as ``e``, are not converted.
 
         Returns
         -------
         Case
-            In the scales.
+            The case in the scales.
 
         Raises
         ------
         ValueError
-            As for :class:`snapload.Case`; the error tells values in scales.
+            As for :class:`snapload.Case`; the message has values in scales.
 
         See Also
         --------
-        si : The way back.
+        si : Converts results to SI units.
 
         Examples
         --------
@@ -176,28 +176,28 @@ class Scales:
         return (Case() if base is None else base).replace(**plain)
 
     def si(self, result: Result) -> Result:
-        """Bring a result from scales to SI units.
+        """Convert a result from scales to SI units.
 
         Parameters
         ----------
         result : Table, xarray.Dataset, xarray.DataArray, or numpy.recarray
-            A table of a run, a study or one variable of it, or a motion.
+            A table of a run, a study or a variable of one, or a motion.
 
         Returns
         -------
         Table, xarray.Dataset, xarray.DataArray, or numpy.recarray
-            The same with the values in m, kg, N, s, rad, and their units in the metadata after CF.
+            The same result with values in m, kg, N, s and rad, and with units in the metadata after the CF conventions.
 
         Raises
         ------
         TypeError
-            If it is something else.
+            If the result is something else.
         ValueError
-            If a column has no one unit, as those of :func:`snapload.sensitivities`.
+            If a column has no single unit, as in the table of :func:`snapload.sensitivities`.
 
         See Also
         --------
-        factor : For single numbers.
+        factor : Returns the factor for single numbers.
 
         Examples
         --------
@@ -254,7 +254,7 @@ with_keys(Scales.case, defaults=False)
 
 
 def unit_of(scale: str) -> str:
-    """The unit of SI of a product of scales, after CF: ``m s-1``."""
+    """The SI unit of a product of scales, after the CF conventions: ``m s-1``."""
     return " ".join(f"{_UNITS[name]}{power if power != 1 else ''}" for name, power in _powers(scale)) or "1"
 
 

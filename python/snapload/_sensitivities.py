@@ -1,4 +1,4 @@
-"""How impacts change with each key."""
+"""Derivatives of impacts with respect to the keys."""
 
 from __future__ import annotations
 
@@ -10,35 +10,35 @@ from ._table import Table
 
 
 def sensitivities(case: Case, impacts: int = 3) -> Table:
-    """Derive the first impacts of a case by every key that its motion depends on.
+    """Compute the derivatives of the first impacts of a case by every key that its motion depends on.
 
     Parameters
     ----------
     case : Case
-        The case.
+        The case to run.
     impacts : int
-        How many impacts.
+        Number of impacts.
 
     Returns
     -------
     Table
-        A row an impact and key: ``impact``, from 1, ``key``, the derivatives ``t``, ``v_n`` and ``impulse``, each in
-        its own unit over that of the key, and ``certain``: 1 where the impact is before the horizon of the run, else
-        0. Empty where the start, on the very edge of what is legal, has no neighbours.
+        One row for each impact and key: ``impact``, from 1; ``key``; the derivatives ``t``, ``v_n`` and ``impulse``,
+        each in its own unit over that of the key; and ``certain``, 1 if the impact is before the horizon of the run,
+        else 0. The table is empty if the start is at the limit of what is legal and has no neighbours.
 
     Raises
     ------
     ValueError
-        If `impacts` is no whole number above 0.
+        If `impacts` is not a whole number above 0.
 
     See Also
     --------
-    snapload.Run.exponents : How fast deviations grow in the long run.
+    snapload.Run.exponents : The growth rates of deviations in the long term.
 
     Notes
     -----
-    They are exact to rounding: the motion is run over dual numbers, once for each key. All else is held; the inertia
-    follows the size of the body where it is the natural one.
+    The derivatives are exact to rounding, because the motion is run with dual numbers, once for each key. All other
+    keys are held fixed, except that the inertia follows the size of the body where it is the natural one.
 
     Examples
     --------

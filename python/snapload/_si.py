@@ -1,4 +1,4 @@
-"""Numbers of structures as xarray, with the units that their names end in."""
+"""Results of structures as xarray, with the units in which their names end."""
 
 from __future__ import annotations
 
@@ -33,13 +33,13 @@ _UNITS = {
 
 
 def about(name: str) -> dict[str, str]:
-    """Attributes of what has this name: the name in words, and its unit."""
+    """Attributes of a quantity from its name: the name in words, and the unit."""
     ending = next((ending for ending in _UNITS if name.endswith(ending)), "")
     return {"long_name": name.removesuffix(ending).replace("_", " "), "units": _UNITS.get(ending, "1")}
 
 
 def column(values: list[Any]) -> NDArray[Any]:
-    """Numbers with NaN where there is none; anything else as it is."""
+    """Numbers, with NaN for missing values; other values unchanged."""
     if all(value is None or (isinstance(value, (int, float)) and not isinstance(value, bool)) for value in values):
         if any(value is None or isinstance(value, float) for value in values):
             return np.array([np.nan if value is None else value for value in values], dtype=np.float64)
@@ -48,7 +48,7 @@ def column(values: list[Any]) -> NDArray[Any]:
 
 
 def rows_of(rows: Sequence[Mapping[str, Any]], along: str, index: str | None = None) -> xarray.Dataset:
-    """Rows with the same names as a dataset along one dimension, by one of the columns where it is named."""
+    """Rows as a dataset along one dimension, with the column `index`, if given, as its coordinate."""
     names = list(rows[0]) if rows else []
     variables = {
         name: (along, column([row[name] for row in rows]), about(name))
@@ -60,7 +60,7 @@ def rows_of(rows: Sequence[Mapping[str, Any]], along: str, index: str | None = N
 
 
 def motion_of(columns: tuple[list[float], list[float], list[float], list[float], list[list[float]]]) -> xarray.Dataset:
-    """A motion out of columns: times, x, z, rotation, and the tensions of all lines at each time."""
+    """A motion from its columns: times, x, z, rotation, and the tensions of all lines at each time."""
     t, x, z, theta, tension = columns
     lines = np.arange(1, len(tension[0]) + 1 if tension else 1)
     along = {"x_m": x, "z_m": z, "theta_rad": theta}

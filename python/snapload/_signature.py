@@ -10,7 +10,7 @@ from . import _engine
 
 
 def with_keys(function: Callable[..., Any], *, defaults: bool) -> None:
-    """Puts every key in the place of ``**keys``, as a keyword that may be left out, with what it is then or dots."""
+    """Replaces ``**keys`` by one optional keyword for each key, whose default is shown, or dots."""
     old = inspect.signature(function)
     keywords = [
         inspect.Parameter(key["name"], inspect.Parameter.KEYWORD_ONLY, default=_Left(_default(key) if defaults else ""))
@@ -21,12 +21,12 @@ def with_keys(function: Callable[..., Any], *, defaults: bool) -> None:
 
 
 def _default(key: dict[str, Any]) -> str:
-    """What a key is when it is left out, as Python writes it; words where that depends on other keys."""
+    """The default of a key as Python writes it; words if it depends on other keys."""
     return repr(key["standard"]) if key["kind"] == "bool" else str(key["default"])
 
 
 class _Left:
-    """What a key is when it is left out, as shown in a signature."""
+    """The default of a key, as shown in a signature."""
 
     def __init__(self, words: str) -> None:
         self._words = words

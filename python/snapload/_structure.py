@@ -1,4 +1,4 @@
-"""Structures in metres, kilograms and newtons: do the lines go slack, how hard do they snap, do they break?"""
+"""Moored structures in SI units: do the lines go slack, how hard do they snap, do they break?"""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ from ._progress import bar
 
 
 def _written(value: object) -> str:
-    """A value as a case writes it."""
+    """A value in the notation of a case file."""
     if isinstance(value, bool):
         return str(value).lower()
     if isinstance(value, str):
@@ -34,10 +34,10 @@ def _changes(changes: Mapping[str, object] | None) -> list[str]:
 
 
 class Structure:
-    """A moored structure in SI units, read from a case as ``snapload assess`` takes it.
+    """A moored structure in SI units, described by a case for ``snapload assess``.
 
-    The keys stand in the manual, under structures. Make one with :meth:`from_toml`, :meth:`parse`,
-    :meth:`from_moordyn` or :meth:`example`.
+    The manual lists the keys under structures. Use :meth:`from_toml`, :meth:`parse`, :meth:`from_moordyn` or
+    :meth:`example` to create a structure.
 
     See Also
     --------
@@ -53,7 +53,7 @@ class Structure:
 
     def __init__(self, engine: _engine.Structure, notes: Sequence[str] = ()) -> None:
         self._engine = engine
-        #: What of MoorDyn's file was left out or taken otherwise, a sentence each.
+        #: Parts of the MoorDyn file that were left out or interpreted differently, one sentence each.
         self.notes = tuple(notes)
 
     @classmethod
@@ -65,16 +65,16 @@ class Structure:
         path : str or path
             The file.
         changes : mapping, optional
-            Keys with other values, such as ``{"wave.height": 2}``.
+            Keys to change and their new values, such as ``{"wave.height": 2}``.
 
         Returns
         -------
         Structure
-            The structure, checked.
+            The structure, after all keys have been checked.
 
         See Also
         --------
-        snapload.Structure.parse : The same from a text.
+        snapload.Structure.parse : Reads a case from a string.
 
         Examples
         --------
@@ -89,25 +89,25 @@ class Structure:
 
     @classmethod
     def parse(cls, text: str, changes: Mapping[str, object] | None = None, name: str = "structure") -> Structure:
-        """Read the text of a case.
+        """Read a case from a string.
 
         Parameters
         ----------
         text : str
-            TOML.
+            The case as TOML.
         changes : mapping, optional
-            Keys with other values.
+            Keys to change and their new values.
         name : str, optional
-            What errors and pages call it.
+            The name of the structure in error messages and on pages.
 
         Returns
         -------
         Structure
-            The structure, checked.
+            The structure, after all keys have been checked.
 
         See Also
         --------
-        snapload.Structure.from_toml : The same from a file.
+        snapload.Structure.from_toml : Reads a case from a file.
 
         Examples
         --------
@@ -120,16 +120,16 @@ class Structure:
 
     @classmethod
     def example(cls) -> Structure:
-        """The submerged cylinder of the manual.
+        """Return the submerged cylinder of the manual.
 
         Returns
         -------
         Structure
-            A cylinder of 3 m on two chains in 10 m of water, in waves of 2 m and 6 s.
+            A cylinder of 3 m, moored by two chains in 10 m of water, in waves of 2 m and 6 s.
 
         See Also
         --------
-        snapload.Structure.from_toml : One of your own.
+        snapload.Structure.from_toml : Reads your own structure.
 
         Examples
         --------
@@ -148,16 +148,16 @@ class Structure:
         path : str or path
             The file.
         changes : mapping, optional
-            What the file does not have, such as ``body.width``, ``run.restitution`` and waves.
+            Keys that the file does not contain, such as ``body.width``, ``run.restitution`` and waves.
 
         Returns
         -------
         Structure
-            The structure; :attr:`notes` says what of the file was left out or taken otherwise.
+            The structure; :attr:`notes` lists what was left out of the file or interpreted differently.
 
         See Also
         --------
-        snapload.Structure.to_moordyn : The other way.
+        snapload.Structure.to_moordyn : Writes such a file.
 
         Examples
         --------
@@ -176,13 +176,13 @@ class Structure:
         Parameters
         ----------
         path : str or path
-            Where to.
+            The file to write.
         segments : int, optional
-            Of each line; one is the spring that :meth:`elastic` takes.
+            Number of segments of each line; one segment is the spring of :meth:`elastic`.
 
         See Also
         --------
-        snapload.Structure.from_moordyn : The other way.
+        snapload.Structure.from_moordyn : Reads such a file.
 
         Examples
         --------
@@ -194,21 +194,21 @@ class Structure:
         Path(path).write_text(text, encoding="utf-8", newline="\n")
 
     def replace(self, changes: Mapping[str, object]) -> Structure:
-        """The same with other values of keys.
+        """Return a copy with other values of some keys.
 
         Parameters
         ----------
         changes : mapping
-            Keys such as ``wave.height``, ``line.length`` (of every line) or ``line.2.length``.
+            Keys and their new values, such as ``wave.height``, ``line.length`` (of every line) or ``line.2.length``.
 
         Returns
         -------
         Structure
-            Another one, checked; this one stays.
+            A new structure, after all keys have been checked; this one does not change.
 
         See Also
         --------
-        snapload.Structure.without : Leave out a whole table.
+        snapload.Structure.without : Removes a whole table.
 
         Examples
         --------
@@ -221,21 +221,21 @@ class Structure:
         return Structure(self._engine.replace(_changes(changes)), self.notes)
 
     def without(self, table: str) -> Structure:
-        """The same without a table that may be left out.
+        """Return a copy without one of the optional tables.
 
         Parameters
         ----------
         table : {'wave', 'sea', 'design', 'project'}
-            The table.
+            The table to remove.
 
         Returns
         -------
         Structure
-            Another one; in still water without waves.
+            A new structure; without waves it is in still water.
 
         See Also
         --------
-        snapload.Structure.replace : Other values of keys.
+        snapload.Structure.replace : Changes values of keys.
 
         Examples
         --------
@@ -254,16 +254,16 @@ class Structure:
         return Structure(_engine.Structure.parse(self._engine.name, "\n".join(kept), []), self.notes)
 
     def to_toml(self) -> str:
-        """The case as TOML.
+        """Return the case as TOML.
 
         Returns
         -------
         str
-            Every key that was given.
+            All keys that were given.
 
         See Also
         --------
-        snapload.Structure.parse : The other way.
+        snapload.Structure.parse : Reads such a text.
 
         Examples
         --------
@@ -274,14 +274,14 @@ class Structure:
         return self._engine.to_toml()
 
     def assess(self, neighbours: int = 40, progress: bool = True) -> Assessment:
-        """Run it, to tell whether the lines go slack, how hard they snap, and whether one breaks.
+        """Find out whether the lines go slack, how hard they snap, and whether one breaks.
 
         Parameters
         ----------
         neighbours : int, optional
-            Neighbours of the run, 1e-6 of the wave height away, that show how far it can be trusted.
+            Number of neighbours of the run, 1e-6 of the wave height away, that show how far it can be trusted.
         progress : bool, optional
-            Whether to show a bar.
+            Whether to show a progress bar.
 
         Returns
         -------
@@ -290,8 +290,8 @@ class Structure:
 
         See Also
         --------
-        snapload.Structure.seas : Many records of a sea.
-        snapload.Structure.elastic : Lines that stretch.
+        snapload.Structure.seas : Runs many records of a sea.
+        snapload.Structure.elastic : Runs the structure with elastic lines.
 
         Examples
         --------
@@ -305,25 +305,25 @@ class Structure:
             return Assessment(self._engine.assess(neighbours, shown))
 
     def seas(self, seeds: int = 20, elastic: bool = False, progress: bool = True) -> Seas:
-        """Run it in many records of its sea.
+        """Run the structure in many records of its irregular sea.
 
         Parameters
         ----------
         seeds : int, optional
-            How many records.
+            Number of records.
         elastic : bool, optional
-            Whether the lines are springs.
+            Whether to model the lines as springs.
         progress : bool, optional
-            Whether to show a bar.
+            Whether to show a progress bar.
 
         Returns
         -------
         Seas
-            The distribution of the largest tension, and what the records come to.
+            The distribution of the largest tension and the other results of the records.
 
         See Also
         --------
-        snapload.Structure.assess : One record.
+        snapload.Structure.assess : Runs one record.
 
         Examples
         --------
@@ -337,16 +337,16 @@ class Structure:
             return Seas(self._engine.seas(seeds, elastic, shown))
 
     def elastic(self, stiffer: float = 1.0, every: float = 0.01, progress: bool = True) -> Elastic:
-        """Run it on lines that stretch, and on lines that do not.
+        """Run the structure with elastic lines and with inextensible lines.
 
         Parameters
         ----------
         stiffer : float, optional
-            Take the lines so many times as stiff as they are.
+            Factor by which the stiffness of all lines is multiplied.
         every : float, optional
-            Time between two states that are kept [s].
+            Time step at which states are stored [s].
         progress : bool, optional
-            Whether to show a bar.
+            Whether to show a progress bar.
 
         Returns
         -------
@@ -355,7 +355,7 @@ class Structure:
 
         See Also
         --------
-        snapload.Structure.assess : Lines that do not stretch.
+        snapload.Structure.assess : Runs only inextensible lines.
 
         Examples
         --------

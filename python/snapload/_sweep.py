@@ -39,68 +39,69 @@ def sweep(
     progress: bool = True,
     **axes: Unpack[Axes],
 ) -> xarray.Dataset:
-    """Run every combination of the values of some keys, a row a case, as ``snapload sweep`` does.
+    """Run every combination of the values of some keys, as ``snapload sweep`` does.
 
     Parameters
     ----------
     case : Case
-        What all cases have in common.
+        The case with all keys that do not vary.
     out : path-like, optional
-        A Parquet file to write, the same to the byte as that of the command line. Until it is complete its rows are
-        kept beside it in ``OUT.parts``, a chunk of a few seconds each.
+        A Parquet file to write, with one row per case, the same to the byte as that of the command line. Until it is
+        complete, its rows are kept in ``OUT.parts`` in the same directory, in chunks of a few seconds each.
     resume : bool
-        Whether to go on with what an earlier call, killed or interrupted, has left of `out`; right for a first
-        call, too.
+        Whether to continue `out` from the rows that an earlier call computed before it was killed or interrupted; also
+        allowed for a first call.
     trust : bool
-        Whether to say how far each run can be trusted. The manual tells what it costs, under "How far to trust a
+        Whether to compute how far each run can be trusted. The manual states the cost under "How far to trust a
         result".
     random : int, optional
-        Run so many random points instead of a grid: Sobol points in the box whose sides are the values of the keys,
-        such as ``e=(0.5, 0.9)``.
+        The number of random points to run instead of a grid. They are Sobol points in the box whose sides are the
+        values of the keys, such as ``e=(0.5, 0.9)``.
     seed : int, optional
-        Which random points; 0 if left out.
+        Seed of the random points; 0 if left out.
     cases : DataFrame, dict of str to array_like, or path-like, optional
-        Run these cases instead of a grid: a column a key and a row a case, of pandas, Polars or PyArrow, or as a CSV or
-        Parquet file. A cell that is missing leaves the key to `case`.
+        Cases to run instead of a grid, with one column per key and one row per case: a table of pandas, Polars or
+        PyArrow, or a CSV or Parquet file. For a missing cell the key has the value of `case`.
     chunks : dict, int or "auto", optional
-        With `out`, open the file lazily, in such chunks of Dask, as :func:`snapload.open_study` does.
+        With `out`, open the file lazily in chunks of Dask of this size, as :func:`snapload.open_study` does.
     threads : int, optional
-        Threads to use; as many as the machine has if left out, and at the most four times as many.
+        Number of threads; if left out, as many as the machine has, and at most four times as many.
     client : distributed.Client, optional
-        A client of Dask whose workers compute the rows instead of this machine: the same rows, bits and `resume`.
-        A worker that dies costs its chunk, which another one computes again.
+        A Dask client whose workers compute the rows instead of this machine. The rows are the same to the bit, and
+        `resume` works as well. If a worker dies, another one computes its chunk again.
     progress : bool
-        Whether to show a bar if it takes long.
+        Whether to show a progress bar if the computation takes long.
     **axes : array_like or str
-        The values of each key that varies, or ``"first:last:n"`` for evenly spaced ones that are the decimals one
-        would write (see :func:`snapload.evenly`). The first key is the slowest.
+        The values of each key that varies, or ``"first:last:n"`` for evenly spaced values, each the decimal that one
+        would write (see :func:`snapload.evenly`). The first key varies slowest.
 
     Returns
     -------
     xarray.Dataset
-        The results over the keys that vary, or over ``row`` for random points and tables of cases. ``end`` holds
-        words, ``end_code`` the same as numbers for maps. What is no legal case has NaN, is not ``certain``, and has
-        words in ``error``. Quantities are in the model's own units: ``units`` is 1 after CF, and ``scale`` says by
-        what to multiply.
+        The results over the keys that vary, or over ``row`` for random points and tables of cases. ``end`` contains
+        words, ``end_code`` the same as numbers for maps. A case that is not legal has NaN, is not ``certain``, and has
+        a message in ``error``. Quantities are in the scales of the case: ``units`` is 1 after the CF conventions, and
+        ``scale`` is the scale by which to multiply.
 
     Raises
     ------
     ValueError
-        If a key is unknown or can not take a value, if something else stands where `out` is to be, or if nothing
-        can be made there.
+        If a key is unknown or a value is not allowed, if another file exists at `out`, or if `out` can not be
+        created.
     OSError
-        If rows can not be written once the study runs, as on a full disk.
+        If rows can not be written while the study runs, as on a full disk.
 
     See Also
     --------
     snapload.open_study : Opens such a file.
-    snapload.merge : Joins the parts that several machines swept.
-    snapload.evenly : Values for an axis.
-    snapload.System.sweep : The same of a system of one's own.
+    snapload.merge : Joins the parts that several machines computed.
+    snapload.evenly : Returns evenly spaced values for an axis.
+    snapload.System.sweep : Runs a study of a user-defined system.
 
     Notes
     -----
-    Python's lock is released meanwhile. Ctrl-C ends it within a second; with `out` what was saved is safe.
+    Python's lock is released during the computation. Ctrl-C interrupts it within a second; with `out` all rows that
+    were saved are kept.
 
     Examples
     --------
@@ -146,33 +147,33 @@ with_keys(sweep, defaults=False)
 
 
 def open_study(path: str | PathLike[str], *, chunks: Any = None) -> xarray.Dataset:
-    """Open a Parquet file of ``snapload sweep``, of the command line or of :func:`snapload.sweep`, as a dataset.
+    """Open a Parquet file of the command ``snapload sweep`` or of :func:`snapload.sweep` as a dataset.
 
     Parameters
     ----------
     path : path-like
-        The file.
+        The file to open.
     chunks : dict, int or "auto", optional
-        Open it lazily, in such chunks of Dask along the dimensions: rows are read when they are asked for. All is read
-        at once if left out.
+        Open the file lazily in chunks of Dask of this size along the dimensions, so that rows are read when they are
+        needed. If left out, the whole file is read at once.
 
     Returns
     -------
     xarray.Dataset
-        Over the axes of a grid. Random points, lists of cases and parts of a study (``--shard``) have the dimension
-        ``row`` instead, and the keys among their variables.
+        The results over the axes of a grid. Random points, lists of cases and parts of a study (``--shard``) have the
+        dimension ``row`` instead, and the keys are variables.
 
     Raises
     ------
     ValueError
-        If it is not a file of a study.
+        If the file is not that of a study.
     OSError
-        If it can not be read.
+        If the file can not be read.
 
     See Also
     --------
-    snapload.sweep : Makes such a file.
-    snapload.merge : Makes one of the parts of several machines.
+    snapload.sweep : Writes such a file.
+    snapload.merge : Joins the parts of several machines in one file.
 
     Examples
     --------
@@ -193,35 +194,35 @@ def open_study(path: str | PathLike[str], *, chunks: Any = None) -> xarray.Datas
 
 
 def merge(parts: Iterable[str | PathLike[str]], out: str | PathLike[str]) -> xarray.Dataset:
-    """Join the parts of a study that several machines swept, as ``snapload merge`` does.
+    """Join the parts of a study that several machines computed, as ``snapload merge`` does.
 
     Parameters
     ----------
     parts : iterable of path-like
-        The files that ``snapload sweep --shard`` wrote, all of them, in any order.
+        All files that ``snapload sweep --shard`` wrote, in any order.
     out : path-like
-        The file to write, the same to the byte as that of one sweep.
+        The file to write, the same to the byte as that of a single sweep.
 
     Returns
     -------
     xarray.Dataset
-        The whole study, as :func:`snapload.open_study` gives it.
+        The whole study, as :func:`snapload.open_study` returns it.
 
     Raises
     ------
     ValueError
-        If they are no parts of one study, if one is missing, or if something stands where `out` is to be.
+        If the files are not parts of one study, if a part is missing, or if a file exists at `out`.
     OSError
         If a part can not be read, or the file can not be written.
 
     See Also
     --------
-    snapload.sweep : Makes a file on one machine.
+    snapload.sweep : Runs a study on one machine.
     snapload.open_study : Opens a file.
 
     Examples
     --------
-    Two machines sweep a half each, by the command that comes with the package:
+    Two machines compute one half each, with the command that comes with the package:
 
     >>> import subprocess, sys, tempfile
     >>> import snapload

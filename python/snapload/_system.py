@@ -1,4 +1,4 @@
-"""Systems of one's own: any body, cables and forces."""
+"""User-defined systems: any body, cables and forces."""
 
 from __future__ import annotations
 
@@ -37,54 +37,55 @@ _RULES = (*LIMITS, "settled_below", "sliding_above")
 
 @dataclass(frozen=True, repr=False)
 class System(LimitBounds):
-    """A body on any cables under any sinusoids, from a start to a stop.
+    """A body on any cables under any sinusoidal forces, with its start and stop rules.
 
     Parameters
     ----------
     body : Body
-        What moves.
+        The body that moves.
     cables : iterable of Cable
-        One to sixteen of them. They count from 1.
+        One to sixteen cables, numbered from 1.
     forcing : Forcing
-        All forces but those of the cables, the weight among them.
+        All forces except those of the cables, including the weight.
     restitution : float
         Coefficient of restitution of every snap, from 0 to 1.
     {limits}
     x, y, theta, vx, vy, vtheta : float
-        The start: centre, rotation, and their velocities. No cable may be shorter than it has to be there.
+        The start: position of the centre, rotation, and their velocities. Each cable must be long enough to reach the
+        body there.
     t_end : float
-        The run ends here at the latest.
+        The run ends at this time at the latest.
     settled_below : float, optional
-        The run ends where a cable sticks, or two are taut, while y is below this.
+        The run ends if a cable sticks, or two cables are taut, while y is below this value.
     sliding_above : float, optional
-        The run ends where a cable sticks while y is at this or above.
+        The run ends if a cable sticks while y is at this value or above.
     max_impacts : int
-        The run ends at more impacts than this.
+        The run ends if it has more impacts than this.
     v_stick : float
-        A slower snap makes the cable stay taut if its tension would be positive.
+        After a snap with a smaller normal velocity the cable stays taut, if its tension would be positive.
 
     Raises
     ------
     ValueError
         If a value is not allowed, or the start is beyond the reach of a cable.
     TypeError
-        If a part is something else.
+        If a part has the wrong type.
 
     See Also
     --------
-    snapload.Case : The breakwater on two cables, by its keys.
-    snapload.Body : A part of it.
-    snapload.Cable : A part of it.
-    snapload.Forcing : A part of it.
+    snapload.Case : Describes the breakwater on two cables by its keys.
+    snapload.Body : The body of a system.
+    snapload.Cable : A cable of a system.
+    snapload.Forcing : The forces of a system.
 
     Notes
     -----
-    Units are your own, as long as they belong together, such as metres, kilograms, newtons and seconds. Best are those
-    in which lengths, masses and forces are near 1: rounding is judged so.
+    You may choose any consistent units, such as metres, kilograms, newtons and seconds. Units in which lengths, masses
+    and forces are near 1 are best, because the estimate of rounding errors assumes this.
 
     Examples
     --------
-    A disc that hangs on three cables a tenth longer than they have to be, and is shaken sideways:
+    A disc that hangs on three cables, each a tenth longer than necessary, and is shaken sideways:
 
     >>> import math, snapload
     >>> places = [(-1.0, -0.2), (0.0, 0.0), (1.0, 0.2)]
@@ -135,7 +136,7 @@ class System(LimitBounds):
         _ = self._begun
 
     def _check_point(self) -> None:
-        """A point mass has no rotation, and nothing on it stands apart from its centre."""
+        """Checks that a point mass has no rotation and no fairlead away from its centre."""
         for cable, tether in enumerate(self.cables, 1):
             if tether.fairlead != (0.0, 0.0):
                 raise ValueError(
@@ -158,25 +159,25 @@ class System(LimitBounds):
         return {name: bound for name in LIMITS if (bound := getattr(self, name)) is not None}
 
     def replace(self, **keys: Any) -> System:
-        """Change some keys.
+        """Return a system with some keys changed.
 
         Parameters
         ----------
         **keys
             Any of the parameters; ``mass``, ``inertia`` and ``radius`` of the body; ``force_x`` and ``force_y``, the
             constant force; ``length``, ``anchor_x``, ``anchor_y``, ``fairlead_x`` and ``fairlead_y`` of every cable;
-            ``amplitude_x``, ``amplitude_y``, ``omega``, ``phase_x`` and ``phase_y`` of every sinusoid. With a number
-            behind it, as in ``length_2``, a key is that of the second one alone.
+            ``amplitude_x``, ``amplitude_y``, ``omega``, ``phase_x`` and ``phase_y`` of every sinusoid. A key with a
+            number, such as ``length_2``, changes only the cable or sinusoid with that number.
 
         Returns
         -------
         System
-            Another system; this one stays as it is.
+            A new system; this one does not change.
 
         Raises
         ------
         ValueError
-            If a key is unknown or can not take its value.
+            If a key is unknown or its value is not allowed.
 
         See Also
         --------
@@ -196,22 +197,22 @@ class System(LimitBounds):
         return dataclasses.replace(system, **parts)
 
     def run(self, *, trust: bool = True, uncertainty: Uncertainty = None, tolerance: float = 1e-3) -> SystemRun:
-        """Run the system to its end, and say how far the run can be trusted.
+        """Run the system to its end, and compute how far the run can be trusted.
 
         Parameters
         ----------
         trust : bool
-            Whether to say how far the run can be trusted. The motion is the same to the bit.
+            Whether to compute how far the run can be trusted. The motion is the same to the bit.
         uncertainty : float or dict of str to float, optional
-            How far the start may be off, either way: one size for every start value, or a size for each. If left
-            out, nothing but rounding.
+            Uncertainty of the start in either direction: one size for every start value, or a size for each. If left
+            out, only rounding is uncertain.
         tolerance : float
             Error of state and time above which a result counts as not known.
 
         Returns
         -------
         SystemRun
-            The finished run: how it ended, impacts, modes, norms, trust, motion.
+            The finished run with its end, impacts, modes, norms, trust and motion.
 
         Raises
         ------
@@ -221,11 +222,11 @@ class System(LimitBounds):
         See Also
         --------
         sweep : Runs many systems.
-        snapload.Case.run : Runs the breakwater, its neighbours too.
+        snapload.Case.run : Runs the breakwater and its neighbours.
 
         Examples
         --------
-        A pendulum that is thrown from its lowest place, goes slack at 120 degrees and snaps taut:
+        A pendulum that starts with a velocity at its lowest point, goes slack at 120 degrees and snaps taut:
 
         >>> import snapload
         >>> rope, weight = snapload.Cable(anchor=(0, 0), length=1), snapload.Forcing((0, -1))
@@ -249,34 +250,34 @@ class System(LimitBounds):
         symbol: Iterable[int | str] | None = None,
         phase: float = 0.0,
     ) -> _orbit.SystemOrbit:
-        """Find the periodic orbit near a start, closed to rounding.
+        """Find the periodic orbit near a start, to rounding.
 
         Parameters
         ----------
         start : dict of str to float, or array_like of six, optional
-            The state at the section near which the orbit is; values left out are the system's own.
+            A state at the section that is near the orbit; values left out are those of the system.
         periods : int, optional
-            Length in periods of the first sinusoid; 1 if left out.
+            Period of the orbit in periods of the first sinusoid; 1 if left out.
         symbol : iterable of int, optional
-            The cables that snap, in their order; any if left out.
+            The cables that snap, in order; any sequence if left out.
         phase : float
-            Time of the section, in periods.
+            Time of the section, in periods of the first sinusoid.
 
         Returns
         -------
         SystemOrbit
-            The orbit, with its multipliers, and whether a body can have it.
+            The orbit, with its multipliers and its admissibility.
 
         Raises
         ------
         NoOrbitError
-            If there is none; the words say what there is instead.
+            If there is no such orbit; the message says what was found instead.
         ValueError
-            If an option is out of its range, the start is beyond a cable, or the forces do not repeat themselves.
+            If an option is out of its range, the start is beyond a cable, or the forces are not periodic.
 
         See Also
         --------
-        snapload.Case.orbit : The same of a case.
+        snapload.Case.orbit : Finds an orbit of a case.
 
         Examples
         --------
@@ -291,7 +292,7 @@ class System(LimitBounds):
         return orbit_of_system(self, start, periods, symbol, phase)
 
     def _doubts(self, uncertainty: Uncertainty) -> list[float]:
-        """How far each value of the start may be off."""
+        """The uncertainty of each start value."""
         rigid = self.body.inertia is not None
         moves = [name for name in START if rigid or name not in ("theta", "vtheta")]
         if uncertainty is None:
@@ -315,33 +316,33 @@ class System(LimitBounds):
         Parameters
         ----------
         trust : bool
-            Whether to say how far each run can be trusted, which takes about twice as long.
+            Whether to compute how far each run can be trusted, which about doubles the time.
         threads : int, optional
-            Threads to use; as many as the machine has if left out.
+            Number of threads; as many as the machine has if left out.
         progress : bool
-            Whether to show a bar if it takes long.
+            Whether to show a progress bar if the computation takes long.
         **axes
-            The values of each key that varies, by the names that :meth:`replace` knows, or ``"first:last:n"`` for
-            evenly spaced ones. The first key is the slowest.
+            The values of each key that varies, with the names of :meth:`replace`, or ``"first:last:n"`` for evenly
+            spaced values. The first key varies slowest.
 
         Returns
         -------
         xarray.Dataset
-            The results over the keys that vary, with the names and meanings of :func:`snapload.sweep`. What is no
-            legal system has NaN, is not ``certain``, and has words in ``error``.
+            The results over the keys that vary, with the names and meanings of :func:`snapload.sweep`. A system that
+            is not legal has NaN, is not ``certain``, and has a message in ``error``.
 
         Raises
         ------
         ValueError
-            If a key is unknown, or no system of all is legal.
+            If a key is unknown, or none of the systems is legal.
 
         See Also
         --------
-        snapload.sweep : Studies of the breakwater, as files, on several machines.
+        snapload.sweep : Runs studies of the breakwater, also to files and on several machines.
 
         Notes
         -----
-        Python's lock is released meanwhile, and Ctrl-C ends it. All results are kept in memory;
+        Python's lock is released during the computation, and Ctrl-C interrupts it. All results are kept in memory;
         ``to_netcdf`` writes them.
 
         Examples
@@ -374,9 +375,9 @@ System.__doc__ = (System.__doc__ or "").replace("{limits}", LIMIT_PARAMETERS.str
 
 
 class SystemRun(BaseRun):
-    """A finished run of a system of one's own: how it ended, its impacts and modes, and how far it can be trusted.
+    """A finished run of a user-defined system with its end, impacts and modes, and how far it can be trusted.
 
-    Made by :meth:`snapload.System.run`.
+    Returned by :meth:`snapload.System.run`.
 
     Attributes
     ----------
@@ -385,8 +386,8 @@ class SystemRun(BaseRun):
 
     See Also
     --------
-    snapload.System.run : Makes it.
-    snapload.Run : The same of a case.
+    snapload.System.run : Runs a system.
+    snapload.Run : A run of a case.
 
     Examples
     --------

@@ -1,4 +1,4 @@
-"""The keys of a system by name: its own, and those of its parts."""
+"""The keys of a system by name: its own keys, and those of its parts."""
 
 from __future__ import annotations
 
@@ -18,18 +18,18 @@ _OF_SINUSOIDS = ("amplitude_x", "amplitude_y", "omega", "phase_x", "phase_y")
 
 
 def in_order(system: System) -> list[dataclasses.Field[Any]]:
-    """Its fields, the limits behind the others; as fields of a base class they would come first."""
+    """The fields of a system, with the limits last; as fields of a base class they would come first."""
     return sorted(dataclasses.fields(system), key=lambda field: field.name in LIMITS)
 
 
 def names(system: System) -> list[str]:
-    """Every name that `changed` knows, those with numbers apart."""
+    """Every name that `changed` accepts, except those with numbers."""
     own = [field.name for field in in_order(system)]
     return [*own, *_OF_BODY, *_OF_FORCES, *_OF_CABLES, *_OF_SINUSOIDS]
 
 
 def changed(system: System, parts: dict[str, Any], key: str, value: Any) -> dict[str, Any]:
-    """The part that a key belongs to, with it changed; `parts` are those that were changed before."""
+    """The part to which a key belongs, with the key changed; `parts` are those changed before."""
 
     def part(name: str) -> Any:
         return parts.get(name, getattr(system, name))

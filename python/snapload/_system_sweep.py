@@ -1,4 +1,4 @@
-"""Studies of systems of one's own."""
+"""Studies of user-defined systems."""
 
 from __future__ import annotations
 
@@ -72,7 +72,7 @@ def _about(name: str) -> dict[str, Any]:
 
 
 def _spread(kind: str, data: Any, words: list[str], legal: Any) -> Any:
-    """The values of the rows that were run among all rows."""
+    """The values of all rows, with missing values for the rows that were not run."""
     if kind == "words":
         whole: Any = np.full(len(legal), "", dtype=object)
         whole[legal] = np.array(words, dtype=object)[np.frombuffer(data, dtype=np.int32)]

@@ -1,4 +1,4 @@
-"""Tables that pandas, Polars and PyArrow read where they lie."""
+"""Tables that pandas, Polars and PyArrow can read without a copy."""
 
 from __future__ import annotations
 
@@ -27,25 +27,25 @@ def or_nan(value: float | None) -> float:
 
 
 def numbers(rows: Sequence[Mapping[str, Any]], name: str) -> NDArray[np.float64]:
-    """What the rows have under a name, NaN where there is none."""
+    """The values of one column of the rows, NaN where a value is missing."""
     return np.array([or_nan(row[name]) for row in rows], dtype=np.float64)
 
 
 class Table:
-    """Rows, and columns of equal length.
+    """A table with named columns of equal length.
 
-    ``table["t"]`` is a column, ``table[0]`` a row. The length is that of the columns, iteration gives the rows, and
-    ``dict(table)`` has the columns by name.
+    ``table["t"]`` is a column and ``table[0]`` a row. The length of the table is that of its columns, iteration gives
+    the rows, and ``dict(table)`` has the columns by name.
 
-    A table speaks the Arrow C data interface, so ``polars.DataFrame(table)``, ``pyarrow.table(table)`` and
-    ``pandas.DataFrame.from_arrow(table)`` take it without a copy, with units and long names as metadata of the
+    A table implements the Arrow C data interface, so ``polars.DataFrame(table)``, ``pyarrow.table(table)`` and
+    ``pandas.DataFrame.from_arrow(table)`` read it without a copy, with units and long names as metadata of the
     fields. ``pandas.DataFrame(table)`` and ``numpy.asarray(table)`` copy it.
 
     See Also
     --------
     snapload.Run.impacts : The impacts of a run.
-    snapload.Run.modes : Its modes.
-    snapload.Run.exponents : Its Lyapunov exponents.
+    snapload.Run.modes : The modes of a run.
+    snapload.Run.exponents : The Lyapunov exponents of a run.
     snapload.sensitivities : Derivatives of the first impacts.
 
     Examples
@@ -79,11 +79,11 @@ class Table:
 
     @property
     def columns(self) -> tuple[str, ...]:
-        """Names of the columns.
+        """The names of the columns.
 
         See Also
         --------
-        keys : The same, for ``dict(table)``.
+        keys : Returns the names for ``dict(table)``.
 
         Examples
         --------
@@ -94,16 +94,16 @@ class Table:
         return self._names
 
     def keys(self) -> tuple[str, ...]:
-        """Give the names of the columns; ``dict(table)`` asks for them.
+        """Return the names of the columns, which ``dict(table)`` needs.
 
         Returns
         -------
         tuple of str
-            The names, in their order.
+            The names in the order of the columns.
 
         See Also
         --------
-        columns : The same as a property.
+        columns : The names as a property.
 
         Examples
         --------
@@ -129,7 +129,7 @@ class Table:
     @overload
     def __getitem__(self, place: int) -> dict[str, Any]: ...
     def __getitem__(self, place: str | int) -> NDArray[Any] | dict[str, Any]:
-        """Take one column as an array of NumPy, shape ``(len(table),)``, or one row as a dict.
+        """Return one column as a NumPy array of shape ``(len(table),)``, or one row as a dict.
 
         Raises
         ------
@@ -157,16 +157,16 @@ class Table:
         return array
 
     def to_pandas(self) -> pandas.DataFrame:
-        """Copy the table into a DataFrame of pandas, which needs no PyArrow.
+        """Copy the table to a pandas DataFrame; PyArrow is not needed.
 
         Returns
         -------
         pandas.DataFrame
-            With the columns of the table.
+            A DataFrame with the columns of the table.
 
         See Also
         --------
-        columns : Names of the columns.
+        columns : The names of the columns.
 
         Examples
         --------

@@ -1,4 +1,4 @@
-"""What is told of a finished run: its end, its norms, and how far to trust it."""
+"""Results of a finished run: its end, its norms, and how far to trust it."""
 
 from __future__ import annotations
 
@@ -17,13 +17,13 @@ class End:
     Attributes
     ----------
     reason : str
-        Why: ``settled``, ``rotation_limit``, ``end_time`` or another name of docs/model.md, section 7.
+        The reason: ``settled``, ``rotation_limit``, ``end_time`` or another name in docs/model.md, section 7.
     t : float
-        When [T].
+        The time of the end [T].
     t_limit : float or None
-        Where the impacts that end the run converge, if they do [T].
+        The time at which the impacts that end the run accumulate [T]; None if they do not.
     state : tuple of float
-        The last x, y, theta, vx, vy, vtheta [L, rad, L/T, rad/T].
+        The final x, y, theta, vx, vy, vtheta [L, rad, L/T, rad/T].
 
     See Also
     --------
@@ -44,11 +44,11 @@ class End:
 
     @property
     def exceeds(self) -> bool:
-        """Whether the run left the range of the mooring: it reached a limit, such as that of the rotation.
+        """Whether the run reached a limit of the mooring, such as the rotation limit.
 
         See Also
         --------
-        snapload.critical_force : The smallest force that does so.
+        snapload.critical_force : Finds the smallest force that exceeds a limit.
 
         Examples
         --------
@@ -74,11 +74,11 @@ class Norms:
     y_max : float
         Highest y of the centre [L].
     theta_max : float
-        Largest rotation, either way [rad].
+        Largest rotation in either direction [rad].
 
     See Also
     --------
-    snapload.Trust : Has the errors of the first three.
+    snapload.Trust : Has the errors of the norms.
 
     Examples
     --------
@@ -97,38 +97,38 @@ class Norms:
 
 @dataclass(frozen=True, repr=False, eq=False)
 class Trust(Result):
-    """How far a run can be trusted, and why no further.
+    """How far a run can be trusted, and why trust ends there.
 
     Attributes
     ----------
     t : float or None
-        The horizon: where trust ends [T]; None if nowhere.
+        The horizon, which is the time at which trust ends [T]; None if trust reaches the end of the run.
     impact : int or None
-        The number of the impact there, from 1.
+        The number of the impact at the horizon, from 1.
     because : str or None
-        ``tolerance``, ``graze``, ``near_miss``, ``sticking``, ``simultaneous``, ``start`` or
+        The reason: ``tolerance``, ``graze``, ``near_miss``, ``sticking``, ``simultaneous``, ``start`` or
         ``stop_rule``.
     tolerance : float
-        Error of time or state, two standard deviations, above which a result counts as not known.
+        Error of time or state, as two standard deviations, above which a result counts as not known.
     uncertainty : dict of str to float
-        What was taken to be in doubt, beside rounding.
+        The assumed uncertainty in addition to rounding.
     end_error : float or None
-        Error of the time of the end [T], two standard deviations; 0 at the end time; None past the horizon.
+        Error of the time of the end [T], as two standard deviations; 0 at the end time; None past the horizon.
     norm_errors : dict of str to float or None
-        Errors of ``rho1``, ``rho2`` and ``rho3`` [L/T], ``y_max`` [L] and ``theta_max`` [rad]; None where what is past
-        the horizon enters.
+        Errors of ``rho1``, ``rho2`` and ``rho3`` [L/T], ``y_max`` [L] and ``theta_max`` [rad]; None if the norm depends
+        on the motion past the horizon.
     exponents : tuple of float or None
-        Finite-time Lyapunov exponents, the largest first [1/T], six, or four of a point mass; None where sticking
-        closes a direction.
+        Finite-time Lyapunov exponents, the largest first [1/T]: six, or four for a point mass; None where sticking
+        removes a direction.
     grazes : tuple of dict
         Impacts that magnify a deviation by more than a hundred: ``impact``, ``v_n``, ``factor``.
     sensitivity : tuple of dict
-        Derivatives of ``t``, ``v_n`` and ``impulse`` of the first impacts by every key.
+        Derivatives of ``t``, ``v_n`` and ``impulse`` of the first impacts with respect to every key.
 
     See Also
     --------
     snapload.Outcome : Whether the end is certain.
-    snapload.verify : The same run with many digits.
+    snapload.verify : Repeats the run with many digits.
 
     Examples
     --------
@@ -154,18 +154,18 @@ class Trust(Result):
 
 @dataclass(frozen=True)
 class Outcome:
-    """Whether the end of a run is certain, and how its neighbours end where it is not.
+    """Whether the end of a run is certain, and how its neighbours end if it is not.
 
     Attributes
     ----------
     certain : bool
-        Whether every neighbour within the doubt ends alike.
+        Whether every neighbour within the uncertainty ends alike.
     ensemble : Ensemble or None
-        How the neighbours end, as :func:`snapload.ensemble` tells it; None where the end is certain.
+        How the neighbours end, as in :func:`snapload.ensemble`; None if the end is certain.
 
     See Also
     --------
-    snapload.ensemble : Neighbours of a case, wherever its horizon is.
+    snapload.ensemble : Runs neighbours of a case, wherever its horizon is.
 
     Examples
     --------

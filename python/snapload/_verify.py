@@ -1,4 +1,4 @@
-"""A run beside the same with many digits."""
+"""Comparison of a run with the same run in many digits."""
 
 from __future__ import annotations
 
@@ -22,37 +22,37 @@ else:
 
 @dataclass(frozen=True, repr=False, eq=False)
 class Verification(Result):
-    """An ordinary run beside the same run with many digits.
+    """An ordinary run, compared with the same run in many digits.
 
     Attributes
     ----------
     digits : int
-        Decimal digits of the second run.
+        Decimal digits of the run with many digits.
     digits_left : float
-        Those that are still right at its end.
+        Number of digits that are still right at the end of that run.
     first_wrong : int or None
         The first impact, from 1, at which the ordinary run is wrong; None if it is right at all of them.
     predicted : int or None
-        Where the ordinary run said that trust in it ends.
+        The impact at which trust ends according to the ordinary run.
     compared : int
-        Impacts that both have.
+        Number of impacts that both runs have.
     end : str or None
-        How the run with many digits ends; None if a cable stayed taut first, where the proof ends.
+        How the run with many digits ends; None if a cable stayed taut before, where the comparison ends.
     t : float
-        When it ends [T].
+        The time at which that run ends [T].
     impacts : int
-        How many impacts it has.
+        Number of impacts of that run.
     differences : numpy.ndarray, shape (compared,)
         The largest difference of time and states at each impact, relative where a value is above 1.
     exact : tuple of dict
         The impacts of the run with many digits: ``t``, ``v_n`` and ``impulse`` as decimals in a str, which
-        `decimal.Decimal` reads, with the digits that are left there; and ``cable``.
+        `decimal.Decimal` reads, with as many digits as are right; and ``cable``.
     tolerance : float
         The difference that counts as wrong.
 
     See Also
     --------
-    snapload.verify : Makes it.
+    snapload.verify : Runs both and compares them.
 
     Examples
     --------
@@ -81,12 +81,12 @@ class Verification(Result):
         Parameters
         ----------
         ax : matplotlib.axes.Axes, optional
-            Where to draw; new ones if left out.
+            Axes to draw into; new ones if left out.
 
         Returns
         -------
         matplotlib.axes.Axes
-            The axes, to compose further.
+            The axes, for further changes.
 
         See Also
         --------
@@ -128,15 +128,15 @@ class Verification(Result):
 
 
 def verify(case: Case, digits: int = 60, *, tolerance: float = 1e-3) -> Verification:
-    """Run a case again with many digits, and say from which impact on the ordinary run is wrong.
+    """Repeat the run of a case with many digits, and find the impact from which the ordinary run is wrong.
 
-    The proof covers slack flight, impacts and the stop rules; where a cable stays taut it ends. Numbers count as
+    The comparison covers slack flight, impacts and the stop rules; it ends where a cable stays taut. Numbers count as
     written: 0.1 is a tenth.
 
     Parameters
     ----------
     case : Case
-        The case.
+        The case to run.
     digits : int
         Decimal digits to compute with, at least.
     tolerance : float
@@ -154,7 +154,7 @@ def verify(case: Case, digits: int = 60, *, tolerance: float = 1e-3) -> Verifica
 
     See Also
     --------
-    snapload.Case.run : Says where trust in a run ends.
+    snapload.Case.run : Computes where trust in a run ends.
 
     Examples
     --------

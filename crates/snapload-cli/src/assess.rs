@@ -17,18 +17,18 @@ const EXAMPLES: &str = include_str!("../help/assess.txt").trim_ascii_end();
 pub(crate) struct Args {
     #[command(flatten)]
     input: StructureArgs,
-    /// List the keys of a structure's case and end
+    /// List the keys of a structure's case and exit
     #[arg(long)]
     keys: bool,
-    /// Write the note as one self-contained page of HTML
+    /// Write the design note as one self-contained HTML page
     #[arg(long, value_name = "NOTE.html")]
     out: Option<PathBuf>,
     #[command(flatten)]
     json: JsonArgs,
-    /// Neighbours of the run, 1e-6 of the wave height away, that show how far it can be trusted
+    /// Number of neighbours of the run, 1e-6 of the wave height away, that show how far it can be trusted
     #[arg(long, value_name = "NUMBER", default_value_t = DEFAULT_NEIGHBOURS, value_parser = whole::<u32>(NEIGHBOURS))]
     neighbours: u32,
-    /// Leave the scan over wave heights and periods out of the page
+    /// Omit the scan over wave heights and periods from the page
     #[arg(long)]
     no_scan: bool,
 }

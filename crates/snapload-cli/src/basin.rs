@@ -19,16 +19,16 @@ use std::fmt::Write;
 use std::path::PathBuf;
 
 const EXAMPLES: &str = "\
-A start is safe if its run reaches no limit of the motion up to t_end, such as the rotation limit or the upper
-bound; settling is safe.
-Starts beyond a cable or a limit are not legal and no part of the window. A cell is decided if its neighbours at
-1e-8, and where rounding may decide its run nearer ones, too, end alike.
+A start is safe if its run reaches no limit of the motion, such as the rotation limit or the upper bound, up to
+t_end. A run that settles is safe. Starts beyond the length of a cable or beyond a limit are not legal and are
+left out of the window. A cell is decided if its neighbours at a distance of 1e-8 end alike; where rounding may
+decide its run, nearer neighbours must end alike, too.
 
 Examples:
   snapload basin --set t_end=60 --vary x=-0.4:0.4:41 --vary y=0.02:0.72:36 --out basin.parquet
-      starts at rest of the standard body
+      starts at rest, with the standard body
   snapload basin --set t_end=60 --vary f_o=0.02:0.6:30 --vary omega=0.4:2.4:41 --json -
-      any two keys
+      a window of any two keys
   snapload erosion --set t_end=60 --vary x=-0.4:0.4:33 --vary y=0.02:0.72:29 --over f_o=0:0.6:21
       how the safe part shrinks as the force grows";
 
@@ -38,13 +38,13 @@ Examples:
 pub(crate) struct Args {
     #[command(flatten)]
     window: WindowArgs,
-    /// What is asked of a cell: whether it is safe, or which attractor it comes to
+    /// What to compute for each cell: whether it is safe, or which attractor its motion reaches
     #[arg(long, default_value = "safe", value_parser = ["safe", "attractor"])]
     kind: String,
-    /// Periods of the forcing before attractors are looked at
+    /// Forcing periods to skip before attractors are identified
     #[arg(long, value_name = "N", default_value_t = 300, value_parser = whole::<u64>(BASIN_TRANSIENT))]
     transient: u64,
-    /// Write a table with a row a cell, FILE.parquet or FILE.csv
+    /// Write a table with one row per cell, FILE.parquet or FILE.csv
     #[arg(long, value_name = "FILE")]
     out: Option<PathBuf>,
     #[command(flatten)]
@@ -57,10 +57,10 @@ pub(crate) struct Args {
 pub(crate) struct ErosionArgs {
     #[command(flatten)]
     window: WindowArgs,
-    /// The third key: first:last:n values
+    /// The third key and its values first:last:n
     #[arg(long, value_name = "KEY=first:last:n", allow_hyphen_values = true)]
     over: String,
-    /// Write a table with a row a value, FILE.parquet or FILE.csv
+    /// Write a table with one row per value, FILE.parquet or FILE.csv
     #[arg(long, value_name = "FILE")]
     out: Option<PathBuf>,
     #[command(flatten)]
@@ -71,7 +71,7 @@ pub(crate) struct ErosionArgs {
 struct WindowArgs {
     #[command(flatten)]
     case: CaseArgs,
-    /// The two keys of the window, each first:last:n
+    /// One of the two keys of the window and its values; give this option twice
     #[arg(
         long,
         value_name = "KEY=first:last:n",
@@ -79,7 +79,7 @@ struct WindowArgs {
         required = true
     )]
     vary: Vec<String>,
-    /// Leave out which cells are decided, which takes most of the time
+    /// Do not compute which cells are decided, which takes most of the time
     #[arg(long)]
     no_trust: bool,
 }

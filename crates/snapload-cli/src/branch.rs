@@ -22,11 +22,12 @@ use std::fmt::Write;
 use std::path::PathBuf;
 
 const EXAMPLES: &str = "\
-The orbit near --start, or the one that the motion of the case comes to, is followed in both directions by
-pseudo-arclength, round folds, with its sequence of events held. Folds, period doublings, Neimark-Sacker points,
-grazes, corners, lost tensions and limits are located; every point is run, and `admissible` says whether a body
-has it. With --switch the branch that is born at a period doubling is followed instead, of orbits of twice the
-length; given again, that of four times the length, and so on.
+The command starts from the orbit near --start or, without it, from the orbit that the motion of the case
+converges to. It follows that orbit in both directions by pseudo-arclength continuation, also around folds, with
+the sequence of events held fixed. Folds, period doublings, Neimark-Sacker points, grazes, corners, lost tensions
+and limits are located. Every point is also simulated, and `admissible` says whether it is a possible motion of
+the body. With --switch, the branch that bifurcates at a period doubling is followed instead; its orbits are twice
+as long. If --switch is repeated, the next branch has orbits that are four times as long, and so on.
 
 Examples:
   snapload branch --set body=point --set r=1.7 --set e=0.35 --set f_o=1.4 --set nu=0.8 \\
@@ -35,7 +36,7 @@ Examples:
       --start x=-0.065,y=0.118,theta=0.479,vx=0.387,vy=0.647,vtheta=-1.666
   snapload branch --set body=point --set r=1.7 --set e=0.35 --set f_o=1.4 --set nu=0.8 \\
       --set omega=3.1 --along f_o=1.2:2 --step 0.002 --switch period_doubling --json -
-      the orbits of two periods that are born at f_o = 1.6805";
+      the orbits of two periods that bifurcate at f_o = 1.6805";
 
 /// Which case, which orbit, which key.
 #[derive(clap::Args)]
@@ -45,23 +46,23 @@ pub(crate) struct Args {
     case: CaseArgs,
     #[command(flatten)]
     near: NearArgs,
-    /// The key that changes, and between which values
+    /// Key to vary and the ends of its range
     #[arg(long, value_name = "KEY=low:high", allow_hyphen_values = true)]
     along: String,
-    /// Go over to the branch of twice the length that is born at a period doubling: the nearest one along the
-    /// branch, or the N-th of those that are told without this option; may be repeated
+    /// Switch to the period-doubled branch at the nearest period doubling along the branch, or at the N-th of
+    /// those reported without this option; may be repeated
     #[arg(long, value_name = "period_doubling[:N]")]
     switch: Vec<String>,
-    /// Length of the first step, in the space of state, times of events, and the key
+    /// Length of the first step, in the space of the state, the event times and the key
     #[arg(long, default_value_t = 0.01)]
     step: f64,
-    /// Points in either direction at most
+    /// Maximum number of points in each direction
     #[arg(long, value_name = "N", default_value_t = 2000, value_parser = whole::<u32>(POINTS))]
     points: u32,
-    /// Kinds of events that are told, with commas between them
+    /// Kinds of events to report, separated by commas
     #[arg(long, value_name = "all|fold,graze,...", default_value = "all")]
     events: String,
-    /// Write a table with a row a point, FILE.parquet or FILE.csv
+    /// Write a table with one row per point, FILE.parquet or FILE.csv
     #[arg(long, value_name = "FILE")]
     out: Option<PathBuf>,
     #[command(flatten)]

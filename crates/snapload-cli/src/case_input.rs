@@ -11,13 +11,13 @@ const LARGEST_FILE: u64 = 1 << 20;
 /// Which case, as given on the command line.
 #[derive(clap::Args)]
 pub(crate) struct CaseArgs {
-    /// Case file in TOML, one `key = value` a line (keys: snapload keys)
+    /// Case file in TOML, with one `key = value` per line (snapload keys lists the keys)
     #[arg(value_name = "CASE.toml", conflicts_with = "case")]
     file: Option<PathBuf>,
-    /// Built-in case (list: snapload cases)
+    /// Built-in case (snapload cases lists them)
     #[arg(long, value_name = "CODE")]
     case: Option<String>,
-    /// Change one key, after the file or the built-in case; may be repeated, the last one counts
+    /// Change one key of the file or the built-in case; may be repeated, the last value counts
     #[arg(long, value_name = "KEY=VALUE")]
     set: Vec<String>,
 }

@@ -15,25 +15,27 @@ use std::path::{Path, PathBuf};
 use std::time::Instant;
 
 const EXAMPLES: &str = "\
-The case is taken as the decimals that it is written in. Its motion is enclosed from impact to impact in
-numbers of many digits: that each one exists, comes next, and is of that cable, and how the run ends.
-Only what was proved is written, each number rounded to nearest at its last digit. The proof covers slack
-flight, impacts and stops; where a cable stays taut it ends, or goes on with --taut, sliding and rocking.
+The decimals in which the case is written are taken as exact. The motion is enclosed from impact to impact in
+numbers of many digits. This proves that each impact exists, that it is the next one and in which cable, and how
+the run ends. Only proved results are written, and each number is rounded to nearest at its last digit. The proof
+covers slack flight, impacts and stops. Where a cable stays taut, the proof ends; with --taut it continues through
+sliding and rocking.
 
 Examples:
   snapload certify
       the standard case: 290 impacts, proved
   snapload certify --case 1922001000-359 --out square.cert
-      a built-in case, with its certificate
+      a built-in case, with its certificate in a file
   snapload certify --taut --case sliding-example --set t_end=10
-      through sliding, an accumulation of snaps beside a taut cable, and rocking
+      through sliding, an accumulation of snaps next to a taut cable, and rocking
   snapload certify --set v_stick=1e-9 --json - | jq .end
-      the certificate, for the next program
+      the certificate as JSON, for another program
   snapload certify --check square.cert
-      check it again, from nothing but the case in it
+      check a certificate, using only the case that it contains
 
-Exit status: 0 proved to the end or, without --taut, to where a cable sticks; 1 not proved so far (nothing is
-written then without --partial), 2 bad input. With --check: 0 proved, 1 refused, 2 undecided or proved in part, 3 no certificate.";
+Exit status: 0 proved to the end or, without --taut, to where a cable stays taut; 1 not proved that far (nothing
+is written unless --partial is given); 2 bad input. With --check: 0 proved; 1 refused; 2 undecided or proved in
+part; 3 no certificate.";
 
 /// The size of the largest certificate: each of ten million impacts takes less than a hundred
 /// bytes.
@@ -50,13 +52,13 @@ pub(crate) struct Args {
     out: Option<PathBuf>,
     #[command(flatten)]
     json: JsonArgs,
-    /// Go on where a cable stays taut: a unit of time of such motion takes some tenths of a second
+    /// Continue the proof where a cable stays taut; each unit of time of such motion takes some tenths of a second
     #[arg(long, conflicts_with = "check")]
     taut: bool,
-    /// Write the certificate of a proof that came to no end, too
+    /// Write the certificate also if the proof did not reach the end
     #[arg(long)]
     partial: bool,
-    /// Check a certificate instead
+    /// Check a certificate instead of proving a run
     #[arg(long, value_name = "FILE.cert", conflicts_with_all = ["out", "partial", "set", "case", "file"])]
     check: Option<PathBuf>,
 }

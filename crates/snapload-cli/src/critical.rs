@@ -17,20 +17,20 @@ use snapload_study::Axis;
 use std::fmt::Write;
 
 const EXAMPLES: &str = "\
-The critical force is the smallest f_o = step, 2 step, ... whose run stops at a limit of the motion, such as
-the rotation limit or the upper bound. Larger ones may settle again, so all that exceed are listed as
-intervals.
---set stop_when_sliding=true ends a run that begins to slide, as the chapter's own studies did.
+The critical force is the smallest amplitude f_o = step, 2 step, ... whose run stops at a limit of the motion,
+such as the rotation limit or the upper bound. Runs with larger amplitudes may settle again, so all amplitudes
+that exceed a limit are listed as intervals. With --set stop_when_sliding=true a run ends when the body begins to
+slide, as in the studies of the thesis's chapter 6.
 
 Examples:
   snapload critical
-      the standard case: 0.31
+      the standard case, with the result 0.31
   snapload critical --case 2910001000-359 --set stop_when_sliding=true
-      a built-in case, read as the chapter read it
+      a built-in case, with runs that end at sliding as in the chapter
   snapload critical --ensemble 200 --max 0.5
-      how probable it is that each amplitude exceeds, where one run can not tell
+      the probability that each amplitude exceeds a limit, where one run can not decide
   snapload critical --over e=0.5:1:51 --json - | jq -c '.points[] | [.value, .f_cr]'
-      against the restitution, for the next program";
+      critical force against the coefficient of restitution, for another program";
 
 /// Which case, and which amplitudes.
 #[derive(clap::Args)]
@@ -38,17 +38,17 @@ Examples:
 pub(crate) struct Args {
     #[command(flatten)]
     case: CaseArgs,
-    /// Repeat it for n values of another key, evenly from a to b
+    /// Repeat for n evenly spaced values of another key from a to b
     #[arg(long, value_name = "KEY=a:b:n", allow_hyphen_values = true)]
     over: Option<String>,
-    /// Step of the amplitude
+    /// Step of the force amplitude
     #[arg(long, default_value_t = 0.01)]
     step: f64,
-    /// Largest amplitude
+    /// Largest force amplitude
     #[arg(long, default_value_t = 1.0)]
     max: f64,
-    /// Run N neighbours at each amplitude where one run can not tell, and give the probability of
-    /// exceeding
+    /// Run N neighbours at each amplitude where one run can not decide, and report the probability of
+    /// exceeding a limit
     #[arg(long, value_name = "N", conflicts_with = "over", value_parser = whole::<u32>(SOME_MEMBERS.called("ensemble")))]
     ensemble: Option<u32>,
     #[command(flatten)]

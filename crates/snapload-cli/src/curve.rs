@@ -23,22 +23,23 @@ use std::fmt::Write;
 use std::path::PathBuf;
 
 const EXAMPLES: &str = "\
-Beyond a fold there is no orbit, beyond a doubling another one, beyond a graze another sequence of snaps: a curve of
-such points in two keys divides the cases that behave alike from the others. The orbit near --start, or the one that
-the motion of the case comes to, is followed along the first key until points of the kind are found; from the nearest
-one along the branch, or the N-th, both keys change. Each point solves the equations of the orbit and of the point at
-once, to rounding. A curve ends at the ranges, at a corner, and where another snap has no speed left.
+A curve of bifurcation points in the plane of two keys separates cases that behave differently: beyond a fold there is
+no orbit, beyond a period doubling another orbit, and beyond a graze another sequence of snaps. The command starts from
+the orbit near --start or, without it, from the orbit that the motion of the case converges to, and follows it along
+the first key until points of the given kind are found. From the nearest such point along the branch, or from the N-th,
+both keys change. At each point of the curve the equations of the orbit and of the bifurcation are solved together, to
+rounding. A curve ends at the ends of the ranges, at a corner, and where the speed of another snap falls to zero.
 
   fold    an orbit and its unstable partner meet            pd      the period doubles
-  ns      a pair of multipliers is on the unit circle       graze   a cable is touched at no speed
+  ns      a pair of multipliers is on the unit circle       graze   a cable gets taut at zero speed
 
 Examples:
   snapload curve --set body=point --set r=1.7 --set e=0.35 --set f_o=1.4 --set nu=0.8 \\
       --set omega=3.1 --follow fold --along f_o=1:2,omega=2.5:3.5 --plot fold.svg --out fold.parquet
-      where in (f_o, omega) the stable orbit of two snaps begins
+      where in the plane (f_o, omega) the stable orbit of two snaps begins
   snapload curve --set body=point --set r=1.6 --set e=0.6 --set f_o=1.4 --set nu=1 --set omega=3.3 \\
       --start x=-0.0086,y=0.7632,vx=1.0527,vy=-0.7738 --follow ns --along f_o,e --json -
-      where it gives way to a torus; the keys go from half to twice their values";
+      where a torus replaces the orbit; the keys range from half to twice their values";
 
 /// Which case, which orbit, which points, which keys.
 #[derive(clap::Args)]
@@ -48,23 +49,23 @@ pub(crate) struct Args {
     case: CaseArgs,
     #[command(flatten)]
     near: NearArgs,
-    /// What is followed: the nearest such point along the first key, or the N-th that snapload branch lists
+    /// Kind of point to follow: the nearest one along the first key, or the N-th that snapload branch lists
     #[arg(long, value_name = "fold|pd|ns|graze[:N]")]
     follow: String,
-    /// The two keys that change, and between which values; without them from half to twice the case's
+    /// The two keys to vary and their ranges; by default from half to twice the values of the case
     #[arg(
         long,
         value_name = "K1[=low:high],K2[=low:high]",
         allow_hyphen_values = true
     )]
     along: String,
-    /// Length of the first step, in the space of state, times of events, and the keys
+    /// Length of the first step, in the space of the state, the event times and the keys
     #[arg(long, default_value_t = 0.01)]
     step: f64,
-    /// Points in either direction at most
+    /// Maximum number of points in each direction
     #[arg(long, value_name = "N", default_value_t = 500, value_parser = whole::<u32>(POINTS))]
     points: u32,
-    /// Write a table with a row a point, FILE.parquet or FILE.csv
+    /// Write a table with one row per point, FILE.parquet or FILE.csv
     #[arg(long, value_name = "FILE")]
     out: Option<PathBuf>,
     #[command(flatten)]

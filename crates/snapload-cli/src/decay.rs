@@ -20,13 +20,13 @@ const SHOWN: usize = 8;
 pub(crate) struct Args {
     #[command(flatten)]
     input: HydroArgs,
-    /// Where it is let go: surge and heave in m, pitch in rad
+    /// Initial displacement: surge and heave in m, pitch in rad
     #[arg(long, value_name = "Q1,Q3,Q5", value_parser = triple, allow_hyphen_values = true, default_value = "0,1,0")]
     from: [f64; 3],
-    /// How long it is watched, in s
+    /// Duration of the simulated motion in s
     #[arg(long, value_name = "NUMBER", default_value_t = 40.0)]
     duration: f64,
-    /// The time between rows, in s
+    /// Time between rows of the table in s
     #[arg(long, value_name = "NUMBER", default_value_t = 0.05)]
     step: f64,
     /// Write the motion as a table (CSV)

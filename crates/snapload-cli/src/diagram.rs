@@ -15,15 +15,15 @@ use std::fmt::Write;
 use std::path::PathBuf;
 
 const EXAMPLES: &str = "\
-Each value begins where the motion at the value before ended, so that an attractor is followed; where a motion
-stops at a limit the next value begins with the case's own start again, and `restarted` says so.
+The motion at each value starts from the final state at the previous value, so that one attractor is followed. If
+a motion stops at a limit, the next value starts from the start of the case again, and `restarted` says so.
 
 Examples:
   snapload diagram --set body=point --set r=1.976 --set e=0.71 --set nu=0.87 --set omega=4.847 \\
       --vary f_o=1.5:2.1:61 --out up.parquet
   snapload diagram --set body=point --set r=1.976 --set e=0.71 --set nu=0.87 --set omega=4.847 \\
       --vary f_o=1.5:2.1:61 --down --out down.parquet
-      downwards: another attractor may be found";
+      from the largest value down, which may find another attractor";
 
 /// Which case, which values, and how long.
 #[derive(clap::Args)]
@@ -31,10 +31,10 @@ Examples:
 pub(crate) struct Args {
     #[command(flatten)]
     case: CaseArgs,
-    /// The key that changes: first:last:n values
+    /// Key to vary and its values first:last:n
     #[arg(long, value_name = "KEY=first:last:n", allow_hyphen_values = true)]
     vary: String,
-    /// From the last value to the first
+    /// Go from the last value to the first
     #[arg(long)]
     down: bool,
     #[command(flatten)]

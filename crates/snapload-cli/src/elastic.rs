@@ -19,13 +19,13 @@ const EXAMPLES: &str = include_str!("../help/elastic.txt").trim_ascii_end();
 pub(crate) struct Args {
     #[command(flatten)]
     input: StructureArgs,
-    /// Take the lines this many times as stiff as they are
+    /// Factor by which the stiffness of all lines is multiplied
     #[arg(long, value_name = "TIMES", default_value_t = 1.0, value_parser = number(STIFFER))]
     stiffer: f64,
-    /// Write the motion as CSV: time, place, rotation and the tension of each line
+    /// Write the motion as CSV: time, position, rotation and the tension of each line
     #[arg(long, value_name = "FILE.csv")]
     out: Option<PathBuf>,
-    /// Time between two rows of the CSV, in seconds
+    /// Time between two rows of the CSV file, in seconds
     #[arg(long, value_name = "SECONDS", default_value_t = 0.01, value_parser = number(EVERY))]
     every: f64,
     #[command(flatten)]

@@ -15,23 +15,23 @@ const PORT: Key = Key::option("port", Kind::Count(0, 65_535));
 const USUAL_PORT: u16 = 7627;
 
 const EXAMPLES: &str = "\
-The page is served by this program, to this machine alone, and needs no network. It shows the
-motion, its plots and how far they can be trusted; every key can be changed there, and the case
-saved as a file.
+This program serves the page, and only to this machine; no network is needed. The page shows the
+motion, its plots and how far they can be trusted. Every key can be changed on the page, and the
+case can be saved as a file.
 
 Examples:
   snapload explore
-      begin with the standard case
+      start with the standard case
   snapload explore --case 1922001000-359 --set f_o=0.4
-      begin with a built-in case, changed
+      start with a built-in case and change one key
   snapload explore mooring.toml
-      begin with a case of your own
+      start with your own case
   snapload explore docs/examples/cylinder.toml
       a structure in metres, kilonewtons and seconds
   snapload explore --port 8000 --no-browser
-      at http://127.0.0.1:8000/, for a browser that you open yourself
+      serve http://127.0.0.1:8000/, to be opened in a browser by hand
 
-Ctrl-C ends it.";
+Press Ctrl-C to stop the program.";
 
 /// What to begin with, and where.
 #[derive(clap::Args)]
@@ -39,10 +39,10 @@ Ctrl-C ends it.";
 pub(crate) struct Args {
     #[command(flatten)]
     case: CaseArgs,
-    /// Port of this machine to serve at; 0 is any free one [default: 7627, or any free one if that is taken]
+    /// Port to serve the page on; 0 means any free port [default: 7627, or any free port if that is taken]
     #[arg(long, value_name = "N", value_parser = whole::<u16>(PORT))]
     port: Option<u16>,
-    /// Print the address, and leave it to you to open it
+    /// Print the address without opening a browser
     #[arg(long)]
     no_browser: bool,
 }

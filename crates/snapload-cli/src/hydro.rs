@@ -16,22 +16,22 @@ const EXAMPLES: &str = include_str!("../help/hydro.txt").trim_ascii_end();
 pub(crate) struct Args {
     #[command(flatten)]
     input: HydroArgs,
-    /// A line: anchor, fairlead from the reference point, length, in m; may be repeated
+    /// A line: anchor, fairlead relative to the reference point, and length, in m; may be repeated
     #[arg(long, value_name = "AX,AZ,FX,FZ,LENGTH", value_parser = line, allow_hyphen_values = true)]
     line: Vec<Line>,
-    /// A constant force beside weight and buoyancy, such as current: N, N, N m
+    /// Constant load in addition to weight and buoyancy, such as current, in N, N, N m
     #[arg(long, value_name = "F1,F3,F5", value_parser = triple, allow_hyphen_values = true)]
     force: Option<[f64; 3]>,
-    /// Significant wave height in m of a sea to answer for
+    /// Significant wave height of an irregular sea in m
     #[arg(long, value_name = "NUMBER", requires = "tp")]
     hs: Option<f64>,
-    /// Its peak period in s
+    /// Peak period of that sea in s
     #[arg(long, value_name = "NUMBER", requires = "hs")]
     tp: Option<f64>,
-    /// Its peakedness; 1 is Pierson and Moskowitz's
+    /// Peak enhancement factor of the JONSWAP spectrum; 1 gives Pierson-Moskowitz
     #[arg(long, value_name = "NUMBER", default_value_t = 3.3)]
     gamma: f64,
-    /// Write the answer as one self-contained page of HTML, with pictures
+    /// Write the results as one self-contained HTML page with plots
     #[arg(long, value_name = "PAGE.html")]
     out: Option<PathBuf>,
     #[command(flatten)]

@@ -12,54 +12,54 @@ use std::path::{Path, PathBuf};
 /// The file of a panel code, the body's weight, and the memory.
 #[derive(clap::Args)]
 pub(crate) struct HydroArgs {
-    /// Capytaine's .nc; WAMIT's .1, .3 or .hst, with the others beside it; Nemoh's folder of
-    /// results
+    /// Capytaine file (.nc), WAMIT file (.1, .3 or .hst) with the others in the same folder, or Nemoh
+    /// folder of results
     #[arg(value_name = "FILE")]
     file: PathBuf,
-    /// Density of the water in kg/m³, where the file does not say
+    /// Density of the water in kg/m³, if the file does not give it
     #[arg(long, value_name = "NUMBER", help_heading = "The file")]
     density: Option<f64>,
-    /// Gravity in m/s²
+    /// Gravitational acceleration in m/s²
     #[arg(long, value_name = "NUMBER", help_heading = "The file")]
     gravity: Option<f64>,
     /// Depth of the water in m, or inf
     #[arg(long, value_name = "NUMBER", help_heading = "The file")]
     depth: Option<f64>,
-    /// The point that pitch turns about and motion is counted from
+    /// Reference point: the centre of pitch, relative to which the motion is measured
     #[arg(long, value_name = "X,Z", value_parser = pair, allow_hyphen_values = true, help_heading = "The file")]
     reference: Option<[f64; 2]>,
-    /// WAMIT's unit of length ULEN in m
+    /// Length unit ULEN of WAMIT in m
     #[arg(long, value_name = "NUMBER", help_heading = "The file")]
     unit_length: Option<f64>,
-    /// What the first column of WAMIT's files holds
+    /// Quantity in the first column of the WAMIT files
     #[arg(long, value_name = "WHAT", default_value = "period", value_parser = ["period", "frequency", "wavenumber"], help_heading = "The file")]
     first_column: String,
-    /// The mass in kg of the water that the body displaces, where the file does not say
+    /// Mass of the displaced water in kg, if the file does not give it
     #[arg(long, value_name = "NUMBER", help_heading = "The file")]
     displaced_mass: Option<f64>,
-    /// The centre of gravity that the file's stiffness was made with, where the file does not say
+    /// Centre of gravity used for the stiffness in the file, if the file does not give it
     #[arg(long, value_name = "X,Z", value_parser = pair, allow_hyphen_values = true, help_heading = "The file")]
     file_centre: Option<[f64; 2]>,
-    /// Which body, where the file has several
+    /// Name of the body, if the file has several
     #[arg(long, value_name = "NAME", help_heading = "The file")]
     body: Option<String>,
-    /// The body's mass in kg; without it that of the water it displaces
+    /// Mass of the body in kg; by default the mass of the displaced water
     #[arg(long, value_name = "NUMBER", help_heading = "The body")]
     mass: Option<f64>,
-    /// Its centre of gravity; without it the file's
+    /// Centre of gravity of the body; by default that of the file
     #[arg(long, value_name = "X,Z", value_parser = pair, allow_hyphen_values = true, help_heading = "The body")]
     centre: Option<[f64; 2]>,
-    /// Its moment of inertia about its centre of gravity in kg m²; without it the file's, of which
-    /// a warning tells where --mass is another
+    /// Moment of inertia about the centre of gravity in kg m²; by default that of the file, with a
+    /// warning if --mass differs from the mass of the file
     #[arg(long, value_name = "NUMBER", help_heading = "The body")]
     inertia: Option<f64>,
-    /// Linear damping of surge, heave and pitch beside that of waves, in N s/m, N s/m, N m s
+    /// Linear damping of surge, heave and pitch in addition to wave radiation, in N s/m, N s/m, N m s
     #[arg(long, value_name = "B1,B3,B5", value_parser = triple, help_heading = "The body")]
     damping: Option<[f64; 3]>,
-    /// Pairs of poles of the memory; without it as many as are needed for 1 %
+    /// Number of pole pairs in the fit of the memory; by default as many as 1 % accuracy needs
     #[arg(long, value_name = "NUMBER", value_parser = whole::<usize>(PAIRS), help_heading = "The memory")]
     pairs: Option<usize>,
-    /// Take the memory from a file that --json wrote, and fit none
+    /// Read the fitted memory from a file that --json wrote, instead of fitting it
     #[arg(
         long,
         value_name = "FILE.json",

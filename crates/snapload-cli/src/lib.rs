@@ -77,15 +77,15 @@ Examples:
   snapload run --set f_o=0.5                   the same with a stronger force
   snapload run --case 2910001000-359           a built-in case (list: snapload cases)
   snapload run mooring.toml --out results      a case of your own, with tables and pictures
-  snapload verify                              the same run with 76 digits beside it
-  snapload critical --over e=0.5:1:11          critical force against restitution
+  snapload verify                              the standard case, compared with a run in 76 digits
+  snapload critical --over e=0.5:1:11          critical force against the restitution e
   snapload sweep --vary f_o=0.01:0.6:60 --vary omega=0.4:2.4:51 --out map.parquet
                                                a map of 3060 cases
   snapload assess cylinder.toml --out note.html
-                                               a structure in metres and waves: do its lines break?
+                                               a structure in waves (SI units): do its lines break?
   snapload hydro pontoon.nc --out pontoon.html
-                                               a floating body: memory, periods, response to waves
-  snapload explore                             the standard case on a page in the browser
+                                               a floating body: memory, natural periods, response
+  snapload explore                             the standard case on an animated page in the browser
 
 Exit status: 0 done, 1 failed, 2 bad input, 130 interrupted.";
 
@@ -93,58 +93,58 @@ Exit status: 0 done, 1 failed, 2 bad input, 130 interrupted.";
 enum Verb {
     /// Run one case
     Run(run::Args),
-    /// Find the critical force: the smallest amplitude that exceeds the limits, and all others
+    /// Find the critical force (the smallest amplitude that exceeds a limit) and all others that do
     Critical(critical::Args),
     /// A verb for each question about one case.
     #[command(flatten)]
     Question(question::Args),
-    /// Prove a run, impact by impact, and write the proof's claim as a certificate; or check one
+    /// Prove a run impact by impact and write a certificate of the result, or check a certificate
     Certify(certify::Args),
-    /// Run a study: every case of a grid, of random points or of a list, a row each
+    /// Run a study over a grid, random points or a list of cases, and write one row per case
     Sweep(sweep::Args),
-    /// Join the parts of a study that was swept on several machines
+    /// Join the parts of a study that was computed on several machines
     Merge(merge::Args),
-    /// Find periodic orbits, and tell their multipliers and whether a body has them
+    /// Find periodic orbits, their Floquet multipliers, and whether they are possible motions
     Orbit(orbit::Args),
-    /// Follow an orbit as a key changes, with its bifurcations, grazes and limits
+    /// Continue a periodic orbit in one key, and locate bifurcations, grazes and limits
     Branch(branch::Args),
-    /// Follow a fold, a doubling, a torus or a graze as two keys change
+    /// Continue a fold, period doubling, Neimark-Sacker point or graze in two keys
     Curve(curve::Args),
-    /// Follow a long motion: its state once a period of the forcing, its Lyapunov exponents
+    /// Sample a long motion once per forcing period, and compute its Lyapunov exponents
     Section(section::Args),
-    /// Follow the attractor along a key: a bifurcation diagram
+    /// Compute a bifurcation diagram: the attractor as one key changes
     Diagram(diagram::Args),
-    /// Run a window of starts: which of them stay below the limits
+    /// Compute which starts in a window of two keys stay below the limits (safe basin)
     Basin(basin::Args),
-    /// Run such a window for values of a third key: how its safe part is eroded
+    /// Compute how the safe part of a window of two keys shrinks as a third key changes
     Erosion(basin::ErosionArgs),
-    /// Reproduce the chapter's tables, figures and claims as one report
+    /// Reproduce the tables, figures and claims of chapter 6 of the thesis as one report
     #[cfg(feature = "reproduce")]
     Reproduce(reproduce::Args),
-    /// Assess a structure in metres and kilograms: do its lines go slack, snap, break?
+    /// Assess a structure in SI units: do its lines go slack, snap or break?
     #[cfg(feature = "structure")]
     Assess(assess::Args),
-    /// Run a structure in many records of an irregular sea: the distribution of snaps and tensions
+    /// Run a structure in many records of an irregular sea: distributions of snaps and tensions
     #[cfg(feature = "structure")]
     Seas(seas::Args),
-    /// Run a structure on lines that stretch, beside the same on lines that do not
+    /// Run a structure with elastic lines, and compare it with inextensible lines
     #[cfg(feature = "structure")]
     Elastic(elastic::Args),
-    /// Look at the hydrodynamics of a floating body: memory, natural periods, response to waves
+    /// Analyse the hydrodynamics of a floating body: memory, natural periods, response to waves
     #[cfg(feature = "structure")]
     Hydro(hydro::Args),
-    /// Let a floating body go in still water: periods and damping of its swings
+    /// Simulate a free-decay test of a floating body: periods and damping of its oscillations
     #[cfg(feature = "structure")]
     Decay(decay::Args),
-    /// Read a MoorDyn file as a structure's case, or write a case for MoorDyn
+    /// Convert a MoorDyn file to a structure's case, or a case to a MoorDyn file
     #[cfg(feature = "structure")]
     Moordyn(moordyn::Args),
-    /// Open a page in the browser on which a run moves and answers to every slider
+    /// Open a page in the browser that animates a run and has a slider for every key
     #[cfg(feature = "explore")]
     Explore(explore::Args),
     /// List the built-in cases
     Cases,
-    /// Explain the keys of a case: meaning, default, what is allowed
+    /// Explain the keys of a case: meaning, default and allowed values
     Keys,
     /// Print a completion script for a shell
     Completions(completions::Args),

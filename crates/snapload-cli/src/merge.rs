@@ -13,7 +13,7 @@ Examples:
   snapload merge part-*.parquet --out map.parquet
   snapload merge part-*.parquet --out map.parquet --plot map.svg --show rho1")]
 pub(crate) struct Args {
-    /// The files that snapload sweep --shard wrote, all of them, in any order
+    /// All files that snapload sweep --shard wrote, in any order
     #[arg(value_name = "PART.parquet", required = true)]
     parts: Vec<PathBuf>,
     /// The file to write

@@ -35,10 +35,10 @@ struct Read {
     /// Input file of MoorDyn v2
     #[arg(value_name = "FILE.txt")]
     file: PathBuf,
-    /// Give or change a key, such as wave.height=2 or body.width=3; may be repeated
+    /// Add or change a key, such as wave.height=2 or body.width=3; may be repeated
     #[arg(long, value_name = "TABLE.KEY=VALUE")]
     set: Vec<String>,
-    /// Write the case to a file; without it, to standard output
+    /// Write the case to this file instead of standard output
     #[arg(long, value_name = "CASE.toml")]
     out: Option<PathBuf>,
 }
@@ -47,11 +47,11 @@ struct Read {
 struct Write {
     #[command(flatten)]
     input: StructureArgs,
-    /// Segments of each line; with one it is a spring with a damper, with more it has mass along
-    /// its length
+    /// Number of segments of each line: one is a spring with a damper, more have mass along the
+    /// length of the line
     #[arg(long, value_name = "NUMBER", default_value_t = 1, value_parser = whole::<u32>(SEGMENTS))]
     segments: u32,
-    /// Write to a file; without it, to standard output
+    /// Write to this file instead of standard output
     #[arg(long, value_name = "LINES.txt")]
     out: Option<PathBuf>,
 }

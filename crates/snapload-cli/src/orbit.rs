@@ -18,23 +18,24 @@ use std::fmt::Write;
 use std::path::PathBuf;
 
 const EXAMPLES: &str = "\
-An orbit is a motion that repeats itself after whole periods of the forcing. It is closed to rounding by
-Newton's method on the sequence of its events, and then run: a sequence that closes need not be a motion, and
-`admissible` says whether this one is, and if not, why. The stops by settling are off.
+A periodic orbit is a motion that repeats itself after a whole number of forcing periods. Newton's method solves
+for the orbit to rounding, for a given sequence of events. The orbit is then simulated, because a solution for a
+sequence of events need not be a possible motion: `admissible` says whether it is and, if not, why. Runs do not
+stop when the body settles.
 
 Examples:
   snapload orbit --set body=point --set r=1.7 --set e=0.35 --set f_o=1.4 --set nu=0.8 \\
       --set omega=3.1
-      the orbit that the motion of the start comes to
+      the orbit that the motion from the start converges to
   snapload orbit --set omega=3 --start x=-0.06,y=0.12,theta=0.48,vx=0.39,vy=0.65,vtheta=-1.67
-      the one near a start, which may be unstable
+      the orbit near a given state, which may be unstable
   snapload orbit --set omega=3 --find 2000 --seed 1 --json - | jq '.orbits[].multipliers[0]'
-      all that random starts lead to, for the next program
+      all orbits found from random starts, for another program
   snapload orbit --set a=0.3 --set b=0.3 --set omega=2.5 --find 1000 --vary f_o=0.4:0.6:21 --prove \\
       --out orbits.parquet
-      more than a thousand orbits of a square, each proved to exist
+      more than a thousand orbits of a square body, each proved to exist
 
-Exit status: 0 found, 1 no orbit there, or with --prove one that is not proved, 2 bad input.";
+Exit status: 0 found; 1 no orbit found, or with --prove an orbit that is not proved; 2 bad input.";
 
 /// Which case, and which orbit.
 #[derive(clap::Args)]
@@ -44,13 +45,13 @@ pub(crate) struct Args {
     case: CaseArgs,
     #[command(flatten)]
     near: NearArgs,
-    /// The cables that snap, in their order
+    /// Cables that snap, in the order of their snaps
     #[arg(long, value_name = "2,1")]
     symbol: Option<String>,
-    /// Try so many random starts, and tell all orbits found
+    /// Try N random starts and report all orbits found
     #[arg(long, value_name = "N", conflicts_with = "start", value_parser = whole::<u32>(STARTS.called("find")))]
     find: Option<u32>,
-    /// Which random starts
+    /// Seed of the random starts
     #[arg(
         long,
         value_name = "S",
@@ -59,8 +60,8 @@ pub(crate) struct Args {
         requires = "find"
     )]
     seed: u64,
-    /// Look for them at each of these values of a key: from the random starts, and from the orbits
-    /// at the value before
+    /// Search at each of these values of a key, from the random starts and from the orbits found at
+    /// the previous value
     #[arg(
         long,
         value_name = "KEY=first:last:n",
@@ -68,11 +69,11 @@ pub(crate) struct Args {
         allow_hyphen_values = true
     )]
     vary: Option<String>,
-    /// Prove that the orbit exists, in numbers of many digits, and say how far off the printed one
-    /// is at most: orbits in slack flight, of the case as the decimals that it is written in
+    /// Prove with numbers of many digits that the orbit exists, and bound the error of the printed
+    /// one; for orbits in slack flight, with the decimals of the case taken as exact
     #[arg(long)]
     prove: bool,
-    /// Write a table with a row an orbit, FILE.parquet or FILE.csv
+    /// Write a table with one row per orbit, FILE.parquet or FILE.csv
     #[arg(long, value_name = "FILE")]
     out: Option<PathBuf>,
     #[command(flatten)]
@@ -82,13 +83,13 @@ pub(crate) struct Args {
 /// Where an orbit is looked for.
 #[derive(clap::Args)]
 pub(crate) struct NearArgs {
-    /// State at the section near which the orbit is; keys left out are the case's own
+    /// State at the section, near the orbit; keys left out have the values of the case
     #[arg(long, value_name = "x=..,y=..", allow_hyphen_values = true)]
     start: Option<String>,
-    /// Length in periods of the forcing; 1 near a start, what the motion has otherwise
+    /// Period of the orbit in forcing periods; by default 1 with --start, else that of the motion
     #[arg(long, value_name = "N", value_parser = whole::<u32>(ORBIT_PERIODS))]
     periods: Option<u32>,
-    /// Time of the section, in periods of the forcing
+    /// Time of the section, in forcing periods
     #[arg(long, value_name = "P", default_value_t = 0.0)]
     phase: f64,
 }

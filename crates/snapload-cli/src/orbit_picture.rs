@@ -16,7 +16,7 @@ pub(crate) struct PlotArgs {
     /// Draw a picture, FILE.svg or FILE.png
     #[arg(long, value_name = "FILE.svg|png")]
     plot: Option<PathBuf>,
-    /// What is drawn: a column of numbers of the table upwards, or one to the right and one upwards
+    /// Numeric columns of the table to draw: the vertical axis, or the horizontal and the vertical axis
     #[arg(long, value_name = "COLUMN[,COLUMN]", requires = "plot")]
     show: Option<String>,
 }

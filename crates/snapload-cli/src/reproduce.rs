@@ -7,12 +7,13 @@ use snapload_reproduce::{Report, Study};
 use std::path::PathBuf;
 
 const EXAMPLES: &str = "\
-Computes every run of the chapter's studies, in two readings, and writes report.html (one page that needs
-nothing else), the tables as CSV, and every figure as SVG with its data as CSV.
+Computes every run of the studies in chapter 6 of the thesis in two readings: with runs that end when the body
+begins to slide, as in the chapter, and with runs that continue. Writes report.html (one self-contained page), the
+tables as CSV, and every figure as SVG with its data as CSV.
 
 Examples:
   snapload reproduce
-      into the directory `reproduction`
+      write the report into the directory `reproduction`
   snapload reproduce --out chapter-6";
 
 /// Where to put it.

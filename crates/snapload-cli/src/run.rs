@@ -19,19 +19,19 @@ use std::path::{Path, PathBuf};
 const EXAMPLES: &str = "\
 Examples:
   snapload run
-      the standard case, in a few lines
+      the standard case, with a short printed summary
   snapload run --case 1910001000-459 --set t_end=20 --set stop_when_settled=false
-      a built-in case that goes on when it settles, up to t = 20
+      a built-in case that continues after it settles, up to t = 20
   snapload run --set body=point --set y=0.2
       a point mass that starts higher
   snapload run mooring.toml --out results --sample 0.01
-      a case of your own: tables, pictures and run.json in the directory results
+      your own case: tables, pictures and run.json in the directory results
   snapload run --set f_o=0.5 --uncertainty 1e-3 --uncertainty f_o=0.01
-      how far it can be trusted if the start is known to 1e-3 and the force to 0.01
+      how far the run can be trusted if the start is known to 1e-3 and the force to 0.01
   snapload run --certify
-      with a proof of its impacts and of its end, and where the run leaves what is proved
+      with a proof of the impacts and the end, and where the run departs from the proof
   snapload run --json - --sample 0.1 | jq .norms
-      everything as JSON, for the next program";
+      all results as JSON, for another program";
 
 /// What to run and where to put it.
 #[derive(clap::Args)]
@@ -46,15 +46,15 @@ pub(crate) struct Args {
     out: Option<PathBuf>,
     #[command(flatten)]
     uncertainty: UncertaintyArgs,
-    /// Neighbours to run where the end is past the horizon; 0 for none. If left out, 1000, or 200 if
-    /// those end alike
+    /// Number of neighbours to run if the end is past the horizon of trust; 0 for none. If left out,
+    /// 1000, or 200 if those end alike
     #[arg(long, value_name = "N", value_parser = whole::<u32>(MEMBERS.called("ensemble")))]
     ensemble: Option<u32>,
-    /// Prove the run of the case as it is written in decimals, as snapload certify does; with --out its
-    /// certificate is run.cert
+    /// Prove the run as snapload certify does, with the decimals of the case taken as exact; with --out,
+    /// the certificate is written as run.cert
     #[arg(long)]
     certify: bool,
-    /// Time step of the motion in --json and --out
+    /// Time step at which --json and --out write the motion
     #[arg(long, value_name = "DT", value_parser = step)]
     sample: Option<f64>,
 }

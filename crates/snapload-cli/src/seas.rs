@@ -18,13 +18,13 @@ const EXAMPLES: &str = include_str!("../help/seas.txt").trim_ascii_end();
 pub(crate) struct Args {
     #[command(flatten)]
     input: StructureArgs,
-    /// How many records are run
+    /// Number of records to run
     #[arg(long, value_name = "NUMBER", default_value_t = 20, value_parser = whole::<u32>(SEEDS))]
     seeds: u32,
-    /// Take the lines as springs, which is slower; needed where they are too soft to snap at once
+    /// Model the lines as springs, which is slower; needed if they are too soft for instant snaps
     #[arg(long)]
     elastic: bool,
-    /// Write the answer as a page of HTML, or a row a record as CSV, by the name's ending
+    /// Write the results as an HTML page, or as CSV with one row per record; the file extension decides
     #[arg(long, value_name = "FILE.html|FILE.csv")]
     out: Option<PathBuf>,
     #[command(flatten)]

@@ -20,17 +20,17 @@ use std::fmt::Write;
 use std::path::PathBuf;
 
 const EXAMPLES: &str = "\
-The state at t = (phase + k) T, T the period of the forcing, once the transient is over; with it the period of
-the motion, if it has one, and its Lyapunov exponents in a unit of time with their standard errors, -inf where a
-taut cable closes a direction. The stops by settling are off.
-With --at impacts the table and the picture have a point an impact instead: when, at which phase of the forcing,
-which cable, at which v_n, and the state just before and after.
+The result is the state at t = (phase + k) T after the transient, where T is the period of the forcing. It also has
+the period of the motion, if the motion is periodic, and the Lyapunov exponents per unit of time with their standard
+errors. An exponent is -inf where a taut cable removes a direction. Runs do not stop when the body settles. With --at
+impacts the table and the picture have one point per impact instead: its time, the phase of the forcing, the cable,
+v_n, and the states just before and after the impact.
 
 Examples:
   snapload section --set body=point --set r=1.976 --set e=0.71 --set nu=0.87 --set omega=4.847 \\
       --set f_o=1.6 --set x=0 --set y=0.4 --set vx=0.1 --phase 0.25 --periods 2000 --keep 1500 \\
       --plot torus.svg --show x,y
-      a point mass whose motion never repeats itself: its points lie on two closed curves
+      a point mass whose motion never repeats itself; its points lie on two closed curves
   snapload section --set f_o=0.1 --periods 200 --keep 50 --out points.csv
       a table of the points of the last 50 periods
   snapload section --set body=point --set r=1.976 --set e=0.71 --set nu=0.87 --set omega=4.847 \\
@@ -46,7 +46,7 @@ pub(crate) struct Args {
     case: CaseArgs,
     #[command(flatten)]
     stretch: StretchArgs,
-    /// Where the points are: once a period of the forcing, or at impacts
+    /// Where points are taken: once per forcing period, or at impacts
     #[arg(long, default_value = "periods", value_parser = ["periods", "impacts"])]
     at: String,
     /// Write the points as a table, FILE.parquet or FILE.csv
@@ -61,14 +61,14 @@ pub(crate) struct Args {
 /// How long a motion is followed.
 #[derive(clap::Args)]
 pub(crate) struct StretchArgs {
-    /// Periods of the forcing in all
+    /// Total number of forcing periods
     #[arg(long, value_name = "N", default_value_t = 400, value_parser = whole::<u64>(PERIODS))]
     periods: u64,
-    /// Periods that are kept, the last ones
+    /// Number of forcing periods to keep, at the end of the motion
     #[arg(long, value_name = "N", default_value_t = 100, value_parser = whole::<u64>(KEEP))]
     keep: u64,
-    /// Time of the section, in periods of the forcing; the start is the state then, so that another
-    /// phase is another motion
+    /// Time of the section, in forcing periods; the start is the state at that time, so another phase
+    /// gives another motion
     #[arg(long, value_name = "P", default_value_t = 0.0)]
     phase: f64,
 }

@@ -24,10 +24,10 @@ pub(crate) struct ReadStructure {
 /// Which structure.
 #[derive(clap::Args)]
 pub(crate) struct StructureArgs {
-    /// Case file in TOML (keys: snapload assess --keys)
+    /// Case file in TOML (snapload assess --keys lists the keys)
     #[arg(value_name = "CASE.toml")]
     file: Option<PathBuf>,
-    /// Change one key after the file, such as wave.height=2 or line.1.length=6; may be repeated
+    /// Change one key of the file, such as wave.height=2 or line.1.length=6; may be repeated
     #[arg(long, value_name = "TABLE.KEY=VALUE")]
     set: Vec<String>,
 }

@@ -41,25 +41,25 @@ static STUDY: Schema = Schema {
 /// Which study, as given on the command line.
 #[derive(clap::Args)]
 #[command(mut_arg("file", |arg| arg.value_name("STUDY.toml").help(
-    "Study or case file in TOML: keys of a case, and what varies under [vary]"
+    "Study or case file in TOML: the keys of a case, and under [vary] the keys that vary"
 )))]
 pub(crate) struct StudyArgs {
     #[command(flatten)]
     case: CaseArgs,
-    /// Let a key vary: first:last:n values, or a list v1,v2,...; repeated, the first one varies
+    /// Vary a key over first:last:n or over a list v1,v2,...; may be repeated, the first key varies
     /// slowest
     #[arg(long, value_name = "KEY=VALUES", allow_hyphen_values = true)]
     vary: Vec<String>,
-    /// Sobol points in the box of the ranges instead of a grid
+    /// Run N Sobol points in the box of the ranges instead of a grid
     #[arg(long, value_name = "N", value_parser = whole::<u64>(RANDOM))]
     random: Option<u64>,
-    /// Which random points
+    /// Seed of the random points
     #[arg(long, value_name = "S", value_parser = whole::<u64>(SEED))]
     seed: Option<u64>,
-    /// Cases from a CSV or Parquet file: a row a case, a column a key
+    /// Read the cases from a CSV or Parquet file, with one row per case and one column per key
     #[arg(long, value_name = "FILE", conflicts_with_all = ["vary", "random", "seed"])]
     list: Option<PathBuf>,
-    /// Leave out how far each run can be trusted, which takes about as long again
+    /// Do not compute how far each run can be trusted, which about doubles the time
     #[arg(long)]
     no_trust: bool,
 }

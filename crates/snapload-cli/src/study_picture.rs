@@ -10,10 +10,10 @@ use std::path::{Path, PathBuf};
 /// Which picture.
 #[derive(clap::Args)]
 pub(crate) struct PictureArgs {
-    /// Draw a picture: a line over one key that varies, a map over two
+    /// Draw a picture: a line plot if one key varies, a map if two keys vary
     #[arg(long, value_name = "FILE.svg|png")]
     plot: Option<PathBuf>,
-    /// The column to draw; if left out, rho1 as a line, the end as a map
+    /// Column to draw; by default rho1 in a line plot and the end in a map
     #[arg(long, value_name = "COLUMN", requires = "plot")]
     show: Option<String>,
 }

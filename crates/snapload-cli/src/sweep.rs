@@ -13,21 +13,22 @@ use std::ops::ControlFlow;
 use std::path::PathBuf;
 
 const EXAMPLES: &str = "\
-A key varies over first:last:n, n evenly spaced values that are the decimals one would write, or over a list
-v1,v2,...; all combinations are run, the first key the slowest. Every chunk of rows is safe once it is run: after
-whatever happened the same command with --resume goes on, and the file is the same to the byte.
+A key varies over first:last:n (n evenly spaced values, each the decimal that one would write) or over a list
+v1,v2,... All combinations are run, and the first key varies slowest. Every chunk of rows is saved as soon as it is
+computed. After an interruption of any kind the same command with --resume continues, and the finished file is the
+same to the byte.
 
 Examples:
   snapload sweep --vary f_o=0.01:0.6:60 --vary omega=0.4:2.4:51 --out map.parquet --plot map.svg
       a map over force and frequency, with a picture of how the runs end
   snapload sweep --vary f_o=0.01:0.6:60 --vary omega=0.4:2.4:51 --out map.parquet --resume
-      the same, gone on with
+      the same study, continued after an interruption
   snapload sweep mooring.toml --vary e=0.5:1:501 --no-trust --out e.parquet --plot e.png --show rho1
-      a line over the restitution, for a case of your own
+      a line plot over the restitution, for your own case
   snapload sweep --vary f_o=0.1:0.6 --vary x=-0.05:0.05 --random 100000 --seed 1 --out box.parquet
       Sobol points in a box
   snapload sweep --list cases.csv --out cases.parquet
-      the cases of a table with a column a key
+      the cases of a table with one column per key
   snapload sweep study.toml --shard 3/8 --out part-3.parquet
       the third of eight parts, for one of eight machines; snapload merge joins them";
 
@@ -40,13 +41,13 @@ pub(crate) struct Args {
     /// The file to write; its parts are kept in FILE.parquet.parts until it is complete
     #[arg(long, value_name = "FILE.parquet")]
     out: PathBuf,
-    /// Go on where an earlier run of this command was stopped; right for a first run, too
+    /// Continue where an earlier run of this command stopped; also allowed for a first run
     #[arg(long)]
     resume: bool,
-    /// Compute the i-th of n parts only
+    /// Compute only the i-th of n parts
     #[arg(long, value_name = "i/n", conflicts_with = "plot")]
     shard: Option<String>,
-    /// Threads to use; as many as the machine has if left out, and at the most four times as many
+    /// Number of threads; by default as many as the machine has, at most four times as many
     #[arg(long, value_name = "N", value_parser = whole::<u16>(THREADS))]
     threads: Option<u16>,
     #[command(flatten)]

@@ -24,12 +24,12 @@ impl ToleranceArgs {
 /// What is uncertain, as given on the command line.
 #[derive(clap::Args)]
 pub(crate) struct UncertaintyArgs {
-    /// How far every start value may be off, or one key; may be repeated
+    /// Uncertainty of every start value, or of one key; may be repeated
     #[arg(long, value_name = "SIZE|KEY=SIZE")]
     uncertainty: Vec<String>,
     #[command(flatten)]
     tolerance: ToleranceArgs,
-    /// Which neighbours an ensemble draws
+    /// Seed with which an ensemble draws its neighbours
     #[arg(long, value_name = "NUMBER", default_value_t = 1, value_parser = whole::<u64>(SEED))]
     seed: u64,
 }

@@ -13,17 +13,17 @@ use std::fmt::Write;
 
 pub(crate) const SENSITIVITIES: Question = Question {
     name: "sensitivities",
-    asks: "Derive the first impacts by every key that the motion depends on",
+    asks: "Compute the derivatives of the first impacts by every key that the motion depends on",
     help: "\
-The derivatives of time, normal velocity and impulse are exact to rounding, all other keys held; the
-inertia follows the size of the body where it is the natural one. Past the horizon of the run they are
-those of a motion that may be another, and are marked.
+The derivatives of time, normal velocity and impulse are exact to rounding. All other keys are held fixed,
+except that the inertia follows the size of the body where it is the natural one. Past the horizon of the run
+the true motion may be another one; derivatives there are marked.
 
 Examples:
   snapload sensitivities
       the standard case: its first three impacts
   snapload sensitivities --impacts 10 --json - | jq '.derivatives[] | select(.key == \"f_o\")'
-      how ten impacts change with the force, for the next program",
+      how ten impacts change with the force, as JSON for another program",
     options: &[Key::new(
         "impacts",
         "1",

@@ -13,16 +13,16 @@ pub(crate) const VERIFY: Question = Question {
     name: "verify",
     asks: "Run one case again with many digits, and say where the ordinary run goes wrong",
     help: "\
-The case is run twice, as usual and with 76 digits or more, through slack flight, impacts and the stop
-rules; where a cable stays taut the proof ends. Numbers count as written: 0.1 is a tenth.
+The case is run twice: as usual, and with 76 digits or more. The comparison covers slack flight, impacts and
+the stop rules; it ends where a cable stays taut. Numbers count as written: 0.1 is a tenth.
 
 Examples:
   snapload verify
       the standard case: from which impact on the ordinary run is wrong by 1e-3
   snapload verify --case 1922001000-359 --tolerance 1e-6
-      a square, in which errors grow fastest, to six digits
+      a square body, in which errors grow fastest, to six digits
   snapload verify --digits 150 --json - | jq .first_wrong
-      with twice the digits, for the next program",
+      with twice the digits, as JSON for another program",
     options: &[
         Key::new(
             "digits",
