@@ -2,7 +2,8 @@
 use crate::bar::Bar;
 use crate::failure::{Failure, print};
 use crate::json::JsonArgs;
-use crate::structure_input::{Answers, ReadStructure, StructureArgs, ending};
+use crate::outputs::Outputs;
+use crate::structure_input::{ReadStructure, StructureArgs};
 use crate::whole::whole;
 use snapload::analysis::Progress;
 use snapload_structure::note::{self, Source};
@@ -43,15 +44,13 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
         structure,
         sha256,
     } = args.input.read()?;
-    if let Some(path) = &args.out {
-        ending(path, &["html"])?;
-    }
-    let mut answers = Answers::open(&args.json, args.out.as_deref())?;
+    let mut outputs = Outputs::open(&args.json)?;
+    let out = outputs.file("--out", args.out.as_deref(), &["html"])?;
     let bar = Bar::new();
     let on_progress = |progress: Progress| bar.show(progress);
     let assessment = assess(structure, args.neighbours, &on_progress)
         .map_err(|error| Failure::from(error).with_prefix(&name))?;
-    if args.out.is_some() {
+    if let Some(out) = out {
         let structure = &assessment.prepared.structure;
         let scan = match args.no_scan {
             true => None,
@@ -66,7 +65,7 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
         };
         let page = note::page(source, &assessment, scan.as_ref())
             .map_err(|error| Failure::Failed(format!("can not draw the page: {error}")))?;
-        answers.write(|out| out.write_all(page.as_bytes()))?;
+        outputs.write(out, |out| out.write_all(page.as_bytes()))?;
     }
-    answers.finish(&assessment.to_json(&name), assessment.summary(&name))
+    outputs.finish_told(&assessment.to_json(&name), assessment.summary(&name))
 }

@@ -1,10 +1,10 @@
 //! `snapload basin` and `snapload erosion`: which starts stay below the limits.
 use crate::bar::Bar;
 use crate::case_input::CaseArgs;
-use crate::failure::{Failure, print};
+use crate::failure::Failure;
 use crate::json::JsonArgs;
-use crate::stage::Stage;
-use crate::table::{TableFile, axis, names, numbers};
+use crate::outputs::{Outputs, TABLE};
+use crate::table::{axis, names, numbers};
 use crate::whole::whole;
 use serde::Serialize;
 use snapload::Parameters;
@@ -15,7 +15,6 @@ use snapload_orbits::{
 };
 use snapload_report::{CaseEcho, case_in_words};
 use snapload_study::Values;
-use std::fmt::Write;
 use std::path::PathBuf;
 
 const EXAMPLES: &str = "\
@@ -114,66 +113,50 @@ struct Answer<'a, T> {
 /// Runs a window.
 pub(crate) fn run(args: &Args) -> Result<(), Failure> {
     let (name, base, window) = args.window.read()?;
-    let mut stage = Stage::default();
-    let table = TableFile::open(&mut stage, args.out.as_deref())?;
-    let json = args.json.open(&mut stage)?;
+    let mut outputs = Outputs::open(&args.json)?;
+    let table = outputs.file("--out", args.out.as_deref(), &TABLE)?;
     let bar = Bar::new();
     let on_progress = |progress: Progress| bar.show(progress);
     if args.kind == "attractor" {
         let found = Attraction::of(window, args.transient, &on_progress)?;
         drop(bar);
-        table.stage(&mut stage, &fates(&found))?;
+        outputs.table(table, &fates(&found))?;
         let row = Answer {
             case: CaseEcho(&base),
             found: AttractionRow::new(&found),
         };
-        return match json.write(stage, &row)? {
-            Some(written) => tell(&name, &base, &attraction_in_words(&found), written),
-            None => Ok(()),
-        };
+        return outputs.finish(&row, about(&name, &base, &attraction_in_words(&found)));
     }
     let basin = Basin::of(window, !args.window.no_trust, &on_progress)?;
     drop(bar);
-    table.stage(&mut stage, &cells(&basin))?;
+    outputs.table(table, &cells(&basin))?;
     let row = Answer {
         case: CaseEcho(&base),
         found: BasinRow::new(&basin),
     };
-    let Some(written) = json.write(stage, &row)? else {
-        return Ok(());
-    };
-    tell(&name, &base, &basin_in_words(&basin), written)
+    outputs.finish(&row, about(&name, &base, &basin_in_words(&basin)))
 }
 
 /// Runs it for the values of a third key.
 pub(crate) fn run_erosion(args: &ErosionArgs) -> Result<(), Failure> {
     let (name, base, window) = args.window.read()?;
     let (key, values) = axis("--over", &args.over)?;
-    let mut stage = Stage::default();
-    let table = TableFile::open(&mut stage, args.out.as_deref())?;
-    let json = args.json.open(&mut stage)?;
+    let mut outputs = Outputs::open(&args.json)?;
+    let table = outputs.file("--out", args.out.as_deref(), &TABLE)?;
     let bar = Bar::new();
     let on_progress = |progress: Progress| bar.show(progress);
     let erosion = Erosion::of(&window, key, &values, !args.window.no_trust, &on_progress)?;
     drop(bar);
-    table.stage(&mut stage, &points(&erosion))?;
+    outputs.table(table, &points(&erosion))?;
     let row = Answer {
         case: CaseEcho(&base),
         found: ErosionRow::new(&erosion),
     };
-    let Some(written) = json.write(stage, &row)? else {
-        return Ok(());
-    };
-    tell(&name, &base, &erosion_in_words(&erosion), written)
+    outputs.finish(&row, about(&name, &base, &erosion_in_words(&erosion)))
 }
 
-fn tell(name: &str, base: &Parameters, words: &str, written: Vec<PathBuf>) -> Result<(), Failure> {
-    let mut text = format!("Case      {}\n", case_in_words(name, base));
-    text.push_str(words);
-    for path in written {
-        let _ = writeln!(text, "Written   {}", path.display());
-    }
-    print(&text)
+fn about(name: &str, base: &Parameters, words: &str) -> String {
+    format!("Case      {}\n{words}", case_in_words(name, base))
 }
 
 fn cells(basin: &Basin) -> Vec<(&'static str, Values)> {

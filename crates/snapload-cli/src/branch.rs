@@ -1,13 +1,12 @@
 //! `snapload branch`: an orbit as a key changes.
 use crate::bar::Bar;
 use crate::case_input::CaseArgs;
-use crate::failure::{Failure, print};
+use crate::failure::Failure;
 use crate::json::JsonArgs;
 use crate::orbit::NearArgs;
 use crate::orbit_columns::{OF_ORBITS, of_orbit, words_of};
 use crate::orbit_picture::{Drawn, PlotArgs, PlotFile, branch_layers};
-use crate::stage::Stage;
-use crate::table::TableFile;
+use crate::outputs::{Outputs, TABLE};
 use crate::whole::whole;
 use serde::Serialize;
 use snapload::Parameters;
@@ -89,11 +88,10 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
         .map(|text| switch(text))
         .collect::<Result<_, _>>()?;
     args.near.read(&parameters)?;
-    let mut stage = Stage::default();
-    let table = TableFile::open(&mut stage, args.out.as_deref())?;
+    let mut outputs = Outputs::open(&args.json)?;
+    let table = outputs.file("--out", args.out.as_deref(), &TABLE)?;
     let known = [&[key][..], &OF_ORBITS].concat();
-    let plot = args.plot.open(&mut stage, [key, "y"], &known)?;
-    let json = args.json.open(&mut stage)?;
+    let plot = args.plot.open(&mut outputs, [key, "y"], &known)?;
     let bar = Bar::new();
     let on_progress = |progress: Progress| bar.show(progress);
     let family = Moored::case(parameters, [Some(key), None]);
@@ -106,17 +104,14 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
     branch
         .events
         .retain(|event| kinds.is_empty() || kinds.contains(&event.kind.name()));
-    table.stage(&mut stage, &columns(key, &branch))?;
+    outputs.table(table, &columns(key, &branch))?;
     if let Some(plot) = plot {
         let layers = layers(key, &branch, &plot);
-        plot.stage(&mut stage, &case_in_words(&name, &parameters), layers)?;
+        plot.stage(&mut outputs, &case_in_words(&name, &parameters), layers)?;
     }
     let row = Answer {
         case: CaseEcho(&parameters),
         branch: BranchRow::new(key, &branch, &from),
-    };
-    let Some(written) = json.write(stage, &row)? else {
-        return Ok(());
     };
     let mut text = format!("Case      {}\n", case_in_words(&name, &parameters));
     for event in &from {
@@ -128,10 +123,7 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
         );
     }
     text.push_str(&branch_in_words(key, &branch));
-    for path in written {
-        let _ = writeln!(text, "Written   {}", path.display());
-    }
-    print(&text)
+    outputs.finish(&row, text)
 }
 
 /// The branch after switching at period doublings, and these.

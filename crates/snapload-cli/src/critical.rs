@@ -2,9 +2,9 @@
 //! others.
 use crate::bar::Bar;
 use crate::case_input::{CaseArgs, Input};
-use crate::failure::{Failure, print};
+use crate::failure::Failure;
 use crate::json::JsonArgs;
-use crate::stage::Stage;
+use crate::outputs::Outputs;
 use crate::uncertainty::UncertaintyArgs;
 use crate::whole::whole;
 use serde::Serialize;
@@ -68,8 +68,7 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
     let uncertainty = args.uncertainty.read(&input.case)?;
     let scan = ForceScan::new(args.step, args.max)
         .map_err(|error| Failure::BadInput(format!("--{error}")))?;
-    let mut stage = Stage::default();
-    let json = args.json.open(&mut stage)?;
+    let outputs = Outputs::open(&args.json)?;
     let bar = Bar::new();
     let on_progress = |progress: Progress| bar.show(progress);
     let answer = match &args.over {
@@ -90,14 +89,8 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
             .map_err(|failure| failure.with_prefix("--over"))?,
     };
     drop(bar);
-    let Some(written) = json.write(stage, &answer)? else {
-        return Ok(());
-    };
-    let mut text = answer.in_words(&case_in_words(&input.name, input.case.parameters()), args);
-    for path in written {
-        let _ = writeln!(text, "Written   {}", path.display());
-    }
-    print(&text)
+    let text = answer.in_words(&case_in_words(&input.name, input.case.parameters()), args);
+    outputs.finish(&answer, text)
 }
 
 /// The most values of another key.

@@ -1,13 +1,13 @@
 //! `snapload curve`: special orbits as two keys change.
 use crate::bar::Bar;
 use crate::case_input::CaseArgs;
-use crate::failure::{Failure, print};
+use crate::failure::Failure;
 use crate::json::JsonArgs;
 use crate::orbit::NearArgs;
 use crate::orbit_columns::{OF_ORBITS, of_orbit};
 use crate::orbit_picture::{Drawn, PlotArgs, PlotFile, branch_layers};
-use crate::stage::Stage;
-use crate::table::{TableFile, names};
+use crate::outputs::{Outputs, TABLE};
+use crate::table::names;
 use crate::whole::whole;
 use serde::Serialize;
 use snapload::analysis::{OnProgress, Progress};
@@ -19,7 +19,6 @@ use snapload_orbits::{
 };
 use snapload_report::{CaseEcho, case_in_words};
 use snapload_study::{Side, Values};
-use std::fmt::Write;
 use std::path::PathBuf;
 
 const EXAMPLES: &str = "\
@@ -87,33 +86,26 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
     let what = follow(&args.follow)?;
     let (keys, across) = across(args, &parameters)?;
     args.near.read(&parameters)?;
-    let mut stage = Stage::default();
-    let table = TableFile::open(&mut stage, args.out.as_deref())?;
+    let mut outputs = Outputs::open(&args.json)?;
+    let table = outputs.file("--out", args.out.as_deref(), &TABLE)?;
     let known = [&keys[..], &OF_ORBITS, &COEFFICIENTS].concat();
-    let plot = args.plot.open(&mut stage, keys, &known)?;
-    let json = args.json.open(&mut stage)?;
+    let plot = args.plot.open(&mut outputs, keys, &known)?;
     let bar = Bar::new();
     let on_progress = |progress: Progress| bar.show(progress);
     let (event, curve) = found(args, &parameters, (keys, &across), what, &on_progress)?;
     drop(bar);
-    table.stage(&mut stage, &columns(keys, &curve))?;
+    outputs.table(table, &columns(keys, &curve))?;
     if let Some(plot) = plot {
         let layers = layers(keys, &curve, &plot);
-        plot.stage(&mut stage, &case_in_words(&name, &parameters), layers)?;
+        plot.stage(&mut outputs, &case_in_words(&name, &parameters), layers)?;
     }
     let row = Answer {
         case: CaseEcho(&parameters),
         curve: CurveRow::new(keys, &curve, &event),
     };
-    let Some(written) = json.write(stage, &row)? else {
-        return Ok(());
-    };
     let mut text = format!("Case      {}\n", case_in_words(&name, &parameters));
     text.push_str(&curve_in_words(keys, &curve, &event));
-    for path in written {
-        let _ = writeln!(text, "Written   {}", path.display());
-    }
-    print(&text)
+    outputs.finish(&row, text)
 }
 
 /// The special point that the curve begins at, and the curve.

@@ -2,7 +2,7 @@
 use crate::failure::Failure;
 use crate::hydro_input::{HydroArgs, triple};
 use crate::json::JsonArgs;
-use crate::structure_input::Answers;
+use crate::outputs::Outputs;
 use serde::Serialize;
 use snapload_hydro::{Decay, FREEDOMS, Swing, decay, swings};
 use snapload_report::tables::in_digits;
@@ -58,7 +58,8 @@ struct SwingRow {
 
 /// Does it.
 pub(crate) fn run(args: &Args) -> Result<(), Failure> {
-    let mut answers = Answers::open(&args.json, args.out.as_deref())?;
+    let mut outputs = Outputs::open(&args.json)?;
+    let out = outputs.file("--out", args.out.as_deref(), &["csv"])?;
     let name = args.input.name();
     let bad = |error| Failure::bad_input(error).with_prefix(&name);
     let report = args.input.report(Vec::new(), None)?;
@@ -82,8 +83,8 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
         times,
     );
     let motion = motion.map_err(bad)?;
-    if args.out.is_some() {
-        answers.write(|out| out.write_all(table(&motion).as_bytes()))?;
+    if let Some(out) = out {
+        outputs.write(out, |out| out.write_all(table(&motion).as_bytes()))?;
     }
     let mut text = format!("{name}\n");
     let mut rows = Vec::new();
@@ -111,7 +112,7 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
         pitch_rad: of(2),
         swings: rows,
     };
-    answers.finish(&answer, text)
+    outputs.finish_told(&answer, text)
 }
 
 /// The swings of a freedom as a small table below its name.

@@ -1,17 +1,16 @@
 //! `snapload diagram`: the attractor along a key.
 use crate::bar::Bar;
 use crate::case_input::CaseArgs;
-use crate::failure::{Failure, print};
+use crate::failure::Failure;
 use crate::json::JsonArgs;
+use crate::outputs::{Outputs, TABLE};
 use crate::section::StretchArgs;
-use crate::stage::Stage;
-use crate::table::{TableFile, axis, names, numbers};
+use crate::table::{axis, names, numbers};
 use serde::Serialize;
 use snapload::analysis::{Progress, START_KEYS};
 use snapload_orbits::{At, DiagramRow, diagram, diagram_in_words};
 use snapload_report::{CaseEcho, case_in_words};
 use snapload_study::Values;
-use std::fmt::Write;
 use std::path::PathBuf;
 
 const EXAMPLES: &str = "\
@@ -62,29 +61,22 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
         values.reverse();
     }
     let stretch = args.stretch.read()?;
-    let mut stage = Stage::default();
-    let table = TableFile::open(&mut stage, args.out.as_deref())?;
-    let json = args.json.open(&mut stage)?;
+    let mut outputs = Outputs::open(&args.json)?;
+    let table = outputs.file("--out", args.out.as_deref(), &TABLE)?;
     let bar = Bar::new();
     let on_progress = |progress: Progress| bar.show(progress);
     let found = diagram(&parameters, key, &values, &stretch, &on_progress)?;
     drop(bar);
-    table.stage(&mut stage, &columns(key, &found))?;
+    outputs.table(table, &columns(key, &found))?;
     let row = Answer {
         case: CaseEcho(&parameters),
         vary: key,
         down: args.down,
         rows: found.iter().map(DiagramRow::new).collect(),
     };
-    let Some(written) = json.write(stage, &row)? else {
-        return Ok(());
-    };
     let mut text = format!("Case      {}\n", case_in_words(&name, &parameters));
     text.push_str(&diagram_in_words(key, &found));
-    for path in written {
-        let _ = writeln!(text, "Written   {}", path.display());
-    }
-    print(&text)
+    outputs.finish(&row, text)
 }
 
 fn columns(key: &'static str, found: &[At]) -> Vec<(&'static str, Values)> {

@@ -2,7 +2,8 @@
 use crate::bar::Bar;
 use crate::failure::Failure;
 use crate::json::JsonArgs;
-use crate::structure_input::{Answers, ReadStructure, StructureArgs, ending};
+use crate::outputs::Outputs;
+use crate::structure_input::{ReadStructure, StructureArgs};
 use crate::whole::number;
 use snapload::CaseError;
 use snapload::analysis::{Progress, Unfinished};
@@ -37,14 +38,12 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
     let ReadStructure {
         name, structure, ..
     } = args.input.read()?;
-    if let Some(path) = &args.out {
-        ending(path, &["csv"])?;
-    }
     let every_s = match &args.out {
         Some(_) => checked_every(structure.duration_s, args.every).map_err(as_option)?,
         None => f64::INFINITY,
     };
-    let mut answers = Answers::open(&args.json, args.out.as_deref())?;
+    let mut outputs = Outputs::open(&args.json)?;
+    let out = outputs.file("--out", args.out.as_deref(), &["csv"])?;
     let bar = Bar::new();
     let on_progress = |progress: Progress| bar.show(progress);
     let both = Prepared::for_springs(structure)
@@ -52,8 +51,10 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
         .and_then(|prepared| both_models(prepared, args.stiffer, every_s, &on_progress))
         .map_err(|error| Failure::from(error).with_prefix(&name))?;
     drop(bar);
-    answers.write(|out| table(&both, out))?;
-    answers.finish(&both.to_json(&name), both.summary(&name))
+    if let Some(out) = out {
+        outputs.write(out, |out| table(&both, out))?;
+    }
+    outputs.finish_told(&both.to_json(&name), both.summary(&name))
 }
 
 /// An error that names an option, with the option as it is written on a command line.

@@ -2,7 +2,7 @@
 use crate::failure::Failure;
 use crate::hydro_input::{HydroArgs, line, triple};
 use crate::json::JsonArgs;
-use crate::structure_input::Answers;
+use crate::outputs::Outputs;
 use serde::Serialize;
 use snapload_hydro::{FREEDOMS, Line, Report, page};
 use snapload_structure::{IrregularSea, Spectrum, SpectrumShape, told};
@@ -57,15 +57,16 @@ struct Answer<'a> {
 
 /// Does it.
 pub(crate) fn run(args: &Args) -> Result<(), Failure> {
-    let mut answers = Answers::open(&args.json, args.out.as_deref())?;
+    let mut outputs = Outputs::open(&args.json)?;
+    let out = outputs.file("--out", args.out.as_deref(), &["html"])?;
     let report = args.input.report(args.line.clone(), args.force)?;
     let sea = args.sea(&report)?;
-    if args.out.is_some() {
+    if let Some(out) = out {
         let words: Vec<String> = std::env::args().skip(1).collect();
         let command = format!("snapload {}", words.join(" "));
         let page = page(&report, &command)
             .map_err(|error| Failure::Failed(format!("can not draw the page: {error}")))?;
-        answers.write(|out| out.write_all(page.as_bytes()))?;
+        outputs.write(out, |out| out.write_all(page.as_bytes()))?;
     }
     let mut text = format!("{}\n", report.name);
     let summary = report.summary();
@@ -85,7 +86,7 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
         report: report.to_json(),
         sea,
     };
-    answers.finish(&answer, text)
+    outputs.finish_told(&answer, text)
 }
 
 impl Args {

@@ -85,14 +85,6 @@ impl Json {
     }
 }
 
-/// Whether two paths refer to the same file, which may not exist yet.
-#[cfg(feature = "structure")]
-pub(crate) fn is_same_file(one: &Path, other: &Path) -> bool {
-    let new = |path: &Path| Some(parent_of(path).canonicalize().ok()?.join(path.file_name()?));
-    let place = |path: &Path| path.canonicalize().ok().or_else(|| new(path));
-    place(one).is_some_and(|one| place(other) == Some(one))
-}
-
 /// Opens the directory in which a file is to be written, and creates it if necessary.
 #[cfg(feature = "structure")]
 pub(crate) fn room_of(stage: &mut Stage, path: &Path) -> Result<Room, Failure> {

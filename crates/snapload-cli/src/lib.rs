@@ -37,6 +37,7 @@ mod orbit;
 mod orbit_columns;
 mod orbit_picture;
 mod orbit_search;
+mod outputs;
 mod pictures;
 mod question;
 #[cfg(feature = "reproduce")]

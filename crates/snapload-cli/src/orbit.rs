@@ -1,10 +1,10 @@
 //! `snapload orbit`: periodic orbits.
 use crate::case_input::CaseArgs;
-use crate::failure::{Failure, print};
+use crate::failure::Failure;
 use crate::json::JsonArgs;
 use crate::orbit_search::{Found, Search, columns};
-use crate::stage::Stage;
-use crate::table::{TableFile, axis};
+use crate::outputs::{Outputs, TABLE};
+use crate::table::axis;
 use crate::whole::whole;
 use serde::Serialize;
 use snapload::analysis::{OnProgress, SEED, START_KEYS};
@@ -152,33 +152,29 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
         prove: args.prove,
     };
     let cases = search.cases()?;
-    let mut stage = Stage::default();
-    let table = TableFile::open(&mut stage, args.out.as_deref())?;
-    let json = args.json.open(&mut stage)?;
+    let mut outputs = Outputs::open(&args.json)?;
+    let table = outputs.file("--out", args.out.as_deref(), &TABLE)?;
     let found = match args.find {
         Some(starts) => search.many(&cases, (starts, args.seed))?,
         None => search.one(&cases[0], start)?,
     };
-    table.stage(&mut stage, &columns(&found))?;
+    outputs.table(table, &columns(&found))?;
     let case = CaseEcho(&parameters);
-    let written = match args.find {
-        Some(starts) => json.write(stage, &found.row(case, starts, args.seed))?,
+    let text = format!(
+        "Case      {}\n{}",
+        case_in_words(&name, &parameters),
+        in_words(args, &found, start)
+    );
+    match args.find {
+        Some(starts) => outputs.finish(&found.row(case, starts, args.seed), text)?,
         None => {
             let row = One {
                 case,
                 start_distance: start.map(|start| distance(&found.orbits[0].z, &start)),
                 orbit: OrbitRow::new(&found.orbits[0]),
             };
-            json.write(stage, &row)?
+            outputs.finish(&row, text)?;
         }
-    };
-    if let Some(written) = written {
-        let mut text = format!("Case      {}\n", case_in_words(&name, &parameters));
-        text.push_str(&in_words(args, &found, start));
-        for path in written {
-            let _ = writeln!(text, "Written   {}", path.display());
-        }
-        print(&text)?;
     }
     match found.proofs {
         Some(proofs) if args.find.is_none() && proofs.proved == 0 => Err(Failure::Answered(1)),

@@ -1,7 +1,6 @@
 //! `--plot` and `--show` of sections, branches and curves.
 use crate::failure::Failure;
-use crate::json::{folder_for, refuse_directory};
-use crate::stage::{Room, Stage};
+use crate::outputs::{OutFile, Outputs};
 use snapload_figures::{
     Axis, Colour, Dash, FigureError, Layer, Mark, PNG_SCALE, Plot, Point, Range, Stroke, Width,
     draw,
@@ -23,8 +22,7 @@ pub(crate) struct PlotArgs {
 
 /// A picture that is to be drawn.
 pub(crate) struct PlotFile {
-    room: Room,
-    path: PathBuf,
+    file: OutFile,
     /// The columns on the horizontal and the vertical axis.
     pub(crate) axes: [String; 2],
     /// The phase of the forcing at which the drawn period begins, if one is drawn.
@@ -36,20 +34,13 @@ impl PlotArgs {
     /// computed; none if no picture is wanted.
     pub(crate) fn open(
         &self,
-        stage: &mut Stage,
+        outputs: &mut Outputs,
         usual: [&str; 2],
         known: &[&str],
     ) -> Result<Option<PlotFile>, Failure> {
-        let Some(path) = &self.plot else {
+        let Some(file) = outputs.file("--plot", self.plot.as_deref(), &["svg", "png"])? else {
             return Ok(None);
         };
-        let ending = path.extension().and_then(|ending| ending.to_str());
-        if !matches!(ending, Some("svg" | "png")) {
-            let path = path.display();
-            let message = format!("--plot {path}: write a name that ends in .svg or .png");
-            return Err(Failure::BadInput(message));
-        }
-        refuse_directory(path)?;
         let shown = self.show.as_deref().unwrap_or_default();
         let words: Vec<&str> = shown.split(',').map(str::trim).collect();
         let axes = match words[..] {
@@ -62,8 +53,7 @@ impl PlotArgs {
             return Err(no_columns(shown, known));
         }
         Ok(Some(PlotFile {
-            room: stage.open(&folder_for(path))?,
-            path: path.clone(),
+            file,
             axes: axes.map(str::to_owned),
             phase_from: 0.0,
         }))
@@ -98,7 +88,7 @@ impl PlotFile {
     /// Draws the layers and stages the picture.
     pub(crate) fn stage(
         self,
-        stage: &mut Stage,
+        outputs: &mut Outputs,
         title: &str,
         layers: Vec<Layer>,
     ) -> Result<(), Failure> {
@@ -117,12 +107,11 @@ impl PlotFile {
             ..Plot::default()
         };
         let picture = draw("orbits", Width::Page, &[plot]).map_err(cannot)?;
-        let png = self.path.extension().is_some_and(|ending| ending == "png");
-        let bytes = match png {
-            true => picture.png(PNG_SCALE).map_err(cannot)?,
-            false => picture.svg().as_bytes().to_vec(),
+        let bytes = match self.file.ending {
+            "png" => picture.png(PNG_SCALE).map_err(cannot)?,
+            _ => picture.svg().as_bytes().to_vec(),
         };
-        stage.write(self.room, self.path, |out| out.write_all(&bytes))
+        outputs.write(self.file, |out| out.write_all(&bytes))
     }
 }
 

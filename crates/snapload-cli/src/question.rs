@@ -1,9 +1,9 @@
 //! The commands that each ask one question about one case: all questions of the report crate.
 use crate::bar::Bar;
 use crate::case_input::CaseArgs;
-use crate::failure::{Failure, print};
+use crate::failure::Failure;
 use crate::json::JsonArgs;
-use crate::stage::Stage;
+use crate::outputs::Outputs;
 use crate::whole::described;
 use clap::{Arg, ArgAction, ArgMatches, Args as _, Command, Error, FromArgMatches, Subcommand};
 use snapload::analysis::{Progress, Unfinished};
@@ -105,8 +105,7 @@ pub(crate) fn run(args: Args) -> Result<(), Failure> {
         json,
     } = args;
     let input = case.read()?;
-    let mut stage = Stage::default();
-    let json = json.open(&mut stage)?;
+    let outputs = Outputs::open(&json)?;
     let bar = Bar::new();
     let on_progress = |progress: Progress| bar.show(progress);
     let answer = question.ask(&input.case, options, &on_progress);
@@ -115,14 +114,8 @@ pub(crate) fn run(args: Args) -> Result<(), Failure> {
         cancelled => Failure::from(cancelled),
     })?;
     drop(bar);
-    if let Some(written) = json.write(stage, &answer.answer)? {
-        let mut text = answer.about(&input.name, &input.case).words;
-        for path in written {
-            let _ = writeln!(text, "Written   {}", path.display());
-        }
-        print(&text)?;
-    }
-    Ok(())
+    let told = answer.about(&input.name, &input.case);
+    outputs.finish(&told.answer, told.words)
 }
 
 /// An error that names an option, with the option in the notation of the command line.

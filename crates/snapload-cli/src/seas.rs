@@ -2,7 +2,8 @@
 use crate::bar::Bar;
 use crate::failure::Failure;
 use crate::json::JsonArgs;
-use crate::structure_input::{Answers, ReadStructure, StructureArgs, ending};
+use crate::outputs::Outputs;
+use crate::structure_input::{ReadStructure, StructureArgs};
 use crate::whole::whole;
 use snapload_report::tables::in_digits;
 use snapload_structure::note::{self, Source};
@@ -38,9 +39,8 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
         structure,
         sha256,
     } = args.input.read()?;
-    let out = args.out.as_deref();
-    let ending = out.map(|path| ending(path, &["html", "csv"])).transpose()?;
-    let mut answers = Answers::open(&args.json, args.out.as_deref())?;
+    let mut outputs = Outputs::open(&args.json)?;
+    let out = outputs.file("--out", args.out.as_deref(), &["html", "csv"])?;
     let bar = Bar::counting();
     let lines = match args.elastic {
         true => Lines::Elastic,
@@ -49,10 +49,10 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
     let result = seas(structure, args.seeds, lines, &|progress| bar.show(progress))
         .map_err(|error| Failure::from(error).with_prefix(&name))?;
     drop(bar);
-    match ending {
+    match out {
         None => {}
-        Some("csv") => answers.write(|out| table(&result, out))?,
-        Some(_) => {
+        Some(out) if out.ending == "csv" => outputs.write(out, |out| table(&result, out))?,
+        Some(out) => {
             let elastic = if args.elastic { " --elastic" } else { "" };
             let verb = args.input.command("seas");
             let command = format!("{verb} --seeds {}{elastic}", args.seeds);
@@ -63,10 +63,10 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
             };
             let page = note::seas_page(source, &result)
                 .map_err(|error| Failure::Failed(format!("can not draw the page: {error}")))?;
-            answers.write(|out| out.write_all(page.as_bytes()))?;
+            outputs.write(out, |out| out.write_all(page.as_bytes()))?;
         }
     }
-    answers.finish(&result.to_json(&name), result.summary(&name))
+    outputs.finish_told(&result.to_json(&name), result.summary(&name))
 }
 
 /// One row for each record.

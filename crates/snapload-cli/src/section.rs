@@ -1,11 +1,11 @@
 //! `snapload section`: a long motion, once a period of the forcing.
 use crate::bar::Bar;
 use crate::case_input::CaseArgs;
-use crate::failure::{Failure, print};
+use crate::failure::Failure;
 use crate::json::JsonArgs;
 use crate::orbit_picture::{PlotArgs, PlotFile};
-use crate::stage::Stage;
-use crate::table::{TableFile, numbers};
+use crate::outputs::{Outputs, TABLE};
+use crate::table::numbers;
 use crate::whole::whole;
 use serde::Serialize;
 use snapload::analysis::{Progress, START_KEYS};
@@ -16,7 +16,6 @@ use snapload_orbits::{
 };
 use snapload_report::{CaseEcho, case_in_words};
 use snapload_study::Values;
-use std::fmt::Write;
 use std::path::PathBuf;
 
 const EXAMPLES: &str = "\
@@ -95,14 +94,13 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
         ..args.stretch.read()?
     };
     let parameters = input.case.parameters();
-    let mut stage = Stage::default();
-    let table = TableFile::open(&mut stage, args.out.as_deref())?;
+    let mut outputs = Outputs::open(&args.json)?;
+    let table = outputs.file("--out", args.out.as_deref(), &TABLE)?;
     let (usual, known) = match stretch.impacts {
         true => (["phase", "v_n"], &OF_IMPACTS[..]),
         false => (["x", "vx"], &START_KEYS[..]),
     };
-    let plot = args.plot.open(&mut stage, usual, known)?;
-    let json = args.json.open(&mut stage)?;
+    let plot = args.plot.open(&mut outputs, usual, known)?;
     let bar = Bar::new();
     let section = Section::of(parameters, &stretch, &|progress: Progress| {
         bar.show(progress)
@@ -115,8 +113,8 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
     }
     let impacts = kept(&section)?;
     match impacts {
-        Some(impacts) => table.stage(&mut stage, &impact_columns(impacts))?,
-        None => table.stage(&mut stage, &columns(&section))?,
+        Some(impacts) => outputs.table(table, &impact_columns(impacts))?,
+        None => outputs.table(table, &columns(&section))?,
     }
     if let Some(mut plot) = plot {
         let layers = match impacts {
@@ -126,21 +124,19 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
             }
             None => section_layers(&section, &plot),
         };
-        plot.stage(&mut stage, &case_in_words(&input.name, parameters), layers)?;
+        plot.stage(
+            &mut outputs,
+            &case_in_words(&input.name, parameters),
+            layers,
+        )?;
     }
     let row = Answer {
         case: CaseEcho(parameters),
         section: SectionRow::new(&section, stretch.phase),
     };
-    let Some(written) = json.write(stage, &row)? else {
-        return Ok(());
-    };
     let mut text = format!("Case      {}\n", case_in_words(&input.name, parameters));
     text.push_str(&section_in_words(&section));
-    for path in written {
-        let _ = writeln!(text, "Written   {}", path.display());
-    }
-    print(&text)
+    outputs.finish(&row, text)
 }
 
 /// The impacts, if they were asked for.

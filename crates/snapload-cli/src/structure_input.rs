@@ -1,14 +1,10 @@
-//! The common options of the commands for structures: which case, and the places of the answers.
+//! The common options of the commands for structures: which case.
 use crate::case_input::read_text;
-use crate::failure::{Failure, print};
-use crate::json::{Json, JsonArgs, is_same_file, room_of};
-use crate::stage::{Room, Stage};
-use serde::Serialize;
+use crate::failure::Failure;
 use sha2::{Digest, Sha256};
 use snapload::{CaseError, Entries};
-use snapload_structure::{STRUCTURE, Structure, told};
+use snapload_structure::{STRUCTURE, Structure};
 use std::fmt::Write as _;
-use std::io;
 use std::path::{Path, PathBuf};
 
 /// A structure that was read.
@@ -90,66 +86,4 @@ pub(crate) fn structure_of(
             None => located.at(name),
         }
     })
-}
-
-/// The ending of an output file, which has to be one of those allowed.
-pub(crate) fn ending(path: &Path, allowed: &[&'static str]) -> Result<&'static str, Failure> {
-    let given = path.extension().and_then(|ending| ending.to_str());
-    let known = allowed.iter().find(|ending| given == Some(**ending));
-    known.copied().ok_or_else(|| {
-        let names = allowed.join(" or .");
-        let path = path.display();
-        Failure::BadInput(format!(
-            "--out {path}: allowed is a name that ends in .{names}"
-        ))
-    })
-}
-
-/// The places of a command's answers: a file, JSON, standard output.
-pub(crate) struct Answers {
-    stage: Stage,
-    json: Json,
-    file: Option<(Room, PathBuf)>,
-}
-
-impl Answers {
-    /// Opens the places, so that an error is known before anything is computed.
-    pub(crate) fn open(json: &JsonArgs, out: Option<&Path>) -> Result<Self, Failure> {
-        let mut stage = Stage::default();
-        let json = json.open(&mut stage)?;
-        let file = match out {
-            Some(path) => Some((room_of(&mut stage, path)?, path.to_owned())),
-            None => None,
-        };
-        if let (Json::File(_, json), Some((_, file))) = (&json, &file)
-            && is_same_file(json, file)
-        {
-            let path = file.display();
-            let message = format!("--out and --json: both name {path}; allowed are two files");
-            return Err(Failure::BadInput(message));
-        }
-        Ok(Self { stage, json, file })
-    }
-
-    /// Writes the file, if it was asked for.
-    pub(crate) fn write(
-        &mut self,
-        fill: impl FnOnce(&mut dyn io::Write) -> io::Result<()>,
-    ) -> Result<(), Failure> {
-        match self.file.take() {
-            Some((room, path)) => self.stage.write(room, path, fill),
-            None => Ok(()),
-        }
-    }
-
-    /// Moves all files to their places, and prints a summary with their paths.
-    pub(crate) fn finish(self, json: &impl Serialize, mut text: String) -> Result<(), Failure> {
-        let Some(written) = self.json.write(self.stage, json)? else {
-            return Ok(());
-        };
-        for path in written {
-            text += &told("written", &path.display().to_string());
-        }
-        print(&text)
-    }
 }

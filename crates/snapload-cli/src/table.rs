@@ -1,54 +1,11 @@
-//! `--out` for tables: Parquet, or CSV if the name ends in .csv.
+//! Tables: their columns, as CSV, and the values of a key from `KEY=first:last:n`.
 use crate::failure::Failure;
-use crate::json::{folder_for, refuse_directory};
-use crate::stage::{Room, Stage};
 use snapload_report::tables::in_digits;
-use snapload_study::{Axis, Values, write_table};
+use snapload_study::{Axis, Values};
 use std::io::{self, Write};
-use std::path::{Path, PathBuf};
 
-/// The place of a table.
-pub(crate) struct TableFile(Option<(Room, PathBuf)>);
-
-impl TableFile {
-    /// Opens it, so that an error is known before anything is computed.
-    pub(crate) fn open(stage: &mut Stage, path: Option<&Path>) -> Result<Self, Failure> {
-        let Some(path) = path else {
-            return Ok(Self(None));
-        };
-        refuse_directory(path)?;
-        let ending = path.extension().and_then(|ending| ending.to_str());
-        if !matches!(ending, Some("parquet" | "csv")) {
-            let message = format!(
-                "--out {}: write a name that ends in .parquet or .csv",
-                path.display()
-            );
-            return Err(Failure::BadInput(message));
-        }
-        Ok(Self(Some((
-            stage.open(&folder_for(path))?,
-            path.to_owned(),
-        ))))
-    }
-
-    /// Stages the table.
-    pub(crate) fn stage(
-        self,
-        stage: &mut Stage,
-        columns: &[(&'static str, Values)],
-    ) -> Result<(), Failure> {
-        let Some((room, path)) = self.0 else {
-            return Ok(());
-        };
-        let plain = path.extension().is_some_and(|ending| ending == "csv");
-        stage.write(room, path, |out| match plain {
-            true => write_csv(columns, out),
-            false => write_table(columns, out),
-        })
-    }
-}
-
-fn write_csv(columns: &[(&'static str, Values)], out: &mut dyn Write) -> io::Result<()> {
+/// Writes a table as CSV.
+pub(crate) fn write_csv(columns: &[(&'static str, Values)], out: &mut dyn Write) -> io::Result<()> {
     let mut csv = csv::Writer::from_writer(out);
     csv.write_record(columns.iter().map(|(name, _)| *name))?;
     let cells: Vec<Vec<String>> = columns.iter().map(|(_, values)| texts(values)).collect();

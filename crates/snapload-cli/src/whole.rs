@@ -21,6 +21,7 @@ where
 }
 
 /// Reads a number that an option may be.
+#[cfg(feature = "structure")]
 pub(crate) fn number(option: Key) -> ValueParser {
     ValueParser::from(move |text: &str| {
         let number = text.trim().parse::<f64>().ok();

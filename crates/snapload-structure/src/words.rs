@@ -1,6 +1,5 @@
 //! Templates as text: paragraphs, and labels with their texts. The texts are in `templates/`.
 
-use crate::physics::gumbel::Estimate;
 use askama::Template;
 
 /// Columns of the text beside a label.
@@ -94,13 +93,6 @@ pub(crate) fn maybe_kilo(newtons: &Option<f64>) -> String {
 pub(crate) fn tenths(value: &f64) -> String {
     let rounded = (10.0 * value).round() / 10.0;
     rounded.to_string()
-}
-
-/// An estimate and its error, with the decimals of the estimate.
-pub(crate) fn with_error(estimate: &Estimate, unit: f64, least: usize) -> String {
-    let [value, error] = [estimate.value / unit, estimate.error / unit];
-    let decimals = decimals_for(value, least);
-    format!("{value:.decimals$} ± {error:.decimals$}")
 }
 
 #[cfg(test)]

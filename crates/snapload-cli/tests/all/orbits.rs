@@ -263,6 +263,14 @@ fn what_can_not_be_is_refused() {
     );
     refused(&["run", "--json"], "write --json - for standard output");
     refused(
+        &["section", "--out", "a.csv", "--json", "./a.csv"],
+        "--out and --json: both name a.csv; allowed are two files",
+    );
+    refused(
+        &["section", "--out", "a.txt"],
+        "--out a.txt: write a name that ends in .parquet or .csv",
+    );
+    refused(
         &["branch", "--along", "f_o=0.2:0.4", "--step", "far"],
         "error: --step = far is not allowed; allowed: a number",
     );

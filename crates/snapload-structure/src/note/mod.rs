@@ -19,7 +19,7 @@ use crate::runs::assess::Assessment;
 use crate::runs::design::Check;
 use crate::runs::seas::{Lines, Seas};
 use crate::structure::Structure;
-use crate::words::{digits, kilo, maybe_kilo, tenths, with_error};
+use crate::words::{digits, kilo, maybe_kilo, tenths};
 use askama::Template;
 use inputs::resistance;
 use snapload_figures::{FigureError, Picture};
@@ -221,7 +221,7 @@ fn maybe_part(part: &Option<f64>) -> String {
 
 /// The mean and the values that 50, 90 and 99 % stay below.
 fn expected(fit: Option<Gumbel>, unit: f64, digits: usize) -> [String; 4] {
-    let cell = |estimate: Estimate| with_error(&estimate, unit, digits);
+    let cell = |estimate: Estimate| estimate.in_words(unit, digits);
     match fit {
         Some(fit) => {
             let [half, most, nearly_all] = [0.5, 0.9, 0.99].map(|p| cell(fit.quantile(p)));

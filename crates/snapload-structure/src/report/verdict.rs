@@ -9,7 +9,7 @@ use crate::runs::outcome::Outcome;
 use crate::runs::quantile::{quantile, sorted};
 use crate::runs::seas::Seas;
 use crate::structure::{Structure, Water};
-use crate::words::{digits, kilo, paragraph, tenths, with_error};
+use crate::words::{digits, kilo, paragraph, tenths};
 use askama::Template;
 use serde::Serialize;
 use snapload::Stop;

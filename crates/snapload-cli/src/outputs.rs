@@ -1,0 +1,134 @@
+//! The files of a command's answer, and its JSON.
+use crate::failure::{Failure, print};
+use crate::json::{Json, JsonArgs, folder_for, refuse_directory};
+use crate::stage::{Room, Stage};
+use crate::table::write_csv;
+use serde::Serialize;
+use snapload_study::{Values, parent_of, write_table};
+use std::io;
+use std::path::{Path, PathBuf};
+
+/// The endings of a table's name.
+pub(crate) const TABLE: [&str; 2] = ["parquet", "csv"];
+
+/// The places of a command's answer. They are opened before anything is computed, so that an error
+/// is known at once, and filled when all of it is.
+pub(crate) struct Outputs {
+    stage: Stage,
+    json: Json,
+    /// The files by the options that name them.
+    named: Vec<(&'static str, PathBuf)>,
+}
+
+/// A file that an option names.
+pub(crate) struct OutFile {
+    room: Room,
+    path: PathBuf,
+    /// The ending of its name, which is one of those allowed.
+    pub(crate) ending: &'static str,
+}
+
+impl Outputs {
+    /// With the place of the JSON.
+    pub(crate) fn open(json: &JsonArgs) -> Result<Self, Failure> {
+        let mut stage = Stage::default();
+        let json = json.open(&mut stage)?;
+        let named = match &json {
+            Json::File(_, path) => vec![("--json", path.clone())],
+            Json::None | Json::Stdout => Vec::new(),
+        };
+        Ok(Self { stage, json, named })
+    }
+
+    /// Opens the place of a file, if an option names one. Its folder is created if necessary.
+    pub(crate) fn file(
+        &mut self,
+        option: &'static str,
+        path: Option<&Path>,
+        endings: &[&'static str],
+    ) -> Result<Option<OutFile>, Failure> {
+        let Some(path) = path else {
+            return Ok(None);
+        };
+        let shown = path.display();
+        let given = path.extension().and_then(|ending| ending.to_str());
+        let Some(ending) = endings.iter().find(|ending| given == Some(**ending)) else {
+            let endings = endings.join(" or .");
+            let message = format!("{option} {shown}: write a name that ends in .{endings}");
+            return Err(Failure::BadInput(message));
+        };
+        refuse_directory(path)?;
+        if let Some((other, _)) = self.named.iter().find(|(_, file)| is_same(file, path)) {
+            let message = format!("{option} and {other}: both name {shown}; allowed are two files");
+            return Err(Failure::BadInput(message));
+        }
+        let room = self.stage.create_and_open(&folder_for(path))?;
+        self.named.push((option, path.to_owned()));
+        Ok(Some(OutFile {
+            room,
+            path: path.to_owned(),
+            ending,
+        }))
+    }
+
+    /// Stages the contents of a file.
+    pub(crate) fn write(
+        &mut self,
+        file: OutFile,
+        fill: impl FnOnce(&mut dyn io::Write) -> io::Result<()>,
+    ) -> Result<(), Failure> {
+        self.stage.write(file.room, file.path, fill)
+    }
+
+    /// Stages a table, if one is wanted.
+    pub(crate) fn table(
+        &mut self,
+        file: Option<OutFile>,
+        columns: &[(&'static str, Values)],
+    ) -> Result<(), Failure> {
+        let Some(file) = file else {
+            return Ok(());
+        };
+        let plain = file.ending == "csv";
+        self.write(file, |out| match plain {
+            true => write_csv(columns, out),
+            false => write_table(columns, out),
+        })
+    }
+
+    /// Moves all files to their places, and prints the answer in words with their paths, unless its
+    /// JSON goes to standard output.
+    pub(crate) fn finish(self, json: &impl Serialize, words: String) -> Result<(), Failure> {
+        self.finish_with(json, words, |path| format!("Written   {path}\n"))
+    }
+
+    /// The same with each path under a label of its own, as answers about structures have them.
+    #[cfg(feature = "structure")]
+    pub(crate) fn finish_told(self, json: &impl Serialize, words: String) -> Result<(), Failure> {
+        self.finish_with(json, words, |path| {
+            snapload_structure::told("written", path)
+        })
+    }
+
+    fn finish_with(
+        self,
+        json: &impl Serialize,
+        mut words: String,
+        line: impl Fn(&str) -> String,
+    ) -> Result<(), Failure> {
+        let Some(written) = self.json.write(self.stage, json)? else {
+            return Ok(());
+        };
+        for path in written {
+            words += &line(&path.display().to_string());
+        }
+        print(&words)
+    }
+}
+
+/// Whether two paths refer to the same file, which may not exist yet.
+fn is_same(one: &Path, other: &Path) -> bool {
+    let new = |path: &Path| Some(parent_of(path).canonicalize().ok()?.join(path.file_name()?));
+    let place = |path: &Path| path.canonicalize().ok().or_else(|| new(path));
+    place(one).is_some_and(|one| place(other) == Some(one))
+}
