@@ -184,13 +184,13 @@ impl Assessment {
 
     /// The motion at times.
     fn motion(&self, times_s: Vec<f64>) -> MotionColumns {
-        let looks = self.found.motion_at(&times_s);
+        let samples = self.found.motion_at(&times_s);
         (
             times_s,
-            looks.iter().map(|look| look.place_m[0]).collect(),
-            looks.iter().map(|look| look.place_m[1]).collect(),
-            looks.iter().map(|look| look.theta_rad).collect(),
-            looks.into_iter().map(|look| look.tension_n).collect(),
+            samples.iter().map(|sample| sample.place_m[0]).collect(),
+            samples.iter().map(|sample| sample.place_m[1]).collect(),
+            samples.iter().map(|sample| sample.theta_rad).collect(),
+            samples.into_iter().map(|sample| sample.tension_n).collect(),
         )
     }
 }
@@ -214,20 +214,26 @@ impl Elastic {
 
     /// The motion on lines that stretch, at the times that were kept.
     fn motion(&self) -> MotionColumns {
-        let looks = &self.found.elastic.looks;
+        let samples = &self.found.elastic.samples;
         let scales = &self.found.sprung.model.scales;
         let place = |k: usize| {
-            let places = looks
+            let places = samples
                 .iter()
-                .map(|look| scales.to_si([look.state.x, look.state.y])[k]);
+                .map(|sample| scales.to_si([sample.state.x, sample.state.y])[k]);
             places.collect()
         };
         (
-            looks.iter().map(|look| look.t_s).collect(),
+            samples.iter().map(|sample| sample.t_s).collect(),
             place(0),
             place(1),
-            looks.iter().map(|look| 0.0 - look.state.theta).collect(),
-            looks.iter().map(|look| look.tension_n.clone()).collect(),
+            samples
+                .iter()
+                .map(|sample| 0.0 - sample.state.theta)
+                .collect(),
+            samples
+                .iter()
+                .map(|sample| sample.tension_n.clone())
+                .collect(),
         )
     }
 }

@@ -8,7 +8,7 @@ use crate::case::ExactCase;
 use crate::format::{FORMAT, Line, MODEL, TAUT_FORMAT, UNDECIDED, Written, decimal};
 use crate::proof::prove;
 use crate::proved::{Proved, ProvedEnd, ProvedImpact, Reason};
-use crate::verdict::{Trouble, with_more_bits};
+use crate::verdict::{ProofFailure, with_more_bits};
 use crate::writer::PLACES;
 use std::ops::ControlFlow;
 
@@ -125,15 +125,15 @@ fn compare(certificate: &Written, case: &ExactCase) -> Verdict {
             seen += 1;
             let enough = is_partial && seen == claims.len();
             match (agrees(&proved, seen, claims.get(seen - 1)), enough) {
-                (Err(trouble), _) => ControlFlow::Break(trouble),
-                (Ok(()), true) => ControlFlow::Break(Trouble::Enough),
+                (Err(failure), _) => ControlFlow::Break(failure),
+                (Ok(()), true) => ControlFlow::Break(ProofFailure::Enough),
                 (Ok(()), false) => ControlFlow::Continue(()),
             }
         });
         match proved {
-            Err(Trouble::Enough) => Ok(()),
-            Err(trouble) => Err(trouble),
-            Ok(_) if seen != claims.len() => Err(Trouble::False(format!(
+            Err(ProofFailure::Enough) => Ok(()),
+            Err(failure) => Err(failure),
+            Ok(_) if seen != claims.len() => Err(ProofFailure::False(format!(
                 "there are {seen} impacts, and {} are claimed",
                 claims.len()
             ))),
@@ -155,26 +155,26 @@ fn compare(certificate: &Written, case: &ExactCase) -> Verdict {
             impacts,
             bits: 64 * limbs,
         },
-        (Err(Trouble::False(what)), _) => Verdict::Refused(what),
-        (Err(Trouble::Undecided { what, t, .. }), _) => {
+        (Err(ProofFailure::False(what)), _) => Verdict::Refused(what),
+        (Err(ProofFailure::Undecided { what, t, .. }), _) => {
             let at = t.map_or_else(String::new, |t| format!(", after t = {t}"));
             Verdict::Undecided(format!("{what}{at}"))
         }
-        (Err(Trouble::Enough | Trouble::Cancelled), _) => {
+        (Err(ProofFailure::Enough | ProofFailure::Cancelled), _) => {
             Verdict::Undecided("the proof was given up".to_owned())
         }
     }
 }
 
 /// Compares the next proved event with the next claimed one.
-fn agrees(proved: &Proved, nth: usize, claim: Option<&Line>) -> Result<(), Trouble> {
+fn agrees(proved: &Proved, nth: usize, claim: Option<&Line>) -> Result<(), ProofFailure> {
     match (proved, claim) {
         (Proved::Impact(impact), Some(Line::Impact(cable, t, v_n))) => {
             impact_agrees(impact, nth, (*cable, t, v_n))
         }
         (Proved::Stretch(ours), Some(Line::Stretch(theirs))) => {
             if theirs.mode != ours.mode() || theirs.event != ours.event {
-                return Err(Trouble::False(format!(
+                return Err(ProofFailure::False(format!(
                     "stretch {nth} is of cables {:?} and ends with {}",
                     ours.mode(),
                     ours.event
@@ -191,7 +191,7 @@ fn agrees(proved: &Proved, nth: usize, claim: Option<&Line>) -> Result<(), Troub
                 &theirs.until,
             )
         }
-        _ => Err(Trouble::False(format!(
+        _ => Err(ProofFailure::False(format!(
             "line {nth} of the run is another than is claimed, or more"
         ))),
     }
@@ -201,9 +201,9 @@ fn impact_agrees(
     impact: &ProvedImpact,
     nth: usize,
     (cable, t, v_n): (u8, &str, &str),
-) -> Result<(), Trouble> {
+) -> Result<(), ProofFailure> {
     if impact.cable + 1 != usize::from(cable) {
-        return Err(Trouble::False(format!(
+        return Err(ProofFailure::False(format!(
             "impact {nth} is of cable {}, and cable {cable} is claimed",
             impact.cable + 1
         )));
@@ -212,17 +212,17 @@ fn impact_agrees(
     equals(&format!("v_n of impact {nth}"), &impact.v_n, v_n)
 }
 
-fn end_agrees(end: &ProvedEnd, certificate: &Written) -> Result<(), Trouble> {
+fn end_agrees(end: &ProvedEnd, certificate: &Written) -> Result<(), ProofFailure> {
     let claim = &certificate.end;
     if end.reason.name() != claim.reason {
-        return Err(Trouble::False(format!(
+        return Err(ProofFailure::False(format!(
             "the run ends as {}, and {} is claimed",
             end.reason.name(),
             claim.reason
         )));
     }
     let (Some(t), Some(state)) = (&claim.t, &claim.state) else {
-        return Err(Trouble::False(
+        return Err(ProofFailure::False(
             "an end without a time and a state".to_owned(),
         ));
     };
@@ -239,8 +239,8 @@ fn end_agrees(end: &ProvedEnd, certificate: &Written) -> Result<(), Trouble> {
 
 /// Whether the printed number is the true one, rounded to nearest: |true − printed| ≤ half a unit
 /// of the last place that is printed.
-fn equals(what: &str, ball: &Ball, text: &str) -> Result<(), Trouble> {
-    let printed = decimal(what, text).map_err(Trouble::False)?;
+fn equals(what: &str, ball: &Ball, text: &str) -> Result<(), ProofFailure> {
+    let printed = decimal(what, text).map_err(ProofFailure::False)?;
     let limbs = ball.mid().limbs.len().max(2);
     let off = (ball - &printed.ball(limbs)).abs();
     let half = printed.half_unit().ball(limbs);
@@ -251,8 +251,8 @@ fn equals(what: &str, ball: &Ball, text: &str) -> Result<(), Trouble> {
         // With the decimals of certificates, as a double may not tell the two apart.
         let proved = fixed(ball, PLACES).unwrap_or_else(|| ball.to_f64().to_string());
         let words = format!("{what}: {text} is claimed, and it is {proved}");
-        Err(Trouble::False(words))
+        Err(ProofFailure::False(words))
     } else {
-        Err(Trouble::undecided(format!("the last digit of {what}")))
+        Err(ProofFailure::undecided(format!("the last digit of {what}")))
     }
 }

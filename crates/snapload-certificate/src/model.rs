@@ -4,7 +4,7 @@ use crate::arithmetic::ball::Ball;
 use crate::arithmetic::decimal::Decimal;
 use crate::arithmetic::elementary::Elementary;
 use crate::case::ExactCase;
-use crate::verdict::Trouble;
+use crate::verdict::ProofFailure;
 
 /// x, y, θ and their velocities.
 pub(crate) type State = [Ball; 6];
@@ -73,14 +73,17 @@ pub(crate) struct Model {
 
 impl Model {
     /// The numbers of a case with `limbs` limbs.
-    pub(crate) fn new(case: &ExactCase, limbs: usize) -> Result<Self, Trouble> {
+    pub(crate) fn new(case: &ExactCase, limbs: usize) -> Result<Self, ProofFailure> {
         let number = |key: &str| case.number(key).ball(limbs);
         let (r, a) = (case.number("r"), case.number("a"));
         let width = Decimal::integer(1).minus(&a);
         let square = r.times(&r).minus(&width.times(&width));
-        let invert = |ball: &Ball| ball.reciprocal().ok_or(Trouble::undecided("a division"));
+        let invert = |ball: &Ball| {
+            ball.reciprocal()
+                .ok_or(ProofFailure::undecided("a division"))
+        };
         let height = square.ball(limbs).sqrt();
-        let height = height.ok_or(Trouble::undecided("the anchors' level"))?;
+        let height = height.ok_or(ProofFailure::undecided("the anchors' level"))?;
         let is_steady = case.number("f_o").is_zero() || case.number("omega").is_zero();
         let f_o = number("f_o");
         let inverse_omega = if is_steady {

@@ -23,7 +23,7 @@ use crate::arithmetic::radius::Radius;
 use crate::case::ExactCase;
 use crate::model::State;
 use crate::slack::impact::Matrix;
-use crate::verdict::Trouble;
+use crate::verdict::ProofFailure;
 use lap::{Lap, Laps};
 
 /// Limbs of the numbers: 256 bits.
@@ -95,21 +95,21 @@ impl ProvedOrbit {
 /// # Errors
 /// Why that is not proved, in words: it is false, or could not be decided.
 pub fn prove_orbit(case: &ExactCase, supposed: &Supposed<'_>) -> Result<ProvedOrbit, String> {
-    proved(case, supposed).map_err(|trouble| match trouble {
-        Trouble::False(what) => what,
-        Trouble::Undecided { what, .. } => format!("it could not be decided: {what}"),
-        Trouble::Enough | Trouble::Cancelled => "the proof was given up".to_owned(),
+    proved(case, supposed).map_err(|failure| match failure {
+        ProofFailure::False(what) => what,
+        ProofFailure::Undecided { what, .. } => format!("it could not be decided: {what}"),
+        ProofFailure::Enough | ProofFailure::Cancelled => "the proof was given up".to_owned(),
     })
 }
 
-fn proved(case: &ExactCase, supposed: &Supposed<'_>) -> Result<ProvedOrbit, Trouble> {
+fn proved(case: &ExactCase, supposed: &Supposed<'_>) -> Result<ProvedOrbit, ProofFailure> {
     let Supposed {
         phase,
         periods,
         state,
         struck,
     } = *supposed;
-    let no_number = || Trouble::False("the section is at no number".to_owned());
+    let no_number = || ProofFailure::False("the section is at no number".to_owned());
     let phase = Decimal::shortest(phase).ok_or_else(no_number)?.ball(LIMBS);
     if periods == 0 || !state.iter().all(|number| number.is_finite()) {
         return Err(no_number());
@@ -127,7 +127,7 @@ fn proved(case: &ExactCase, supposed: &Supposed<'_>) -> Result<ProvedOrbit, Trou
     let lap = laps.of(&found, struck)?;
     let mut sections = lap.sections;
     sections.insert(0, found);
-    let unclear = || Trouble::undecided("the digits of the orbit");
+    let unclear = || ProofFailure::undecided("the digits of the orbit");
     let digits: Option<Vec<String>> = sections[0].iter().map(|ball| fixed(ball, PLACES)).collect();
     let state = digits.and_then(|digits| digits.try_into().ok());
     let snaps = lap.impacts.iter().map(|impact| {
@@ -157,7 +157,7 @@ fn refined(
     mut centre: State,
     struck: &[usize],
     moving: &[usize],
-) -> Result<Near, Trouble> {
+) -> Result<Near, ProofFailure> {
     let mut step = 0;
     loop {
         let lap = laps.of(&centre, struck)?;
@@ -185,18 +185,18 @@ fn contracting(
     near: Near,
     struck: &[usize],
     moving: &[usize],
-) -> Result<(State, Radius, Radius), Trouble> {
+) -> Result<(State, Radius, Radius), ProofFailure> {
     let Near {
         centre,
         inverse,
         size,
     } = near;
-    let mut why = Trouble::undecided("whether the lap contracts");
+    let mut why = ProofFailure::undecided("whether the lap contracts");
     for radius in RADII.map(Radius::power_of_two) {
         let lap = match laps.of(&about(&centre, radius, moving), struck) {
             Ok(lap) => lap,
-            Err(trouble) => {
-                why = trouble;
+            Err(failure) => {
+                why = failure;
                 continue;
             }
         };
@@ -250,7 +250,7 @@ fn applied(matrix: &[Vec<Ball>], vector: &[Ball]) -> Vec<Ball> {
 }
 
 /// Doubles next to the inverse of A − 1, by Gauss and Jordan with the largest pivots.
-fn inverse(derivative: &Matrix, moving: &[usize]) -> Result<Vec<Vec<Ball>>, Trouble> {
+fn inverse(derivative: &Matrix, moving: &[usize]) -> Result<Vec<Vec<Ball>>, ProofFailure> {
     let n = moving.len();
     let mut rows: Vec<Vec<f64>> = (0..n)
         .map(|i| {
@@ -266,7 +266,7 @@ fn inverse(derivative: &Matrix, moving: &[usize]) -> Result<Vec<Vec<Ball>>, Trou
         rows.swap(k, pivot.unwrap_or(k));
         let (row, scale) = (rows[k].clone(), 1.0 / rows[k][k]);
         if !scale.is_finite() {
-            return Err(Trouble::undecided("an orbit with a multiplier of one"));
+            return Err(ProofFailure::undecided("an orbit with a multiplier of one"));
         }
         for (i, other) in rows.iter_mut().enumerate() {
             let factor = if i == k {

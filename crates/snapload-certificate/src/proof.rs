@@ -11,12 +11,12 @@ use crate::taut::begin::{Instants, hull_of};
 use crate::taut::law::{Law, after};
 use crate::taut::run::{Begin, Event, hold};
 use crate::taut::snap::Pair;
-use crate::verdict::Trouble;
+use crate::verdict::ProofFailure;
 use snapload::Stop;
 use std::ops::ControlFlow;
 
 /// Receives each proved event as the proof proceeds.
-pub(crate) type OnProved<'a> = dyn FnMut(Proved) -> ControlFlow<Trouble> + 'a;
+pub(crate) type OnProved<'a> = dyn FnMut(Proved) -> ControlFlow<ProofFailure> + 'a;
 
 /// Proves a run with numbers of `limbs` limbs; `on_proved` receives each proved event in order.
 /// Where a cable sticks and no rule stops the run, it ends as `sticks` unless `taut` asks for the
@@ -29,30 +29,30 @@ pub(crate) fn prove(
     limbs: usize,
     taut: bool,
     on_proved: &mut OnProved<'_>,
-) -> Result<ProvedEnd, Trouble> {
+) -> Result<ProvedEnd, ProofFailure> {
     let fine = Model::new(case, limbs)?;
     let coarse = Model::new(case, limbs.div_ceil(3).max(2))?;
     let mut run = Run::begin(case, &fine, &coarse)?;
     let mut tell = |proved| match on_proved(proved) {
-        ControlFlow::Break(trouble) => Err(trouble),
+        ControlFlow::Break(failure) => Err(failure),
         ControlFlow::Continue(()) => Ok(()),
     };
     if run.is_at_rest() {
-        let now = resting(&run, taut).map_err(|trouble| trouble.at(0.0))?;
+        let now = resting(&run, taut).map_err(|failure| failure.at(0.0))?;
         let now = match now {
             ControlFlow::Break(end) => return Ok(*end),
             ControlFlow::Continue(now) => now,
         };
-        if let Some(end) = hang(&mut run, now, &mut tell).map_err(|trouble| trouble.at(0.0))? {
+        if let Some(end) = hang(&mut run, now, &mut tell).map_err(|failure| failure.at(0.0))? {
             return Ok(end);
         }
     }
     loop {
         let t = run.t.to_f64();
-        match run.fly().map_err(|trouble| trouble.at(t))? {
+        match run.fly().map_err(|failure| failure.at(t))? {
             Next::End(end) => return Ok(*end),
             Next::Impact(crossing) => {
-                let struck = run.strike(&crossing).map_err(|trouble| trouble.at(t))?;
+                let struck = run.strike(&crossing).map_err(|failure| failure.at(t))?;
                 let Struck {
                     impact, end, stick, ..
                 } = struck;
@@ -61,7 +61,7 @@ pub(crate) fn prove(
                 match (end, stick) {
                     (_, Some(stick)) if taut => {
                         let end = hang(&mut run, Hanging::from(stick), &mut tell);
-                        if let Some(end) = end.map_err(|trouble| trouble.at(t))? {
+                        if let Some(end) = end.map_err(|failure| failure.at(t))? {
                             return Ok(end);
                         }
                     }
@@ -97,7 +97,10 @@ impl From<Stick> for Hanging {
 }
 
 /// How a run continues that starts at rest with both cables closed, or its end.
-fn resting(run: &Run<'_>, taut: bool) -> Result<ControlFlow<Box<ProvedEnd>, Hanging>, Trouble> {
+fn resting(
+    run: &Run<'_>,
+    taut: bool,
+) -> Result<ControlFlow<Box<ProvedEnd>, Hanging>, ProofFailure> {
     let instants = run.start();
     let (state, t) = hull_of(&instants);
     let (cables, zeros) = Pair::new(run.fine, &state, &t, [0, 1])?.resting()?;
@@ -108,7 +111,7 @@ fn resting(run: &Run<'_>, taut: bool) -> Result<ControlFlow<Box<ProvedEnd>, Hang
     if !cables.is_empty() && !taut {
         let what =
             "cables are taut from the start, and a proof of slack flight alone was asked for";
-        return Err(Trouble::beyond(what));
+        return Err(ProofFailure::beyond(what));
     }
     Ok(ControlFlow::Continue(Hanging {
         taut: cables,
@@ -122,8 +125,8 @@ fn resting(run: &Run<'_>, taut: bool) -> Result<ControlFlow<Box<ProvedEnd>, Hang
 fn hang(
     run: &mut Run<'_>,
     mut now: Hanging,
-    tell: &mut dyn FnMut(Proved) -> Result<(), Trouble>,
-) -> Result<Option<ProvedEnd>, Trouble> {
+    tell: &mut dyn FnMut(Proved) -> Result<(), ProofFailure>,
+) -> Result<Option<ProvedEnd>, ProofFailure> {
     while !now.taut.is_empty() {
         let (_, from) = hull_of(&now.instants);
         let begin = Begin {
@@ -133,7 +136,7 @@ fn hang(
             zeros: &now.zeros,
         };
         let end = hold(run.fine, &begin, &mut |t| tell(Proved::Step(t.clone())));
-        let end = end.map_err(|trouble| trouble.at(from.to_f64()))?;
+        let end = end.map_err(|failure| failure.at(from.to_f64()))?;
         let (state, t) = hull_of(&end.instants);
         tell(Proved::Stretch(ProvedStretch {
             taut: now.taut.clone(),
@@ -158,7 +161,7 @@ fn hang(
             }
             Event::Struck(cable) => {
                 let snap = snapped(run, [cable, 1 - cable], end.instants);
-                let (impact, next) = snap.map_err(|trouble| trouble.at(t.to_f64()))?;
+                let (impact, next) = snap.map_err(|failure| failure.at(t.to_f64()))?;
                 tell(Proved::Impact(impact))?;
                 match next {
                     ControlFlow::Break(end) => return Ok(Some(*end)),
@@ -179,7 +182,7 @@ fn snapped(
     run: &mut Run<'_>,
     [struck, taut]: [usize; 2],
     instants: Instants,
-) -> Result<Snapped, Trouble> {
+) -> Result<Snapped, ProofFailure> {
     let (state, t) = hull_of(&instants);
     let pair = Pair::new(run.fine, &state, &t, [struck, taut])?;
     run.impacts += 1;
@@ -193,7 +196,7 @@ fn snapped(
     let sticks = snap.taut.contains(&struck);
     let next = match run.stop_at_impact(&state[1], sticks, snap.taut.len())? {
         Some(stop) => {
-            let lost = || Trouble::undecided("the state after an impact");
+            let lost = || ProofFailure::undecided("the state after an impact");
             ControlFlow::Break(Box::new(ProvedEnd {
                 reason: Reason::Stop(stop),
                 t,

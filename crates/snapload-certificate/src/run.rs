@@ -16,7 +16,7 @@ use crate::taut::begin::{Begun, Instants, begin};
 use crate::taut::free::Free;
 use crate::taut::law::Law;
 use crate::taut::step::Equations;
-use crate::verdict::Trouble;
+use crate::verdict::ProofFailure;
 use snapload::Stop;
 
 /// A cable that sticks below this height settles the run.
@@ -84,7 +84,7 @@ impl<'a> Run<'a> {
     }
 
     /// Finds the first event.
-    pub(crate) fn fly(&self) -> Result<Next, Trouble> {
+    pub(crate) fn fly(&self) -> Result<Next, ProofFailure> {
         let flight = self.flight(self.coarse);
         let last = self.last()?;
         let limit = number_above(&last.0);
@@ -105,7 +105,7 @@ impl<'a> Run<'a> {
                 name(root.which),
                 last.1.words()
             );
-            return Err(Trouble::undecided(what));
+            return Err(ProofFailure::undecided(what));
         }
         if root.which < FIRST_TOP {
             return Ok(Next::Impact(root));
@@ -115,7 +115,7 @@ impl<'a> Run<'a> {
     }
 
     /// The time from T to the end of time, or to the rotation limit if that is sooner.
-    fn last(&self) -> Result<(Ball, Stop), Trouble> {
+    fn last(&self) -> Result<(Ball, Stop), ProofFailure> {
         let model = self.fine;
         let time = &model.t_end - &self.t;
         let hull = self.set.hull();
@@ -132,19 +132,21 @@ impl<'a> Run<'a> {
             half_pi.clone()
         };
         let turned = (bound - theta).over(spin);
-        let turned = turned.ok_or(Trouble::undecided("which way the body turns"))?;
+        let turned = turned.ok_or(ProofFailure::undecided("which way the body turns"))?;
         if turned.is_below(&time) {
             return Ok((turned, Stop::RotationLimit));
         }
-        Err(Trouble::undecided(
+        Err(ProofFailure::undecided(
             "whether the rotation limit or the end of time comes first",
         ))
     }
 
     /// The end of the run along a flight, at a time since T.
-    fn end_at(&self, (tau, stop): &(Ball, Stop)) -> Result<ProvedEnd, Trouble> {
+    fn end_at(&self, (tau, stop): &(Ball, Stop)) -> Result<ProvedEnd, ProofFailure> {
         if !self.is_under_way(tau) {
-            return Err(Trouble::undecided("an end and an impact at one instant"));
+            return Err(ProofFailure::undecided(
+                "an end and an impact at one instant",
+            ));
         }
         let (state, _) = self.flight(self.fine).at(tau);
         Ok(ProvedEnd {
@@ -159,10 +161,10 @@ impl<'a> Run<'a> {
     /// Within the piece every state's value crosses zero once, at t*. For a number τ of the piece
     /// t* = τ − f(τ)/ḟ(ξ), with ξ between τ and t*, so that ḟ(ξ) is within the slope of the piece;
     /// once a ball is known that contains τ and t*, ḟ(ξ) is within the slope over that ball.
-    fn root(&self, flight: &Flight<'_>, crossing: &Crossing) -> Result<Root, Trouble> {
+    fn root(&self, flight: &Flight<'_>, crossing: &Crossing) -> Result<Root, ProofFailure> {
         let which = crossing.which;
         let tau = self.newton(flight, crossing);
-        let flat = || Trouble::undecided(format!("whether {} is only touched", name(which)));
+        let flat = || ProofFailure::undecided(format!("whether {} is only touched", name(which)));
         let inside = crossing.from.is_below(&tau) && tau.is_below(&crossing.to);
         if !inside {
             return Err(flat());
@@ -221,7 +223,7 @@ impl<'a> Run<'a> {
     }
 
     /// The impact at a root, and the end of the run if it ends there.
-    pub(crate) fn strike(&mut self, root: &Root) -> Result<Struck, Trouble> {
+    pub(crate) fn strike(&mut self, root: &Root) -> Result<Struck, ProofFailure> {
         let cable = root.which;
         let (state, force) = self.flight(self.coarse).at(&root.whole);
         let impact = Impact::new(self.coarse, cable, &state)?;
@@ -263,13 +265,13 @@ impl<'a> Run<'a> {
 
     /// The states at an impact, each at its own instant: at a fixed time τ, δq(τ) = δq + τ δv; the
     /// instant moves by δt = −G·δq(τ)/v_n, and the state by its rate times δt.
-    fn instants(&self, root: &Root, impact: &Impact) -> Result<Instants, Trouble> {
+    fn instants(&self, root: &Root, impact: &Impact) -> Result<Instants, ProofFailure> {
         let centre = Flight::new(self.fine, self.t.clone(), self.set.centre().clone());
         let (struck, _) = centre.at(&root.centre);
         let [x, y, theta, vx, vy, spin] = struck;
         let image = [x, y, theta, vx, vy, spin, &self.t + &root.centre];
         let (state, force) = self.flight(self.coarse).at(&root.whole);
-        let none = || Trouble::undecided("a cable that does not close");
+        let none = || ProofFailure::undecided("a cable that does not close");
         let inverse = impact.v_n.reciprocal().ok_or_else(none)?;
         let tau = root.whole.with_limbs(self.coarse.limbs);
         let [_, _, _, vx, vy, spin] = state;
@@ -300,7 +302,7 @@ impl<'a> Run<'a> {
         instants: &Instants,
         laws: &[Law],
         zeros: Zeros,
-    ) -> Result<(), Trouble> {
+    ) -> Result<(), ProofFailure> {
         let equations = Equations::of(&Free, self.fine);
         let Begun { t, set, slack } = begin(&equations, &Free, laws, instants)?;
         (self.t, self.set, self.slack, self.zeros) = (t, set, slack, zeros);
@@ -335,7 +337,7 @@ impl<'a> Run<'a> {
         state: &State,
         force: &Force,
         impact: &Impact,
-    ) -> Result<((Set<6>, Ball, Radius), Matrix), Trouble> {
+    ) -> Result<((Set<6>, Ball, Radius), Matrix), ProofFailure> {
         let centre = Flight::new(self.fine, self.t.clone(), self.set.centre().clone());
         let (struck, _) = centre.at(&root.centre);
         let exact = Impact::new(self.fine, root.which, &struck)?;
@@ -360,14 +362,14 @@ impl<'a> Run<'a> {
         state: &State,
         force: &Force,
         impact: &Impact,
-    ) -> Result<Option<Reason>, Trouble> {
+    ) -> Result<Option<Reason>, ProofFailure> {
         let slow = self.is_slow(&impact.v_n, cable)?;
         let sticks = (slow || self.case.number("e").is_zero())
             && self.sign(&impact.pull(state, force), "the tension")?;
         if !sticks && self.is_in_turns() {
             // The model takes the remaining normal velocity away although the cable has no tension,
             // which is not proved here.
-            return Err(Trouble::beyond(format!(
+            return Err(ProofFailure::beyond(format!(
                 "how a cable leaves that snaps slowly in turn with the other, at impact {}",
                 self.impacts
             )));
@@ -378,11 +380,11 @@ impl<'a> Run<'a> {
     }
 
     /// Whether a ball is positive; an undecided sign is reported for the latest impact.
-    fn sign(&self, ball: &Ball, what: &str) -> Result<bool, Trouble> {
+    fn sign(&self, ball: &Ball, what: &str) -> Result<bool, ProofFailure> {
         match (ball.is_negative(), ball.is_positive()) {
             (true, _) => Ok(false),
             (_, true) => Ok(true),
-            _ => Err(Trouble::undecided(format!(
+            _ => Err(ProofFailure::undecided(format!(
                 "{what} at impact {}, {:.2e} with a radius of {:.2e}",
                 self.impacts,
                 ball.to_f64(),
@@ -393,7 +395,7 @@ impl<'a> Run<'a> {
 
     /// Whether a snap is slower than `v_stick`; it then extends the row of slow snaps, and else
     /// ends it.
-    pub(crate) fn is_slow(&mut self, v_n: &Ball, cable: usize) -> Result<bool, Trouble> {
+    pub(crate) fn is_slow(&mut self, v_n: &Ball, cable: usize) -> Result<bool, ProofFailure> {
         let fast = self.sign(&(v_n - &self.coarse.v_stick), "v_n against v_stick")?;
         if fast {
             self.slow.clear();
@@ -416,7 +418,7 @@ impl<'a> Run<'a> {
         y: &Ball,
         sticks: bool,
         taut: usize,
-    ) -> Result<Option<Stop>, Trouble> {
+    ) -> Result<Option<Stop>, ProofFailure> {
         if (sticks || taut >= 2) && (self.case.stop_when_settled || self.case.stop_when_sliding) {
             let height = Decimal::parse(SETTLING_HEIGHT).map(|d| d.ball(self.coarse.limbs));
             let above = y - &height.unwrap_or_else(Ball::zero);

@@ -2,7 +2,7 @@
 
 /// Why a proof does not go on.
 #[derive(Clone, Debug)]
-pub(crate) enum Trouble {
+pub(crate) enum ProofFailure {
     /// A quantity's sign stays undecided with this number of bits.
     Undecided {
         /// The quantity, in words.
@@ -20,7 +20,7 @@ pub(crate) enum Trouble {
     Cancelled,
 }
 
-impl Trouble {
+impl ProofFailure {
     /// A quantity's sign is undecided; the time is added later.
     pub(crate) fn undecided(what: impl Into<String>) -> Self {
         Self::Undecided {
@@ -60,12 +60,12 @@ pub(crate) const MOST_LIMBS: usize = 46;
 /// Tries with more and more bits, each time a third more, as long as something stays undecided.
 pub(crate) fn with_more_bits<T>(
     first: usize,
-    mut attempt: impl FnMut(usize) -> Result<T, Trouble>,
-) -> Result<(T, usize), Trouble> {
+    mut attempt: impl FnMut(usize) -> Result<T, ProofFailure>,
+) -> Result<(T, usize), ProofFailure> {
     let mut limbs = first.clamp(2, MOST_LIMBS);
     loop {
         match attempt(limbs) {
-            Err(Trouble::Undecided {
+            Err(ProofFailure::Undecided {
                 more_bits: true, ..
             }) if limbs < MOST_LIMBS => {
                 limbs = (limbs * 4).div_ceil(3).min(MOST_LIMBS);

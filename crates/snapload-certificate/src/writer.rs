@@ -8,7 +8,7 @@ use crate::format::{
 };
 use crate::proof::prove;
 use crate::proved::{Proved, Reason};
-use crate::verdict::{FIRST_LIMBS, Trouble, with_more_bits};
+use crate::verdict::{FIRST_LIMBS, ProofFailure, with_more_bits};
 use serde::{Serialize, Serializer};
 use std::ops::ControlFlow;
 
@@ -131,7 +131,7 @@ pub fn certify(
             };
             (Ended::Proved(reason), t, written)
         }
-        Err(Trouble::Undecided { what, t, .. }) => {
+        Err(ProofFailure::Undecided { what, t, .. }) => {
             let written = WrittenEnd {
                 reason: UNDECIDED.to_owned(),
                 t: None,
@@ -141,8 +141,8 @@ pub fn certify(
             let last = last.unwrap_or_else(|| "0".to_owned());
             (Ended::Undecided { what, t }, last, written)
         }
-        Err(Trouble::False(what)) => return Ok(Err(what)),
-        Err(Trouble::Cancelled | Trouble::Enough) => return Err(Cancelled),
+        Err(ProofFailure::False(what)) => return Ok(Err(what)),
+        Err(ProofFailure::Cancelled | ProofFailure::Enough) => return Err(Cancelled),
     };
     Ok(Ok(Certification {
         impacts: best.len() - stretches,
@@ -168,10 +168,10 @@ fn attempt(
     taut: bool,
     impacts: &mut Lines,
     on_progress: &mut dyn FnMut(f64) -> ControlFlow<()>,
-) -> Result<PrintedEnd, Trouble> {
+) -> Result<PrintedEnd, ProofFailure> {
     let end = prove(case, limbs, taut, &mut |proved| {
         if on_progress(proved.time().to_f64()).is_break() {
-            return ControlFlow::Break(Trouble::Cancelled);
+            return ControlFlow::Break(ProofFailure::Cancelled);
         }
         if matches!(proved, Proved::Step(_)) {
             return ControlFlow::Continue(());
@@ -185,8 +185,8 @@ fn attempt(
         }
     })?;
     let printed = fixed(&end.t, PLACES).zip(printed(&end.state));
-    let trouble = || Trouble::undecided("the digits of the end").at(end.t.to_f64());
-    let (t, state) = printed.ok_or_else(trouble)?;
+    let failure = || ProofFailure::undecided("the digits of the end").at(end.t.to_f64());
+    let (t, state) = printed.ok_or_else(failure)?;
     Ok((end.reason, t, state))
 }
 
@@ -207,8 +207,8 @@ fn written(proved: &Proved) -> Option<Line> {
     })
 }
 
-fn digits(proved: &Proved) -> Trouble {
-    Trouble::undecided("the digits of a time or speed").at(proved.time().to_f64())
+fn digits(proved: &Proved) -> ProofFailure {
+    ProofFailure::undecided("the digits of a time or speed").at(proved.time().to_f64())
 }
 
 fn printed(state: &[Ball; 6]) -> Option<[String; 6]> {

@@ -63,18 +63,18 @@ fn as_option(mut error: CaseError) -> CaseError {
     error
 }
 
-/// A row a look.
+/// A row a sample.
 fn table(both: &BothModels, out: &mut dyn io::Write) -> io::Result<()> {
     let mut table = csv::Writer::from_writer(out);
     let lines = both.springs.len();
     let tensions = (1..=lines).map(|line| format!("tension_{line}_n"));
     let names = ["t_s", "x_m", "z_m", "theta_rad"].map(str::to_owned);
     table.write_record(names.into_iter().chain(tensions))?;
-    for look in &both.elastic.looks {
-        let state = &look.state;
+    for sample in &both.elastic.samples {
+        let state = &sample.state;
         let [x, z] = both.sprung.model.scales.to_si([state.x, state.y]);
-        let place = [look.t_s, x, z, 0.0 - state.theta];
-        let row = place.iter().chain(&look.tension_n);
+        let place = [sample.t_s, x, z, 0.0 - state.theta];
+        let row = place.iter().chain(&sample.tension_n);
         table.write_record(row.copied().map(in_digits))?;
     }
     table.flush()

@@ -1,11 +1,11 @@
 //! Branches: an orbit as a parameter changes, with the bifurcations and other events along it.
 
 use crate::branch_events::{BranchEvent, Kind, Test, located, tests_of};
+use crate::continuation::{Continuation, Segment, Unknowns};
 use crate::hybrid::{Family, Point};
 use crate::orbit::{NoOrbit, Orbit};
 use crate::survey::root;
 use crate::switch::doubled;
-use crate::tracer::{Segment, Tracer, Unknowns};
 use nalgebra::DVector;
 use snapload::analysis::{Cancelled, OnProgress, Progress};
 
@@ -78,7 +78,7 @@ impl Branch {
         along: &Along,
         on_progress: OnProgress,
     ) -> Result<Self, Cancelled> {
-        let tracer = Tracer {
+        let continuation = Continuation {
             family,
             sequence: orbit.lap.sequence.clone(),
             phase: orbit.phase,
@@ -89,7 +89,7 @@ impl Branch {
             durations: orbit.lap.durations.clone(),
             at: orbit.at,
         };
-        let Some(up) = tracer.first_tangent(&start) else {
+        let Some(up) = continuation.first_tangent(&start) else {
             let end = BranchEnd {
                 at: orbit.at[0],
                 because: "the equations have no direction here".to_owned(),
@@ -105,11 +105,11 @@ impl Branch {
             on_progress,
             done: 0,
         };
-        let backward = walk.run(&tracer, &start, &(-&up), orbit)?;
+        let backward = walk.run(&continuation, &start, &(-&up), orbit)?;
         let forward = if backward.closed {
             Side::nowhere(orbit.at[0], "the branch is closed")
         } else {
-            walk.run(&tracer, &start, &up, orbit)?
+            walk.run(&continuation, &start, &up, orbit)?
         };
         Ok(joined(orbit, backward, forward))
     }
@@ -155,17 +155,17 @@ impl Branch {
         along: &Along,
         on_progress: OnProgress,
     ) -> Result<Option<Self>, Cancelled> {
-        let Some((tracer, start, apart)) = doubled(family, event) else {
+        let Some((continuation, start, apart)) = doubled(family, event) else {
             return Ok(None);
         };
-        let orbit = Orbit::of(&tracer.lap(start.at), &start.closed());
+        let orbit = Orbit::of(&continuation.lap(start.at), &start.closed());
         let mut walk = Walk {
             along,
             on_progress,
             done: 0,
         };
         let born = Side::nowhere(orbit.at[0], "the period doubling");
-        let forward = walk.run(&tracer, &start, &apart, &orbit)?;
+        let forward = walk.run(&continuation, &start, &apart, &orbit)?;
         Ok(Some(joined(&orbit, born, forward)))
     }
 }
@@ -237,12 +237,12 @@ struct Walk<'a> {
 impl Walk<'_> {
     fn run<F: Family>(
         &mut self,
-        tracer: &Tracer<F>,
+        continuation: &Continuation<F>,
         start: &Unknowns,
         tangent: &DVector<f64>,
         orbit: &Orbit,
     ) -> Result<Side, Cancelled> {
-        let mut tracer = tracer.clone();
+        let mut continuation = continuation.clone();
         let (mut here, mut tangent) = (start.clone(), tangent.clone());
         let mut tests = tests_of(orbit, &tangent);
         let mut side = Side::nowhere(orbit.at[0], "");
@@ -252,17 +252,17 @@ impl Walk<'_> {
                 side.end.because = format!("{} points are enough", self.along.most);
                 break;
             }
-            let Some(there) = self.stepped(&tracer, &here, &tangent, step) else {
+            let Some(there) = self.stepped(&continuation, &here, &tangent, step) else {
                 step *= 0.5;
                 if step < self.along.step * SHORTER {
                     side.end.because = "Newton's method finds no further point".to_owned();
                 }
                 continue;
             };
-            let found = Orbit::of(&tracer.lap(there.at.at), &there.at.closed());
+            let found = Orbit::of(&continuation.lap(there.at.at), &there.at.closed());
             let reached = tests_of(&found, &there.direction);
             let segment = Segment {
-                tracer: &tracer,
+                continuation: &continuation,
                 from: &here,
                 tangent: &tangent,
                 length: there.length,
@@ -279,7 +279,7 @@ impl Walk<'_> {
                 break;
             }
             (here, tangent, tests) = (there.at, there.direction, reached);
-            let anew = counted_anew(&mut tracer, &mut here, &mut tangent);
+            let anew = counted_anew(&mut continuation, &mut here, &mut tangent);
             if there.length > 0.0 {
                 side.points.push(point(anew.unwrap_or(found), arclength));
             }
@@ -298,12 +298,12 @@ impl Walk<'_> {
     /// the step would pass that.
     fn stepped<F: Family>(
         &self,
-        tracer: &Tracer<F>,
+        continuation: &Continuation<F>,
         here: &Unknowns,
         tangent: &DVector<f64>,
         step: f64,
     ) -> Option<Stepped> {
-        let (at, steps, direction) = stepped(tracer, here, tangent, step)?;
+        let (at, steps, direction) = stepped(continuation, here, tangent, step)?;
         let [low, high] = self.along.range;
         let border = at.at[0].clamp(low, high);
         let beyond = |u: &Unknowns| u.at[0] - border;
@@ -316,14 +316,14 @@ impl Walk<'_> {
         };
         if there.is_last {
             let of = |sigma: f64| {
-                let found = tracer.corrected(here, tangent, sigma);
+                let found = continuation.corrected(here, tangent, sigma);
                 found.map_or(f64::NAN, |(u, ..)| beyond(&u))
             };
             there.length = match beyond(here) {
                 0.0 => 0.0,
                 before => root(&of, (0.0, before), (step, beyond(&there.at))),
             };
-            (there.at, _, there.direction) = tracer.corrected(here, tangent, there.length)?;
+            (there.at, _, there.direction) = continuation.corrected(here, tangent, there.length)?;
             if beyond(&there.at).abs() > ON_BORDER * border.abs().max(1.0) {
                 return None;
             }
@@ -398,27 +398,27 @@ impl Walk<'_> {
 
 /// Renumbers the events if one has passed the section; returns the orbit then.
 fn counted_anew<F: Family>(
-    tracer: &mut Tracer<F>,
+    continuation: &mut Continuation<F>,
     here: &mut Unknowns,
     tangent: &mut DVector<f64>,
 ) -> Option<Orbit> {
     let mut orbit = None;
-    while let Some((moved, anew, shift)) = tracer.renumbered(here) {
+    while let Some((moved, anew, shift)) = continuation.renumbered(here) {
         *tangent = moved.tangent_after(&anew, tangent, shift)?;
-        (*tracer, *here) = (moved, anew);
-        orbit = Some(Orbit::of(&tracer.lap(here.at), &here.closed()));
+        (*continuation, *here) = (moved, anew);
+        orbit = Some(Orbit::of(&continuation.lap(here.at), &here.closed()));
     }
     orbit
 }
 
 /// The next point, if the corrector finds one near enough, and the direction there.
 fn stepped<F: Family>(
-    tracer: &Tracer<F>,
+    continuation: &Continuation<F>,
     here: &Unknowns,
     tangent: &DVector<f64>,
     step: f64,
 ) -> Option<(Unknowns, usize, DVector<f64>)> {
-    let (next, steps, direction) = tracer.corrected(here, tangent, step)?;
+    let (next, steps, direction) = continuation.corrected(here, tangent, step)?;
     let moved = here.durations.iter().zip(&next.durations);
     let most = moved.map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
     let off = here.distance(&next);

@@ -1,9 +1,9 @@
 //! Events along a branch: test functions, and their zeros.
 
+use crate::continuation::Segment;
 use crate::hybrid::{DURATION, Family, Hybrid, Jet, Point, constant};
 use crate::orbit::Orbit;
 use crate::survey::{Extreme, root};
-use crate::tracer::Segment;
 use nalgebra::DVector;
 use snapload::Limit;
 
@@ -212,11 +212,11 @@ pub(crate) fn located<F: Family>(
     before: f64,
     after: f64,
 ) -> Option<BranchEvent> {
-    let (tracer, tangent) = (segment.tracer, segment.tangent);
+    let (continuation, tangent) = (segment.continuation, segment.tangent);
     let orbit_at = |sigma: f64| {
-        let (u, ..) = tracer.corrected(segment.from, tangent, sigma)?;
-        let direction = tracer.tangent(&u, tangent)?;
-        Some((Orbit::of(&tracer.lap(u.at), &u.closed()), direction))
+        let (u, ..) = continuation.corrected(segment.from, tangent, sigma)?;
+        let direction = continuation.tangent(&u, tangent)?;
+        Some((Orbit::of(&continuation.lap(u.at), &u.closed()), direction))
     };
     let of = |sigma: f64| {
         let found = orbit_at(sigma);
@@ -241,8 +241,8 @@ pub(crate) fn located<F: Family>(
     let grazes = extreme.filter(|_| kind == Kind::Graze);
     let bend = grazes.map(|extreme| normal_acceleration(segment, &orbit, &extreme));
     // If events have passed the section, they are numbered from there.
-    let (u, ..) = tracer.corrected(segment.from, tangent, sigma)?;
-    let anew = tracer.renumbered(&u);
+    let (u, ..) = continuation.corrected(segment.from, tangent, sigma)?;
+    let anew = continuation.renumbered(&u);
     let orbit = anew.map_or(orbit, |(moved, u, _)| {
         Orbit::of(&moved.lap(u.at), &u.closed())
     });
@@ -250,7 +250,7 @@ pub(crate) fn located<F: Family>(
         Kind::Graze => orbit.at_graze(),
         _ => orbit,
     };
-    let restitution = tracer.family.snap_contraction(orbit.at).sqrt();
+    let restitution = continuation.family.snap_contraction(orbit.at).sqrt();
     Some(BranchEvent {
         kind,
         value: orbit.at,
@@ -267,13 +267,13 @@ pub(crate) fn located<F: Family>(
 
 /// a = −g̈/2r of a surface at an instant of a lap.
 fn normal_acceleration<F: Family>(segment: &Segment<F>, orbit: &Orbit, at: &Extreme) -> f64 {
-    let tracer = segment.tracer;
-    let system = tracer.family.plain(orbit.at);
-    let legs = tracer
+    let continuation = segment.continuation;
+    let system = continuation.family.plain(orbit.at);
+    let legs = continuation
         .lap(orbit.at)
         .legs(&system, &orbit.z, &orbit.lap.durations);
     let leg = legs[at.leg];
-    let jets = tracer.family.jets(orbit.at);
+    let jets = continuation.family.jets(orbit.at);
     let start: Point<Jet> = leg.start.map(constant);
     let s = Jet::variable(at.t - leg.t, DURATION);
     let there = jets.flow(leg.held, constant(leg.t), &start, s);

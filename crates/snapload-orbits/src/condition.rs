@@ -16,9 +16,9 @@
 //! The first two do not divide by the speed of a snap, so that they are smooth through grazes.
 
 use crate::branch_events::{BranchEvent, Kind};
+use crate::continuation::{Continuation, Unknowns};
 use crate::hybrid::{DURATION, Family, Hybrid, Jet, Point, constant};
 use crate::orbit::Orbit;
-use crate::tracer::{Tracer, Unknowns};
 use nalgebra::{DMatrix, DVector};
 
 /// The condition on the orbits of a curve.
@@ -52,14 +52,14 @@ const STEP: f64 = 3e-6;
 impl Condition {
     /// The condition that an event satisfies; none if its kind has no curve.
     pub(crate) fn of<F: Family>(
-        tracer: &Tracer<F>,
+        continuation: &Continuation<F>,
         u: &Unknowns,
         event: &BranchEvent,
     ) -> Option<Self> {
         let survey = &event.orbit.survey;
         match event.kind {
             Kind::Fold | Kind::PeriodDoubling | Kind::NeimarkSacker => {
-                singular(event.kind, tracer, u)
+                singular(event.kind, continuation, u)
             }
             Kind::Graze if event.is_own_snap => {
                 let leg = survey.least_speed?.leg;
@@ -78,16 +78,20 @@ impl Condition {
     }
 
     /// The value that vanishes along the curve.
-    pub(crate) fn value<F: Family>(&self, tracer: &Tracer<F>, u: &Unknowns) -> Option<f64> {
+    pub(crate) fn value<F: Family>(
+        &self,
+        continuation: &Continuation<F>,
+        u: &Unknowns,
+    ) -> Option<f64> {
         match self {
             Self::Singular { of, left, right } => {
-                Some(solved(&matrix(*of, tracer, u), left, right)?.1)
+                Some(solved(&matrix(*of, continuation, u), left, right)?.1)
             }
-            Self::Touch(contact) => contact.found(tracer, u).map(|(gap, _)| gap),
+            Self::Touch(contact) => contact.found(continuation, u).map(|(gap, _)| gap),
             Self::Speed { leg } => {
-                let system = tracer.family.plain(u.at);
-                let legs = tracer.lap(u.at).legs(&system, &u.z, &u.durations);
-                let surface = tracer.sequence.events.get(*leg)?.surface();
+                let system = continuation.family.plain(u.at);
+                let legs = continuation.lap(u.at).legs(&system, &u.z, &u.durations);
+                let surface = continuation.sequence.events.get(*leg)?.surface();
                 Some(system.speed(surface, &legs[*leg].end))
             }
         }
@@ -97,17 +101,17 @@ impl Condition {
     /// as accurate as the value itself.
     pub(crate) fn slopes<F: Family>(
         &self,
-        tracer: &Tracer<F>,
+        continuation: &Continuation<F>,
         u: &Unknowns,
     ) -> Option<DVector<f64>> {
-        let count = tracer.size() + 2;
-        let variables = tracer.family.variables();
+        let count = continuation.size() + 2;
+        let variables = continuation.family.variables();
         let mut slopes = DVector::zeros(count);
         for i in 0..count {
             let at = |by: f64| {
                 let mut step = DVector::zeros(count);
                 step[i] = by;
-                self.value(tracer, &u.moved(variables, &step))
+                self.value(continuation, &u.moved(variables, &step))
             };
             slopes[i] = (at(STEP)? - at(-STEP)?) / (2.0 * STEP);
         }
@@ -119,10 +123,14 @@ impl Condition {
 
     /// The condition updated at a point of the curve: bordered by the null vectors there, or with
     /// the present time of closest approach.
-    pub(crate) fn renewed<F: Family>(&self, tracer: &Tracer<F>, u: &Unknowns) -> Option<Self> {
+    pub(crate) fn renewed<F: Family>(
+        &self,
+        continuation: &Continuation<F>,
+        u: &Unknowns,
+    ) -> Option<Self> {
         match self {
             Self::Singular { of, left, right } => {
-                let matrix = matrix(*of, tracer, u);
+                let matrix = matrix(*of, continuation, u);
                 let (v, _) = solved(&matrix, left, right)?;
                 let (w, _) = solved(&matrix.transpose(), right, left)?;
                 Some(Self::Singular {
@@ -132,7 +140,7 @@ impl Condition {
                 })
             }
             Self::Touch(contact) => {
-                let (_, t) = contact.found(tracer, u)?;
+                let (_, t) = contact.found(continuation, u)?;
                 Some(Self::Touch(Contact { t, ..*contact }))
             }
             Self::Speed { .. } => Some(self.clone()),
@@ -142,13 +150,13 @@ impl Condition {
     /// The condition after the events were renumbered.
     pub(crate) fn counted_anew<F: Family>(
         &self,
-        tracer: &Tracer<F>,
+        continuation: &Continuation<F>,
         u: &Unknowns,
         shift: isize,
     ) -> Option<Self> {
-        let events = tracer.sequence.events.len();
+        let events = continuation.sequence.events.len();
         match self {
-            Self::Singular { of, .. } => singular(*of, tracer, u),
+            Self::Singular { of, .. } => singular(*of, continuation, u),
             Self::Touch(contact) => {
                 let leg = contact.leg.saturating_add_signed(shift).min(events);
                 Some(Self::Touch(Contact { leg, ..*contact }))
@@ -163,19 +171,23 @@ impl Condition {
     /// a = −g̈/2r where a surface is touched, between events or by a snap of zero velocity.
     pub(crate) fn normal_acceleration<F: Family>(
         &self,
-        tracer: &Tracer<F>,
+        continuation: &Continuation<F>,
         u: &Unknowns,
     ) -> Option<f64> {
         let (surface, leg, t) = match self {
             Self::Singular { .. } => return None,
             Self::Touch(contact) => (contact.surface, contact.leg, Some(contact.t)),
-            Self::Speed { leg } => (tracer.sequence.events.get(*leg)?.surface(), *leg, None),
+            Self::Speed { leg } => (
+                continuation.sequence.events.get(*leg)?.surface(),
+                *leg,
+                None,
+            ),
         };
-        let system = tracer.family.plain(u.at);
-        let legs = tracer.lap(u.at).legs(&system, &u.z, &u.durations);
+        let system = continuation.family.plain(u.at);
+        let legs = continuation.lap(u.at).legs(&system, &u.z, &u.durations);
         let leg = legs.get(leg)?;
         let s = t.map_or(leg.s, |t| t - leg.t);
-        Some(-rate(tracer, u, leg, surface, s))
+        Some(-rate(continuation, u, leg, surface, s))
     }
 
     /// The event whose snap has zero velocity.
@@ -209,13 +221,13 @@ impl Condition {
 
 /// The derivative of the velocity at which a surface closes, a time `s` into a leg.
 fn rate<F: Family>(
-    tracer: &Tracer<F>,
+    continuation: &Continuation<F>,
     u: &Unknowns,
     leg: &crate::lap::Leg,
     surface: usize,
     s: f64,
 ) -> f64 {
-    let jets = tracer.family.jets(u.at);
+    let jets = continuation.family.jets(u.at);
     let start: Point<Jet> = leg.start.map(constant);
     let there = jets.flow(
         leg.held,
@@ -228,15 +240,15 @@ fn rate<F: Family>(
 
 impl Contact {
     /// The gap at the closest approach of the surface, and its time.
-    fn found<F: Family>(&self, tracer: &Tracer<F>, u: &Unknowns) -> Option<(f64, f64)> {
-        let system = tracer.family.plain(u.at);
-        let legs = tracer.lap(u.at).legs(&system, &u.z, &u.durations);
+    fn found<F: Family>(&self, continuation: &Continuation<F>, u: &Unknowns) -> Option<(f64, f64)> {
+        let system = continuation.family.plain(u.at);
+        let legs = continuation.lap(u.at).legs(&system, &u.z, &u.durations);
         let leg = legs.get(self.leg)?;
         let mut s = self.t - leg.t;
         let there = |s: f64| system.flow(leg.held, leg.t, &leg.start, s);
         for _ in 0..MOST_STEPS {
             let speed = system.speed(self.surface, &there(s));
-            let step = speed / rate(tracer, u, leg, self.surface, s);
+            let step = speed / rate(continuation, u, leg, self.surface, s);
             s -= step;
             // The error of the gap is of second order in that of the time.
             if step.abs() < 1e-9 {
@@ -248,8 +260,12 @@ impl Contact {
 }
 
 /// A singular matrix with its null vectors as borders.
-fn singular<F: Family>(of: Kind, tracer: &Tracer<F>, u: &Unknowns) -> Option<Condition> {
-    let svd = matrix(of, tracer, u).try_svd(true, true, f64::EPSILON, 10_000)?;
+fn singular<F: Family>(
+    of: Kind,
+    continuation: &Continuation<F>,
+    u: &Unknowns,
+) -> Option<Condition> {
+    let svd = matrix(of, continuation, u).try_svd(true, true, f64::EPSILON, 10_000)?;
     let last = svd.singular_values.imin();
     Some(Condition::Singular {
         of,
@@ -259,17 +275,17 @@ fn singular<F: Family>(of: Kind, tracer: &Tracer<F>, u: &Unknowns) -> Option<Con
 }
 
 /// The matrix that is singular at a special orbit.
-fn matrix<F: Family>(of: Kind, tracer: &Tracer<F>, u: &Unknowns) -> DMatrix<f64> {
-    let variables = tracer.family.variables();
+fn matrix<F: Family>(of: Kind, continuation: &Continuation<F>, u: &Unknowns) -> DMatrix<f64> {
+    let variables = continuation.family.variables();
     if of == Kind::NeimarkSacker {
-        let linear = tracer.lap(u.at).linearise(&u.z, &u.durations);
+        let linear = continuation.lap(u.at).linearise(&u.z, &u.durations);
         let mut compound = compound(&linear.monodromy(variables));
         for i in 0..compound.nrows() {
             compound[(i, i)] -= 1.0;
         }
         return compound;
     }
-    let (_, mut jacobian) = tracer.equations(u, 0);
+    let (_, mut jacobian) = continuation.equations(u, 0);
     if of == Kind::PeriodDoubling {
         for i in 0..variables.len() {
             jacobian[(i, i)] += 2.0;

@@ -6,13 +6,13 @@
 //! followed by pseudo-arclength as a branch is.
 
 use crate::branch_events::{BranchEvent, Kind};
+use crate::continuation::{Continuation, Unknowns};
 use crate::hybrid::Family;
 use crate::multipliers::Stability;
 use crate::normal_form::coefficient;
+use crate::on_curve::OnCurve;
 use crate::orbit::{NoOrbit, Orbit};
-use crate::rail::Rail;
 use crate::survey::root;
-use crate::tracer::{Tracer, Unknowns};
 use snapload::analysis::{Cancelled, OnProgress, Progress};
 
 /// How a curve is followed.
@@ -101,7 +101,7 @@ impl Curve {
         on_progress: OnProgress,
     ) -> Result<Result<Self, NoOrbit>, Cancelled> {
         let orbit = &event.orbit;
-        let tracer = Tracer {
+        let continuation = Continuation {
             family,
             sequence: orbit.lap.sequence.clone(),
             phase: orbit.phase,
@@ -112,23 +112,23 @@ impl Curve {
             durations: orbit.lap.durations.clone(),
             at: orbit.at,
         };
-        let Some(rail) = Rail::begun(tracer, start, event) else {
+        let Some(on_curve) = OnCurve::begun(continuation, start, event) else {
             let name = event.kind.name().replace('_', " ");
             return Ok(Err(NoOrbit(format!(
                 "Newton's method finds no {name} in two keys from the one at {:.9}",
                 event.value[0]
             ))));
         };
-        let first = point(&rail, rail.orbit(), 0.0);
+        let first = point(&on_curve, on_curve.orbit(), 0.0);
         let mut walk = Walk {
             across,
             on_progress,
             done: 0,
         };
-        let backward = walk.run(rail.turned())?;
+        let backward = walk.run(on_curve.turned())?;
         let forward = match backward.closed {
-            true => Side::nowhere(rail.here.at, "the curve is closed"),
-            false => walk.run(rail)?,
+            true => Side::nowhere(on_curve.here.at, "the curve is closed"),
+            false => walk.run(on_curve)?,
         };
         let mut points: Vec<CurvePoint> = backward.points;
         points.reverse();
@@ -203,10 +203,16 @@ fn others(kind: Kind, orbit: &Orbit) -> Stability {
     left.stability()
 }
 
-fn point<F: Family>(rail: &Rail<F>, orbit: Orbit, arclength: f64) -> CurvePoint {
-    let bend = rail.condition.normal_acceleration(&rail.tracer, &rail.here);
-    let restitution = rail.tracer.family.snap_contraction(rail.here.at).sqrt();
-    let kind = rail.condition.kind();
+fn point<F: Family>(on_curve: &OnCurve<F>, orbit: Orbit, arclength: f64) -> CurvePoint {
+    let bend = on_curve
+        .condition
+        .normal_acceleration(&on_curve.continuation, &on_curve.here);
+    let restitution = on_curve
+        .continuation
+        .family
+        .snap_contraction(on_curve.here.at)
+        .sqrt();
+    let kind = on_curve.condition.kind();
     let orbit = match kind {
         Kind::Graze => orbit.at_graze(),
         _ => orbit,
@@ -215,7 +221,7 @@ fn point<F: Family>(rail: &Rail<F>, orbit: Orbit, arclength: f64) -> CurvePoint 
         others: others(kind, &orbit),
         orbit,
         arclength,
-        coefficient: coefficient(&rail.tracer, &rail.here, kind),
+        coefficient: coefficient(&on_curve.continuation, &on_curve.here, kind),
         normal_acceleration: bend,
         sqrt_coefficient: bend.map(|a| (1.0 + restitution) * (2.0 * a).max(0.0).sqrt()),
     }
@@ -243,24 +249,27 @@ struct Walk<'a> {
 }
 
 impl Walk<'_> {
-    fn run<F: Family>(&mut self, mut rail: Rail<F>) -> Result<Side, Cancelled> {
-        let (start, first) = (rail.here.clone(), rail.tracer.sequence.clone());
+    fn run<F: Family>(&mut self, mut on_curve: OnCurve<F>) -> Result<Side, Cancelled> {
+        let (start, first) = (
+            on_curve.here.clone(),
+            on_curve.continuation.sequence.clone(),
+        );
         let mut side = Side::nowhere(start.at, "");
-        let mut margins = self.margins(&rail, &rail.orbit());
+        let mut margins = self.margins(&on_curve, &on_curve.orbit());
         let (mut step, mut arclength) = (self.across.step, 0.0);
         while side.end.because.is_empty() {
             if side.points.len() >= self.across.most {
                 side.end.because = format!("{} points are enough", self.across.most);
                 break;
             }
-            let stepped = rail.stepped(step).map(|(next, steps)| {
+            let stepped = on_curve.stepped(step).map(|(next, steps)| {
                 let orbit = next.orbit();
                 let reached = self.margins(&next, &orbit);
                 (next, steps, orbit, reached)
             });
             let border = stepped
                 .as_ref()
-                .and_then(|(.., reached)| self.passed(&rail, step, &margins, reached));
+                .and_then(|(.., reached)| self.passed(&on_curve, step, &margins, reached));
             let lost = border.as_ref().is_some_and(|border| border.place.is_none());
             let Some((next, steps, orbit, reached)) = stepped.filter(|_| !lost) else {
                 step *= 0.5;
@@ -281,17 +290,17 @@ impl Walk<'_> {
             }
             let far = arclength > FAR * self.across.step;
             let back = next.here.distance(&start) < BACK * self.across.step;
-            if far && back && next.tracer.sequence == first {
+            if far && back && next.continuation.sequence == first {
                 side.end.because = "the curve is closed".to_owned();
                 side.closed = true;
                 break;
             }
-            (rail, margins) = (next, reached);
-            let orbit = match rail.counted_anew() {
-                true => rail.orbit(),
+            (on_curve, margins) = (next, reached);
+            let orbit = match on_curve.counted_anew() {
+                true => on_curve.orbit(),
                 false => orbit,
             };
-            side.points.push(point(&rail, orbit, arclength));
+            side.points.push(point(&on_curve, orbit, arclength));
             self.done += 1;
             let of = (2 * self.across.most) as f64;
             Progress::new("points", self.done as f64, of).tell(self.on_progress)?;
@@ -310,12 +319,12 @@ impl Walk<'_> {
     }
 
     /// The distance to each border.
-    fn margins<F: Family>(&self, rail: &Rail<F>, orbit: &Orbit) -> [f64; 6] {
+    fn margins<F: Family>(&self, on_curve: &OnCurve<F>, orbit: &Orbit) -> [f64; 6] {
         let [[a, b], [c, d]] = self.across.ranges;
         let [x, y] = orbit.at;
         let corner = orbit.survey.corner_gap;
         let corner = corner.map_or(f64::INFINITY, |gap| -gap.value);
-        let own = rail.condition.leg();
+        let own = on_curve.condition.leg();
         let events = orbit.lap.sequence.events.iter().zip(&orbit.lap.speeds);
         let others = events
             .enumerate()
@@ -328,17 +337,17 @@ impl Walk<'_> {
     /// The first border between two points.
     fn passed<'a, F: Family>(
         &self,
-        rail: &Rail<'a, F>,
+        on_curve: &OnCurve<'a, F>,
         step: f64,
         before: &[f64; 6],
         after: &[f64; 6],
     ) -> Option<Border<'a, F>> {
         let crossed = (0..before.len()).filter(|&k| before[k] >= 0.0 && after[k] < 0.0);
         let border = |number: usize| {
-            let margin = |there: &Rail<F>| self.margins(there, &there.orbit())[number];
-            let at = |sigma: f64| rail.moved(sigma).as_ref().map_or(f64::NAN, margin);
+            let margin = |there: &OnCurve<F>| self.margins(there, &there.orbit())[number];
+            let at = |sigma: f64| on_curve.moved(sigma).as_ref().map_or(f64::NAN, margin);
             let sigma = root(&at, (0.0, before[number]), (step, after[number]));
-            let place = rail.moved(sigma);
+            let place = on_curve.moved(sigma);
             Border {
                 number,
                 sigma,
@@ -355,12 +364,12 @@ impl Walk<'_> {
 struct Border<'a, F: Family> {
     number: usize,
     sigma: f64,
-    place: Option<Rail<'a, F>>,
+    place: Option<OnCurve<'a, F>>,
 }
 
 /// Why a curve ends at a point that it has reached.
-fn left<F: Family>(rail: &Rail<F>, orbit: &Orbit) -> Option<String> {
-    if !rail.condition.is_met(orbit) {
+fn left<F: Family>(on_curve: &OnCurve<F>, orbit: &Orbit) -> Option<String> {
+    if !on_curve.condition.is_met(orbit) {
         let because = "the pair of multipliers is real from here on: a resonance of 1:1 or 1:2";
         return Some(because.to_owned());
     }

@@ -13,8 +13,8 @@
 //! B and C are differences of the exact monodromy matrix at neighbours.
 
 use crate::branch_events::Kind;
+use crate::continuation::{Continuation, Unknowns};
 use crate::hybrid::{Family, Point};
-use crate::tracer::{Tracer, Unknowns};
 use nalgebra::{DMatrix, DVector};
 
 /// The steps of the difference quotients, of first and of second order.
@@ -26,14 +26,18 @@ const MOST_STEPS: usize = 8;
 const DONE: f64 = 1e-13;
 
 /// The coefficient; none for other kinds, and if neighbours do not have the same events.
-pub(crate) fn coefficient<F: Family>(tracer: &Tracer<F>, u: &Unknowns, kind: Kind) -> Option<f64> {
+pub(crate) fn coefficient<F: Family>(
+    continuation: &Continuation<F>,
+    u: &Unknowns,
+    kind: Kind,
+) -> Option<f64> {
     let eigenvalue = match kind {
         Kind::Fold => 1.0,
         Kind::PeriodDoubling => -1.0,
         _ => return None,
     };
-    let map = Map { tracer, u };
-    let whole = map.monodromy(&DVector::zeros(tracer.family.variables().len()))?;
+    let map = Map { continuation, u };
+    let whole = map.monodromy(&DVector::zeros(continuation.family.variables().len()))?;
     let [q, p] = eigenvectors(&whole, eigenvalue)?;
     let square = map.second(&q, &q)?;
     if kind == Kind::Fold {
@@ -61,19 +65,19 @@ pub(crate) fn eigenvectors(whole: &DMatrix<f64>, eigenvalue: f64) -> Option<[DVe
 
 /// The composed map near a closed lap.
 struct Map<'a, 'b, F: Family> {
-    tracer: &'a Tracer<'b, F>,
+    continuation: &'a Continuation<'b, F>,
     u: &'a Unknowns,
 }
 
 impl<F: Family> Map<'_, '_, F> {
     /// The monodromy matrix from a state beside that of the lap.
     fn monodromy(&self, by: &DVector<f64>) -> Option<DMatrix<f64>> {
-        let variables = self.tracer.family.variables();
+        let variables = self.continuation.family.variables();
         let mut z: Point = self.u.z;
         for (part, &i) in by.iter().zip(variables) {
             z[i] += part;
         }
-        let lap = self.tracer.lap(self.u.at);
+        let lap = self.continuation.lap(self.u.at);
         let (m, n) = (variables.len(), self.u.durations.len());
         let mut durations = self.u.durations.clone();
         for _ in 0..MOST_STEPS {

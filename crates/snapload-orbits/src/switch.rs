@@ -1,8 +1,8 @@
 //! From a period doubling to the branch of orbits of twice the length.
 
 use crate::branch_events::BranchEvent;
+use crate::continuation::{Continuation, Unknowns};
 use crate::hybrid::Family;
-use crate::tracer::{Tracer, Unknowns};
 use nalgebra::DVector;
 
 /// The repeated lap at a doubling, and the direction of the branch that begins there.
@@ -12,7 +12,7 @@ use nalgebra::DVector;
 pub(crate) fn doubled<'a, F: Family>(
     family: &'a F,
     event: &BranchEvent,
-) -> Option<(Tracer<'a, F>, Unknowns, DVector<f64>)> {
+) -> Option<(Continuation<'a, F>, Unknowns, DVector<f64>)> {
     let orbit = &event.orbit;
     let mut sequence = orbit.lap.sequence.clone();
     let once = sequence.events.clone();
@@ -25,7 +25,7 @@ pub(crate) fn doubled<'a, F: Family>(
     if let Some(first) = durations.get_mut(events) {
         *first += rest;
     }
-    let tracer = Tracer {
+    let continuation = Continuation {
         family,
         sequence,
         phase: orbit.phase,
@@ -36,7 +36,7 @@ pub(crate) fn doubled<'a, F: Family>(
         durations,
         at: orbit.at,
     };
-    let (_, jacobian) = tracer.equations(&start, 1);
+    let (_, jacobian) = continuation.equations(&start, 1);
     let squares = jacobian.transpose() * &jacobian;
     let eigen = squares.symmetric_eigen();
     let mut order: Vec<usize> = (0..eigen.eigenvalues.len()).collect();
@@ -46,5 +46,5 @@ pub(crate) fn doubled<'a, F: Family>(
     let last = a.len() - 1;
     let apart = &a * b[last] - &b * a[last];
     let length = apart.norm();
-    (length > 0.0).then(|| (tracer, start, apart / length))
+    (length > 0.0).then(|| (continuation, start, apart / length))
 }

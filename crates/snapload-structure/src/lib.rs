@@ -21,7 +21,7 @@ mod words;
 pub use catalogue::{Section, section};
 pub use options::{EVERY, NEIGHBOURS, PAIRS, SEEDS, SEGMENTS, STIFFER, checked_every};
 pub use physics::afloat::HeldMotion;
-pub use physics::elastic::{ElasticRun, Look, Pull, Spring, damping_ratio, run_elastic, springs};
+pub use physics::elastic::{ElasticRun, Pull, Sample, Spring, damping_ratio, run_elastic, springs};
 pub use physics::equilibrium::{Equilibrium, equilibrium};
 pub use physics::gumbel::{Estimate, Gumbel, reduced_variate};
 pub use physics::model::{Groups, Model, Scales, force_per_acceleration};

@@ -26,7 +26,7 @@ pub(crate) fn check(option: &Key, value: impl Into<Value>) -> Result<(), CaseErr
 /// A [`CaseError`] that names `every`, if it is none or would give too many states.
 pub fn checked_every(duration_s: f64, every_s: f64) -> Result<f64, CaseError> {
     check(&EVERY, every_s)?;
-    looks(duration_s, every_s)?;
+    sampling(duration_s, every_s)?;
     Ok(every_s)
 }
 
@@ -35,12 +35,12 @@ pub fn checked_every(duration_s: f64, every_s: f64) -> Result<f64, CaseError> {
 ///
 /// # Errors
 /// As for [`checked_every`].
-pub(crate) fn looks(duration_s: f64, every_s: f64) -> Result<Option<Sampling>, CaseError> {
+pub(crate) fn sampling(duration_s: f64, every_s: f64) -> Result<Option<Sampling>, CaseError> {
     if every_s == f64::INFINITY {
         return Ok(None);
     }
     check(&EVERY, every_s)?;
-    let sampling = Sampling::every(every_s, duration_s);
+    let every = Sampling::every(every_s, duration_s);
     let refuse = |allowed| CaseError::value(EVERY.name, Value::Number(every_s), allowed);
-    sampling.map(Some).map_err(refuse)
+    every.map(Some).map_err(refuse)
 }

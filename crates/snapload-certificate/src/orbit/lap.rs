@@ -7,7 +7,7 @@ use crate::proved::{ProvedImpact, Reason};
 use crate::run::{Next, Run};
 use crate::slack::impact::Matrix;
 use crate::slack::set::product;
-use crate::verdict::Trouble;
+use crate::verdict::ProofFailure;
 use snapload::Stop;
 
 /// The data for proofs about laps: a case at high and at low precision, and the time at which a lap
@@ -40,11 +40,11 @@ impl Laps {
         case: &ExactCase,
         (phase, periods): (&Ball, u32),
         limbs: usize,
-    ) -> Result<Self, Trouble> {
+    ) -> Result<Self, ProofFailure> {
         let mut fine = Model::new(case, limbs)?;
         let mut coarse = Model::new(case, limbs.div_ceil(3).max(2))?;
         if fine.is_steady {
-            return Err(Trouble::beyond(
+            return Err(ProofFailure::beyond(
                 "a force that does not change has no period",
             ));
         }
@@ -68,7 +68,7 @@ impl Laps {
 
     /// Proves that a lap of all states of a box has these snaps and nothing else, and encloses the
     /// states after it.
-    pub(super) fn of(&self, states: &State, struck: &[usize]) -> Result<Lap, Trouble> {
+    pub(super) fn of(&self, states: &State, struck: &[usize]) -> Result<Lap, ProofFailure> {
         let models = [&self.fine, &self.coarse];
         let mut run = Run::of_states(&self.case, models, &self.begin, states);
         let mut derivative = unit();
@@ -84,7 +84,7 @@ impl Laps {
                     }
                     if snap.stick.is_some() || snap.end.is_some() {
                         let what = "a cable that stays taut: proofs of orbits cover slack flight";
-                        return Err(Trouble::beyond(what));
+                        return Err(ProofFailure::beyond(what));
                     }
                     derivative = product(&snap.jacobian, &derivative);
                     impacts.push(snap.impact);
@@ -93,7 +93,7 @@ impl Laps {
                     if impacts.len() < struck.len() {
                         let (found, all) = (impacts.len(), struck.len());
                         let what = format!("the lap has {found} snaps, not {all}");
-                        return Err(Trouble::False(what));
+                        return Err(ProofFailure::False(what));
                     }
                     let left = &end.t - &run.t;
                     self.pass(&run, &left, &mut sections)?;
@@ -107,7 +107,9 @@ impl Laps {
                 Next::End(end) => {
                     let what = end.reason.name().replace('_', " ");
                     let t = end.t.to_f64();
-                    return Err(Trouble::False(format!("it ends at t = {t:.6}: {what}")));
+                    return Err(ProofFailure::False(format!(
+                        "it ends at t = {t:.6}: {what}"
+                    )));
                 }
             }
         }
@@ -115,7 +117,7 @@ impl Laps {
 
     /// Keeps the states at the sections that a flight passes before `end`, a time since the
     /// flight's T.
-    fn pass(&self, run: &Run<'_>, end: &Ball, kept: &mut Vec<State>) -> Result<(), Trouble> {
+    fn pass(&self, run: &Run<'_>, end: &Ball, kept: &mut Vec<State>) -> Result<(), ProofFailure> {
         let within = self.sections.len() - 1;
         while let Some(section) = self.sections[..within].get(kept.len()) {
             let tau = &self.begin + section - &run.t;
@@ -123,7 +125,9 @@ impl Laps {
                 break;
             }
             if !(tau.is_below(end) && run.is_under_way(&tau)) {
-                return Err(Trouble::undecided("a snap at the instant of a section"));
+                return Err(ProofFailure::undecided(
+                    "a snap at the instant of a section",
+                ));
             }
             kept.push(run.flight(&self.fine).at(&tau).0);
         }
@@ -146,8 +150,8 @@ fn unit() -> Matrix {
     std::array::from_fn(|i| std::array::from_fn(|j| Ball::integer(i64::from(i == j))))
 }
 
-fn other_events(cable: usize, before: usize) -> Trouble {
-    Trouble::False(format!(
+fn other_events(cable: usize, before: usize) -> ProofFailure {
+    ProofFailure::False(format!(
         "the motion has other snaps: cable {} is the one after {before}",
         cable + 1
     ))

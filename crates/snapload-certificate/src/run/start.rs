@@ -10,7 +10,7 @@ use crate::slack::impact::Impact;
 use crate::slack::search::{Zero, Zeros, name};
 use crate::slack::set::Set;
 use crate::taut::begin::Instants;
-use crate::verdict::Trouble;
+use crate::verdict::ProofFailure;
 
 /// A gap at the start within this distance of zero counts as closed.
 const START_TOLERANCE: &str = "1e-9";
@@ -40,7 +40,7 @@ impl<'a> Run<'a> {
         case: &'a ExactCase,
         fine: &'a Model,
         coarse: &'a Model,
-    ) -> Result<Self, Trouble> {
+    ) -> Result<Self, ProofFailure> {
         let mut start = case.start().iter().map(|number| number.ball(fine.limbs));
         let start: State = std::array::from_fn(|_| start.next().unwrap_or_else(Ball::zero));
         // At x = y = θ = 0 both gaps are exactly zero for every size.
@@ -55,7 +55,7 @@ impl<'a> Run<'a> {
             };
             if !clear && (&watched.value - &tolerance).is_positive() {
                 let what = format!("the start is past {}", name(which));
-                return Err(Trouble::False(what));
+                return Err(ProofFailure::False(what));
             }
             if !clear {
                 let what = format!(
@@ -64,12 +64,12 @@ impl<'a> Run<'a> {
                     name(which),
                     watched.value.to_f64()
                 );
-                return Err(Trouble::undecided(what).at(0.0));
+                return Err(ProofFailure::undecided(what).at(0.0));
             }
         }
         if !start[2].abs().is_below(fine.functions.half_pi()) {
             return Err(
-                Trouble::undecided("the start: whether it is at the rotation limit").at(0.0),
+                ProofFailure::undecided("the start: whether it is at the rotation limit").at(0.0),
             );
         }
         let mut run = Self::of_states(case, [fine, coarse], &Ball::zero(), &start);
@@ -78,7 +78,7 @@ impl<'a> Run<'a> {
                 let speed = Impact::new(fine, cable, &start)?.v_n;
                 if !(&speed + &tolerance).is_negative() {
                     let what = format!("how the run starts, with cable {} closed", cable + 1);
-                    return Err(Trouble::beyond(what).at(0.0));
+                    return Err(ProofFailure::beyond(what).at(0.0));
                 }
                 run.zeros.push((cable, Zero::Opening));
             }

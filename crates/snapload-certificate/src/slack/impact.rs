@@ -2,7 +2,7 @@
 
 use crate::arithmetic::ball::Ball;
 use crate::model::{CableEnd, Force, Model, State};
-use crate::verdict::Trouble;
+use crate::verdict::ProofFailure;
 
 /// A 3 × 3 block on positions or velocities.
 type Block = [[Ball; 3]; 3];
@@ -21,7 +21,7 @@ pub(crate) struct Impact {
 }
 
 impl Impact {
-    pub(crate) fn new(model: &Model, cable: usize, state: &State) -> Result<Self, Trouble> {
+    pub(crate) fn new(model: &Model, cable: usize, state: &State) -> Result<Self, ProofFailure> {
         let end = model.end(cable, state, &model.turn(&state[2]));
         let n = [
             &end.reach[0] * &model.inverse_r,
@@ -33,7 +33,7 @@ impl Impact {
         let w = Ball::integer(1) + &s * &spun;
         let inverse_w = w
             .reciprocal()
-            .ok_or(Trouble::undecided("an effective mass"))?;
+            .ok_or(ProofFailure::undecided("an effective mass"))?;
         let v_n = &n_x * &end.velocity[0] + &n_y * &end.velocity[1];
         Ok(Self {
             end,
@@ -89,7 +89,7 @@ impl Impact {
         force: &Force,
         before: &Ball,
         after: &Ball,
-    ) -> Result<Matrix, Trouble> {
+    ) -> Result<Matrix, ProofFailure> {
         let v = &state[3..6];
         let k = Ball::integer(1) + &model.e;
         let scale = &k * &self.inverse_w;
@@ -101,7 +101,7 @@ impl Impact {
         });
         let q = self.derivative_at_fixed_velocity(model, v, &k);
         let inverse_v = self.v_n.reciprocal();
-        let inverse_v = inverse_v.ok_or(Trouble::undecided("whether the cable closes"))?;
+        let inverse_v = inverse_v.ok_or(ProofFailure::undecided("whether the cable closes"))?;
         let driven = &scale * &(&self.g[0] * &force.x + &self.g[1] * &force.y);
         let late: [Ball; 3] = std::array::from_fn(|i| {
             let turned = &q[i][0] * &v[0] + &q[i][1] * &v[1] + &q[i][2] * &v[2];

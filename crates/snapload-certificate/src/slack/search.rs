@@ -4,7 +4,7 @@
 use crate::arithmetic::ball::Ball;
 use crate::arithmetic::radius::Radius;
 use crate::model::Watched;
-use crate::verdict::Trouble;
+use crate::verdict::ProofFailure;
 
 /// The most pieces of one flight that are examined before the search gives up.
 const MOST_PIECES: u32 = 4000;
@@ -76,13 +76,13 @@ enum Piece {
 /// `begin`, no later than the number `lo`; none if there is none.
 ///
 /// # Errors
-/// [`Trouble`] where it can not be told.
+/// [`ProofFailure`] where it can not be told.
 pub(crate) fn first_crossing(
     path: &impl Path,
     (begin, lo): &(Ball, Ball),
     zeros: &Zeros,
     limit: &Ball,
-) -> Result<Option<Crossing>, Trouble> {
+) -> Result<Option<Crossing>, ProofFailure> {
     let first = beginning(path, begin, zeros)?;
     let mut length = likely_length(path, lo, &first, zeros);
     let mut at: Moment = (lo.clone(), first);
@@ -140,7 +140,7 @@ fn without_rate(
     at: &Moment,
     (zeros, limit): (&Zeros, &Ball),
     length: &mut f64,
-) -> Result<Moment, Trouble> {
+) -> Result<Moment, ProofFailure> {
     let mut step = *length;
     let known: Vec<usize> = zeros.iter().map(|(which, _)| *which).collect();
     let slow = zeros.iter().filter(|(_, zero)| *zero != Zero::Opening);
@@ -202,7 +202,7 @@ fn others_clear(
 }
 
 /// An error that names the value nearest to zero there, or the two that are equally near.
-fn undecided(path: &impl Path, (_, watched): &Moment) -> Trouble {
+fn undecided(path: &impl Path, (_, watched): &Moment) -> ProofFailure {
     let size = |k: &usize| watched[*k].value.to_f64().abs();
     let mut order: Vec<usize> = (0..watched.len()).collect();
     order.sort_by(|a, b| size(a).total_cmp(&size(b)));
@@ -217,7 +217,7 @@ fn undecided(path: &impl Path, (_, watched): &Moment) -> Trouble {
         1 => "whether it is reached",
         _ => "which of them is reached first, or all at one instant",
     };
-    Trouble::undecided(format!(
+    ProofFailure::undecided(format!(
         "{}: {which}, {value:.2e} from it",
         names.join(" and ")
     ))
@@ -235,7 +235,7 @@ pub(crate) fn name(which: usize) -> &'static str {
 /// The watched values on the ball of times in which the motion begins. A value that is zero at the
 /// first instant is below zero from there to the end of the ball, as its rate is negative on it (or
 /// by a higher derivative, which the first piece examines); all others are below zero.
-fn beginning(path: &impl Path, begin: &Ball, zeros: &Zeros) -> Result<Vec<Watched>, Trouble> {
+fn beginning(path: &impl Path, begin: &Ball, zeros: &Zeros) -> Result<Vec<Watched>, ProofFailure> {
     let first = path.watched(begin);
     for (which, watched) in first.iter().enumerate() {
         let zero = zeros.iter().find(|(zero, _)| *zero == which);
@@ -249,7 +249,7 @@ fn beginning(path: &impl Path, begin: &Ball, zeros: &Zeros) -> Result<Vec<Watche
                 "whether {} {what} at the begin of a stretch",
                 path.words(which)
             );
-            return Err(Trouble::undecided(what));
+            return Err(ProofFailure::undecided(what));
         }
     }
     Ok(first)

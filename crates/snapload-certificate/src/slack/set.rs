@@ -3,7 +3,7 @@
 
 use crate::arithmetic::ball::Ball;
 use crate::arithmetic::radius::Radius;
-use crate::verdict::Trouble;
+use crate::verdict::ProofFailure;
 
 /// A square matrix of doubles, by rows.
 pub(crate) type Doubles<const N: usize> = [[f64; N]; N];
@@ -58,7 +58,7 @@ impl<const N: usize> Set<N> {
         &self,
         image: &[Ball; M],
         jacobian: &[[Ball; N]; M],
-    ) -> Result<Set<M>, Trouble> {
+    ) -> Result<Set<M>, ProofFailure> {
         let old = self.axes.map(|row| row.map(Ball::double));
         let moved = product(jacobian, &old);
         let axes = self.new_axes(&moved);
@@ -67,7 +67,9 @@ impl<const N: usize> Set<N> {
         let new = axes.map(|row| row.map(Ball::double));
         let epsilon = departure(&product(&transposed, &new));
         if epsilon > Radius::power_of_two(-1) {
-            return Err(Trouble::undecided("a set of states that has become flat"));
+            return Err(ProofFailure::undecided(
+                "a set of states that has become flat",
+            ));
         }
         let turned = product(&transposed, &moved);
         let reach: [Radius; M] = std::array::from_fn(|i| {

@@ -9,7 +9,7 @@ use crate::slack::set::Set;
 use crate::taut::chart::{Chart, StateJets};
 use crate::taut::law::{Law, after, jets_after};
 use crate::taut::step::{Equations, some_ball};
-use crate::verdict::Trouble;
+use crate::verdict::ProofFailure;
 
 /// States (x, y, θ, ẋ, ẏ, θ̇, t), each at an instant t of its own.
 pub(crate) type Instants = Set<7>;
@@ -49,9 +49,9 @@ pub(crate) fn begin<const N: usize>(
     chart: &impl Chart<N>,
     laws: &[Law],
     instants: &Instants,
-) -> Result<Begun<N>, Trouble> {
+) -> Result<Begun<N>, ProofFailure> {
     let model = equations.model;
-    let lost = || Trouble::undecided("the begin of a motion");
+    let lost = || ProofFailure::undecided("the begin of a motion");
     let (whole, when) = hull_of(instants);
     // T has one limb less than the model's numbers, so that T + H is exact, too.
     let last = Radius::power_of_two(64 - 64 * model.limbs as i64);
@@ -119,8 +119,8 @@ fn picard<const N: usize>(
     time: &Ball,
     at: &[Ball; N],
     shift: &Ball,
-) -> Result<Short<N>, Trouble> {
-    let lost = || Trouble::undecided("the begin of a motion");
+) -> Result<Short<N>, ProofFailure> {
+    let lost = || ProofFailure::undecided("the begin of a motion");
     let span = shift.upper();
     let times = time.clone().widened(span);
     let model = equations.model;

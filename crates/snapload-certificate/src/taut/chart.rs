@@ -5,7 +5,7 @@ use crate::arithmetic::interval::Interval;
 use crate::arithmetic::scalar::Jet;
 use crate::model::{Model, State};
 use crate::taut::series::{Program, Term};
-use crate::verdict::Trouble;
+use crate::verdict::ProofFailure;
 
 /// The quantities that are watched along a taut motion: the motion ends where one of them reaches
 /// zero from below.
@@ -65,7 +65,7 @@ pub(crate) type StateJets = [Jet<Interval, 7>; 6];
 pub(crate) trait Chart<const N: usize> {
     fn terms(&self, model: &Model) -> Terms;
     /// The coordinates of a state in which those cables are taut and have no normal velocity.
-    fn coordinates(&self, model: &Model, state: &State) -> Result<[Ball; N], Trouble>;
+    fn coordinates(&self, model: &Model, state: &State) -> Result<[Ball; N], ProofFailure>;
     /// The derivatives of the coordinates of such a state; none where they are not known.
     fn slopes(&self, model: &Model, state: &StateJets) -> Option<[[Interval; 7]; N]>;
     /// A program whose outputs are the state that belongs to given coordinates.

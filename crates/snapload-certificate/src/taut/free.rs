@@ -5,7 +5,7 @@ use crate::arithmetic::interval::Interval;
 use crate::model::{Model, State};
 use crate::taut::chart::{Chart, StateJets, Terms, force};
 use crate::taut::series::Program;
-use crate::verdict::Trouble;
+use crate::verdict::ProofFailure;
 
 /// No taut cable. The coordinates are x, y, θ and their rates.
 pub(crate) struct Free;
@@ -24,7 +24,7 @@ impl Chart<6> for Free {
         }
     }
 
-    fn coordinates(&self, _: &Model, state: &State) -> Result<State, Trouble> {
+    fn coordinates(&self, _: &Model, state: &State) -> Result<State, ProofFailure> {
         Ok(state.clone())
     }
 

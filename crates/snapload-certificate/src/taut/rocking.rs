@@ -6,7 +6,7 @@ use crate::arithmetic::interval::Interval;
 use crate::model::{Model, State};
 use crate::taut::chart::{Chart, StateJets, Terms, Watch, force};
 use crate::taut::series::{Program, Term};
-use crate::verdict::Trouble;
+use crate::verdict::ProofFailure;
 
 /// Both cables taut. The coordinates are θ and θ̇.
 ///
@@ -42,8 +42,8 @@ impl Rocking {
     /// The branch on which the state is.
     ///
     /// # Errors
-    /// [`Trouble`] where that can not be told.
-    pub(crate) fn at(model: &Model, state: &State) -> Result<Self, Trouble> {
+    /// [`ProofFailure`] where that can not be told.
+    pub(crate) fn at(model: &Model, state: &State) -> Result<Self, ProofFailure> {
         let (sine, cosine) = model.turn(&state[2]);
         let middle = [
             &state[0] - &(&model.b * &sine),
@@ -54,7 +54,9 @@ impl Rocking {
         match (along.is_positive(), along.is_negative()) {
             (true, _) => Ok(Self { sign: 1 }),
             (_, true) => Ok(Self { sign: -1 }),
-            _ => Err(Trouble::undecided("which way both cables hold the body")),
+            _ => Err(ProofFailure::undecided(
+                "which way both cables hold the body",
+            )),
         }
     }
 
@@ -212,7 +214,7 @@ impl Chart<2> for Rocking {
         terms
     }
 
-    fn coordinates(&self, _: &Model, state: &State) -> Result<[Ball; 2], Trouble> {
+    fn coordinates(&self, _: &Model, state: &State) -> Result<[Ball; 2], ProofFailure> {
         Ok([state[2].clone(), state[5].clone()])
     }
 

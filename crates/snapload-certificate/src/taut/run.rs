@@ -11,7 +11,7 @@ use crate::taut::law::Law;
 use crate::taut::rocking::Rocking;
 use crate::taut::sliding::Sliding;
 use crate::taut::step::{Equations, Place, Step};
-use crate::verdict::Trouble;
+use crate::verdict::ProofFailure;
 use snapload::Stop;
 
 /// The most steps of a taut motion before the proof gives up.
@@ -52,8 +52,8 @@ pub(crate) struct Begin<'a> {
 pub(crate) fn hold(
     model: &Model,
     begin: &Begin<'_>,
-    on_step: &mut dyn FnMut(&Ball) -> Result<(), Trouble>,
-) -> Result<TautEnd, Trouble> {
+    on_step: &mut dyn FnMut(&Ball) -> Result<(), ProofFailure>,
+) -> Result<TautEnd, ProofFailure> {
     match begin.taut {
         [cable] => follow(model, &Sliding(*cable), begin, on_step),
         _ => {
@@ -67,8 +67,8 @@ fn follow<const N: usize>(
     model: &Model,
     chart: &impl Chart<N>,
     start: &Begin<'_>,
-    on_step: &mut dyn FnMut(&Ball) -> Result<(), Trouble>,
-) -> Result<TautEnd, Trouble> {
+    on_step: &mut dyn FnMut(&Ball) -> Result<(), ProofFailure>,
+) -> Result<TautEnd, ProofFailure> {
     let equations = Equations::of(chart, model);
     let place = Place::of(chart.place(model));
     let Begun {
@@ -110,12 +110,12 @@ fn follow<const N: usize>(
         set = step.end(&set)?;
         let next = &t + &step.length;
         if !next.radius().is_zero() {
-            return Err(Trouble::undecided("the time of a step"));
+            return Err(ProofFailure::undecided("the time of a step"));
         }
         (t, zeros) = (next, Zeros::new());
         from = (Ball::zero(), Ball::zero());
     }
-    Err(Trouble::undecided("a taut motion of very many steps"))
+    Err(ProofFailure::undecided("a taut motion of very many steps"))
 }
 
 /// The beginning of a step: its time, the states, the time that is left, when the motion begins,
@@ -133,11 +133,13 @@ fn ending<const N: usize>(
     step: &Step<'_, N>,
     now: &Now<'_, N>,
     place: &Place,
-) -> Result<Option<TautEnd>, Trouble> {
+) -> Result<Option<TautEnd>, ProofFailure> {
     let (limit, left) = (&step.length, now.left);
     let begun = &now.from.1;
     if !begun.is_below(limit) {
-        return Err(Trouble::undecided("a begin that lasts longer than a step"));
+        return Err(ProofFailure::undecided(
+            "a begin that lasts longer than a step",
+        ));
     }
     let found = first_crossing(step, now.from, now.zeros, limit)?;
     let roots = match &found {
@@ -153,12 +155,12 @@ fn ending<const N: usize>(
     }
     if let (Some(crossing), Some([centre, whole])) = (&found, &roots) {
         if !(whole.is_below(left) && begun.is_below(whole)) {
-            return Err(Trouble::undecided(
+            return Err(ProofFailure::undecided(
                 "two events of a taut motion at one instant",
             ));
         }
         let map = step.crossed(crossing.which, now.t, [centre, whole], place);
-        let lost = || Trouble::undecided("the state at an event of a taut motion");
+        let lost = || ProofFailure::undecided("the state at an event of a taut motion");
         let (image, jacobian) = map.ok_or_else(lost)?;
         return Ok(Some(TautEnd {
             instants: now.set.mapped(&image, &jacobian)?,
@@ -168,7 +170,9 @@ fn ending<const N: usize>(
     if limit.is_below(left) {
         Ok(None)
     } else {
-        Err(Trouble::undecided("the end of time at the end of a step"))
+        Err(ProofFailure::undecided(
+            "the end of time at the end of a step",
+        ))
     }
 }
 
@@ -182,7 +186,10 @@ fn event(watched: Watch) -> Event {
 }
 
 /// The times at which a watched value crosses zero, for the centre and for every state of the set.
-fn roots<const N: usize>(step: &Step<'_, N>, crossing: &Crossing) -> Result<[Ball; 2], Trouble> {
+fn roots<const N: usize>(
+    step: &Step<'_, N>,
+    crossing: &Crossing,
+) -> Result<[Ball; 2], ProofFailure> {
     let which = crossing.which;
     let (mut low, mut high) = (crossing.from.clone(), crossing.to.clone());
     let mut tau = (&low + &high).half().centre().with_limbs(step.limbs());
@@ -205,7 +212,7 @@ fn roots<const N: usize>(step: &Step<'_, N>, crossing: &Crossing) -> Result<[Bal
             break;
         }
     }
-    let flat = || Trouble::undecided("an event of a taut motion that is only touched");
+    let flat = || ProofFailure::undecided("an event of a taut motion that is only touched");
     if !(crossing.from.is_below(&tau) && tau.is_below(&crossing.to)) {
         return Err(flat());
     }

@@ -8,7 +8,7 @@ use crate::arithmetic::scalar::Scalar;
 use crate::model::{Model, State};
 use crate::taut::chart::{Chart, StateJets, Terms, Watch, arm, end, force, side};
 use crate::taut::series::{Program, Term};
-use crate::verdict::Trouble;
+use crate::verdict::ProofFailure;
 
 /// One taut cable, by index from 0. The coordinates are φ, θ, φ̇, θ̇.
 pub(crate) struct Sliding(pub(crate) usize);
@@ -73,12 +73,12 @@ impl Chart<4> for Sliding {
     /// The coordinates follow from D/|D| = (sin φ, −cos φ), where |D| is r up to rounding. For a
     /// number φ₀ next to φ, cos(φ − φ₀) > 0, z = sin(φ − φ₀) follows from the addition theorem, and
     /// |arcsin z − z| ≤ |z|³ for |z| ≤ 1/2. The rate is (D_x Ṗ_y − D_y Ṗ_x)/r².
-    fn coordinates(&self, model: &Model, state: &State) -> Result<[Ball; 4], Trouble> {
+    fn coordinates(&self, model: &Model, state: &State) -> Result<[Ball; 4], ProofFailure> {
         let end = model.end(self.0, state, &model.turn(&state[2]));
         let [dx, dy] = &end.reach;
         let length = (dx.squared() + dy.squared()).sqrt();
         let inverse = length.and_then(|length| length.reciprocal());
-        let inverse = inverse.ok_or(Trouble::undecided("the angle of a taut cable"))?;
+        let inverse = inverse.ok_or(ProofFailure::undecided("the angle of a taut cable"))?;
         let [sine, cosine] = [dx * &inverse, -(dy * &inverse)];
         let mut near = Ball::double(sine.to_f64().atan2(cosine.to_f64())).with_limbs(model.limbs);
         let off = |near: &Ball| {
@@ -93,7 +93,7 @@ impl Chart<4> for Sliding {
         let (s, c) = model.functions.sin_cos(&near);
         let is_near = (&cosine * &c + &sine * &s).is_positive();
         if !is_near || size > Radius::power_of_two(-1) {
-            return Err(Trouble::undecided("the angle of a taut cable"));
+            return Err(ProofFailure::undecided("the angle of a taut cable"));
         }
         let phi = near + z.widened(size.times(size).times(size));
         let along = (dx * &end.velocity[1] - dy * &end.velocity[0]) * &model.inverse_r;

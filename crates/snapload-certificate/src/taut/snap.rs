@@ -6,7 +6,7 @@ use crate::model::{Force, Model, State};
 use crate::slack::impact::Impact;
 use crate::slack::search::{Zero, Zeros};
 use crate::taut::law::{Law, after};
-use crate::verdict::Trouble;
+use crate::verdict::ProofFailure;
 
 /// The motion after a snap while another cable is taut.
 pub(crate) struct After {
@@ -39,7 +39,7 @@ impl<'a> Pair<'a> {
         state: &'a State,
         t: &Ball,
         [struck, taut]: [usize; 2],
-    ) -> Result<Self, Trouble> {
+    ) -> Result<Self, ProofFailure> {
         let cables = [struck, taut];
         let [struck, taut] = [
             Impact::new(model, struck, state)?,
@@ -63,7 +63,7 @@ impl<'a> Pair<'a> {
     /// If the coupling W is positive, the impulse of the struck cable, p = (1 + e) v/w, opens the
     /// taut one: its normal velocity becomes −W p < 0. If W < 0 the impulse loads the taut cable,
     /// which keeps its zero normal velocity by an impulse of its own.
-    pub(crate) fn after(&self, may_stick: bool, in_turns: bool) -> Result<After, Trouble> {
+    pub(crate) fn after(&self, may_stick: bool, in_turns: bool) -> Result<After, ProofFailure> {
         let all = Ball::integer(1) + &self.model.e;
         let unloads = sign(&self.coupling, "whether a snap unloads the taut cable")?;
         let rebound = if unloads {
@@ -90,22 +90,22 @@ impl<'a> Pair<'a> {
 
     /// Where both cables are closed and the body is at rest: which of them are taut, and how the
     /// others leave.
-    pub(crate) fn resting(&self) -> Result<(Vec<usize>, Zeros), Trouble> {
+    pub(crate) fn resting(&self) -> Result<(Vec<usize>, Zeros), ProofFailure> {
         let [vx, vy, spin] = [3, 4, 5].map(|k: usize| self.state[k].clone());
         let carries = self.carrying(&[vx, vy, spin], true)?;
         Ok(self.carriers(carries))
     }
 
     /// The velocity after a law.
-    fn velocity(&self, law: &Law) -> Result<[Ball; 3], Trouble> {
-        let lost = || Trouble::undecided("two cables of one effective mass");
+    fn velocity(&self, law: &Law) -> Result<[Ball; 3], ProofFailure> {
+        let lost = || ProofFailure::undecided("two cables of one effective mass");
         let state = after(std::slice::from_ref(law), self.model, self.state);
         let [.., vx, vy, spin] = state.ok_or_else(lost)?;
         Ok([vx, vy, spin])
     }
 
     /// Whether the taut cable leaves more slowly than `v_stick`: its speed is 0, or W (1 + e) v/w.
-    fn leaves_slowly(&self, unloads: bool) -> Result<bool, Trouble> {
+    fn leaves_slowly(&self, unloads: bool) -> Result<bool, ProofFailure> {
         let e = Ball::integer(1) + &self.model.e;
         let speed = &self.coupling * &e * &self.struck.v_n * &self.struck.inverse_w;
         let what = "whether the taut cable leaves by less than v_stick";
@@ -113,7 +113,12 @@ impl<'a> Pair<'a> {
     }
 
     /// The case in which the impact opens the taut cable; the struck one may stick.
-    fn unloading(&self, rebound: Law, may_stick: bool, in_turns: bool) -> Result<After, Trouble> {
+    fn unloading(
+        &self,
+        rebound: Law,
+        may_stick: bool,
+        in_turns: bool,
+    ) -> Result<After, ProofFailure> {
         let [struck, taut] = self.cables;
         let leaves = (taut, Zero::Opening);
         let sticks = may_stick && sign(&self.struck.pull(self.state, &self.force), "the tension")?;
@@ -161,7 +166,7 @@ impl<'a> Pair<'a> {
     /// Which of the two cables, struck and taut, carry tension at the velocity `halted`: 0 ≤ T ⟂
     /// −g̈ ≥ 0 with g̈/(2r) = b − W T, all signs strict. Where the struck cable leaves in any case,
     /// only the taut one is considered.
-    fn carrying(&self, halted: &[Ball; 3], may_stick: bool) -> Result<[bool; 2], Trouble> {
+    fn carrying(&self, halted: &[Ball; 3], may_stick: bool) -> Result<[bool; 2], ProofFailure> {
         let (w, force) = (&self.coupling, &self.force);
         let b_taut = self.taut.load(halted, force);
         if !may_stick {
@@ -184,7 +189,9 @@ impl<'a> Pair<'a> {
         if b_taut.is_negative() && b_struck.is_negative() {
             return Ok([false, false]);
         }
-        Err(Trouble::undecided("which cables stay taut after a snap"))
+        Err(ProofFailure::undecided(
+            "which cables stay taut after a snap",
+        ))
     }
 
     /// Both closed cables at rest; those that do not carry leave by their acceleration.
@@ -240,10 +247,10 @@ impl<'a> Pair<'a> {
 }
 
 /// Whether a ball is above zero.
-fn sign(ball: &Ball, what: &str) -> Result<bool, Trouble> {
+fn sign(ball: &Ball, what: &str) -> Result<bool, ProofFailure> {
     match (ball.is_positive(), ball.is_negative()) {
         (true, _) => Ok(true),
         (_, true) => Ok(false),
-        _ => Err(Trouble::undecided(what)),
+        _ => Err(ProofFailure::undecided(what)),
     }
 }

@@ -11,7 +11,7 @@ use crate::slack::set::Set;
 use crate::taut::chart::{Chart, Watch};
 use crate::taut::enclosure::enclosed;
 use crate::taut::series::{Expansion, Program};
-use crate::verdict::Trouble;
+use crate::verdict::ProofFailure;
 
 /// The equations of a motion, at full precision and in intervals of doubles.
 pub(crate) struct Equations<'a> {
@@ -93,7 +93,7 @@ impl<'a, const N: usize> Step<'a, N> {
         time: &Ball,
         set: &Set<N>,
         most: f64,
-    ) -> Result<Self, Trouble> {
+    ) -> Result<Self, ProofFailure> {
         let Equations {
             model,
             program,
@@ -102,7 +102,7 @@ impl<'a, const N: usize> Step<'a, N> {
             ..
         } = equations;
         let n = order(model.limbs);
-        let lost = || Trouble::undecided("the forces of a taut motion");
+        let lost = || ProofFailure::undecided("the forces of a taut motion");
         let centre = program.expand(set.centre(), time, n, &model.functions);
         let centre = centre.ok_or_else(lost)?;
         let hull = set.hull();
@@ -143,7 +143,7 @@ impl<'a, const N: usize> Step<'a, N> {
             };
             length = rounded(length * (-over).exp2().max(0.5));
         }
-        Err(Trouble::undecided("an enclosure of the taut motion"))
+        Err(ProofFailure::undecided("an enclosure of the taut motion"))
     }
 
     pub(crate) fn watch(&self, which: usize) -> Watch {
@@ -169,7 +169,7 @@ impl<'a, const N: usize> Step<'a, N> {
     }
 
     /// The set after the whole step.
-    pub(crate) fn end(&self, set: &Set<N>) -> Result<Set<N>, Trouble> {
+    pub(crate) fn end(&self, set: &Set<N>) -> Result<Set<N>, ProofFailure> {
         let h = &self.length;
         let image = self.centre_at(h);
         let over = Interval::of(h);
@@ -239,9 +239,9 @@ impl<'a, const N: usize> Step<'a, N> {
         tau: &Ball,
         place: &Place,
         set: &Set<N>,
-    ) -> Result<Set<7>, Trouble> {
+    ) -> Result<Set<7>, ProofFailure> {
         let fixed = [Interval::zero(); N];
-        let lost = || Trouble::undecided("the state at the end of time");
+        let lost = || ProofFailure::undecided("the state at the end of time");
         let (image, jacobian) = self
             .moved(time, [tau, tau], fixed, place)
             .ok_or_else(lost)?;

@@ -68,15 +68,22 @@ impl Columns {
 
     /// Of lines that stretch.
     pub(super) fn of_elastic(run: &ElasticRun, scales: &Scales, [from, to]: [f64; 2]) -> Self {
-        let lines = run.looks.first().map_or(0, |look| look.tension_n.len());
+        let lines = run
+            .samples
+            .first()
+            .map_or(0, |sample| sample.tension_n.len());
         let mut columns = Self::new(lines);
-        let first = run.looks.partition_point(|look| look.t_s < from);
-        let within = run.looks[first..].iter().take_while(|look| look.t_s <= to);
+        let first = run.samples.partition_point(|sample| sample.t_s < from);
+        let within = run.samples[first..]
+            .iter()
+            .take_while(|sample| sample.t_s <= to);
         let count = within.clone().count();
         // At most as many rows as for the other model; the peaks between them are sent separately.
         let stride = count.div_ceil(ROWS as usize).max(1);
-        for look in within.step_by(stride) {
-            columns.push(scales, look.t_s, &look.state, |line| look.tension_n[line]);
+        for sample in within.step_by(stride) {
+            columns.push(scales, sample.t_s, &sample.state, |line| {
+                sample.tension_n[line]
+            });
         }
         columns
     }

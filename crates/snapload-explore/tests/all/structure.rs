@@ -128,8 +128,12 @@ fn lines_that_stretch_are_what_elastic_tells() {
     let t = numbers(&told["motion"]["t"]);
     assert!(t[0] >= 30.0 && *t.last().unwrap() <= 50.0 && t.len() > 700);
     let tension = told["motion"]["tensions"][0].as_array().unwrap();
-    let look = direct.elastic.looks.iter().find(|look| look.t_s == t[0]);
-    let exact = look.unwrap().tension_n[0] / 1e3;
+    let sample = direct
+        .elastic
+        .samples
+        .iter()
+        .find(|sample| sample.t_s == t[0]);
+    let exact = sample.unwrap().tension_n[0] / 1e3;
     assert!((tension[0].as_f64().unwrap() - exact).abs() < 1e-6 * exact.max(1.0));
 }
 

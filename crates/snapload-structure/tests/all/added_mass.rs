@@ -76,7 +76,7 @@ fn one_number_serves_both_axes() {
 /// Natural period of a coordinate: twice the mean time between its zeros.
 fn period(run: &ElasticRun, coordinate: impl Fn(&snapload::State) -> f64) -> f64 {
     let mut zeros = Vec::new();
-    for pair in run.looks.windows(2) {
+    for pair in run.samples.windows(2) {
         let [a, b] = [0, 1].map(|i| coordinate(&pair[i].state));
         if a * b < 0.0 {
             let part = a / (a - b);
@@ -98,7 +98,7 @@ fn each_freedom_swings_with_its_own_mass() {
     let rate = 6e8 / 15.0;
     let stretched = 15.0 + force / (2.0 * rate);
     let rest_z = -4.0 + force / (2.0 * rate);
-    let swing = |start: [f64; 2], seconds: f64, look_s: f64| {
+    let swing = |start: [f64; 2], seconds: f64, every_s: f64| {
         let structure = Structure {
             duration_s: seconds,
             transient_s: 0.0,
@@ -109,7 +109,7 @@ fn each_freedom_swings_with_its_own_mass() {
         // Lines that stretch let it start higher than those that do not.
         prepared.structure.start_m = Some(start);
         let prepared = prepared.on_springs(&law).unwrap();
-        run_elastic(&prepared, &law, look_s, &unwatched).unwrap()
+        run_elastic(&prepared, &law, every_s, &unwatched).unwrap()
     };
     let scale = Prepared::new(structure.clone()).unwrap().model.scales;
     // In the engine's picture z points down from where the lines are just taut.

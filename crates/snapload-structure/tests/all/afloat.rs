@@ -205,11 +205,15 @@ fn slack_lines_leave_the_response_of_the_frequency_domain() {
     let elastic = run_elastic(&prepared, &law, 0.5, &unwatched).unwrap();
     let stiff = snapload::Trajectory::record(prepared.begin(1.0).unwrap());
     let mut playback = Playback::new(&stiff);
-    for look in &elastic.looks {
-        let state = playback.at(look.t_s / prepared.model.scales.time_s).state;
-        for (a, b) in state.components().into_iter().zip(look.state.components()) {
+    for sample in &elastic.samples {
+        let state = playback.at(sample.t_s / prepared.model.scales.time_s).state;
+        for (a, b) in state
+            .components()
+            .into_iter()
+            .zip(sample.state.components())
+        {
             // Between the steps the solution is only of the seventh order.
-            assert!((a - b).abs() < 1e-6, "{} {a} {b}", look.t_s);
+            assert!((a - b).abs() < 1e-6, "{} {a} {b}", sample.t_s);
         }
     }
     let end = playback.at(stiff.end().t).state.components();

@@ -79,9 +79,13 @@ fn taut_springs_answer_small_waves_as_the_frequency_domain_does() {
     // Terms of the second order in the waves have other frequencies, and are fitted together with
     // the linear response.
     let run = run_elastic(&sprung, &law, 0.2, &unwatched).unwrap();
-    let looks: Vec<_> = run.looks.iter().filter(|look| look.t_s > 240.0).collect();
-    let columns = nalgebra::DMatrix::from_fn(looks.len(), 5, |row, column| {
-        let phase = omega * looks[row].t_s;
+    let samples: Vec<_> = run
+        .samples
+        .iter()
+        .filter(|sample| sample.t_s > 240.0)
+        .collect();
+    let columns = nalgebra::DMatrix::from_fn(samples.len(), 5, |row, column| {
+        let phase = omega * samples[row].t_s;
         let terms = [phase.cos(), phase.sin(), 1.0];
         let double = [(2.0 * phase).cos(), (2.0 * phase).sin()];
         *terms.iter().chain(&double).nth(column).unwrap()
@@ -89,8 +93,8 @@ fn taut_springs_answer_small_waves_as_the_frequency_domain_does() {
     let solver = columns.svd(true, true);
     let largest = answer.map(Complex::norm).max();
     for i in 0..3 {
-        let motion = nalgebra::DVector::from_fn(looks.len(), |row, _| {
-            let state = &looks[row].state;
+        let motion = nalgebra::DVector::from_fn(samples.len(), |row, _| {
+            let state = &samples[row].state;
             let [x, z] = scales.to_si([state.x, state.y]);
             // Pitch is minus the rotation of a case, which is minus that of the engine.
             [

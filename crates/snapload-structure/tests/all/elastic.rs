@@ -48,16 +48,19 @@ fn looks_are_at_the_times_asked_for() {
     let rise = prepared.structure.net_buoyancy_n() / 800.0;
     for (every, written) in [(0.3, "3.9"), (0.07, "3.99"), (0.5, "3.5")] {
         let motion = run_elastic(&prepared, &law, every, &unwatched).expect("a run");
-        let times: Vec<String> = motion.looks.iter().map(|l| l.t_s.to_string()).collect();
+        let times: Vec<String> = motion.samples.iter().map(|l| l.t_s.to_string()).collect();
         assert_eq!(times[..2], ["0".to_owned(), every.to_string()]);
         assert_eq!(times[times.len() - 2..], [written, "4"]);
         let taken = motion.pulls[0].from_s;
-        let free = motion.looks.iter().filter(|look| look.t_s < taken);
-        for look in free.clone() {
-            let [_, z] = prepared.model.scales.to_si([look.state.x, look.state.y]);
-            let known = -6.0 + 0.5 * rise * look.t_s * look.t_s;
-            assert!((z - known).abs() < 1e-9, "{} {z} {known}", look.t_s);
-            assert_eq!(look.tension_n, [0.0, 0.0]);
+        let free = motion.samples.iter().filter(|sample| sample.t_s < taken);
+        for sample in free.clone() {
+            let [_, z] = prepared
+                .model
+                .scales
+                .to_si([sample.state.x, sample.state.y]);
+            let known = -6.0 + 0.5 * rise * sample.t_s * sample.t_s;
+            assert!((z - known).abs() < 1e-9, "{} {z} {known}", sample.t_s);
+            assert_eq!(sample.tension_n, [0.0, 0.0]);
         }
         assert_eq!(free.count(), (taken / every) as usize + 1);
     }
@@ -201,10 +204,10 @@ fn energy_is_kept_or_lost() {
         };
         let first = energy(&prepared.start());
         let mut now = first;
-        for look in &motion.looks {
-            let next = energy(&look.state);
+        for sample in &motion.samples {
+            let next = energy(&sample.state);
             // Samples are from the dense output, which is less exact than the steps.
-            assert!(next <= now + 1e-7, "{} at {}", next - now, look.t_s);
+            assert!(next <= now + 1e-7, "{} at {}", next - now, sample.t_s);
             now = next;
         }
         let end = energy(&motion.end);
@@ -227,9 +230,9 @@ fn a_body_at_rest_stays() {
     let prepared = prepared(CYLINDER, &["wave.height=0", "run.duration=30"]);
     let motion = run(&prepared, &springs(&prepared, 1e3).expect("springs"));
     assert!((motion.end_s - 30.0).abs() < 1e-9, "{} s", motion.end_s);
-    assert_eq!(motion.looks.len() / 100, 6, "{}", motion.looks.len());
+    assert_eq!(motion.samples.len() / 100, 6, "{}", motion.samples.len());
     for (line, at_rest) in prepared.rest.tension_n.iter().enumerate() {
-        let last = motion.looks.last().expect("looks").tension_n[line];
+        let last = motion.samples.last().expect("looks").tension_n[line];
         assert!((last / at_rest - 1.0).abs() < 1e-3, "{last} {at_rest}");
     }
 }
@@ -361,11 +364,11 @@ fn the_floor_ends_a_run() {
         .expect("a floor");
     let system = &prepared.model.system;
     let below = motion
-        .looks
+        .samples
         .iter()
-        .filter(|look| system.top(&look.state) > bound);
+        .filter(|sample| system.top(&sample.state) > bound);
     let last = motion.end_s - prepared.model.scales.time_s;
-    assert!(below.clone().all(|look| look.t_s > last), "{last}");
+    assert!(below.clone().all(|sample| sample.t_s > last), "{last}");
 }
 
 /// The position of rest on lines that stretch may be out of reach of those that do not: it is a

@@ -3,7 +3,7 @@
 use crate::analysis::progress::{Cancelled, Counter, OnProgress};
 use crate::analysis::threads::in_parallel;
 use crate::batch::followers::{Follower, Unfollowed};
-use crate::batch::lanes::{Lanes, Told};
+use crate::batch::lanes::{LaneResults, Lanes};
 use crate::case::Case;
 use crate::motion::outcome::Outcome;
 use crate::motion::simulation::Simulation;
@@ -164,7 +164,7 @@ pub(crate) fn side_by_side<F: Follower>(
     lanes: Lanes,
     runs: impl Iterator<Item = (Box<Simulation>, F)>,
     counter: &Counter,
-) -> Result<Told<F>, Cancelled> {
+) -> Result<LaneResults<F>, Cancelled> {
     let mut cancelled = None;
     let runs = runs.map_while(|run| {
         cancelled = counter.add(1).err();

@@ -18,7 +18,7 @@ use std::vec::IntoIter;
 /// The outcomes of runs and the verdicts of their followers, in their order. They are options,
 /// although each place is filled, so that the allocation can be reused for the results made from
 /// them.
-pub(crate) type Told<C> = IntoIter<Option<(Outcome, <C as Follower>::Verdict)>>;
+pub(crate) type LaneResults<C> = IntoIter<Option<(Outcome, <C as Follower>::Verdict)>>;
 
 /// Memory for this many outcomes is allocated at once at most; for more it grows.
 const MOST_AT_ONCE: usize = 1 << 16;
@@ -92,7 +92,7 @@ impl Lanes {
     pub(crate) fn outcomes_beside<C: Follower>(
         self,
         runs: impl Iterator<Item = (Box<Simulation>, C)>,
-    ) -> (Told<C>, Usage) {
+    ) -> (LaneResults<C>, Usage) {
         let many = runs.size_hint().1.unwrap_or(0).min(MOST_AT_ONCE);
         let mut told: Vec<Option<(Outcome, C::Verdict)>> = Vec::with_capacity(many);
         let mut left = Vec::new();

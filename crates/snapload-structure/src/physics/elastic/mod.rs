@@ -9,4 +9,4 @@ mod rest;
 pub(super) use law::undamped;
 pub use law::{Spring, damping_ratio, springs};
 pub use motion::run_elastic;
-pub use record::{ElasticRun, Look, Pull};
+pub use record::{ElasticRun, Pull, Sample};

@@ -162,12 +162,12 @@ impl<'a, const N: usize> Phase<'a, N> {
                 let state = state_of(&y);
                 if let Some(line) = self.changed(&state, fresh) {
                     let s = steps.locate(line, last, s);
-                    steps.keep_looks(s, record);
+                    steps.keep_samples(s, record);
                     // The dense output is less exact than the steps.
                     let reached = self.at(s, before, steps.method.y_prev())?;
                     return Ok((s, reached, Some(line)));
                 }
-                steps.keep_looks(s, record);
+                steps.keep_samples(s, record);
                 record.see(self.begin + s, &state, self.pulling);
                 last = s;
             }
@@ -203,10 +203,10 @@ impl<M: Method<N>, const N: usize> Steps<'_, M, N> {
         }
     }
 
-    /// Keeps the states of all looks up to a time of the phase, by the dense output of the step.
-    fn keep_looks(&mut self, s: f64, record: &mut Record<'_>) {
+    /// Keeps the states of all samples up to a time of the phase, by the dense output of the step.
+    fn keep_samples(&mut self, s: f64, record: &mut Record<'_>) {
         let Phase { begin, pulling, .. } = *self.phase;
-        while let Some((t_s, t)) = record.next_look(begin + s) {
+        while let Some((t_s, t)) = record.next_sample(begin + s) {
             let within = (t - begin).clamp(self.method.t_prev(), self.method.t());
             if let Ok(y) = self.method.interpolate(within) {
                 record.keep(t_s, &state_of(&y), pulling);
@@ -230,7 +230,7 @@ impl<M: Method<N>, const N: usize> Steps<'_, M, N> {
 }
 
 /// Runs a structure on lines that stretch, to the end of its duration or until it is turned by a
-/// quarter. The state is kept at every multiple of `look_s` and at the end, or nowhere if that is
+/// quarter. The state is kept at every multiple of `every_s` and at the end, or nowhere if that is
 /// infinite.
 ///
 /// # Errors
@@ -239,7 +239,7 @@ impl<M: Method<N>, const N: usize> Steps<'_, M, N> {
 pub fn run_elastic(
     prepared: &Prepared,
     springs: &[Spring],
-    look_s: f64,
+    every_s: f64,
     on_progress: OnProgress,
 ) -> Result<ElasticRun, Unfinished> {
     let model = &prepared.model;
@@ -249,9 +249,9 @@ pub fn run_elastic(
     }
     let body = SprungBody::new(&model.system, springs);
     match model.system.memory_at_rest().len() {
-        0 => run::<DRY>(prepared, &body, look_s, on_progress),
-        1..=USUAL_MEMORY => run::<WET>(prepared, &body, look_s, on_progress),
-        LONG_MEMORY..=MOST_MEMORY => run::<WETTEST>(prepared, &body, look_s, on_progress),
+        0 => run::<DRY>(prepared, &body, every_s, on_progress),
+        1..=USUAL_MEMORY => run::<WET>(prepared, &body, every_s, on_progress),
+        LONG_MEMORY..=MOST_MEMORY => run::<WETTEST>(prepared, &body, every_s, on_progress),
         states => {
             let allowed = format!("a memory of at most {MOST_MEMORY} states on lines that stretch");
             Err(CaseError::value("float.pairs", format!("({states} states)"), allowed).into())
@@ -262,10 +262,10 @@ pub fn run_elastic(
 fn run<const N: usize>(
     prepared: &Prepared,
     body: &SprungBody<'_>,
-    look_s: f64,
+    every_s: f64,
     on_progress: OnProgress,
 ) -> Result<ElasticRun, Unfinished> {
-    let mut record = Record::new(prepared, body, look_s)?;
+    let mut record = Record::new(prepared, body, every_s)?;
     let (mut t, mut state, mut fresh) = (0.0, prepared.start(), TautSet::SLACK);
     let mut components: Components<N> = [0.0; N];
     components[..DRY].copy_from_slice(&state.components());

@@ -1,7 +1,7 @@
 //! The record of a motion on lines that stretch.
 
 use super::body::SprungBody;
-use crate::options::looks;
+use crate::options::sampling;
 use crate::physics::model::Scales;
 use crate::physics::prepared::Prepared;
 use crate::physics::snap::number_of_line;
@@ -34,7 +34,7 @@ pub struct Pull {
 
 /// State and tensions at a time.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Look {
+pub struct Sample {
     /// The time \[s\].
     pub t_s: f64,
     /// The state, in the engine's units.
@@ -49,7 +49,7 @@ pub struct ElasticRun {
     /// Every pull, in the order of their beginnings.
     pub pulls: Vec<Pull>,
     /// The motion at the times asked for.
-    pub looks: Vec<Look>,
+    pub samples: Vec<Sample>,
     /// When it ended \[s\].
     pub end_s: f64,
     /// The state then, in the engine's units.
@@ -85,8 +85,8 @@ pub(super) struct Record<'a> {
     /// The x of the position of rest on these lines \[m\].
     rest_x_m: f64,
     body: &'a SprungBody<'a>,
-    /// The times of the looks that are still to come, before the end \[s\].
-    looks: Peekable<Box<dyn Iterator<Item = f64>>>,
+    /// The times of the samples that are still to come, before the end \[s\].
+    samples: Peekable<Box<dyn Iterator<Item = f64>>>,
     kept: bool,
     transient_s: f64,
     run: ElasticRun,
@@ -97,28 +97,29 @@ pub(super) struct Record<'a> {
 }
 
 impl<'a> Record<'a> {
-    /// Of a run whose state is kept at every multiple of `look_s` and at its end, or nowhere if that
+    /// Of a run whose state is kept at every multiple of `every_s` and at its end, or nowhere if that
     /// is infinite.
     ///
     /// # Errors
-    /// A [`CaseError`] if that is no time, or gives too many looks.
+    /// A [`CaseError`] if that is no time, or gives too many samples.
     pub(super) fn new(
         prepared: &'a Prepared,
         body: &'a SprungBody<'a>,
-        look_s: f64,
+        every_s: f64,
     ) -> Result<Self, CaseError> {
         let scales = &prepared.model.scales;
         let end_s = prepared.structure.duration_s;
-        let sampling = looks(end_s, look_s)?;
-        let times = sampling.into_iter().flat_map(Sampling::times);
-        let looks: Box<dyn Iterator<Item = f64>> = Box::new(times.take_while(move |t| *t < end_s));
+        let kept = sampling(end_s, every_s)?;
+        let times = kept.into_iter().flat_map(Sampling::times);
+        let samples: Box<dyn Iterator<Item = f64>> =
+            Box::new(times.take_while(move |t| *t < end_s));
         Ok(Self {
             scales,
             structure: &prepared.structure,
             rest_x_m: prepared.rest.place_m[0],
             body,
-            looks: looks.peekable(),
-            kept: sampling.is_some(),
+            samples: samples.peekable(),
+            kept: kept.is_some(),
             transient_s: prepared.structure.transient_s,
             run: ElasticRun {
                 waterline: Waterline::before(&prepared.structure),
@@ -131,21 +132,21 @@ impl<'a> Record<'a> {
         })
     }
 
-    /// The next look that is to be kept up to a time, in seconds and in the engine's units.
-    pub(super) fn next_look(&mut self, until: f64) -> Option<(f64, f64)> {
+    /// The next sample that is to be kept up to a time, in seconds and in the engine's units.
+    pub(super) fn next_sample(&mut self, until: f64) -> Option<(f64, f64)> {
         let time_s = self.scales.time_s;
-        let t_s = self.looks.next_if(|t_s| t_s / time_s <= until)?;
+        let t_s = self.samples.next_if(|t_s| t_s / time_s <= until)?;
         Some((t_s, t_s / time_s))
     }
 
-    /// Keeps the state at a look.
+    /// Keeps the state at a sample.
     pub(super) fn keep(&mut self, t_s: f64, state: &State, pulling: TautSet) {
         let tension = |line| match pulling.contains(line) {
             true => self.tension_n(line, state),
             false => 0.0,
         };
         let tension_n = (0..self.open.len()).map(tension).collect();
-        self.run.looks.push(Look {
+        self.run.samples.push(Sample {
             t_s,
             state: *state,
             tension_n,

@@ -22,14 +22,14 @@ pub(crate) struct Unknowns {
 }
 
 /// A sequence that is continued.
-pub(crate) struct Tracer<'a, F: Family> {
+pub(crate) struct Continuation<'a, F: Family> {
     pub(crate) family: &'a F,
     pub(crate) sequence: Sequence,
     pub(crate) phase: f64,
     pub(crate) periods: u32,
 }
 
-impl<F: Family> Clone for Tracer<'_, F> {
+impl<F: Family> Clone for Continuation<'_, F> {
     fn clone(&self) -> Self {
         Self {
             family: self.family,
@@ -76,7 +76,7 @@ impl Unknowns {
     }
 }
 
-impl<F: Family> Tracer<'_, F> {
+impl<F: Family> Continuation<'_, F> {
     pub(crate) fn lap(&self, at: [f64; 2]) -> Lap<'_, F> {
         Lap {
             family: self.family,
@@ -243,7 +243,7 @@ impl<F: Family> Tracer<'_, F> {
 
 /// The segment between one point of a branch and the next.
 pub(crate) struct Segment<'a, F: Family> {
-    pub(crate) tracer: &'a Tracer<'a, F>,
+    pub(crate) continuation: &'a Continuation<'a, F>,
     pub(crate) from: &'a Unknowns,
     pub(crate) tangent: &'a DVector<f64>,
     pub(crate) length: f64,

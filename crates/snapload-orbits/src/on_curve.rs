@@ -2,9 +2,9 @@
 
 use crate::branch_events::BranchEvent;
 use crate::condition::Condition;
+use crate::continuation::{Continuation, Unknowns, bordered};
 use crate::hybrid::Family;
 use crate::orbit::Orbit;
-use crate::tracer::{Tracer, Unknowns, bordered};
 use nalgebra::{DMatrix, DVector};
 
 /// The most steps of the corrector.
@@ -19,41 +19,41 @@ const TIMES: f64 = 0.3;
 const TURN: f64 = 0.95;
 
 /// A point on a curve, and the direction in which it is followed.
-pub(crate) struct Rail<'a, F: Family> {
-    pub(crate) tracer: Tracer<'a, F>,
+pub(crate) struct OnCurve<'a, F: Family> {
+    pub(crate) continuation: Continuation<'a, F>,
     pub(crate) condition: Condition,
     pub(crate) here: Unknowns,
     tangent: DVector<f64>,
 }
 
-impl<'a, F: Family> Rail<'a, F> {
+impl<'a, F: Family> OnCurve<'a, F> {
     /// The point at an event of a branch, closed again at the same value of the second parameter,
     /// in the direction in which that increases; if it does not change, in that in which the first
     /// one increases.
     pub(crate) fn begun(
-        tracer: Tracer<'a, F>,
+        continuation: Continuation<'a, F>,
         start: Unknowns,
         event: &BranchEvent,
     ) -> Option<Self> {
-        let condition = Condition::of(&tracer, &start, event)?;
-        let count = tracer.size() + 2;
+        let condition = Condition::of(&continuation, &start, event)?;
+        let count = continuation.size() + 2;
         let along = [count - 1, count - 2].map(|place| {
             let mut unit = DVector::zeros(count);
             unit[place] = 1.0;
             unit
         });
-        let mut rail = Self {
-            tracer,
+        let mut on_curve = Self {
+            continuation,
             condition,
             here: start,
             tangent: along[0].clone(),
         };
-        let (here, _) = rail.corrected(0.0)?;
-        rail.condition = rail.condition.renewed(&rail.tracer, &here)?;
-        rail.here = here;
-        let directions = along.map(|along| rail.direction(&along));
-        rail.tangent = directions.into_iter().flatten().next()?;
-        Some(rail)
+        let (here, _) = on_curve.corrected(0.0)?;
+        on_curve.condition = on_curve.condition.renewed(&on_curve.continuation, &here)?;
+        on_curve.here = here;
+        let directions = along.map(|along| on_curve.direction(&along));
+        on_curve.tangent = directions.into_iter().flatten().next()?;
+        Some(on_curve)
     }
 
     /// The same point with the opposite direction.
@@ -66,7 +66,7 @@ impl<'a, F: Family> Rail<'a, F> {
 
     fn copied(&self) -> Self {
         Self {
-            tracer: self.tracer.clone(),
+            continuation: self.continuation.clone(),
             condition: self.condition.clone(),
             here: self.here.clone(),
             tangent: self.tangent.clone(),
@@ -75,14 +75,14 @@ impl<'a, F: Family> Rail<'a, F> {
 
     /// The orbit here.
     pub(crate) fn orbit(&self) -> Orbit {
-        Orbit::of(&self.tracer.lap(self.here.at), &self.here.closed())
+        Orbit::of(&self.continuation.lap(self.here.at), &self.here.closed())
     }
 
     /// All equations except that of the arclength, and their derivatives.
     fn equations(&self, u: &Unknowns) -> Option<(DVector<f64>, DMatrix<f64>)> {
-        let (residual, jacobian) = self.tracer.equations(u, 2);
-        let value = self.condition.value(&self.tracer, u)?;
-        let slopes = self.condition.slopes(&self.tracer, u)?;
+        let (residual, jacobian) = self.continuation.equations(u, 2);
+        let value = self.condition.value(&self.continuation, u)?;
+        let slopes = self.condition.slopes(&self.continuation, u)?;
         let count = residual.len();
         let residual = residual.insert_row(count, value);
         residual
@@ -104,7 +104,7 @@ impl<'a, F: Family> Rail<'a, F> {
 
     /// The point of the curve a length `sigma` along the tangent, and the number of steps.
     fn corrected(&self, sigma: f64) -> Option<(Unknowns, usize)> {
-        let variables = self.tracer.family.variables();
+        let variables = self.continuation.family.variables();
         let mut offset = &self.tangent * sigma;
         let mut before = f64::INFINITY;
         for steps in 1..=MOST_STEPS {
@@ -139,7 +139,7 @@ impl<'a, F: Family> Rail<'a, F> {
             here,
             ..self.copied()
         };
-        next.condition = self.condition.renewed(&self.tracer, &next.here)?;
+        next.condition = self.condition.renewed(&self.continuation, &next.here)?;
         next.tangent = next.direction(&self.tangent)?;
         Some((next, steps))
     }
@@ -157,13 +157,13 @@ impl<'a, F: Family> Rail<'a, F> {
     /// Renumbers the events if one has passed the section, and returns whether it has.
     pub(crate) fn counted_anew(&mut self) -> bool {
         let mut anew = false;
-        while let Some((tracer, here, shift)) = self.tracer.renumbered(&self.here) {
-            let Some(condition) = self.condition.counted_anew(&tracer, &here, shift) else {
+        while let Some((continuation, here, shift)) = self.continuation.renumbered(&self.here) {
+            let Some(condition) = self.condition.counted_anew(&continuation, &here, shift) else {
                 return anew;
             };
             let along = self.along_after(shift);
             let next = Self {
-                tracer,
+                continuation,
                 condition,
                 here,
                 tangent: along.clone(),
@@ -180,7 +180,7 @@ impl<'a, F: Family> Rail<'a, F> {
     /// The parts of the direction that keep their meaning when events are renumbered: those of the
     /// times between events that stay neighbours, and of the parameters.
     fn along_after(&self, shift: isize) -> DVector<f64> {
-        let m = self.tracer.family.variables().len();
+        let m = self.continuation.family.variables().len();
         let n = self.here.durations.len();
         let mut along = DVector::zeros(self.tangent.len());
         for k in 1..n {
