@@ -43,7 +43,7 @@ impl Json {
             return Ok(Self::Stdout);
         }
         refuse_directory(path)?;
-        let room = stage.open(&folder_for(path))?;
+        let room = stage.create_and_open(&folder_for(path))?;
         Ok(Self::File(room, path.to_owned()))
     }
 
@@ -83,13 +83,6 @@ impl Json {
             .map_err(|error| Failure::write("standard output", &error))?;
         Ok(true)
     }
-}
-
-/// Opens the directory in which a file is to be written, and creates it if necessary.
-#[cfg(feature = "structure")]
-pub(crate) fn room_of(stage: &mut Stage, path: &Path) -> Result<Room, Failure> {
-    refuse_directory(path)?;
-    stage.create_and_open(&folder_for(path))
 }
 
 /// The directory in which a file is staged: that of the file, so that it can be renamed; another

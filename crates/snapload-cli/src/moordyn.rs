@@ -1,7 +1,7 @@
 //! `snapload moordyn`: a structure's case from a MoorDyn file, and for MoorDyn.
 use crate::case_input::read_text;
 use crate::failure::{Failure, print};
-use crate::json::room_of;
+use crate::json::{folder_for, refuse_directory};
 use crate::stage::Stage;
 use crate::structure_input::{ReadStructure, StructureArgs};
 use crate::whole::whole;
@@ -113,7 +113,8 @@ fn write(args: &Write) -> Result<(), Failure> {
 /// Writes a text to a file, completely or not at all, and returns a message with its path.
 fn put(path: &Path, text: &str) -> Result<String, Failure> {
     let mut stage = Stage::default();
-    let room = room_of(&mut stage, path)?;
+    refuse_directory(path)?;
+    let room = stage.create_and_open(&folder_for(path))?;
     stage.write(room, path.to_owned(), |out| out.write_all(text.as_bytes()))?;
     stage.commit()?;
     Ok(path.display().to_string())

@@ -35,7 +35,8 @@ Examples:
       --out orbits.parquet
       more than a thousand orbits of a square body, each proved to exist
 
-Exit status: 0 found; 1 no orbit found, or with --prove an orbit that is not proved; 2 bad input.";
+Exit status: 0 found, or searched with --find; 1 no orbit near the start, or with --prove one that is not
+proved; 2 bad input.";
 
 /// Which case, and which orbit.
 #[derive(clap::Args)]

@@ -1,10 +1,10 @@
 //! The files of a command's answer, and its JSON.
 use crate::failure::{Failure, print};
 use crate::json::{Json, JsonArgs, folder_for, refuse_directory};
-use crate::stage::{Room, Stage};
+use crate::stage::{Room, Stage, is_same};
 use crate::table::write_csv;
 use serde::Serialize;
-use snapload_study::{Values, parent_of, write_table};
+use snapload_study::{Values, write_table};
 use std::io;
 use std::path::{Path, PathBuf};
 
@@ -124,11 +124,4 @@ impl Outputs {
         }
         print(&words)
     }
-}
-
-/// Whether two paths refer to the same file, which may not exist yet.
-fn is_same(one: &Path, other: &Path) -> bool {
-    let new = |path: &Path| Some(parent_of(path).canonicalize().ok()?.join(path.file_name()?));
-    let place = |path: &Path| path.canonicalize().ok().or_else(|| new(path));
-    place(one).is_some_and(|one| place(other) == Some(one))
 }

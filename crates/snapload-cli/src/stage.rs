@@ -2,6 +2,7 @@
 //! file system, then renamed.
 use crate::failure::Failure;
 use crate::interrupt::leftovers;
+use snapload_study::parent_of;
 use std::fs::{self, File, OpenOptions};
 use std::io::{self, BufWriter, ErrorKind, Write};
 use std::path::{Path, PathBuf};
@@ -57,6 +58,7 @@ impl Stage {
         target: PathBuf,
         fill: impl FnOnce(&mut dyn Write) -> io::Result<()>,
     ) -> Result<(), Failure> {
+        self.refuse_twice(&target)?;
         let scratch = self.scratch[room.0].join(self.files.len().to_string());
         let written = File::create_new(&scratch).and_then(|file| {
             let mut file = BufWriter::new(file);
@@ -65,6 +67,16 @@ impl Stage {
         });
         written.map_err(|error| Failure::write(target.display(), &error))?;
         self.files.push((scratch, target));
+        Ok(())
+    }
+
+    /// An error if another output has the same path.
+    fn refuse_twice(&self, target: &Path) -> Result<(), Failure> {
+        if self.files.iter().any(|(_, staged)| is_same(staged, target)) {
+            let shown = target.display();
+            let message = format!("two outputs are named {shown}; allowed are two files");
+            return Err(Failure::BadInput(message));
+        }
         Ok(())
     }
 
@@ -137,4 +149,11 @@ fn missing(directory: &Path) -> Vec<PathBuf> {
         .collect();
     missing.reverse();
     missing
+}
+
+/// Whether two paths refer to the same file, which may not exist yet.
+pub(crate) fn is_same(one: &Path, other: &Path) -> bool {
+    let new = |path: &Path| Some(parent_of(path).canonicalize().ok()?.join(path.file_name()?));
+    let place = |path: &Path| path.canonicalize().ok().or_else(|| new(path));
+    place(one).is_some_and(|one| place(other) == Some(one))
 }

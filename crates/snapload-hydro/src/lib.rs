@@ -7,6 +7,7 @@
 //! are in `docs/hydrodynamics.md`.
 
 mod coefficients;
+pub mod digits;
 mod error;
 mod linear;
 mod memory;
@@ -28,7 +29,7 @@ pub use linear::{
     response_of_the_file, response_of_the_memory, rest, rest_adrift, significant, swings,
 };
 pub use memory::{
-    BlockQuality, DampingCurve, EntryQuality, Fit, FitOptions, Memory, Term, TermRow,
+    BlockQuality, DampingCurve, EntryQuality, Fit, FitOptions, MOST_PAIRS, Memory, Term, TermRow,
     added_mass_at_infinity, fit, given,
 };
 pub use read::{

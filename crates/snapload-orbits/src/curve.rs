@@ -9,10 +9,11 @@ use crate::branch_events::{BranchEvent, Kind};
 use crate::continuation::{Continuation, Unknowns};
 use crate::hybrid::Family;
 use crate::multipliers::Stability;
-use crate::normal_form::coefficient;
+use crate::normal_form::{Coefficient, coefficient};
 use crate::on_curve::OnCurve;
 use crate::orbit::{NoOrbit, Orbit};
 use crate::survey::root;
+use nalgebra::DVector;
 use snapload::analysis::{Cancelled, OnProgress, Progress};
 
 /// How a curve is followed.
@@ -32,14 +33,15 @@ pub struct CurvePoint {
     /// The special orbit, which may be inadmissible.
     pub orbit: Orbit,
     /// The stability by its other multipliers, besides those that make it special: whether a stable
-    /// orbit loses its stability here.
+    /// orbit loses its stability or ends here.
     pub others: Stability,
     /// The length along the curve from its first point.
     pub arclength: f64,
     /// The coefficient of the normal form: that of the square at a fold, and that of the cube at a
     /// period doubling, where a positive one says that the orbits of twice the length are stable if
-    /// all other multipliers are.
+    /// all other multipliers are. That of a fold is of eigenvectors that point alike along the curve.
     pub coefficient: Option<f64>,
+    eigenvector: Option<DVector<f64>>,
     /// a = −g̈/2r at a graze.
     pub normal_acceleration: Option<f64>,
     /// (1 + e) √(2a) at a graze.
@@ -137,11 +139,29 @@ impl Curve {
         }
         points.push(first);
         points.extend(forward.points);
+        if event.kind == Kind::Fold {
+            orient(&mut points);
+        }
         Ok(Ok(Self {
             kind: event.kind,
             points,
             ends: [backward.end, forward.end],
         }))
+    }
+}
+
+/// Gives the coefficients of folds the signs of eigenvectors that point alike along the curve: the
+/// eigenvector by itself is known up to its sign.
+fn orient(points: &mut [CurvePoint]) {
+    let mut last: Option<DVector<f64>> = None;
+    for point in points {
+        let form = point.coefficient.zip(point.eigenvector.take());
+        if let Some((value, eigenvector)) = form {
+            let mut form = Coefficient { value, eigenvector };
+            form.oriented(last.as_ref());
+            point.coefficient = Some(form.value);
+            last = Some(form.eigenvector);
+        }
     }
 }
 
@@ -166,12 +186,16 @@ impl Side {
 
     /// Ends at a border that is passed at this arclength; its last point is on the border if that
     /// was found.
-    fn end_on<F: Family>(&mut self, border: Border<F>, arclength: f64) {
+    fn end_on<F: Family>(&mut self, border: Border<F>, arclength: f64, ranges: &[[f64; 2]; 2]) {
         self.end.because = BORDERS[border.number].to_owned();
         if let Some(last) = border.place {
-            self.end.at = last.here.at;
-            let arclength = arclength + border.sigma;
-            self.points.push(point(&last, last.orbit(), arclength));
+            let mut point = point(&last, last.orbit(), arclength + border.sigma);
+            // The value itself where Newton's method comes to it up to rounding.
+            if let Some(value) = ranges.as_flattened().get(border.number) {
+                point.orbit.at[border.number / 2] = *value;
+            }
+            self.end.at = point.orbit.at;
+            self.points.push(point);
         }
     }
 }
@@ -217,11 +241,13 @@ fn point<F: Family>(on_curve: &OnCurve<F>, orbit: Orbit, arclength: f64) -> Curv
         Kind::Graze => orbit.at_graze(),
         _ => orbit,
     };
+    let form = coefficient(&on_curve.continuation, &on_curve.here, kind);
     CurvePoint {
         others: others(kind, &orbit),
         orbit,
         arclength,
-        coefficient: coefficient(&on_curve.continuation, &on_curve.here, kind),
+        coefficient: form.as_ref().map(|form| form.value),
+        eigenvector: form.map(|form| form.eigenvector),
         normal_acceleration: bend,
         sqrt_coefficient: bend.map(|a| (1.0 + restitution) * (2.0 * a).max(0.0).sqrt()),
     }
@@ -279,7 +305,7 @@ impl Walk<'_> {
                 continue;
             };
             if let Some(border) = border {
-                side.end_on(border, arclength);
+                side.end_on(border, arclength, &self.across.ranges);
                 break;
             }
             arclength += step;

@@ -278,9 +278,17 @@ pub fn erosion_in_words(erosion: &Erosion) -> String {
         (None, _) => Ok(()),
     };
     let _ = writeln!(text, "Knee      {}", knee_in_words(erosion));
-    let windows = erosion.points.iter().map(|(_, basin)| &basin.window);
-    let away = windows.map(beside_the_equilibrium);
-    text += &away.max_by_key(String::len).unwrap_or_default();
+    let mut windows = erosion.points.iter().map(|(_, basin)| &basin.window);
+    text += &match windows.next() {
+        // The plane moves with the key itself.
+        Some(first) if first.are_starts() && START_KEYS.contains(&erosion.key) => format!(
+            "Nearest   not told (LIM, IIM) where a start key beside the two, {} among them, is not 0: the equilibrium \
+             is not in that plane\n",
+            erosion.key
+        ),
+        Some(first) => beside_the_equilibrium(first),
+        None => String::new(),
+    };
     if !erosion.looked_beside() {
         text += "Undecided not known, as neighbours were not looked at\n";
     }

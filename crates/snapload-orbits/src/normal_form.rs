@@ -25,12 +25,34 @@ const MOST_STEPS: usize = 8;
 /// The accuracy to which the times are found.
 const DONE: f64 = 1e-13;
 
+/// A coefficient with the eigenvector q to which it belongs. That of a fold changes its sign with
+/// that of q.
+pub(crate) struct Coefficient {
+    pub(crate) value: f64,
+    pub(crate) eigenvector: DVector<f64>,
+}
+
+impl Coefficient {
+    /// With the eigenvector in the direction of that of a neighbour on a curve of folds; of the first
+    /// one its largest component is positive.
+    pub(crate) fn oriented(&mut self, neighbour: Option<&DVector<f64>>) {
+        let along = match neighbour {
+            Some(neighbour) => neighbour.dot(&self.eigenvector),
+            None => self.eigenvector[self.eigenvector.iamax()],
+        };
+        if along < 0.0 {
+            self.value = -self.value;
+            self.eigenvector.neg_mut();
+        }
+    }
+}
+
 /// The coefficient; none for other kinds, and if neighbours do not have the same events.
 pub(crate) fn coefficient<F: Family>(
     continuation: &Continuation<F>,
     u: &Unknowns,
     kind: Kind,
-) -> Option<f64> {
+) -> Option<Coefficient> {
     let eigenvalue = match kind {
         Kind::Fold => 1.0,
         Kind::PeriodDoubling => -1.0,
@@ -41,14 +63,20 @@ pub(crate) fn coefficient<F: Family>(
     let [q, p] = eigenvectors(&whole, eigenvalue)?;
     let square = map.second(&q, &q)?;
     if kind == Kind::Fold {
-        return Some(0.5 * p.dot(&square));
+        return Some(Coefficient {
+            value: 0.5 * p.dot(&square),
+            eigenvector: q,
+        });
     }
     let n = whole.nrows();
     let back = (DMatrix::identity(n, n) - &whole).lu().solve(&square)?;
     let beside = |by: f64| map.monodromy(&(&q * by)).map(|there| there * &q);
     let cube = (beside(SECOND)? + beside(-SECOND)? - (&whole * &q) * 2.0) / (SECOND * SECOND);
-    let found = p.dot(&cube) / 6.0 + 0.5 * p.dot(&map.second(&q, &back)?);
-    found.is_finite().then_some(found)
+    let value = p.dot(&cube) / 6.0 + 0.5 * p.dot(&map.second(&q, &back)?);
+    value.is_finite().then_some(Coefficient {
+        value,
+        eigenvector: q,
+    })
 }
 
 /// q and p of an eigenvalue, q of unit length and ⟨p, q⟩ = 1.

@@ -52,7 +52,7 @@ impl Differs {
         match self {
             Self::Cable => "is of the other cable",
             Self::Time => "has another time in five digits",
-            Self::Speed => "has another v_n in five digits",
+            Self::Speed => "differs in the first five digits of v_n",
             Self::Missing => "is missing",
             Self::Extra => "does not exist",
             Self::End => "does not come, as the end is another",

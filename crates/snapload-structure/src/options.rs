@@ -1,6 +1,7 @@
 //! What may be asked of a structure beside its case: said here once for the command and for Python.
 
 use snapload::{CaseError, Key, Kind, Sampling, Value};
+use snapload_hydro::MOST_PAIRS;
 
 /// Neighbours of a run that is assessed.
 pub const NEIGHBOURS: Key = Key::option("neighbours", Kind::Count(0, 100_000));
@@ -13,7 +14,7 @@ pub const EVERY: Key = Key::option("every", Kind::number(1e-6, 1e6));
 /// Segments of a line in a file for MoorDyn.
 pub const SEGMENTS: Key = Key::option("segments", Kind::Count(1, 10_000));
 /// Pairs of poles of a memory.
-pub const PAIRS: Key = Key::option("pairs", Kind::Count(1, 20));
+pub const PAIRS: Key = Key::option("pairs", Kind::Count(1, MOST_PAIRS as u64));
 
 /// Checks one of them under its own name.
 pub(crate) fn check(option: &Key, value: impl Into<Value>) -> Result<(), CaseError> {

@@ -44,7 +44,7 @@ const LINE: &[Key] = &[
     Key::new("fairlead", "m", PLACE, Required, "[x, z] where it is made fast, with the body at position and upright"),
     Key::new("length", "m", LENGTH, Required, "unstretched length"),
     Key::new("type", "", Kind::Choice(TYPES), Derived("none"),
-        "a type of line; with diameter it gives what the four keys below would"),
+        "a type of line; with diameter it gives stiffness, mass_per_length and breaking_load"),
     Key::new("diameter", "m", Kind::positive(0.4), Derived("none"), "nominal diameter; of a chain, of its bar"),
     Key::new("grade", "", Kind::Choice(GRADES), Derived("R3 for a chain"), "steel grade of a chain"),
     Key::new("stiffness", "N", MASS, Derived("from type and diameter"), "axial stiffness EA"),
@@ -122,7 +122,7 @@ const DESIGN: &[Key] = &[
         "must stay positive: rest_factor times the tension at rest, less dynamic_factor times what the least tension is below it"),
     Key::new("dynamic_factor", "1", FACTOR, Derived("no check"), "see rest_factor, with which it goes"),
     Key::new("force_share", "1", FACTOR, Derived("no check"),
-        "the vertical force of the waves must be at most this share of the net buoyancy"),
+        "the vertical force of the waves must be at most this share of the net buoyancy; not of a floating body"),
 ];
 
 #[rustfmt::skip] // one row a key

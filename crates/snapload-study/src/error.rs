@@ -74,7 +74,7 @@ impl Occupied {
     pub fn in_words(&self, resume: &str, out: &str) -> String {
         match self {
             Self::Complete(file) => format!(
-                "{} is there already and holds this very study, complete; {resume} takes it as it is",
+                "{} exists already and holds this study, complete; {resume} accepts it",
                 file.display()
             ),
             Self::Damaged(file) => format!(

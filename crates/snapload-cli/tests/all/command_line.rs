@@ -343,7 +343,7 @@ fn bad_samples_and_places_are_refused() {
     ];
     refused(&tiny, &["--sample 1e-12", "1e7 rows"]);
     refused(&["--json", "folder"], &["folder", "directory"]);
-    refused(&["--json", "absent/run.json"], &["absent"]);
+    refused(&["--json", "good.toml/run.json"], &["good.toml"]);
     refused(&["--json", ""], &["--json"]);
     refused(&["--out", "good.toml"], &["good.toml", "not a directory"]);
     refused(&["--out", "good.toml/results"], &["good.toml/results"]);

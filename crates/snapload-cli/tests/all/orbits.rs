@@ -205,14 +205,16 @@ fn a_basin_tells_of_its_cells() {
         "--vary",
         "y=0.1:0.2:2",
         "--out",
-        "cells.csv",
+        "new/tables/cells.csv",
         "--json",
-        "-",
+        "new/basin.json",
     ];
-    let out = snapload(d.path()).args(args).assert().success();
-    let basin: Value = serde_json::from_slice(&out.get_output().stdout).unwrap();
+    // Folders that are missing are created.
+    snapload(d.path()).args(args).assert().success();
+    let answer = std::fs::read(d.path().join("new/basin.json")).unwrap();
+    let basin: Value = serde_json::from_slice(&answer).unwrap();
     assert_eq!(number(&basin["legal"]), 6.0);
-    let table = std::fs::read_to_string(d.path().join("cells.csv")).unwrap();
+    let table = std::fs::read_to_string(d.path().join("new/tables/cells.csv")).unwrap();
     assert!(
         table.starts_with("x,y,outcome,t,decided,trusted\n"),
         "{table}"
@@ -265,6 +267,10 @@ fn what_can_not_be_is_refused() {
     refused(
         &["section", "--out", "a.csv", "--json", "./a.csv"],
         "--out and --json: both name a.csv; allowed are two files",
+    );
+    refused(
+        &["run", "--out", "d", "--json", "d/run.json"],
+        "two outputs are named d/run.json",
     );
     refused(
         &["section", "--out", "a.txt"],

@@ -163,8 +163,7 @@ pub fn rest_adrift(
     surge_m: f64,
 ) -> Option<(Vector3<f64>, Vec<f64>)> {
     let weight = body.mass_kg * hydro.water.gravity_m_s2;
-    let held = body.stiffness.row(0).amax() > 0.0;
-    if held || body.constant_force[0].abs() > 1e-9 * weight {
+    if body.constant_force[0].abs() > 1e-9 * weight {
         return None;
     }
     let stiffness = body.stiffness.fixed_view::<2, 2>(1, 1).into_owned();

@@ -250,6 +250,9 @@ fn chosen(
     Ok((kept, block, second))
 }
 
+/// The largest number of pairs of poles that may be asked for.
+pub const MOST_PAIRS: usize = 20;
+
 /// The memory of a file's coefficients, by vector fitting of B + iω(A − A∞) with common poles for
 /// coupled degrees of freedom, zero damping at constant speed, and passivity.
 ///
@@ -257,9 +260,9 @@ fn chosen(
 /// A [`HydroError`] if there is nothing to fit, or no fit is found.
 pub fn fit(hydro: &Hydrodynamics, options: FitOptions) -> Result<Fit, HydroError> {
     if let Some(pairs) = options.pairs
-        && !(1..=20).contains(&pairs)
+        && !(1..=MOST_PAIRS).contains(&pairs)
     {
-        let wanted = "1 to 20 pairs of poles are allowed";
+        let wanted = format!("1 to {MOST_PAIRS} pairs of poles are allowed");
         return Err(HydroError::value("pairs", pairs as f64, wanted));
     }
     let mut added_mass_inf = added_mass_at_infinity(hydro);

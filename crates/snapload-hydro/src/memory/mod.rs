@@ -11,7 +11,7 @@ mod quality;
 mod warnings;
 
 pub use curve::{DampingCurve, added_mass_at_infinity};
-pub use fit::{Fit, FitOptions, fit, given};
+pub use fit::{Fit, FitOptions, MOST_PAIRS, fit, given};
 pub use quality::{BlockQuality, EntryQuality};
 
 use crate::error::HydroError;

@@ -13,6 +13,7 @@ pub use words::periods_in_words;
 use words::plain;
 
 use crate::coefficients::transport;
+use crate::digits::kilo;
 use crate::error::{HydroError, Warning};
 use crate::linear::{
     Body, Line, Mode, Natural, Peak, Response, Rest, Weight, fine_responses, natural_of_the_file,
@@ -175,17 +176,17 @@ fn inertia_of_another(reading: &Reading, body: &Body, request: &Request) -> Opti
         .filter(|file| *file != body.centre_m);
     let what = match (heavier, moved) {
         (Some(displaced), _) => format!(
-            "the mass is {:.1} t where the file's body displaces {:.1} t",
-            body.mass_kg / 1e3,
-            displaced / 1e3
+            "the mass is {} t where the file's body displaces {} t",
+            kilo(&body.mass_kg, 1),
+            kilo(&displaced, 1)
         ),
         (None, Some([x, z])) => format!("the centre of gravity is not the file's, ({x}, {z}) m"),
         (None, None) => return None,
     };
     let words = format!(
-        "{what}, and the moment of inertia is that of the file all the same, {:.1} t m² about the centre of \
+        "{what}, and the moment of inertia is that of the file all the same, {} t m² about the centre of \
          gravity: give its own (--inertia; body.moment_of_inertia in a case)",
-        body.inertia_about_centre_kg_m2() / 1e3
+        kilo(&body.inertia_about_centre_kg_m2(), 1)
     );
     Some(Warning::new("moment of inertia", words))
 }
@@ -266,6 +267,22 @@ impl Floating {
         (pitch.abs() > UPRIGHT).then_some(Some(pitch))
     }
 
+    /// The warning that the body does not float upright without lines, if none are given.
+    fn balance_warning(&self) -> Option<Warning> {
+        let pitch = self.unbalanced_pitch().filter(|_| self.rest.is_none())?;
+        let angle = match pitch {
+            Some(pitch) => format!(", {:.1}° by its stiffness", plain(pitch.to_degrees(), 0.1)),
+            None => String::new(),
+        };
+        let words = format!(
+            "a moment of {} kN m about the reference point is not balanced where the file has the body upright: \
+             without lines it lies turned{angle}, and its periods and response without lines are not those it \
+             has so. A centre of gravity under that of buoyancy makes no such moment",
+            kilo(&self.body.constant_force[2], 1)
+        );
+        Some(Warning::new("balance", words))
+    }
+
     fn warn(&self, reading: &Reading, warnings: &mut Vec<Warning>) {
         let [low, high] = reading.hydro.range_rad_s();
         let held = self.rest.iter().flat_map(|(_, natural, _)| natural);
@@ -285,25 +302,13 @@ impl Floating {
         let righting = self.body.stiffness[(2, 2)];
         if righting <= 0.0 {
             let words = format!(
-                "the stiffness in pitch is {:.1} kN m: by itself the body turns over, and its response in \
+                "the stiffness in pitch is {} kN m: by itself the body turns over, and its response in \
                  pitch tells nothing; lower its centre of gravity, or hold it by lines",
-                righting / 1e3
+                kilo(&righting, 1)
             );
             warnings.push(Warning::new("stability", words));
         }
-        if let Some(pitch) = self.unbalanced_pitch().filter(|_| self.rest.is_none()) {
-            let angle = match pitch {
-                Some(pitch) => format!(", {:.1}° by its stiffness", plain(pitch.to_degrees(), 0.1)),
-                None => String::new(),
-            };
-            let words = format!(
-                "a moment of {:.1} kN m about the reference point is not balanced where the file has the body \
-                 upright: without lines it lies turned{angle}, and its periods and response without lines are \
-                 not those it has so. A centre of gravity under that of buoyancy makes no such moment",
-                self.body.constant_force[2] / 1e3
-            );
-            warnings.push(Warning::new("balance", words));
-        }
+        warnings.extend(self.balance_warning());
         let pitch = self.natural.iter().zip(&self.modes);
         for (_, mode) in pitch.filter(|(natural, _)| natural.freedom == 2) {
             if mode.damping_ratio < WEAK && self.body.damping[(2, 2)] == 0.0 {

@@ -2,6 +2,7 @@
 
 use super::{Floating, Report, UNDAMPED};
 use crate::coefficients::FREEDOMS;
+use crate::digits::kilo;
 use crate::linear::{Mode, Natural, Peak};
 use crate::memory::{BlockQuality, EntryQuality};
 use std::f64::consts::PI;
@@ -101,37 +102,27 @@ impl Floating {
         }
     }
 
-    /// What is left over of weight, buoyancy and constant forces at the place of the file, in words.
+    /// The rest of weight, buoyancy and constant forces at the file's position, in words.
     fn balance_words(&self) -> Option<String> {
         let body = &self.body;
         let lift = body.constant_force[1];
         let lift = (lift.abs() > BALANCED * body.stiffness[(1, 1)].abs()).then(|| {
             let way = if lift > 0.0 { "lift" } else { "weight" };
-            format!("{:.1} kN of {way}", lift.abs() / 1e3)
+            format!("{} kN of {way}", kilo(&lift.abs(), 1))
         });
-        let moment = self.unbalanced_pitch().map(|_| {
-            let size = body.constant_force[2].abs() / 1e3;
-            format!("a moment of {size:.1} kN m")
-        });
+        let size = body.constant_force[2].abs();
+        let moment = self.unbalanced_pitch();
+        let moment = moment.map(|_| format!("a moment of {} kN m", kilo(&size, 1)));
+        let pitches = ", and where they hold decides how it pitches";
         let (left, pitches) = match (lift, moment) {
-            (Some(lift), Some(moment)) => (format!("{lift} and {moment}"), true),
-            (Some(one), None) => (one, true),
-            (None, Some(one)) => (one, false),
+            (Some(lift), Some(moment)) => (format!("{lift} and {moment} are"), pitches),
+            (Some(lift), None) => (format!("{lift} are"), pitches),
+            (None, Some(moment)) => (format!("{moment} is"), ""),
             (None, None) => return None,
         };
-        let pitches = if pitches {
-            ", and where they hold decides how it pitches"
-        } else {
-            ""
-        };
         Some(format!(
-            "{left} {} left for lines to hold{pitches}: periods and responses are those of a body held upright at \
-             the reference point",
-            if left.starts_with("a moment") {
-                "is"
-            } else {
-                "are"
-            }
+            "{left} left for lines to hold{pitches}: periods and responses are those of a body held upright at \
+             the reference point"
         ))
     }
 
@@ -140,14 +131,14 @@ impl Floating {
         say(
             "body",
             format!(
-                "{:.4} t, centre of gravity ({}, {}) m, moment of inertia {:.4} t m² about it; stiffness {:.4} \
-                 kN/m in heave, {:.4} kN m in pitch about the reference point",
-                body.mass_kg / 1e3,
+                "{} t, centre of gravity ({}, {}) m, moment of inertia {} t m² about it; stiffness {} kN/m in \
+                 heave, {} kN m in pitch about the reference point",
+                kilo(&body.mass_kg, 4),
                 body.centre_m[0],
                 body.centre_m[1],
-                body.inertia_about_centre_kg_m2() / 1e3,
-                body.stiffness[(1, 1)] / 1e3,
-                body.stiffness[(2, 2)] / 1e3,
+                kilo(&body.inertia_about_centre_kg_m2(), 4),
+                kilo(&body.stiffness[(1, 1)], 4),
+                kilo(&body.stiffness[(2, 2)], 4),
             ),
         );
         if let Some(words) = self.balance_words() {
@@ -156,7 +147,7 @@ impl Floating {
         say("periods", periods_in_words(&self.natural, &self.modes));
         self.say_responses(say);
         if let Some((rest, natural, modes)) = &self.rest {
-            let tensions = rest.tension_n.iter().map(|t| format!("{:.2}", t / 1e3));
+            let tensions = rest.tension_n.iter().map(|t| kilo(t, 2));
             let words = format!(
                 "surge {:.4} m, heave {:.4} m, pitch {:.3}°; tensions {} kN",
                 plain(rest.q[0], 1e-4),

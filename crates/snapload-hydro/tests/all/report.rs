@@ -218,6 +218,8 @@ fn a_fit_is_no_better_than_its_worst_entry() {
         worst.name()
     );
     assert!(report.memory_words().contains(&said), "{said}");
+    let mut blocks = report.fit.blocks.iter();
+    assert!(blocks.any(|block| block.freedoms.len() > 1));
     for block in report
         .fit
         .blocks

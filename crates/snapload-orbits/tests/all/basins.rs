@@ -146,6 +146,28 @@ fn a_plane_beside_the_equilibrium_has_no_distances_from_it() {
     );
 }
 
+/// The plane of an erosion moves with a start key, and one that is always beside the equilibrium says
+/// by which key.
+#[test]
+fn an_erosion_says_in_which_planes_there_are_distances() {
+    let mut window = window(&reference()["grids"]["circle_xy_f0.3"]);
+    window.values = [vec![-0.1, 0.1], vec![0.1, 0.3]];
+    window.base.t_end = 2.0;
+    let words = |window: &Window, key: &'static str, values: &[f64]| {
+        let erosion = Erosion::of(window, key, values, false, &unwatched).unwrap();
+        erosion_in_words(&erosion)
+    };
+    assert!(!words(&window, "f_o", &[0.1, 0.2]).contains("not told (LIM"));
+    let moving = words(&window, "vy", &[-0.1, 0.0, 0.1]);
+    assert!(moving.contains("where a start key beside the two, vy among them, is not 0"));
+    window.base.vx = 0.1;
+    let beside = words(&window, "f_o", &[0.1, 0.2]);
+    assert!(
+        beside.contains("not in this plane, as vx = 0.1"),
+        "{beside}"
+    );
+}
+
 /// A window that is written from its largest values down has the measures of the same cells upwards.
 #[test]
 fn measures_do_not_hang_on_the_order_of_the_cells() {

@@ -122,6 +122,12 @@ fn of_all(model: &Model, taut: &[usize], pulls: &[f64]) -> Vec<f64> {
 }
 
 impl Equilibrium {
+    /// The tension of each line at rest \[N\]; none where no place of rest is known.
+    pub fn known_tensions_n(&self) -> Vec<Option<f64>> {
+        let known = |tension: &f64| self.rests.then_some(*tension);
+        self.tension_n.iter().map(known).collect()
+    }
+
     /// Distributes the load of a floating body that is held by more lines than necessary with the
     /// least sum of squares, as for a submerged one.
     pub(super) fn share_evenly(&mut self, model: &Model) {

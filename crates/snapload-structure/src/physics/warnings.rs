@@ -323,7 +323,8 @@ pub(crate) fn short_records(structure: &Structure) -> Option<Warning> {
 pub(crate) fn turning_warning(structure: &Structure, turned_rad: f64) -> Option<Warning> {
     let (damped, key) = match &structure.afloat {
         Some(afloat) => {
-            let radiates = !afloat.report.fit.memory.terms.is_empty();
+            let mut terms = afloat.report.fit.memory.terms.iter();
+            let radiates = terms.any(|term| term.residue[(2, 2)].norm() > 0.0);
             let given = afloat.body.damping[(2, 2)] != 0.0;
             (radiates || given, "the third number of float.damping")
         }

@@ -2,6 +2,7 @@
 
 use super::verdict::end_words;
 use crate::physics::elastic::damping_ratio;
+use crate::physics::equilibrium::Equilibrium;
 use crate::physics::gumbel::Gumbel;
 use crate::physics::prepared::Prepared;
 use crate::physics::snap::Snap;
@@ -78,7 +79,6 @@ impl Assessment {
     pub fn to_json(&self, name: &str) -> Value {
         let structure = &self.prepared.structure;
         let (rest, groups) = (&self.prepared.rest, &self.prepared.model.groups);
-        let known = |number: f64| rest.rests.then_some(number);
         let utilisations = self.outcome.utilisations(structure);
         let line = |index: usize| {
             let line = &structure.lines[index];
@@ -89,7 +89,7 @@ impl Assessment {
             row["stiffness_n"] = json!(line.stiffness_n);
             row["mass_per_length_kg_m"] = json!(line.mass_per_length_kg_m);
             row["breaking_load_n"] = json!(line.breaking_load_n);
-            row["rest_tension_n"] = json!(known(rest.tension_n[index]));
+            row["rest_tension_n"] = json!(rest.known_tensions_n()[index]);
             row["utilisation"] = json!(utilisations[index]);
             // The ratio of strength to load; infinite, and so null, if nothing pulls.
             row["safety_factor"] = json!(utilisations[index].map(f64::recip));
@@ -115,13 +115,7 @@ impl Assessment {
             "by_restitution": self.by_restitution(),
             "checks": checks.collect::<Vec<_>>(),
             "warnings": self.warnings,
-            "rest": {
-                "x_m": known(rest.place_m[0]), "z_m": known(rest.place_m[1]),
-                "theta_rad": known(rest.theta_rad),
-                "indeterminate": rest.indeterminate,
-                "unstretched_tension_n": rest.shared.as_ref().map(|shared| &shared.unstretched_n),
-                "stretched_m": rest.shared.as_ref().map(|shared| shared.place_m),
-            },
+            "rest": position_of_rest(rest),
             "body": body(structure),
             "afloat": afloat(&self.prepared, self.outcome.waterline.as_ref()),
             "natural_periods": self.periods,
@@ -136,6 +130,19 @@ impl Assessment {
             "neighbour_peaks_n": self.neighbours.iter().map(Outcome::peak_n).collect::<Vec<_>>(),
         })
     }
+}
+
+/// The position of rest; null where none is known.
+fn position_of_rest(rest: &Equilibrium) -> Value {
+    let known = |number: f64| rest.rests.then_some(number);
+    let shared = rest.shared.as_ref();
+    json!({
+        "x_m": known(rest.place_m[0]), "z_m": known(rest.place_m[1]),
+        "theta_rad": known(rest.theta_rad),
+        "indeterminate": rest.indeterminate,
+        "unstretched_tension_n": shared.map(|shared| &shared.unstretched_n),
+        "stretched_m": shared.map(|shared| shared.place_m),
+    })
 }
 
 impl Seas {

@@ -5,7 +5,7 @@ use crate::physics::snap::SLOWEST_M_S;
 use crate::physics::warnings::Warning;
 use crate::runs::assess::Assessment;
 use crate::runs::both::BothModels;
-use crate::runs::outcome::Outcome;
+use crate::runs::outcome::{LineOutcome, Outcome};
 use crate::runs::quantile::{quantile, sorted};
 use crate::runs::seas::Seas;
 use crate::structure::{Structure, Water};
@@ -213,19 +213,10 @@ fn verdict(
         .filter_map(|((number, line), u)| Some((number, line, u?)))
         .collect();
     let worst = known.iter().max_by(|a, b| a.2.total_cmp(&b.2));
-    let broken = known
-        .iter()
-        .filter(|(_, _, u)| *u >= 1.0)
-        .map(|(number, line, u)| {
-            let in_a_snap = line.peak_n.is_some_and(|peak| peak >= line.held_n);
-            let how = if in_a_snap { "in a snap" } else { "while taut" };
-            (
-                *number,
-                *u,
-                if stretching { "as it stretches" } else { how },
-            )
-        });
-    let broken: Vec<_> = broken.collect();
+    let broken = known.iter().filter(|(_, _, u)| *u >= 1.0);
+    let broken: Vec<_> = broken
+        .map(|(number, line, u)| (*number, *u, how_it_breaks(line, stretching)))
+        .collect();
     let all_known = known.len() == outcome.lines.len();
     let open = left_open(warnings);
     let standing = if outcome.stop.exceeds() {
@@ -260,6 +251,17 @@ fn verdict(
     Verdict {
         standing,
         words: paragraph(&words),
+    }
+}
+
+/// How a line would break.
+fn how_it_breaks(line: &LineOutcome, stretching: bool) -> &'static str {
+    if stretching {
+        "as it stretches"
+    } else if line.peak_n.is_some_and(|peak| peak >= line.held_n) {
+        "in a snap"
+    } else {
+        "while taut"
     }
 }
 

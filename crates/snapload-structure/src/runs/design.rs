@@ -247,7 +247,7 @@ impl Tensions {
             // Both of lines that do not stretch, if those would share the load differently.
             rest_n: match &prepared.rest.shared {
                 Some(shared) => Some(shared.unstretched_n[line]),
-                None => prepared.rest.rests.then_some(prepared.rest.tension_n[line]),
+                None => prepared.rest.known_tensions_n()[line],
             },
             largest_n: of_line.largest_n(),
             least_n: of_line.least_n,

@@ -1,7 +1,8 @@
 //! Floating bodies that no line holds in surge, and what damps a body's rotation.
 
-use crate::afloat::{case, parsed, structure};
+use crate::afloat::{by_hand, case, parsed, structure};
 use snapload::analysis::unwatched;
+use snapload_hydro::TermRow;
 use snapload_structure::{Prepared, assess, both_models};
 
 /// On lines that are slack where it floats a body rests as its weight and water have it, at the surge
@@ -139,8 +140,29 @@ fn what_damps_a_rotation_is_known() {
     let by_waves = text.replace("[float]", "[float]\ncentre_of_gravity = [0.5, -0.2]");
     let undamped = by_waves.replace("file = \"pontoon.nc\"\ndeep_water = true\npairs = 6\n", "");
     let damped = undamped.replace("[float]", "[float]\ndamping = [0, 0, 1]");
+    // The memory of heave alone damps no rotation.
+    let (report, _) = by_hand();
+    let mut heave: Vec<TermRow> = report.fit.memory.rows();
+    for row in &mut heave {
+        for (i, residues) in row.residue.iter_mut().enumerate() {
+            for (j, residue) in residues.iter_mut().enumerate() {
+                if (i, j) != (1, 1) {
+                    *residue = [0.0; 2];
+                }
+            }
+        }
+    }
+    heave.retain(|row| row.residue[1][1] != [0.0; 2]);
+    let inf = report.fit.added_mass_inf;
+    let rows: [[f64; 3]; 3] = std::array::from_fn(|i| std::array::from_fn(|j| inf[(i, j)]));
+    let memory = serde_json::json!({ "added_mass_inf": rows, "memory": heave });
+    let file = std::env::temp_dir().join(format!("snapload-heave-{}.json", std::process::id()));
+    std::fs::write(&file, memory.to_string()).unwrap();
+    let of_heave = format!("memory = {:?}", file.display().to_string());
+    let of_heave = by_waves.replace("pairs = 6", &of_heave);
     for (text, key) in [
         (by_waves, None),
+        (of_heave, Some("give the third number of float.damping")),
         (undamped, Some("give the third number of float.damping")),
         (damped, None),
     ] {
@@ -149,4 +171,5 @@ fn what_damps_a_rotation_is_known() {
         let says = |key: &str| warned.as_ref().is_some_and(|words| words.ends_with(key));
         assert!(key.map_or(warned.is_none(), says), "{warned:?}");
     }
+    std::fs::remove_file(file).unwrap();
 }

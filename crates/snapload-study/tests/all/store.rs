@@ -116,8 +116,7 @@ fn groups_that_are_taken_have_the_bytes_of_those_written_anew() {
     assert!(fs::read(merged).unwrap() == wanted);
 }
 
-/// Whenever a sweep is cancelled, the chunks that were begun are complete and saved, and the rest
-/// is done later.
+/// Whenever a sweep is cancelled, the cases that were begun are saved, and the rest is done later.
 #[test]
 fn a_sweep_that_is_told_to_end_goes_on_later() {
     let directory = tempfile::tempdir().unwrap();

@@ -5,7 +5,6 @@ use snapload::{CaseError, Fault, KEYS, Parameters, Value};
 fn given(entries: &[(&str, Value)]) -> Result<Parameters, CaseError> {
     Parameters::from_entries(entries.iter().cloned())
 }
-
 fn text(value: &str) -> Value {
     Value::Text(value.to_owned())
 }
