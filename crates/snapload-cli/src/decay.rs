@@ -4,13 +4,16 @@ use crate::hydro_input::{HydroArgs, triple};
 use crate::json::JsonArgs;
 use crate::outputs::Outputs;
 use serde::Serialize;
-use snapload_hydro::{Decay, FREEDOMS, Swing, decay, swings};
+use snapload_hydro::digits::digits;
+use snapload_hydro::{Decay, FREEDOMS, Floating, Hydrodynamics, Swing, decay, rest_adrift, swings};
 use snapload_report::tables::in_digits;
 use snapload_structure::told;
 use std::fmt::Write as _;
 use std::path::PathBuf;
 
 const EXAMPLES: &str = include_str!("../help/decay.txt").trim_ascii_end();
+/// A displacement below this from the position of the file is none \[m, rad\].
+const SMALL: f64 = 1e-3;
 /// The number of swings that are printed.
 const SHOWN: usize = 8;
 
@@ -99,6 +102,12 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
             damping_ratio: swing.damping_ratio,
         }));
     }
+    if let Some(note) = measured_from(floating, &report.reading.hydro) {
+        text += &told("measured", &note);
+    }
+    if rows.iter().any(|row| row.damping_ratio < 0.0) {
+        text += &told("mixed", MIXED);
+    }
     for warning in &report.warnings {
         text += &told("warning", &format!("{}: {}", warning.what, warning.words));
     }
@@ -113,6 +122,28 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
         swings: rows,
     };
     outputs.finish_told(&answer, text)
+}
+
+/// The words if a swing is larger than the one before.
+const MIXED: &str = "a damping below zero is that of a freedom in which motions of other periods are added; \
+                     snapload hydro has the damping of each motion";
+
+/// From where displacements are measured, if not from the position of the file: the motion is linear
+/// about the position in which the body floats without lines.
+fn measured_from(floating: &Floating, hydro: &Hydrodynamics) -> Option<String> {
+    let at = rest_adrift(hydro, &floating.body, &[], 0.0).map(|(q, _)| q);
+    match at {
+        Some(q) if q[1].abs() < SMALL && q[2].abs() < SMALL => None,
+        Some(q) => Some(format!(
+            "from where the body floats without lines: {} m of heave and {:.2}° of pitch from the position of the \
+             file",
+            digits(&q[1], 3),
+            q[2].to_degrees()
+        )),
+        None => {
+            Some("from the position of the file; what is not balanced there is left out".to_owned())
+        }
+    }
 }
 
 /// The swings of a freedom as a small table below its name.
@@ -144,9 +175,9 @@ fn words(called: &str, swings: &[Swing], freedom: usize, comes_back: bool) -> St
     for swing in side().take(SHOWN) {
         let _ = writeln!(
             text,
-            "            {:>8.2}{:>15.4}{:>10.3}{:>26.2}",
+            "            {:>8.2}{:>15}{:>10.3}{:>26.2}",
             swing.from_s,
-            swing.amplitude,
+            digits(&swing.amplitude, 4),
             swing.period_s,
             100.0 * swing.damping_ratio
         );

@@ -19,7 +19,7 @@ const LONG_OPTION = 8;
 const NOT_OF_A_POINT = {
   a: "a point mass has no size",
   b: "a point mass has no size",
-  inertia: "a point mass has no inertia",
+  inertia: "a point mass has no moment of inertia",
   theta: "a point mass has no rotation",
   vtheta: "a point mass has no rotation",
 };

@@ -27,7 +27,7 @@ export class StructureStage {
     $("standing").textContent = run.standing;
     $("said").textContent = verdict.words;
     $("trust").textContent = trust.words;
-    const whole = `the whole ${round(run.lasts_s)} s follow when the values rest`;
+    const whole = `the whole ${round(run.lasts_s)} s follow when the values stop changing`;
     $("preview").textContent = run.preview ? `This is of the first ${round(run.tEnd)} s; ${whole}.` : "";
     clearTimeout(this.saying);
     const words = sentence(run.standing) + ` ${verdict.words}`;

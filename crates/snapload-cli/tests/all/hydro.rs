@@ -137,6 +137,31 @@ fn decay_tells_its_swings() {
     assert!((period - 3.802).abs() < 0.02, "{period}");
 }
 
+/// Displacements are from where the body floats: a weight of 98.4 t at an arm of 0.3 m turns it by
+/// 98.4 · 9.81 · 0.3/682.7556 rad. Where a swing is larger than the one before, it is said why.
+#[test]
+fn decay_tells_from_where_it_is_measured() {
+    let room = room();
+    let said = |options: &[&str]| {
+        let done = snapload(room.path())
+            .args(["decay", "pontoon.nc", "--pairs", "6", "--duration", "30"])
+            .args(options)
+            .assert()
+            .success();
+        let text = String::from_utf8(done.get_output().stdout.clone()).unwrap();
+        text.split_whitespace().collect::<Vec<_>>().join(" ")
+    };
+    let turned = (98.4 * 9.81 * 0.3_f64 / 682.7556).to_degrees();
+    let aside = said(&["--centre", "0.3,-0.2", "--from", "0,0.3,0.05"]);
+    assert!(aside.contains(&format!("{turned:.2}° of pitch")), "{aside}");
+    assert!(aside.contains("a damping below zero"), "{aside}");
+    let upright = said(&["--from", "0,0.3,0"]);
+    assert!(
+        !upright.contains("measured") && !upright.contains("below zero"),
+        "{upright}"
+    );
+}
+
 /// Errors name their cause and end with status 2, and no file is left behind.
 #[test]
 fn hydro_refuses_with_reasons() {

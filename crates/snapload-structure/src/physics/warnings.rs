@@ -7,7 +7,7 @@ use super::prepared::Prepared;
 use super::waterline::Waterline;
 use super::wave::LinearWave;
 use crate::structure::{Afloat, LineSi, Structure, THREE_HOURS_S, Water};
-use crate::words::{decimals, kilo, paragraph};
+use crate::words::{decimals, digits, kilo, paragraph};
 use askama::Template;
 use serde::Serialize;
 use snapload_hydro::Format;
@@ -260,9 +260,12 @@ fn in_waves(
     let (body, depth, length) = (&structure.body, structure.site.depth_m, wave.length_m());
     let words = match structure.water {
         Water::Sea(_) => {
-            format!("the highest wave of three hours, about {HIGHEST} Hs = {highest:.2} m")
+            format!(
+                "the highest wave of three hours, about {HIGHEST} Hs = {} m",
+                digits(&highest, 2)
+            )
         }
-        _ => format!("the wave, {highest:.2} m"),
+        _ => format!("the wave, {} m", digits(&highest, 2)),
     };
     let miche = 0.142 * (wave.wave_number_1_m * depth).tanh();
     let ursell = highest * length * length / depth.powi(3);

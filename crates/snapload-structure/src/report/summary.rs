@@ -213,7 +213,8 @@ fn pull_words(pull: &Pull) -> String {
         .rebound_m_s
         .map_or("-".to_owned(), |speed| format!("{speed:.2}"));
     format!(
-        "  {:>4}{:>8.3}{:>8.3}{:>8}{:>8}{rebound:>10}",
+        // A blank before each column, so that long numbers do not run together.
+        "  {:>4} {:>7.3} {:>7.3} {:>7} {:>7} {rebound:>9}",
         pull.line + 1,
         pull.from_s,
         pull.to_s,
@@ -227,7 +228,7 @@ fn snap_words(snap: &Snap) -> String {
         .energy_peak_n
         .map_or("-".to_owned(), |peak| kilo(&peak, 0));
     format!(
-        "{:>6}{:>8.3}{:>8.3}{peak:>8}",
+        "{:>6} {:>7.3} {:>7.3} {peak:>7}",
         snap.line + 1,
         snap.t_s,
         snap.speed_m_s

@@ -240,7 +240,19 @@ impl Share {
         let z2 = z * z;
         let centre = (p + z2 / (2.0 * n)) / (1.0 + z2 / n);
         let half = z / (1.0 + z2 / n) * (p * (1.0 - p) / n + z2 / (4.0 * n * n)).sqrt();
-        [(centre - half).max(0.0), (centre + half).min(1.0)]
+        // At its ends the interval is exact: rounding would leave the share itself out of it.
+        [
+            if self.count == 0 {
+                0.0
+            } else {
+                (centre - half).max(0.0)
+            },
+            if self.count == self.of {
+                1.0
+            } else {
+                (centre + half).min(1.0)
+            },
+        ]
     }
 }
 
@@ -260,6 +272,7 @@ mod tests {
             (630, 1000, [0.599_631_7, 0.659_373_3]),
             (0, 20, [0.0, 0.161_125_2]),
             (20, 20, [0.838_874_8, 1.0]),
+            (0, 24, [0.0, 0.137_974_0]),
         ];
         for (count, of, [low, high]) in known {
             let share = Share {
@@ -269,6 +282,7 @@ mod tests {
             };
             let interval = share.interval();
             assert!((interval[0] - low).abs() < 1e-6, "{interval:?}");
+            assert!((interval[0]..=interval[1]).contains(&share.part()));
             assert!((interval[1] - high).abs() < 1e-6, "{interval:?}");
         }
     }
