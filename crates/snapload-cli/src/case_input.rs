@@ -134,6 +134,16 @@ pub(crate) fn read_up_to(path: &Path, largest: u64, too_large: &str) -> Result<S
     let read = File::open(path).and_then(|file| file.take(largest + 1).read_to_end(&mut bytes));
     match read {
         Ok(length) if length as u64 > largest => Err(bad(too_large)),
+        Ok(_)
+            if [&b"\x89HDF"[..], b"CDF"]
+                .iter()
+                .any(|mark| bytes.starts_with(mark)) =>
+        {
+            Err(bad(
+                "a netCDF file, not a case file; snapload hydro reads one of a panel code, and float.file names it in \
+                 the case of a structure",
+            ))
+        }
         Ok(_) => String::from_utf8(bytes).map_err(|error| {
             let at = error.utf8_error().valid_up_to();
             bad(&format!(

@@ -60,7 +60,7 @@ export class StructureWaves {
   #tell({ periods_s, heights_m, cells, utilisation, length }) {
     const what = utilisation ? "Largest utilisation" : "Fastest snap [m/s]";
     $("waves-said").textContent =
-      `${what} in waves run for ${length} periods each; × fails or can not be run. Single cells are uneven: read regions. ` +
+      `${what} in waves run for ${length} periods each; × fails or can not be run. Motions are chaotic, so that single cells may differ from their neighbours. ` +
       "A click runs a wave.";
     const plainly = (value) => Number(value.toPrecision(3));
     const cell = (i, j) => {

@@ -119,8 +119,8 @@ const DESIGN: &[Key] = &[
     Key::new("least_share", "1", Kind::number(0.0, 1.0), Derived("no check"),
         "the least tension of a line must be above this share of its tension at rest; 0: no line goes slack"),
     Key::new("rest_factor", "1", FACTOR, Derived("no check"),
-        "must stay positive: rest_factor times the tension at rest, less dynamic_factor times what the least tension is below it"),
-    Key::new("dynamic_factor", "1", FACTOR, Derived("no check"), "see rest_factor, with which it goes"),
+        "factor on the tension at rest; this must exceed dynamic_factor times what the least tension is below it"),
+    Key::new("dynamic_factor", "1", FACTOR, Derived("no check"), "factor on what the least tension is below that at rest; goes with rest_factor"),
     Key::new("force_share", "1", FACTOR, Derived("no check"),
         "the vertical force of the waves must be at most this share of the net buoyancy; not of a floating body"),
 ];

@@ -46,6 +46,7 @@ fn bad_files_are_refused_with_the_line() {
         ),
         (b"e = 99999999999999999999\n", &["bad.toml", "line 1"]),
         (b"\xff\xfe\x00", &["bad.toml", "UTF-8"]),
+        (b"\x89HDF\r\n", &["bad.toml", "netCDF", "snapload hydro"]),
     ] {
         let d = directory();
         fs::write(d.path().join("bad.toml"), contents).unwrap();

@@ -68,9 +68,17 @@ pub fn read(name: &str, text: &str) -> Result<Reading, CaseError> {
     if sections.rows(Section::Other).next().is_some() {
         reader.note("Rows below a header that is not known were left out.");
     }
+    let mut known: Vec<&str> = Vec::new();
     for (origin, line) in &sections.front {
         let line = line.trim_start_matches(['#', ' ', '\t']);
         if let Some(set) = line.strip_prefix(KEY_LINE) {
+            let (key, value) = set.split_once('=').unwrap_or((set, ""));
+            let key = key.trim();
+            if known.contains(&key) {
+                let error = CaseError::value(key, value.trim(), "one value; the file has two");
+                return Err(error.at(origin.as_str()));
+            }
+            known.push(key);
             let given = reader.entries.set(set.trim());
             given.map_err(|error| error.at(origin.as_str()))?;
         }

@@ -34,3 +34,21 @@ fn no_key_is_lost() {
         }
     }
 }
+
+/// A key that the front matter has twice is refused, with its name.
+#[test]
+fn a_key_that_is_given_twice_is_refused() {
+    let wave = include_str!("../../../../docs/examples/cylinder.toml");
+    let entries = Entries::parse(&STRUCTURE, "case", wave).unwrap();
+    let written = moordyn::write("case", &Structure::from_entries(&entries).unwrap(), 1).unwrap();
+    let line = written
+        .lines()
+        .find(|line| line.contains("snapload: wave.height"))
+        .unwrap();
+    let twice = written.replace(line, &format!("{line}\nsnapload: wave.height = 3"));
+    let refused = moordyn::read("case", &twice).err().unwrap().to_string();
+    assert!(
+        refused.contains("wave.height = 3") && refused.contains("the file has two"),
+        "{refused}"
+    );
+}
