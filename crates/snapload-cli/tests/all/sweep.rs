@@ -432,7 +432,7 @@ fn a_finished_study_is_left_as_it_is() {
         .unwrap();
     sweep(d.path(), &SHORT, "a.parquet")
         .code(2)
-        .stderr(contains("this very study, complete"));
+        .stderr(contains("exists already and holds this study, complete"));
     sweep(d.path(), &[&SHORT[..], &["--resume"]].concat(), "a.parquet").success();
     assert_eq!(
         fs::metadata(d.path().join("a.parquet"))
