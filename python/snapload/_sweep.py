@@ -239,7 +239,7 @@ def merge(parts: Iterable[str | PathLike[str]], out: str | PathLike[str]) -> xar
     files = [there(fspath(part)) for part in parts]
     target = Path(fspath(out))
     if target.exists():
-        raise ValueError(f"{target} is there already; choose another out, or remove it")
+        raise ValueError(f"{target} exists already; choose another out, or remove it")
     with tempfile.TemporaryDirectory(prefix=".snapload-", dir=target.parent, ignore_cleanup_errors=True) as scratch:
         _engine.merge(files, joined := Path(scratch) / target.name)
         joined.replace(target)

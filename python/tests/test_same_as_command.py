@@ -156,7 +156,7 @@ def test_random_points_tables_and_parts_are_the_same(command, tmp_path: Path):
         command("sweep", "--set=t_end=5", "--vary=e=0.5:0.9:5", "--shard", f"{i}/2", "--out", str(part))
     whole = snapload.merge(parts, tmp_path / "whole.parquet")
     assert whole.drop_attrs().identical(snapload.sweep(case, e="0.5:0.9:5").drop_attrs())
-    with pytest.raises(ValueError, match="is there already"):
+    with pytest.raises(ValueError, match="exists already"):
         snapload.merge(parts, tmp_path / "whole.parquet")
 
 

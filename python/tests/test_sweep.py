@@ -80,7 +80,7 @@ def test_only_resume_goes_on(tmp_path: Path):
     out = tmp_path / "e.parquet"
     first = snapload.sweep(snapload.Case(), out=out, e=[0.5, 0.6])
     assert snapload.sweep(snapload.Case(), out=out, resume=True, e=[0.5, 0.6]).identical(first)
-    with pytest.raises(ValueError, match="is there already"):
+    with pytest.raises(ValueError, match="exists already"):
         snapload.sweep(snapload.Case(), out=out, e=[0.5, 0.6])
     with pytest.raises(ValueError, match="holds something else"):
         snapload.sweep(snapload.Case(), out=out, resume=True, e=[0.5, 0.7])

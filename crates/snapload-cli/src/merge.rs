@@ -28,7 +28,7 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
     check_name(&args.out)?;
     if std::fs::symlink_metadata(&args.out).is_ok() {
         return Err(Failure::BadInput(format!(
-            "{} is there already; choose another --out, or remove it",
+            "{} exists already; choose another --out, or remove it",
             args.out.display()
         )));
     }

@@ -83,7 +83,7 @@ fn is_there(path: &Path) -> bool {
 /// An existing picture is not overwritten, as rows are not.
 fn occupied(path: &Path) -> Failure {
     Failure::BadInput(format!(
-        "--plot: {} is there already; choose another name, or remove it",
+        "--plot: {} exists already; choose another name, or remove it",
         path.display()
     ))
 }

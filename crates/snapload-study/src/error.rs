@@ -78,12 +78,12 @@ impl Occupied {
                 file.display()
             ),
             Self::Damaged(file) => format!(
-                "{} is there already and held this study, but it is damaged: its checksum is not that of its bytes; \
+                "{} exists already and held this study, but it is damaged: its checksum is not that of its bytes; \
                  remove it to compute it anew, or choose another {out}",
                 file.display()
             ),
             Self::OtherFile(file) => format!(
-                "{} is there already, and holds something else; choose another {out}, or remove it",
+                "{} exists already and holds something else; choose another {out}, or remove it",
                 file.display()
             ),
             Self::Begun {

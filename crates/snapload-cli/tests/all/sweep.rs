@@ -205,7 +205,7 @@ fn threads_and_parts_change_no_byte() {
     assert!(bytes(d.path(), "one.parquet") == bytes(d.path(), "joined.parquet"));
     merge(&parts, "joined.parquet")
         .code(2)
-        .stderr(contains("is there already"));
+        .stderr(contains("exists already"));
     merge(&parts[..2], "x").code(2).stderr(contains(
         "rows 3 to 5 are in none of the files; missing is --shard 2/3",
     ));

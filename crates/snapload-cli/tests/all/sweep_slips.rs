@@ -112,7 +112,7 @@ fn what_is_there_is_not_written_over() {
     fs::write(d.path().join("map.svg"), "mine").unwrap();
     sweep(d.path(), &plot, "a.parquet")
         .code(2)
-        .stderr(contains("--plot: map.svg is there already"));
+        .stderr(contains("--plot: map.svg exists already"));
     assert!(!d.path().join("a.parquet").exists());
     fs::remove_file(d.path().join("map.svg")).unwrap();
     sweep(d.path(), &plot, "a.parquet").success();
@@ -125,7 +125,7 @@ fn what_is_there_is_not_written_over() {
     let other = [&again[..], &["--show", "rho1"]].concat();
     sweep(d.path(), &other, "a.parquet")
         .code(2)
-        .stderr(contains("--plot: map.svg is there already"));
+        .stderr(contains("--plot: map.svg exists already"));
     assert!(bytes(d.path(), "map.svg") == picture);
     snapload(d.path())
         .args([
@@ -138,7 +138,7 @@ fn what_is_there_is_not_written_over() {
         ])
         .assert()
         .code(2)
-        .stderr(contains("--plot: map.svg is there already"));
+        .stderr(contains("--plot: map.svg exists already"));
 }
 
 #[test]
