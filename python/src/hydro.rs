@@ -1,10 +1,12 @@
 //! Coefficients of floating bodies: from an xarray dataset or a file to the results of `snapload
 //! hydro`.
 
-use crate::errors::of_program;
+use crate::errors::{of_case, of_program};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use serde::Deserialize;
+use serde_json::{Map, Value};
+use snapload::CaseError;
 use snapload_hydro::{
     Dataset, FirstColumn, FitOptions, Format, Given, HydroError, Line, Reading, Report, Request,
     Values, Variable, Weight, from_dataset, read,
@@ -57,6 +59,25 @@ fn first_column(word: Option<&str>) -> PyResult<FirstColumn> {
     }
 }
 
+/// The options, or an error that names the one that is of another form.
+fn read_asked(text: &str) -> PyResult<Asked> {
+    let options: Map<String, Value> = serde_json::from_str(text).map_err(of_program)?;
+    for (key, value) in &options {
+        let alone = Map::from_iter([(key.clone(), value.clone())]);
+        if let Err(error) = Asked::deserialize(Value::Object(alone)) {
+            let words = error.to_string();
+            let allowed = match words.split_once("expected ") {
+                Some((_, "f64")) => "a number",
+                Some((_, "fewer elements in array")) => "fewer numbers",
+                Some((_, allowed)) => allowed,
+                None => words.as_str(),
+            };
+            return Err(of_case(CaseError::value(key, value.to_string(), allowed)));
+        }
+    }
+    Asked::deserialize(Value::Object(options)).map_err(of_program)
+}
+
 fn refused(error: HydroError) -> PyErr {
     PyValueError::new_err(error.to_string())
 }
@@ -71,7 +92,7 @@ pub(crate) fn hydro(
     variables: Option<Vec<Told>>,
     asked: &str,
 ) -> PyResult<(String, Vec<(String, String)>)> {
-    let asked: Asked = serde_json::from_str(asked).map_err(of_program)?;
+    let asked = read_asked(asked)?;
     let given = Given {
         density_kg_m3: asked.density,
         gravity_m_s2: asked.gravity,

@@ -68,6 +68,13 @@ def test_bad_datasets_are_refused() -> None:
         snapload.Hydro.from_dataset(pontoon.assign(radiation_damping=-pontoon["radiation_damping"]))
     with pytest.raises(ValueError, match="1025 in the file and 1000"):
         snapload.Hydro.from_file(PONTOON, density=1000)
+    for asked, words in (
+        ({"centre": (1,)}, r"centre = \[1.0\] is not allowed; allowed: an array of length 2"),
+        ({"damping": (1, 2, 3, 4)}, "damping = .* is not allowed; allowed: fewer numbers"),
+        ({"mass": "heavy"}, 'mass = "heavy" is not allowed; allowed: a number'),
+    ):
+        with pytest.raises(ValueError, match=words):
+            snapload.Hydro.from_file(PONTOON, **asked)  # type: ignore[arg-type]
     with pytest.raises(FileNotFoundError):
         snapload.Hydro.from_file("nowhere.nc")
     with pytest.raises(ValueError, match="first_column"):

@@ -17,7 +17,7 @@ pub(crate) const LONG: [&str; 8] = [
     "--vary",
     "f_o=0.01:0.6:60",
     "--vary",
-    "omega=0.4:2.4:1201",
+    "omega=0.4:2.4:1101",
     "--threads",
     "1",
 ];
