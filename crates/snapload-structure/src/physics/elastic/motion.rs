@@ -162,12 +162,12 @@ impl<'a, const N: usize> Phase<'a, N> {
                 let state = state_of(&y);
                 if let Some(line) = self.changed(&state, fresh) {
                     let s = steps.locate(line, last, s);
-                    steps.keep_samples(s, record);
+                    steps.keep_samples(s, record)?;
                     // The dense output is less exact than the steps.
                     let reached = self.at(s, before, steps.method.y_prev())?;
                     return Ok((s, reached, Some(line)));
                 }
-                steps.keep_samples(s, record);
+                steps.keep_samples(s, record)?;
                 record.see(self.begin + s, &state, self.pulling);
                 last = s;
             }
@@ -204,14 +204,14 @@ impl<M: Method<N>, const N: usize> Steps<'_, M, N> {
     }
 
     /// Keeps the states of all samples up to a time of the phase, by the dense output of the step.
-    fn keep_samples(&mut self, s: f64, record: &mut Record<'_>) {
+    fn keep_samples(&mut self, s: f64, record: &mut Record<'_>) -> Result<(), CaseError> {
         let Phase { begin, pulling, .. } = *self.phase;
         while let Some((t_s, t)) = record.next_sample(begin + s) {
             let within = (t - begin).clamp(self.method.t_prev(), self.method.t());
-            if let Ok(y) = self.method.interpolate(within) {
-                record.keep(t_s, &state_of(&y), pulling);
-            }
+            let y = self.method.interpolate(within).map_err(gave_up)?;
+            record.keep(t_s, &state_of(&y), pulling);
         }
+        Ok(())
     }
 
     /// When a line changes, by bisection on the dense output.
