@@ -9,10 +9,11 @@ impl<const WORDS: usize> Precise<WORDS> {
         if !self.valid {
             return "nan".to_owned();
         }
-        let (_, magnitude) = self.repr().significand().clone().into_parts();
+        let number = self.repr();
+        let (_, magnitude) = number.significand().clone().into_parts();
         let scaled = magnitude * UBig::from(10u8).pow(decimals);
-        let bits = self.exponent.unsigned_abs() as usize;
-        let whole = match self.exponent {
+        let bits = number.exponent().unsigned_abs();
+        let whole = match number.exponent() {
             0.. => scaled << bits,
             _ => (scaled + (UBig::ONE << (bits - 1))) >> bits,
         };

@@ -4,10 +4,10 @@
 //!
 //! A result is rounded to nearest, to a number of bits; there is none where it has no value.
 
+use super::nearest::{self, Operand, Scale};
 use dashu_float::round::mode::HalfEven;
 use dashu_float::{Context, FBig, FpError, Repr};
 use dashu_int::{IBig, Sign, UBig};
-use std::cmp::Ordering;
 
 /// A number in the library's representation.
 pub(super) type Number = Repr<2>;
@@ -26,42 +26,38 @@ fn known<E>(result: Result<Rounded, E>) -> Option<Number> {
     result.ok().map(Rounded::into_repr)
 }
 
-/// From a significand, an integer, least significant byte first.
-pub(super) fn number(significand: &[u8], exponent: i64, negative: bool) -> Number {
-    let sign = if negative {
+pub(super) fn number(operand: Operand) -> Number {
+    let mut bytes = Vec::with_capacity(8 * operand.limbs.len());
+    for limb in operand.limbs {
+        bytes.extend(limb.to_le_bytes());
+    }
+    let sign = if operand.negative {
         Sign::Negative
     } else {
         Sign::Positive
     };
-    let magnitude = UBig::from_le_bytes(significand);
-    Repr::new(IBig::from_parts(sign, magnitude), exponent as isize)
+    let magnitude = UBig::from_le_bytes(&bytes);
+    Repr::new(IBig::from_parts(sign, magnitude), operand.exponent as isize)
 }
 
-/// Writes the significand of a number, padded with zeros; returns its exponent and whether it is
-/// negative. None if the significand does not fit.
-pub(super) fn write(number: &Number, significand: &mut [u8]) -> Option<(i64, bool)> {
+pub(super) fn integer(value: i64) -> Number {
+    Repr::new(IBig::from(value), 0)
+}
+
+/// Writes the significand of a number that has at most one bit more than it, as the library's sums
+/// may have. None if the number has no value.
+pub(super) fn write(number: &Number, limbs: &mut [u64]) -> Option<Scale> {
     let (sign, magnitude) = number.significand().clone().into_parts();
     let bytes = magnitude.to_le_bytes();
-    if number.is_infinite() || bytes.len() > significand.len() {
+    if number.is_infinite() || bytes.len() > 8 * limbs.len() {
         return None;
     }
-    significand[..bytes.len()].copy_from_slice(&bytes);
-    if bytes.is_empty() {
-        return Some((0, false));
+    for (limb, bytes) in limbs.iter_mut().zip(bytes.chunks(8)) {
+        let mut whole = [0; 8];
+        whole[..bytes.len()].copy_from_slice(bytes);
+        *limb = u64::from_le_bytes(whole);
     }
-    Some((number.exponent() as i64, sign == Sign::Negative))
-}
-
-pub(super) fn add(bits: usize, a: &Number, b: &Number) -> Option<Number> {
-    known(context(bits).add(a, b).map(|sum| sum.value()))
-}
-
-pub(super) fn subtract(bits: usize, a: &Number, b: &Number) -> Option<Number> {
-    known(context(bits).sub(a, b).map(|difference| difference.value()))
-}
-
-pub(super) fn multiply(bits: usize, a: &Number, b: &Number) -> Option<Number> {
-    known(context(bits).mul(a, b).map(|product| product.value()))
+    nearest::normalise(limbs, 0, number.exponent() as i64, sign == Sign::Negative)
 }
 
 pub(super) fn divide(bits: usize, a: &Number, b: &Number) -> Option<Number> {
@@ -90,14 +86,6 @@ pub(super) fn power_of_ten(bits: usize, power: u32) -> Option<Number> {
     known(Ok::<_, FpError>(context(bits).convert_int(power).value()))
 }
 
-pub(super) fn of_double(value: f64) -> Option<Number> {
-    known(Rounded::try_from(value))
-}
-
 pub(super) fn to_double(bits: usize, x: Number) -> f64 {
     Rounded::from_repr(x, context(bits)).to_f64().value()
-}
-
-pub(super) fn compare(a: &Number, b: &Number) -> Ordering {
-    a.cmp(b)
 }
