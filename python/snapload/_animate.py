@@ -62,7 +62,7 @@ class Animation:
         if not 0 < seconds * fps <= _MOST_FRAMES:
             raise ValueError(
                 f"seconds = {seconds!r} is not allowed; allowed: 0 < seconds <= {_MOST_FRAMES / fps:g} at {fps} "
-                "pictures a second"
+                "pictures per second"
             )
         self._run, self._span, self._fps = run, (float(start), stop), fps
         self._count = max(2, round(seconds * fps))

@@ -57,7 +57,7 @@ class BaseRun:
         if self._made is None:
             again = self._again()
             if json.loads(again.head()) != self._head:
-                raise ValueError(f"another version of snapload made this run; {_engine.__version__} has other bits")
+                raise ValueError(f"another version of snapload made this run; {_engine.__version__} gives another")
             self._made = again
         return self._made
 
@@ -141,7 +141,7 @@ class BaseRun:
 
     def _of_trust(self, name: str) -> dict[str, Any]:
         if not self._trusted:
-            raise AttributeError(f"this run has no {name}: it was made with trust=False; run it without that")
+            raise AttributeError(f"this run has no {name}: it was made with trust=False; run the case without it")
         return cast(dict[str, Any], self._head[name])
 
     @property
@@ -282,7 +282,7 @@ class BaseRun:
         """
         times = np.asarray(t, dtype=np.float64)
         if np.isnan(times).any():
-            raise ValueError("t = nan is not allowed; allowed: numbers; those outside the run are held to its span")
+            raise ValueError("t = nan is not allowed; allowed: numbers; those outside the run are clipped to it")
         flat = self._records(self._engine.motion_at(np.ascontiguousarray(times.ravel())))
         return flat.reshape(times.shape).view(np.recarray)
 

@@ -287,7 +287,7 @@ _ERODED = {
 _MEANINGS = {
     "outcome": "how the run ended",
     "t": "when it ended, in T",
-    "legal": "whether the start can be",
+    "legal": "whether the start is legal",
     "safe": "whether it reaches no limit",
     "decided": "whether its neighbours end alike",
     "trusted": "whether trust reaches its end",

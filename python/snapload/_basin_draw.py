@@ -20,9 +20,9 @@ if TYPE_CHECKING:
 #: limit.
 _ENDS = {
     "settled": ("#9AD0F3", "settled"),
-    "end_time": ("#56B4E9", "goes on"),
+    "end_time": ("#56B4E9", "continues"),
     "sliding_start": ("#56B4E9", "slides"),
-    "impact_limit": ("#56B4E9", "goes on"),
+    "impact_limit": ("#56B4E9", "continues"),
     "rotation_limit": (VERMILION, "rotation limit"),
     "upper_bound": ("#7A3B00", "upper bound"),
 }

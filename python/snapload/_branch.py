@@ -136,14 +136,14 @@ class Branch:
         texts: dict[str, tuple[list[str], str]] = {
             "stability": (words, "stable, unstable, neutral or superstable"),
             "symbol": ([" ".join(row["symbol"]) for row in rows], "the events in their order"),
-            "why_not": (["; ".join(row["why_not"]) for row in rows], "why no body can have the orbit"),
+            "why_not": (["; ".join(row["why_not"]) for row in rows], "why it is not a possible motion"),
         }
         variables |= {
             "multipliers": (("point", "multiplier"), multipliers, {"long_name": "Floquet multipliers"}),
             "largest_multiplier": ("point", np.abs(multipliers).max(axis=1), {"long_name": "largest |multiplier|"}),
-            "stable": ("point", np.isin(stability, ("stable", "superstable")), {"long_name": "neighbours come back"}),
-            "admissible": ("point", column("admissible", bool), {"long_name": "a body can have the orbit"}),
-            "return_error": ("point", column("return_error", np.float64), {"long_name": "error of a lap that is run"}),
+            "stable": ("point", np.isin(stability, ("stable", "superstable")), {"long_name": "neighbours converge"}),
+            "admissible": ("point", column("admissible", bool), {"long_name": "possible motion of the body"}),
+            "return_error": ("point", column("return_error", np.float64), {"long_name": "error of a simulated cycle"}),
         }
         variables |= {
             name: ("point", np.array(values, dtype=object), {"long_name": meaning})

@@ -24,25 +24,25 @@ def events_table(rows: list[dict[str, Any]]) -> Table:
     }
     return Table._of(
         [
-            ("kind", "", "what happens", np.array([row["kind"] for row in rows], dtype=object)),
+            ("kind", "", "kind of event", np.array([row["kind"] for row in rows], dtype=object)),
             ("value", "1", "value of the key", column("value")),
             ("arclength", "1", "length along the branch", column("arclength")),
             *((name, MOTION[name], f"{name} at the section", states[:, k]) for k, name in enumerate(STATE)),
             ("cable", "", "number of the cable, 0 for none", whole_numbers["cable"]),
-            ("t", "T", "time in the lap", column("t")),
+            ("t", "T", "time in the cycle", column("t")),
             (
                 "normal_acceleration",
                 "L/T^2",
-                "what bends the gap away at a graze",
+                "normal acceleration at a graze",
                 column("normal_acceleration"),
             ),
             (
                 "sqrt_coefficient",
                 "L^(1/2)/T",
-                "jump of the velocity by root of length",
+                "velocity jump per square root of length",
                 column("sqrt_coefficient"),
             ),
             ("largest_multiplier", "1", "largest |multiplier|", np.array(largest, dtype=np.float64)),
-            ("admissible", "", "whether a body can have the orbit", whole_numbers["admissible"]),
+            ("admissible", "", "whether it is a possible motion of the body", whole_numbers["admissible"]),
         ]
     )

@@ -125,7 +125,7 @@ class CriticalForce(Result):
 
         rows = [("f_cr", "none" if self.f_cr is None else f"{self.f_cr:g}")]
         if self.reason is not None:
-            rows.append(("because of", f"{self.reason.replace('_', ' ')} at t = {self.t:.4f}"))
+            rows.append(("reason", f"{self.reason.replace('_', ' ')} at t = {self.t:.4f}"))
         rows.append(("exceeding", ", ".join(interval(*pair) for pair in self.exceeding)))
         rows += [
             (f"{name[1:].lstrip('0')} % exceed first at", "none" if f_o is None else f"{f_o:g}")
@@ -225,11 +225,11 @@ def critical_force(
     engine, step, largest = engine_of(case), number("step", step), number("largest", largest)
     if over is not None:
         if members or uncertainty is not None:
-            raise ValueError("over goes without neighbours; leave out members and uncertainty, or over")
+            raise ValueError("over runs no neighbours; leave out members and uncertainty, or over")
         return _over(engine, over, step, largest, progress)
     members, seed = whole("members", members), whole("seed", seed)
     if uncertainty is not None and members == 0:
-        raise ValueError("uncertainty asks for neighbours, but none are to be run; give members, such as members=200")
+        raise ValueError("uncertainty needs neighbours, but none are run; give members, such as members=200")
     found = json.loads(_engine.critical_force(engine, step, largest))
     exceeding = np.array(found.pop("exceeding"), dtype=np.float64).reshape(-1, 2)
     curve, passes = None, {}
@@ -252,7 +252,7 @@ def _over(
     from ._dataset import ABOUT, attributes, labels
 
     if "f_o" in over:
-        raise ValueError("over = f_o is not allowed: it is what is sought; allowed: other keys")
+        raise ValueError("over = f_o is not allowed, as it is the key that is searched; allowed: other keys")
     axes = [(key, listed(key, values)) for key, values in over.items()]
     study = _engine.Study.grid(engine, axes, False)
     with bar("critical force", len(study), progress) as tell:

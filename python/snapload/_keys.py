@@ -35,9 +35,9 @@ class LimitBounds:
 #: The same as a section of a docstring.
 LIMIT_PARAMETERS = """
     rotation_limit : float, optional
-        The run ends where the body has turned so far, either way [rad].
+        The run ends where the rotation reaches this angle in either direction [rad].
     upper_bound : float, optional
-        The run ends where the highest point of the body is so high.
+        The run ends where the highest point of the body reaches this height.
 """
 
 #: Keys that None takes back to what holds without them.

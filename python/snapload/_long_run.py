@@ -97,8 +97,8 @@ def section(
     told = _section(case, periods, keep, phase, at == "impacts", progress)
     if told["stop"] is not None and not told["points"]:
         warnings.warn(
-            f"the motion of this start {_stopped(told)}, before the first point of the section, which comes after "
-            f"{periods - keep} periods of the forcing; ask for fewer periods, or begin elsewhere",
+            f"the motion from this start {_stopped(told)}, before the first point of the section, which comes after "
+            f"{periods - keep} periods of the forcing; use fewer periods, or another start",
             stacklevel=2,
         )
     from ._dataset import ABOUT
@@ -217,7 +217,7 @@ def lyapunov_spectrum(
     # Growth is measured between sections, so that one more than periods is needed.
     told = _section(case, transient + periods + 1, periods + 1, 0.0, False, progress)
     if told["stop"] is not None:
-        raise ValueError(f"the motion of this start {_stopped(told)}; begin elsewhere, or ask less")
+        raise ValueError(f"the motion from this start {_stopped(told)}; use another start, or fewer periods")
     values, errors = _spectrum(told["exponents"])
     return LyapunovSpectrum(values, errors, periods, transient)
 
@@ -311,7 +311,7 @@ def orbit_diagram(
     stops = np.array([row["stop"] or "" for row in rows], dtype=object)
     variables["stop"] = (key, stops, {"long_name": "which limit stopped the motion"})
     restarted = np.array([row["restarted"] for row in rows], dtype=bool)
-    variables["restarted"] = (key, restarted, {"long_name": "begun with the start of the case"})
+    variables["restarted"] = (key, restarted, {"long_name": "started again from the start of the case"})
     coords = {
         key: (key, numbers(rows, "value"), about[key]),
         "k": ("k", np.arange(keep + 1), {"long_name": "number of the period that is kept"}),
@@ -325,7 +325,7 @@ with_keys(orbit_diagram, defaults=False)
 #: What is told of every value of a diagram, beside its points.
 _OF_VALUES = {
     "period": "period, in periods of the forcing",
-    "snaps": "snaps a period of the forcing",
+    "snaps": "snaps per period of the forcing",
     "exponent": "largest Lyapunov exponent, in 1/T",
     "exponent_se": "its standard error, in 1/T",
     "y_max": "highest y, in L",

@@ -106,7 +106,7 @@ class Body:
             put(self, half_size=half_size)
         if self.inertia is None and (self.radius or self.half_size):
             raise ValueError(
-                "inertia = None is not allowed of a body with a size: None is a point mass; give its moment of inertia"
+                "inertia = None is not allowed for a body with a size: None is a point mass; give its moment of inertia"
             )
 
 

@@ -56,16 +56,14 @@ def plan(case: Case, trust: bool, axes: Mapping[str, Any], random: int | None, s
     engine_of(case)
     if cases is not None:
         if axes or random is not None:
-            raise ValueError("cases says itself what varies; leave out random, seed and the values of keys, or cases")
+            raise ValueError("cases determines what varies; leave out random, seed and the values of keys, or cases")
         if isinstance(cases, (str, PathLike)):
             path = Path(there(fspath(cases)))
             return Plan(case, trust, table=(path.name, path.read_bytes(), str(path)))
         return Plan(case, trust, table=("cases.csv", table_of(cases), "the list of cases"))
     if random is None:
         if seed is not None:
-            raise ValueError(
-                f"seed = {seed!r} says which random points, and there are none; add random, or leave it out"
-            )
+            raise ValueError(f"seed = {seed!r} selects random points, and there are none; add random, or leave it out")
         return Plan(case, trust, [(key, listed(key, values)) for key, values in axes.items()])
     points = whole("random", random), whole("seed", 0 if seed is None else seed)
     return Plan(case, trust, [(key, side(key, ends)) for key, ends in axes.items()], random=points)

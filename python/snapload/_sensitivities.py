@@ -55,7 +55,7 @@ def sensitivities(case: Case, impacts: int = 3) -> Table:
     return Table._of(
         [
             ("impact", "", "number of the impact", np.array(numbers, dtype=np.int64)),
-            ("key", "", "key by which is derived", np.array(keys, dtype=str)),
+            ("key", "", "key of the derivative", np.array(keys, dtype=str)),
             *(
                 (name, f"{unit} over the unit of the key", f"derivative of {name}", np.array(values, dtype=np.float64))
                 for name, unit, values in derivatives

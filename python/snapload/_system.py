@@ -140,12 +140,12 @@ class System(LimitBounds):
         for cable, tether in enumerate(self.cables, 1):
             if tether.fairlead != (0.0, 0.0):
                 raise ValueError(
-                    f"fairlead = {tether.fairlead} of cable {cable} is not allowed; allowed: (0, 0) of a point mass; "
+                    f"fairlead = {tether.fairlead} of cable {cable} is not allowed; allowed: (0, 0) for a point mass; "
                     "give the body an inertia"
                 )
         for name in ("theta", "vtheta"):
             if getattr(self, name) != 0.0:
-                raise ValueError(f"{name} = {getattr(self, name)} is not allowed; allowed: 0 of a point mass")
+                raise ValueError(f"{name} = {getattr(self, name)} is not allowed; allowed: 0 for a point mass")
 
     @cached_property
     def _begun(self) -> _engine.System:
@@ -237,7 +237,7 @@ class System(LimitBounds):
         """
         if not trust:
             if uncertainty is not None:
-                raise ValueError("trust=False carries no deviations along; leave out uncertainty, or trust=False")
+                raise ValueError("trust=False follows no deviations; leave out uncertainty, or trust=False")
             return SystemRun(self, None, _engine.run_system(self._begun, None, 0.0))
         options = self._doubts(uncertainty), number("tolerance", tolerance)
         return SystemRun(self, options, _engine.run_system(self._begun, *options))

@@ -49,7 +49,7 @@ def changed(system: System, parts: dict[str, Any], key: str, value: Any) -> dict
         sinusoids = _one_or_all(key, forcing.sinusoids, name, place, value)
         return {"forcing": dataclasses.replace(forcing, sinusoids=sinusoids)}
     raise ValueError(
-        f"there is no key {key!r}; there are {', '.join(names(system))}, and length_2 or omega_1 of one part"
+        f"there is no key {key!r}; the keys are {', '.join(names(system))}, and length_2 or omega_1 for one part"
     )
 
 

@@ -61,7 +61,8 @@ pub(crate) fn section(
     let found = found.map_err(of_work)?;
     if let Some(kept) = found.impacts.as_ref().filter(|kept| kept.left_out > 0) {
         let count = kept.points.len() as u64 + kept.left_out;
-        let allowed = format!("few enough for at most {MOST_KEPT} impacts; here are {count}");
+        let allowed =
+            format!("few enough periods for at most {MOST_KEPT} impacts; here there are {count}");
         return Err(of_case(CaseError::value("keep", keep, allowed)));
     }
     to_json(&SectionRow::new(&found, phase))

@@ -62,7 +62,7 @@ impl Orbit {
     /// The same with the attempt to prove that it exists.
     fn proved(&self, py: Python<'_>) -> PyResult<Self> {
         let Some(case) = &self.case else {
-            let why = "proofs are of orbits of a case, the numbers of which are decimals";
+            let why = "only orbits of a case can be proved, as its numbers are decimals";
             return Err(PyValueError::new_err(why));
         };
         let exact = ExactCase::of(case.parameters(), |_| None).map_err(PyValueError::new_err)?;
@@ -374,7 +374,7 @@ pub(crate) fn continuation(
 ) -> PyResult<Branch> {
     let range = side(key, range)?.ends();
     let case = orbit.case.clone();
-    let no_case = || crate::errors::of_program("this is an orbit of no case");
+    let no_case = || crate::errors::of_program("this orbit does not belong to a case");
     let case = case.ok_or_else(no_case)?;
     let (key, value, along): (_, _, Along) =
         along(case.parameters(), key, range, step, points).map_err(of_case)?;

@@ -80,7 +80,7 @@ impl Run {
 
     /// The case that was run.
     pub(crate) fn case(&self) -> PyResult<&Case> {
-        let no_case = || of_program("this is a run of no case");
+        let no_case = || of_program("this run does not belong to a case");
         self.case.as_ref().ok_or_else(no_case)
     }
 
@@ -193,7 +193,7 @@ impl Run {
     fn with_trust(&self) -> PyResult<&Trusted> {
         self.known.trusted().ok_or_else(|| {
             PyValueError::new_err(
-                "this run was made with trust=False, and has no words on how far it can be trusted; \
+                "this run was made with trust=False, so how far it can be trusted is not known; \
                  run the case without trust=False",
             )
         })

@@ -186,7 +186,7 @@ impl Store {
 }
 
 fn closed() -> PyErr {
-    of_program("this file is no longer in the making")
+    of_program("this file is no longer being written")
 }
 
 /// The values along one axis, a list or the text `first:last:n`.
@@ -353,7 +353,9 @@ pub(crate) fn evenly<'py>(
     count: u64,
 ) -> PyResult<Bound<'py, PyByteArray>> {
     let grid = Grid::new(first, last, count).ok_or_else(|| {
-        let words = format!("{first}:{last}:{count} is no range; allowed: two finite numbers, and a count of 1 or more");
+        let words = format!(
+            "{first}:{last}:{count} is not a range; allowed: two finite numbers, and a count of 1 or more"
+        );
         PyValueError::new_err(words)
     })?;
     let bytes = on_this_thread(py, |on_progress| {

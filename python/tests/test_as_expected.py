@@ -202,12 +202,12 @@ def test_a_case_is_a_mapping(tmp_path: Path):
         (lambda _: snapload.sweep(snapload.Case(), random=4, e=[0.5]), ValueError, "allowed with random: its two ends"),
         (lambda _: snapload.sweep(snapload.Case(), cases={"e": [1], "a": [1, 2]}), ValueError, "of several lengths"),
         (lambda _: snapload.sweep(snapload.Case(), cases=3), TypeError, "allowed: a DataFrame"),
-        (lambda _: snapload.sweep(snapload.Case(), cases={"e": [0.5]}, r=[1]), ValueError, "cases says itself"),
+        (lambda _: snapload.sweep(snapload.Case(), cases={"e": [0.5]}, r=[1]), ValueError, "cases determines"),
         (lambda _: snapload.sweep(snapload.Case(), chunks=2), ValueError, "give out"),
         (lambda _: snapload.Case().run(tolerance="x"), ValueError, "tolerance = 'x' is not allowed; allowed: a number"),
         (lambda _: snapload.Case().run(uncertainty="x"), ValueError, "uncertainty = 'x' is not allowed; allowed: a"),
         (lambda _: snapload.critical_force(snapload.Case(), largest=-1), ValueError, "largest = -1 is not allowed"),
-        (lambda _: snapload.critical_force(snapload.Case(), over={"f_o": [1]}), ValueError, "it is what is sought"),
+        (lambda _: snapload.critical_force(snapload.Case(), over={"f_o": [1]}), ValueError, "the key that is searched"),
     ],
 )
 def test_slips_are_told_in_words(call, kind, words, tmp_path: Path):

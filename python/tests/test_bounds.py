@@ -123,7 +123,7 @@ def test_the_bounds_themselves_are_allowed():
 def test_a_list_of_cases_is_called_what_it_is(tmp_path: Path):
     with pytest.raises(ValueError, match=r'^the list of cases: there is no key "f_oo"; did you mean f_o\?'):
         snapload.sweep(CASE, cases=pandas.DataFrame({"f_oo": [0.1]}))
-    with pytest.raises(ValueError, match="^can not read the list of cases: it holds no case"):
+    with pytest.raises(ValueError, match="^can not read the list of cases: it contains no case"):
         snapload.sweep(CASE, cases={"f_o": []})
     path = tmp_path / "mine.csv"
     path.write_text("f_oo\n0.1\n")
@@ -133,7 +133,7 @@ def test_a_list_of_cases_is_called_what_it_is(tmp_path: Path):
 
 
 def test_random_points_without_a_range_say_how_to_give_one():
-    with pytest.raises(ValueError, match=r"1 to 16 keys, and none varies; let one vary .* such as e=\(0.5, 0.9\)$"):
+    with pytest.raises(ValueError, match=r"1 to 16 keys, and none varies; vary one with .* such as e=\(0.5, 0.9\)$"):
         snapload.sweep(CASE, random=10)
 
 

@@ -60,7 +60,7 @@ def test_what_is_not_proved_is_said():
     assert (proof.proved, proof.end, len(proof.impacts)) == (False, None, 0)
     assert proof.undecided.startswith("the length of cable 1 and the length of cable 2: ")
     assert "all at one instant" in proof.undecided
-    assert "no further: the length of cable 1" in str(proof)
+    assert "then undecided: the length of cable 1" in str(proof)
     assert repr(proof).startswith("<Certificate: 0 impacts, undecided at t = 0")
 
 

@@ -29,7 +29,7 @@ def test_the_seal_opens_what_is_proved(open_page, command, tmp_path: Path):
     # 290 impacts and these digits of the end are those of `snapload verify`, which computes them by other code.
     words = page.locator("#seal-words")
     expect(words).to_contain_text("290 impacts, settled at t = 7.2463044710810")
-    expect(words).to_contain_text("The run leaves it at impact ")
+    expect(words).to_contain_text("The run departs from the proof at impact ")
     certificate = tmp_path / "run.cert"
     download(page, "#seal-file", certificate)
     assert len(json.loads(certificate.read_text(encoding="utf-8"))["impacts"]) == 290
@@ -53,7 +53,7 @@ def test_a_changed_case_has_no_seal(open_page):
     expect(page.locator("#seal-title")).to_have_text("proved to the end")
     page.locator("#seal summary").click()
     expect(page.locator("#seal-words")).to_contain_text("12 impacts, rotation limit at t = 3.45218521659812")
-    expect(page.locator("#seal-words")).to_contain_text("The run has the same in five digits.")
+    expect(page.locator("#seal-words")).to_contain_text("The run agrees in five digits.")
 
 
 def test_a_proof_that_ends_before_the_run_says_so(open_page):

@@ -88,7 +88,7 @@ def test_exponents_of_a_motion_sum_up_to_what_its_snaps_take():
     assert len(values) == len(errors) == 4 and (errors > 0).all() and (np.diff(values) <= 0).all()
     # A torus: nothing grows or shrinks along it.
     assert abs(values[0]) < 3 * errors[0]
-    with pytest.raises(ValueError, match=r"stops at t = 10\.0247, rotation limit; begin elsewhere"):
+    with pytest.raises(ValueError, match=r"stops at t = 10\.0247, rotation limit; use another start"):
         snapload.lyapunov_spectrum(snapload.Case(f_o=0.5))
 
 

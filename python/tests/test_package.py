@@ -164,7 +164,7 @@ def test_notebooks_get_tables():
     [
         (dict(uncertainty=-1), "uncertainty: x = -1 is not allowed"),
         (dict(uncertainty={"foo": 1}), 'uncertainty: there is no key "foo"'),
-        (dict(uncertainty={"t_end": 1}), "no uncertainty: it is no quantity of the motion"),
+        (dict(uncertainty={"t_end": 1}), "an uncertainty of one of the keys"),
         (dict(tolerance=0), "tolerance = 0 is not allowed; allowed: a number above 0"),
         (dict(members=-1), "members = -1 is not allowed; allowed: a whole number, 0 <= members"),
         (dict(seed=1.5), "seed = 1.5 is not allowed"),

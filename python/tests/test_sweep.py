@@ -45,7 +45,7 @@ def test_values_are_the_decimals_that_one_would_write():
     assert snapload.evenly(0.01, 0.6, 60).tolist() == [k / 100 for k in range(1, 61)]
     with pytest.raises(ValueError, match="count = 0 is not allowed"):
         snapload.evenly(0, 1, 0)
-    with pytest.raises(ValueError, match="is no range"):
+    with pytest.raises(ValueError, match="is not a range"):
         snapload.evenly("a", 1, 3)
 
 
@@ -68,7 +68,7 @@ def test_what_is_no_case_is_told():
         ({"e": [0.5, 1.5]}, "e = 1.5 is not allowed; allowed: a number, 0 <= e <= 1"),
         ({"omgea": [1]}, "did you mean omega"),
         ({"e": "0:1"}, "write first:last:n"),
-        ({"e": []}, "give one value at the least"),
+        ({"e": []}, "give at least one value"),
     ],
 )
 def test_slips_are_refused_in_words(axes, words):
@@ -144,7 +144,7 @@ def test_after_ctrl_c_the_same_process_goes_on(tmp_path: Path):
             {call.replace("trust", "resume=True, trust")}
             break
         except ValueError as error:
-            assert "another snapload is at work" in str(error)
+            assert "another snapload process is writing" in str(error)
             time.sleep(0.05)
     print('whole')"""
     took, said = interrupt(call, again, lambda: any(tmp_path.glob("map.parquet.parts/rows-*")))

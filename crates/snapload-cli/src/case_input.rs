@@ -122,7 +122,7 @@ pub(crate) fn read_text(path: &Path) -> Result<String, Failure> {
     read_up_to(
         path,
         LARGEST_FILE,
-        "larger than 1 MiB, which no case file is",
+        "larger than 1 MiB, and thus not a case file",
     )
 }
 
@@ -140,8 +140,8 @@ pub(crate) fn read_up_to(path: &Path, largest: u64, too_large: &str) -> Result<S
                 .any(|mark| bytes.starts_with(mark)) =>
         {
             Err(bad(
-                "a netCDF file, not a case file; snapload hydro reads one of a panel code, and float.file names it in \
-                 the case of a structure",
+                "a netCDF file, not a case file; snapload hydro reads the file of a panel code, and the key float.file \
+                 names it in the case of a structure",
             ))
         }
         Ok(_) => String::from_utf8(bytes).map_err(|error| {

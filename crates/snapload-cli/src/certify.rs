@@ -99,7 +99,7 @@ fn run_certify(args: &Args) -> Result<(), Failure> {
     if !(out.print(&proof)? | json.print(&proof)?) {
         let mut text = words + "\n";
         if proof.end == Ended::Proved(Reason::Sticks) {
-            text += "The motion goes on with a taut cable; --taut proves that, too\n";
+            text += "The motion continues with a taut cable; --taut proves that part, too\n";
         }
         for path in &files {
             let _ = writeln!(text, "Written   {}", path.display());

@@ -61,7 +61,7 @@ pub(crate) struct Args {
 pub(crate) fn run(args: &Args) -> Result<(), Failure> {
     if args.uncertainty.is_given() && args.ensemble.is_none() {
         return Err(Failure::bad_input(
-            "--uncertainty asks for neighbours, but none are to be run; add --ensemble N, such as --ensemble 200",
+            "--uncertainty needs neighbours, but none are run; add --ensemble N, such as --ensemble 200",
         ));
     }
     let input = args.case.read()?;
@@ -111,7 +111,7 @@ fn over(
     let key = axis.key();
     if key == "f_o" {
         return Err(Failure::bad_input(
-            "f_o is what is sought; choose another key",
+            "f_o is the key that is searched; choose another key",
         ));
     }
     if axis.count() > MOST_VALUES {

@@ -75,7 +75,7 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
     let from = args.from;
     if from == [0.0; 3] || from.iter().any(|q| !q.is_finite()) {
         return Err(Failure::bad_input(
-            "--from 0,0,0: the body has to be let go from somewhere",
+            "--from: release the body from a finite displacement that is not 0,0,0",
         ));
     }
     let motion = decay(
@@ -125,8 +125,8 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
 }
 
 /// The words if a swing is larger than the one before.
-const MIXED: &str = "a damping below zero is that of a freedom in which motions of other periods are added; \
-                     snapload hydro has the damping of each motion";
+const MIXED: &str = "a damping below zero occurs in a freedom in which motions of several periods are added; \
+                     snapload hydro gives the damping of each motion";
 
 /// From where displacements are measured, if not from the position of the file: the motion is linear
 /// about the position in which the body floats without lines.
@@ -141,7 +141,7 @@ fn measured_from(floating: &Floating, hydro: &Hydrodynamics) -> Option<String> {
             q[2].to_degrees()
         )),
         None => {
-            Some("from the position of the file; what is not balanced there is left out".to_owned())
+            Some("from the position of the file; forces not balanced there are left out".to_owned())
         }
     }
 }
@@ -160,11 +160,10 @@ fn words(called: &str, swings: &[Swing], freedom: usize, comes_back: bool) -> St
     };
     let about = match comes_back {
         true => "",
-        false => " about where it settles (no stiffness brings it back to 0)",
+        false => " about its final position (no stiffness brings it back to 0)",
     };
-    let what = format!(
-        "{few}swings{about} from the side that it was let go from, each to the next turn there"
-    );
+    let what =
+        format!("{few}swings{about}, each from one turn to the next on the side of the release");
     let mut text = told(called, &what);
     let amplitude = format!("amplitude {unit}");
     let _ = writeln!(

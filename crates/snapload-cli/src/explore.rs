@@ -69,9 +69,9 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
     });
     print(&format!("{address}\n"))?;
     // A program that reads the address may have closed the output by now.
-    say("Ctrl-C ends it");
+    say("press Ctrl-C to stop");
     if !args.no_browser && open::that_detached(&address).is_err() {
-        say("no browser could be opened; open the address above in one");
+        say("no browser could be opened; open the address above by hand");
     }
     let served = server.serve();
     served

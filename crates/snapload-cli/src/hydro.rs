@@ -97,12 +97,12 @@ impl Args {
         for (name, value) in [("--hs", hs), ("--tp", tp)] {
             if !(value > 0.0 && value.is_finite()) {
                 return Err(Failure::bad_input(format!(
-                    "{name} {value}: it has to be above 0"
+                    "{name} = {value} is not allowed; allowed: a number above 0"
                 )));
             }
         }
         if !(1.0..=20.0).contains(&self.gamma) {
-            let words = format!("--gamma {}: 1 to 20 is allowed", self.gamma);
+            let words = format!("--gamma = {} is not allowed; allowed: 1 to 20", self.gamma);
             return Err(Failure::BadInput(words));
         }
         let spectrum = Spectrum::new(&IrregularSea {
@@ -144,7 +144,7 @@ impl SeaRow {
         let [surge, heave, pitch] = self.rms;
         let part = match self.covered < 0.99 {
             true => format!(
-                "; the file's frequencies hold only {:.0} % of the sea's energy",
+                "; the file's frequencies cover only {:.0} % of the sea's energy",
                 100.0 * self.covered
             ),
             false => String::new(),

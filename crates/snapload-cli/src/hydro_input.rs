@@ -75,7 +75,7 @@ fn numbers<const N: usize>(text: &str, form: &str) -> Result<[f64; N], String> {
     let numbers = numbers
         .ok()
         .and_then(|numbers| <[f64; N]>::try_from(numbers).ok());
-    numbers.ok_or_else(|| format!("{N} numbers are wanted, {form}"))
+    numbers.ok_or_else(|| format!("allowed: {N} numbers, {form}"))
 }
 
 /// Two numbers.
@@ -152,7 +152,7 @@ fn memory(path: &Path) -> Result<GivenMemory, Failure> {
     let text = read_text(path)?;
     serde_json::from_str(&text).map_err(|error| {
         let words = format!(
-            "{}: not a memory as --json writes it, with added_mass_inf and memory: {error}",
+            "{}: not a file as --json writes it, with added_mass_inf and memory: {error}",
             path.display()
         );
         Failure::BadInput(words)

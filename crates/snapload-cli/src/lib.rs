@@ -225,7 +225,7 @@ fn refuse(mut error: clap::Error) -> ! {
         && let Some(ContextValue::String(option)) = error.get(ContextKind::InvalidArg)
         && let Some(key) = CASE_KEYS.nearest(option.trim_start_matches('-'))
     {
-        let tip = format!("keys of a case are set so: --set {key}=VALUE");
+        let tip = format!("set a key of the case with --set {key}=VALUE");
         let tips = ContextValue::StyledStrs(vec![tip.into()]);
         error.insert(ContextKind::Suggested, tips);
     }

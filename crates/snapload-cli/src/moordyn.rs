@@ -78,7 +78,7 @@ fn read(args: &Read) -> Result<(), Failure> {
         let _ = writeln!(text, "# {}", one_line(note));
     }
     if !missing.is_empty() {
-        let _ = writeln!(text, "# Still to be given: {}.", missing.join(", "));
+        let _ = writeln!(text, "# Still missing: {}.", missing.join(", "));
     }
     let _ = write!(text, "\n{}", entries.to_toml());
     let Some(path) = &args.out else {
@@ -90,10 +90,10 @@ fn read(args: &Read) -> Result<(), Failure> {
     }
     if !missing.is_empty() {
         let words = format!(
-            "{}: MoorDyn files do not have them; write them into the case, or give them by --set",
+            "{}: MoorDyn files do not contain them; add them to the case, or set them with --set",
             missing.join(", ")
         );
-        said += &told("to give", &words);
+        said += &told("missing", &words);
     }
     print(&said)
 }

@@ -214,13 +214,13 @@ fn in_words(args: &Args, found: &Found, start: Option<Point>) -> String {
     if let Some(left) = orbits.len().checked_sub(TOLD).filter(|left| *left > 0) {
         let _ = writeln!(
             text,
-            "And       {left} more, with --json FILE or --out FILE"
+            "More      {left} orbits, which --json FILE or --out FILE writes"
         );
     }
     if let Some(far) = start.and_then(|start| orbits.first()?.far_from(&start)) {
         let _ = writeln!(
             text,
-            "Far       from the start: by {far:.3} in one coordinate, and no nearer one was found"
+            "Distance  {far:.3} from the start in one coordinate; no nearer orbit was found"
         );
     }
     text
@@ -248,7 +248,7 @@ fn start_at(text: &str, parameters: &Parameters) -> Result<Point, Failure> {
         };
         if parameters.is_point() && place % 3 == 2 && number != 0.0 {
             return Err(Failure::BadInput(format!(
-                "--start {part:?}: a point mass does not turn; leave {key} out"
+                "--start {part:?}: a point mass has no rotation; leave {key} out"
             )));
         }
         z[place] = number;

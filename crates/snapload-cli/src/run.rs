@@ -63,7 +63,7 @@ pub(crate) struct Args {
 pub(crate) fn run(args: &Args) -> Result<(), Failure> {
     if args.sample.is_some() && args.json.json.is_none() && args.out.is_none() {
         return Err(Failure::bad_input(
-            "--sample asks for the motion, but nothing is to be written; add --json FILE or --out DIR",
+            "--sample is the time step of the written motion, but nothing is written; add --json FILE or --out DIR",
         ));
     }
     let input = args.case.read()?;
@@ -139,7 +139,7 @@ fn certified(args: &Args, input: &Input, trusted: &Trusted) -> Result<Option<Cer
 fn step(text: &str) -> Result<f64, &'static str> {
     match text.parse::<f64>() {
         Ok(dt) if dt > 0.0 && dt.is_finite() => Ok(dt),
-        _ => Err("allowed is a number above 0, such as 0.01"),
+        _ => Err("allowed: a number above 0, such as 0.01"),
     }
 }
 

@@ -108,7 +108,7 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
     drop(bar);
     if let Some(why) = without_points_in_words(&section) {
         return Err(Failure::Failed(format!(
-            "no section: the motion of this start {why}; ask for fewer --periods, or begin elsewhere"
+            "no section: the motion from this start {why}; use fewer --periods, or another start"
         )));
     }
     let impacts = kept(&section)?;

@@ -17,11 +17,11 @@ use std::path::{Path, PathBuf};
 #[rustfmt::skip] // one row a key
 const STUDY_KEYS: &[Key] = &[
     Key::new("case", "", Kind::Text, Derived("the standard case"), "built-in case to begin with"),
-    Key::new("random", "", RANDOM.kind, Derived("a grid"), "so many random points in the box of the ranges"),
-    Key::new("seed", "", SEED.kind, Count(0), "which random points"),
-    Key::new("list", "", Kind::Text, Derived("none"), "file with a row a case, beside the study file"),
-    Key::new("list_sha256", "", Kind::Text, Derived("any"), "what sha256sum has to say of that file"),
-    Key::new("trust", "", Kind::Flag, Flag(true), "whether every run says how far it can be trusted"),
+    Key::new("random", "", RANDOM.kind, Derived("a grid"), "number of random points in the box of the ranges"),
+    Key::new("seed", "", SEED.kind, Count(0), "seed of the random points"),
+    Key::new("list", "", Kind::Text, Derived("none"), "file with one row per case, in the folder of the study file"),
+    Key::new("list_sha256", "", Kind::Text, Derived("any"), "checksum of that file, as sha256sum prints it"),
+    Key::new("trust", "", Kind::Flag, Flag(true), "whether to compute how far each run can be trusted"),
 ];
 
 /// A study file: the keys of a case, those of the study itself, and what varies.
@@ -35,7 +35,7 @@ static STUDY: Schema = Schema {
         },
     ],
     example: "f_o=0.5",
-    form: "one `key = value` a line, and below the line [vary] what varies",
+    form: "one `key = value` per line, and below the line [vary] the keys that vary",
 };
 
 /// Which study, as given on the command line.
@@ -141,7 +141,7 @@ impl Asked {
         self.random = args.random.or(self.random);
         if let (Some(seed), None) = (args.seed, self.random) {
             return Err(Failure::BadInput(format!(
-                "--seed {seed} says which random points, and there are none; add --random N, or leave it out"
+                "--seed {seed} selects random points, and there are none; add --random N, or leave it out"
             )));
         }
         self.seed = args.seed.unwrap_or(self.seed);
@@ -157,7 +157,7 @@ impl Asked {
         if let Some(path) = self.list {
             if !self.vary.is_empty() || self.random.is_some() {
                 return Err(Failure::bad_input(
-                    "a list of cases says itself what varies; leave out either the list or what varies beside it",
+                    "a list of cases already determines what varies; leave out the list, or the other keys that vary",
                 ));
             }
             let list = List::open(&path)?;

@@ -39,7 +39,7 @@ impl<'a> Summary<'a> {
             return Ok(());
         }
         Err(Failure::BadInput(format!(
-            "not one of the {} cases could be run; the column error of {} says why",
+            "none of the {} cases could be run; the column error of {} gives the reasons",
             self.rows,
             self.file.display()
         )))
@@ -68,7 +68,7 @@ impl<'a> Summary<'a> {
             } = tally;
             let _ = writeln!(
                 text,
-                "Trust     {certain} of {judged} ends are certain (the column certain says which)"
+                "Trust     {certain} of {judged} ends are certain (see the column certain)"
             );
         }
         if let Some((row, error)) = &tally.first_error {

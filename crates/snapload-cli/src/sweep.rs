@@ -74,9 +74,9 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
             }
             interrupt::end_gracefully(Graceful {
                 on_first: Box::new(|| {
-                    say("stopping after the cases at work; once more to stop at once");
+                    say("stopping after the cases in progress; interrupt again to stop at once");
                 }),
-                after_second: "what was saved is safe, and --resume goes on from there",
+                after_second: "the saved rows are kept, and --resume continues from there",
             });
             let bar = Bar::counting();
             let on_progress = |progress: Progress| match interrupt::asked() {
@@ -110,16 +110,16 @@ fn start_threads(asked: u16) -> Result<(), Failure> {
 fn go_on(error: StudyError, rows: u64) -> Failure {
     match error {
         StudyError::Cancelled(Cancelled { done }) => Failure::Interrupted(format!(
-            "{done} of {rows} rows are safe; to go on:\n  {}",
+            "{done} of {rows} rows are saved; to continue:\n  {}",
             resume_command()
         )),
         StudyError::Failed(message) => Failure::Failed(format!(
-            "{message}\nhint: what was saved is safe; once that is put right, go on with\n  {}",
+            "{message}\nhint: the saved rows are kept; once this is corrected, continue with\n  {}",
             resume_command()
         )),
         StudyError::Damaged { .. } => Failure::Failed(format!(
-            "{error}\nhint: rows came back other than they were written, again and again; have an --out on another \
-             disk, or go on here, which computes them again, with\n  {}",
+            "{error}\nhint: rows were repeatedly read back other than they were written; use an --out on another disk, \
+             or compute them again here with\n  {}",
             resume_command()
         )),
         other => other.into(),

@@ -50,12 +50,12 @@ pub enum Differs {
 impl Differs {
     fn words(self) -> &'static str {
         match self {
-            Self::Cable => "is of the other cable",
-            Self::Time => "has another time in five digits",
+            Self::Cable => "is in the other cable",
+            Self::Time => "differs in the first five digits of its time",
             Self::Speed => "differs in the first five digits of v_n",
             Self::Missing => "is missing",
             Self::Extra => "does not exist",
-            Self::End => "does not come, as the end is another",
+            Self::End => "does not occur, as the run ends otherwise",
         }
     }
 }
@@ -169,18 +169,18 @@ impl Certified {
     pub fn comparison(&self) -> Option<String> {
         let to_the_end = ended(&self.proof).is_some();
         Some(match self.departure {
-            None if to_the_end => "the run has the same in five digits".to_owned(),
+            None if to_the_end => "the run agrees in five digits".to_owned(),
             None if self.proof.impacts == 0 => return None,
-            None => "up to there the run has the same in five digits".to_owned(),
+            None => "the run agrees up to there in five digits".to_owned(),
             Some(Departure {
                 differs: Differs::End,
                 ..
             }) => format!(
-                "the run has the same {}, and another end",
+                "the run has the same {}, but a different end",
                 impacts(self.proof.impacts)
             ),
             Some(Departure { impact, differs }) => format!(
-                "the run leaves it at impact {impact}, which {}",
+                "the run departs from the proof at impact {impact}, which {}",
                 differs.words()
             ),
         })
@@ -196,7 +196,7 @@ pub fn proved_in_words(proof: &Certification) -> String {
             format!("{count}, {reason} at t = {t} ({bits} bits)")
         }
         Ended::Undecided { what, .. } => {
-            format!("{count}, up to t = {t} ({bits} bits)\nno further: {what}")
+            format!("{count}, up to t = {t} ({bits} bits)\nthen undecided: {what}")
         }
     }
 }

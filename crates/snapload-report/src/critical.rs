@@ -105,7 +105,7 @@ impl Probability {
         };
         let _ = writeln!(
             text,
-            "Ensemble  of {} at each f_o exceed: 5 % {}, 50 % {}, 95 % {}",
+            "Ensemble  {} at each f_o; a limit is exceeded by 5 % {}, by 50 % {}, by 95 % {}",
             neighbours(self.members as usize),
             from(p05),
             from(p50),
@@ -133,7 +133,7 @@ impl Probability {
         let certain = points.iter().filter(|point| point.certain).count();
         let _ = writeln!(
             text,
-            "          all or none at {} of {} f_o, {certain} of them for certain",
+            "          all or none exceed at {} of {} f_o; {certain} of these are certain",
             points.len() - split.len(),
             points.len()
         );

@@ -122,7 +122,7 @@ fn in_words(found: &[Sensitivity], looked: &Looked) -> String {
         let _ = writeln!(
             text,
             "{label:<9} {:<7} {t:>11} {v_n:>11} {impulse:>11}{doubt}",
-            "by"
+            "by key"
         );
         for slope in slopes {
             let [t, v_n, impulse] = [slope.t, slope.v_n, slope.impulse].map(digits);
@@ -132,8 +132,8 @@ fn in_words(found: &[Sensitivity], looked: &Looked) -> String {
     }
     if found.is_empty() {
         text.push_str(match looked.impacts {
-            0 => "Impacts   none, so that nothing can be derived\n",
-            _ => "Impacts   not derived: the start, on the very edge of what is legal, has no neighbours\n",
+            0 => "Impacts   none, so there are no derivatives\n",
+            _ => "Impacts   no derivatives: the start is exactly at the limit of what is legal\n",
         });
     }
     if looked.horizon.is_some() {
@@ -180,7 +180,7 @@ mod tests {
             t_end: 0.01,
             ..Parameters::STANDARD
         };
-        assert!(asked(still, 3)?.words.contains("nothing can be derived"));
+        assert!(asked(still, 3)?.words.contains("there are no derivatives"));
         Ok(())
     }
 }

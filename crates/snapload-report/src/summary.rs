@@ -198,7 +198,7 @@ pub fn end_in_words(trajectory: &Trajectory, parameters: &Parameters) -> String 
                 "sliding starts at t = {t}: a cable stays taut at or above y = {SETTLING_HEIGHT}"
             )
         }
-        Stop::EndTime => format!("end of the time asked for, t = {t}"),
+        Stop::EndTime => format!("end of the requested time, t = {t}"),
         Stop::ImpactLimit => {
             format!(
                 "impact limit at t = {t}: more than {} impacts",

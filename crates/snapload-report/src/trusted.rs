@@ -148,27 +148,30 @@ pub(crate) fn horizon_in_words(horizon: Option<Horizon>, tolerance: f64, impacts
         HorizonCause::Start { cable } => {
             let cable = cable + 1;
             return format!(
-                "none: it begins at the end of cable {cable}, and may in truth begin slack"
+                "none: cable {cable} has its full length at the start, and may be slack or snap there"
             );
         }
-        HorizonCause::Tolerance => "there errors have grown past it".to_owned(),
+        HorizonCause::Tolerance => format!("the error exceeds {tolerance:e} there"),
         HorizonCause::Graze { cable } => {
             format!(
-                "cable {} is only grazed there, and may be missed",
+                "cable {} snaps so slowly there that the snap may not occur",
                 cable + 1
             )
         }
         HorizonCause::NearMiss { cable } => {
-            format!("cable {} all but snaps there, and may in truth", cable + 1)
+            format!(
+                "cable {} comes so close to a snap there that it may occur",
+                cable + 1
+            )
         }
         HorizonCause::Sticking { cable } => format!(
             "cable {} snaps there about as slowly as v_stick, and may stick or bounce once more",
             cable + 1
         ),
         HorizonCause::Simultaneous => {
-            "there cables snap at one instant, in an order that decides".to_owned()
+            "cables snap at the same instant there; which is first decides what follows".to_owned()
         }
-        HorizonCause::StopRule => "there a stop rule may or may not be met".to_owned(),
+        HorizonCause::StopRule => "a stop rule may or may not be met there".to_owned(),
     };
     let place = match impacts {
         0 => String::new(),

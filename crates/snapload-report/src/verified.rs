@@ -158,7 +158,7 @@ impl Verified {
             found.run.impacts().len()
         );
         let end = found.end.map_or_else(
-            || "a cable stays taut, where the proof ends,".to_owned(),
+            || "the comparison ends, as a cable stays taut,".to_owned(),
             |end| end.words().to_owned(),
         );
         let _ = writeln!(
@@ -172,16 +172,16 @@ impl Verified {
         let _ = match found.first_wrong {
             Some(impact) if impact > found.impacts.len() => writeln!(
                 text,
-                "Proven    right to {tolerance:e} at all {} impacts, and wrong at the end",
+                "Compared  correct to {tolerance:e} at all {} impacts, but not at the end",
                 found.impacts.len()
             ),
             Some(impact) => writeln!(
                 text,
-                "Proven    wrong by more than {tolerance:e} from impact {impact} on"
+                "Compared  wrong by more than {tolerance:e} from impact {impact} on"
             ),
             None => writeln!(
                 text,
-                "Proven    right to {tolerance:e} at all {} impacts",
+                "Compared  correct to {tolerance:e} at all {} impacts",
                 found.differences.len()
             ),
         };
@@ -190,21 +190,22 @@ impl Verified {
             "Predicted {}",
             indented(&trust_in_words(&self.trusted))
         );
-        let left = found.digits_left;
-        let _ = if left >= 1.0 {
-            writeln!(
-                text,
-                "          {left:.0} of the {} digits are left at the end",
-                found.digits
-            )
-        } else {
-            let more = f64::from(found.digits) - left + 10.0;
-            writeln!(
-                text,
-                "          the {} digits are used up before the end; --digits {more:.0} would do",
-                found.digits
-            )
-        };
+        let _ = writeln!(text, "          {}", digits_left_in_words(found));
         text
     }
+}
+
+/// How many digits are left at the end, or how many would be needed.
+fn digits_left_in_words(found: &Verification) -> String {
+    let (digits, left) = (found.digits, found.digits_left);
+    if left >= 1.0 {
+        return format!("{left:.0} of the {digits} digits are left at the end");
+    }
+    let needed = f64::from(digits) - left + 10.0;
+    let advice = if needed <= f64::from(MOST_DIGITS) {
+        format!("use --digits {needed:.0}")
+    } else {
+        format!("{needed:.0} are needed, and at most {MOST_DIGITS} are possible")
+    };
+    format!("the {digits} digits are lost before the end; {advice}")
 }

@@ -74,12 +74,12 @@ impl Occupied {
     pub fn in_words(&self, resume: &str, out: &str) -> String {
         match self {
             Self::Complete(file) => format!(
-                "{} exists already and holds this study, complete; {resume} accepts it",
+                "{} exists already and holds this complete study; {resume} accepts it",
                 file.display()
             ),
             Self::Damaged(file) => format!(
                 "{} exists already and held this study, but it is damaged: its checksum is not that of its bytes; \
-                 remove it to compute it anew, or choose another {out}",
+                 remove it to compute it again, or choose another {out}",
                 file.display()
             ),
             Self::OtherFile(file) => format!(
@@ -91,8 +91,8 @@ impl Occupied {
                 safe,
                 asked,
             } => format!(
-                "{} holds {safe} of {asked} rows of this study already; go on with {resume}, or remove it to begin \
-                 anew",
+                "{} holds {safe} of {asked} rows of this study already; continue with {resume}, or remove it to start \
+                 again",
                 directory.display()
             ),
             Self::OtherStudy {
@@ -103,11 +103,11 @@ impl Occupied {
                 let directory = directory.display();
                 format!(
                     "{directory} holds rows of another study\nthere: {there}\nhere:  {here}\nhint: choose another \
-                     {out}, or remove {directory} to begin anew"
+                     {out}, or remove {directory} to start again"
                 )
             }
             Self::InUse(directory) => format!(
-                "another snapload is at work in {}; wait for it, or choose another {out}",
+                "another snapload process is writing to {}; wait for it, or choose another {out}",
                 directory.display()
             ),
         }
@@ -145,7 +145,7 @@ impl StudyError {
 /// That nothing varies, with words on how a key is let vary.
 pub fn no_side(most: usize, how: &str) -> String {
     format!(
-        "random points are drawn from the ranges of 1 to {most} keys, and none varies; let one vary by {how}"
+        "random points are drawn from the ranges of 1 to {most} keys, and none varies; vary one with {how}"
     )
 }
 

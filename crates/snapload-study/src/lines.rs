@@ -92,7 +92,7 @@ impl Lines {
         let words = if open {
             format!("line {line} opens a quote and does not close it; close it, or leave it out")
         } else if self.length > LONGEST {
-            format!("line {line} is longer than {LONGEST} bytes; a list has a case a line")
+            format!("line {line} is longer than {LONGEST} bytes; a list has one case per line")
         } else {
             return Ok(());
         };

@@ -63,7 +63,7 @@ impl List {
         if !about.is_file() {
             // It is read more than once, from any row, and has to be finite.
             return Err(input(
-                &"a list has to be a file, which can be read more than once",
+                &"a list must be a file, which can be read more than once",
             ));
         }
         let parquet = path
@@ -72,7 +72,7 @@ impl List {
         let (names, count, format) = if parquet {
             let file = File::open(path).map_err(|error| input(&error))?;
             let reader = ParquetReader::open(file)
-                .map_err(|error| input(&format!("it is no Parquet file ({error})")))?;
+                .map_err(|error| input(&format!("it is not a Parquet file ({error})")))?;
             if let Some(codec) = reader.codec_without_reader() {
                 return Err(input(&format!(
                     "its columns are compressed with {codec}; allowed: no compression, {}; write it again with one of \
@@ -91,8 +91,8 @@ impl List {
         let sha256 = digest(path).map_err(|error| input(&error))?;
         if count == 0 {
             let words = match names.is_empty() {
-                true => "it is empty; its first line names keys, such as f_o,omega",
-                false => "it holds no case, only names of columns",
+                true => "it is empty; its first line must name keys, such as f_o,omega",
+                false => "it contains no case, only names of columns",
             };
             return Err(input(&words));
         }
@@ -275,11 +275,11 @@ fn keys(called: &str, names: &[String]) -> Result<Vec<&'static str>, StudyError>
     for name in names {
         let key = key_named(name).map_err(|error| {
             wrong(format!(
-                "{error}\nhint: a list has a column a key, named in the first line of a CSV file, and nothing else beside them"
+                "{error}\nhint: a list has one column per key, named in the first line of a CSV file, and no others"
             ))
         })?;
         if keys.contains(&key.name) {
-            return Err(wrong(format!("{} stands over two columns", key.name)));
+            return Err(wrong(format!("two columns are named {}", key.name)));
         }
         keys.push(key.name);
     }

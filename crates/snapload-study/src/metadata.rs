@@ -51,7 +51,7 @@ impl Shard {
         match numbers {
             Some((part, of)) if 1 <= part && part <= of && of <= 1_000_000 => Ok(Self { part, of }),
             _ => Err(StudyError::Input(format!(
-                "{text:?} is no part; write i/n with 1 <= i <= n <= 1000000, such as 1/4 for the first of four"
+                "{text:?} is not a part; write i/n with 1 <= i <= n <= 1000000, such as 1/4 for the first of four"
             ))),
         }
     }

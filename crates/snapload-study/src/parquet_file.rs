@@ -263,7 +263,7 @@ fn get(reader: ColumnReader, field: &Type, rows: &Range<u64>) -> Result<Values> 
             })?)
         }
         ColumnReader::Int96ColumnReader(_) => {
-            return Err(refused("a point in time is no number"));
+            return Err(refused("a date or time is not a number"));
         }
     })
 }

@@ -61,7 +61,7 @@ impl<W: Write + Send> Writer<W> {
     pub(crate) fn write(&mut self, columns: &[Values]) -> Result<()> {
         let places = self.0.schema_descr().columns();
         if places.len() != columns.len() {
-            let words = "a group has not the columns of the file";
+            let words = "a group does not have the columns of the file";
             return Err(ParquetError::General(words.to_owned()));
         }
         let properties = self.0.properties();

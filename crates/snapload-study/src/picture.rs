@@ -40,7 +40,7 @@ impl StudyPicture {
         };
         match axes.iter().find(|axis| axis.value(0).number().is_none()) {
             Some(axis) => Err(StudyError::Input(format!(
-                "{} holds no numbers to draw along",
+                "{} can not be an axis, as its values are not numbers",
                 axis.key()
             ))),
             None => Ok(Self { axes, column }),
@@ -55,7 +55,7 @@ impl StudyPicture {
         let column = named(name)?;
         if self.axes.len() == 1 && !column.is_number() {
             return Err(StudyError::Input(format!(
-                "{name} holds no numbers to draw a line of; choose another column"
+                "{name} can not be drawn as a line, as its values are not numbers; choose another column"
             )));
         }
         Ok(Self { column, ..self })

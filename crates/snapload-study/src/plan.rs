@@ -69,7 +69,7 @@ impl Axis {
         if values.is_empty() {
             let error = key
                 .refuse(key.name, "[]")
-                .with_hint("give one value at the least");
+                .with_hint("give at least one value");
             return Err(error.into());
         }
         let (key, values) = (key.name, Values::Listed(values));
@@ -149,7 +149,7 @@ impl Side {
         let key = check_entry(key, &Value::Number(high))?;
         if !is_drawn(key) {
             let words = format!(
-                "{} can not be drawn at random, as it takes no fractions; let it vary over a grid",
+                "{} can not be drawn at random, as it takes no fractions; vary it over a grid",
                 key.name
             );
             return Err(StudyError::Input(words));
@@ -176,7 +176,7 @@ impl Side {
                 Self::new(key, number(low)?, number(high)?)
             }
             [_, _, count] => {
-                let what = format!("{count:?} is no number of values");
+                let what = format!("{count:?} is not a number of values");
                 Err(wrong_range(key, text, &what, SIDE))
             }
             _ => Err(wrong_range(key, text, "two numbers are needed", SIDE)),
@@ -316,8 +316,8 @@ fn check_count(count: u64) -> Result<(), StudyError> {
         return Ok(());
     }
     Err(StudyError::Input(format!(
-        "{count} cases were asked for; allowed: from 1 to {MOST_CASES:e}; vary fewer values of a \
-         key, or another number of points"
+        "{count} cases are not allowed; allowed: from 1 to {MOST_CASES:e}; vary fewer values of a key, or use \
+         another number of points"
     )))
 }
 

@@ -156,7 +156,7 @@ impl Store {
         let name = chunk_name(&range);
         if let Ok(Some(why)) = flaw_of(Cursor::new(bytes)) {
             return Err(StudyError::Input(format!(
-                "rows {} to {} can not be taken: {why}; compute them again",
+                "rows {} to {} can not be used: {why}; compute them again",
                 range.start,
                 range.end - 1
             )));
@@ -341,7 +341,7 @@ fn describe(identity: &Identity) -> String {
 pub fn check_name(file: &Path) -> Result<(), StudyError> {
     match file.extension() {
         Some(ending) if !ending.eq_ignore_ascii_case("parquet") => Err(StudyError::Input(format!(
-            "can not write {}: rows are written as Parquet, and the name says otherwise; end it in .parquet\nhint: \
+            "can not write {}: rows are written as Parquet; choose a name that ends in .parquet\nhint: \
              for another format read that file, such as with pandas.read_parquet(...).to_csv(...)",
             file.display()
         ))),
@@ -377,7 +377,7 @@ fn other_study(directory: &Path, known: &str, wanted: &str) -> StudyError {
         let mut lines = one
             .lines()
             .filter(|line| !other.lines().any(|o| o == *line));
-        lines.next().unwrap_or("(nothing of the kind)").to_owned()
+        lines.next().unwrap_or("(no such line)").to_owned()
     };
     StudyError::Occupied(Occupied::OtherStudy {
         directory: directory.to_owned(),

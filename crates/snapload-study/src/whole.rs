@@ -192,8 +192,8 @@ fn identity_of_part(path: &Path) -> Result<Identity, StudyError> {
     }
     if let Some(why) = flaw(path) {
         return Err(StudyError::Input(format!(
-            "{shown} can not be taken: {why}\nhint: if it was copied here, copy it again; else remove it and compute \
-             that part anew, with the snapload sweep --shard that made it"
+            "{shown} can not be used: {why}\nhint: if it was copied here, copy it again; else remove it and compute \
+             that part again, with the snapload sweep --shard that made it"
         )));
     }
     identity_of(path).ok_or_else(|| {
@@ -219,7 +219,7 @@ fn missing(rows: Range<u64>, parts: &[(Identity, &PathBuf)]) -> StudyError {
     }
     let give = match &names[..] {
         [] => "give every part of the study".to_owned(),
-        names => format!("missing is --shard {}", names.join(", ")),
+        names => format!("missing: --shard {}", names.join(", ")),
     };
     StudyError::Input(format!(
         "rows {} to {} are in none of the files; {give}",

@@ -86,7 +86,8 @@ fn with_words<const WORDS: usize>(
     let (run, trust) = trusted_run(case, &uncertainty, on_progress)?;
     let simulation = case.simulation_over(|_, number| Precise::<WORDS>::from_decimal(number));
     let mut simulation = simulation.map_err(|_| {
-        let allowed = "a start that is legal with more digits, too; this one is on the very edge";
+        let allowed =
+            "a start that is legal with more digits, too; this one is exactly at the limit";
         CaseError::value("x, y, theta", "(the start)", allowed)
     })?;
     let mut differences = Vec::new();

@@ -25,7 +25,7 @@ fn bad_files_are_refused_with_the_line() {
         (b"e = -inf\n", &["e = -inf"]),
         (
             b"e = 0.5\ne = 0.6\n",
-            &["bad.toml", "line 2, column 1", "the key e stands twice"],
+            &["bad.toml", "line 2, column 1", "the key e occurs twice"],
         ),
         (
             b"e = \n",

@@ -58,7 +58,7 @@ fn the_standard_case_is_proved_and_the_run_leaves_it_where_many_digits_do() {
     let (count, t) = (true_ones.len(), certificate["t"].as_str().unwrap());
     let proved = format!("\nProved    {count} impacts, settled at t = {t} (256 bits)\n");
     assert!(text.contains(&proved), "{text}");
-    let left = format!("\n          the run leaves it at impact {first}, which ");
+    let left = format!("\n          the run departs from the proof at impact {first}, which ");
     assert!(text.contains(&left), "{text}");
 }
 
@@ -67,7 +67,7 @@ fn a_run_that_is_known_to_its_end_has_what_is_proved() {
     let args = ["run", "--set", "f_o=0.31", "--certify"];
     let text = told(&args);
     assert!(
-        text.contains("\n          the run has the same in five digits\n"),
+        text.contains("\n          the run agrees in five digits\n"),
         "{text}"
     );
     let run = json(&args);
@@ -101,13 +101,13 @@ fn what_is_not_proved_is_said() {
         "{text}"
     );
     assert!(
-        text.contains("\n          no further: the length of cable "),
+        text.contains("\n          then undecided: the length of cable "),
         "{text}"
     );
     let joined = text.split_whitespace().collect::<Vec<_>>().join(" ");
     assert!(joined.contains("and the length of cable "), "{text}");
     assert!(joined.contains("all at one instant"), "{text}");
-    assert!(!text.contains("the same in five digits"), "{text}");
+    assert!(!text.contains("the run agrees"), "{text}");
 }
 
 #[test]

@@ -73,7 +73,7 @@ fn the_summary_names_what_differs_from_the_standard_case() {
     );
     run(
         &["--set", "t_end=0.2"],
-        "end of the time asked for, t = 0.2\n",
+        "end of the requested time, t = 0.2\n",
     );
 }
 

@@ -193,7 +193,7 @@ fn hydro_refuses_with_reasons() {
         (&["hydro", "pontoon.nc", "--hs", "1"], "--tp"),
         (
             &["decay", "pontoon.nc", "--from", "0,0,0"],
-            "let go from somewhere",
+            "release the body from",
         ),
         (&["decay", "pontoon.nc", "--step", "0"], "positive step"),
     ] {

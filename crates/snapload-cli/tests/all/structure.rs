@@ -318,9 +318,7 @@ fn moordyn_files_are_written_and_read() {
         .args(["moordyn", "read", "bare.txt"])
         .assert()
         .success()
-        .stdout(contains(
-            "# Still to be given: body.width, run.restitution.",
-        ));
+        .stdout(contains("# Still missing: body.width, run.restitution."));
     fs::write(
         room.path().join("off.txt"),
         bare.replace("3  Fixed  -3.593  0", "3  Fixed  -3.593  8"),

@@ -115,14 +115,14 @@ fn an_interruption_says_how_to_go_on() {
     assert_eq!(done.status.code(), Some(130), "{said}");
     let command = "snapload sweep --vary f_o=0.01:0.6:600 --vary omega=0.4:2.4:500 --out map.parquet --resume";
     assert!(
-        said.contains("of 300000 rows are safe") && said.contains(command),
+        said.contains("of 300000 rows are saved") && said.contains(command),
         "{said}"
     );
     assert_eq!(listing(d.path()), ["map.parquet.parts"]);
     // Without --resume nothing is continued or lost; nor by another study.
     sweep(d.path(), &endless, "map.parquet")
         .code(2)
-        .stderr(contains("go on with --resume"));
+        .stderr(contains("continue with --resume"));
     let other = [&endless[..], &["--set", "e=0.8", "--resume"]].concat();
     sweep(d.path(), &other, "map.parquet")
         .code(2)
@@ -207,7 +207,7 @@ fn threads_and_parts_change_no_byte() {
         .code(2)
         .stderr(contains("exists already"));
     merge(&parts[..2], "x").code(2).stderr(contains(
-        "rows 3 to 5 are in none of the files; missing is --shard 2/3",
+        "rows 3 to 5 are in none of the files; missing: --shard 2/3",
     ));
     let twice = ["part-1.parquet", "part-1.parquet"];
     merge(&twice, "x")
@@ -287,7 +287,7 @@ fn the_summary_tells_how_many_ends_are_certain() {
     let d = directory();
     let told = sweep(d.path(), &["--vary", "e=0.5,0.55,0.9"], "e.parquet").success();
     told.stdout(contains(
-        "Trust     2 of 3 ends are certain (the column certain says which)",
+        "Trust     2 of 3 ends are certain (see the column certain)",
     ));
     let told = sweep(
         d.path(),
@@ -402,7 +402,7 @@ fn slips_are_refused_before_anything_is_run() {
         ),
         (
             &["--vary", "e=0:1:3", "--plot", "x.svg", "--show", "end"],
-            "holds no numbers",
+            "its values are not numbers",
         ),
         (&["--threads", "0"], "--threads"),
     ] {
@@ -432,7 +432,7 @@ fn a_finished_study_is_left_as_it_is() {
         .unwrap();
     sweep(d.path(), &SHORT, "a.parquet")
         .code(2)
-        .stderr(contains("exists already and holds this study, complete"));
+        .stderr(contains("exists already and holds this complete study"));
     sweep(d.path(), &[&SHORT[..], &["--resume"]].concat(), "a.parquet").success();
     assert_eq!(
         fs::metadata(d.path().join("a.parquet"))

@@ -55,7 +55,7 @@ fn a_damaged_part_or_file_is_refused() {
         .assert()
         .code(2)
         .stderr(
-            contains("2.parquet can not be taken: it is damaged").and(contains("copy it again")),
+            contains("2.parquet can not be used: it is damaged").and(contains("copy it again")),
         );
     assert!(!d.path().join("whole.parquet").exists());
     sweep(d.path(), &SHORT, "whole.parquet").success();
@@ -66,7 +66,7 @@ fn a_damaged_part_or_file_is_refused() {
         "whole.parquet",
     )
     .code(2)
-    .stderr(contains("it is damaged").and(contains("remove it to compute it anew")));
+    .stderr(contains("it is damaged").and(contains("remove it to compute it again")));
 }
 
 /// A study whose cases are all illegal is an error; its file has the reason in each row.
@@ -84,7 +84,7 @@ fn a_list_of_bad_rows_is_bad_input() {
         .stdout(contains("Varied    e, f_o (columns of bad.csv)\n"))
         .stdout(contains("in row 0, line 3 of bad.csv: e = 2"))
         .stderr(contains(
-            "not one of the 2 cases could be run; the column error of bad.parquet",
+            "none of the 2 cases could be run; the column error of bad.parquet",
         ));
     }
     // In one part all cases may be illegal if they are not in the others.
@@ -102,7 +102,7 @@ fn what_never_ends_is_no_list() {
     let d = directory();
     sweep(d.path(), &["--list", "/dev/zero"], "a.parquet")
         .code(2)
-        .stderr(contains("can not read /dev/zero: a list has to be a file"));
+        .stderr(contains("can not read /dev/zero: a list must be a file"));
 }
 
 #[test]
@@ -176,7 +176,7 @@ fn what_varies_is_said() {
     let box_of = |range| [&point[..], &[range, "--random", "4"]].concat();
     sweep(d.path(), &box_of("f_o=0.1:0.5:x"), "d.parquet")
         .code(2)
-        .stderr(contains("\"x\" is no number of values; write low:high"));
+        .stderr(contains("\"x\" is not a number of values; write low:high"));
     let random = box_of("f_o=0.1:0.5:7");
     sweep(d.path(), &random, "d.parquet")
         .success()
@@ -191,7 +191,7 @@ fn what_can_not_be_swept_is_told_as_it_was_written() {
     for (asked, words) in [
         (
             &["--random", "9"][..],
-            "1 to 16 keys, and none varies; let one vary by --vary KEY=low:high, such as --vary e=0.5:0.9",
+            "1 to 16 keys, and none varies; vary one with --vary KEY=low:high, such as --vary e=0.5:0.9",
         ),
         (
             &["--vary", "e=0.5:0.9", "--random", "0"],

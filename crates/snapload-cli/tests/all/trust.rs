@@ -127,7 +127,7 @@ fn many_digits_show_where_the_ordinary_run_goes_wrong() {
     assert!(differences[0].as_f64().unwrap() < 1e-14);
     let text = told(&["verify", "--set", "f_o=0.31"]);
     assert!(
-        text.contains("Proven    right to 1e-3 at all 12 impacts"),
+        text.contains("Compared  correct to 1e-3 at all 12 impacts"),
         "{text}"
     );
 }
@@ -153,7 +153,7 @@ fn what_can_not_be_in_doubt_is_refused_in_words() {
     );
     refused(
         &["run", "--uncertainty", "t_end=1"],
-        "no quantity of the motion",
+        "an uncertainty of one of the keys",
     );
     refused(
         &["run", "--uncertainty", "wide"],

@@ -155,7 +155,7 @@ fn errors_name_the_line_the_key_and_what_to_do() {
     assert!(table.contains("did you mean site?"), "{table}");
     let twice = told("[site]", "[body]");
     assert!(
-        twice.contains("[body] stands twice; write all its keys below one"),
+        twice.contains("[body] occurs twice; write all its keys below one"),
         "{twice}"
     );
     let lines = told("[[line]]", "[line]");

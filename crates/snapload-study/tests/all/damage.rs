@@ -99,7 +99,7 @@ fn a_damaged_part_is_refused() {
             panic!("a damaged part was taken");
         };
         assert!(
-            words.contains("2-2 can not be taken") && words.contains("compute"),
+            words.contains("2-2 can not be used") && words.contains("compute"),
             "{words}"
         );
     }

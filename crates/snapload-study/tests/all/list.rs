@@ -225,8 +225,8 @@ fn bad_rows_are_errors_of_their_own_and_empty_cells_nothing() {
 fn a_list_with_other_columns_is_refused() {
     for (text, wanted) in [
         ("f_o,omgea\n1,2\n", "did you mean omega?"),
-        ("f_o,f_o\n1,2\n", "f_o stands over two columns"),
-        ("f_o\n", "holds no case"),
+        ("f_o,f_o\n1,2\n", "two columns are named f_o"),
+        ("f_o\n", "contains no case"),
     ] {
         let error = List::open(csv(text).path()).unwrap_err().to_string();
         assert!(error.contains(wanted), "{error}");
@@ -248,7 +248,7 @@ fn a_list_with_other_columns_is_refused() {
     }
     let folder = tempfile::tempdir().unwrap();
     let error = List::open(folder.path()).unwrap_err().to_string();
-    assert!(error.contains("a list has to be a file"), "{error}");
+    assert!(error.contains("a list must be a file"), "{error}");
     let error = List::open(Path::new("/no/such/list.csv")).unwrap_err();
     assert!(matches!(&error, StudyError::Input(words) if words.contains("No such file")));
 }

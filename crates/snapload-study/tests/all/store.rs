@@ -148,7 +148,10 @@ fn only_one_is_at_work() {
     let target = directory.path().join("file");
     let store = work(&target, &study(3));
     let error = open(&target, &study(3), true).unwrap_err().to_string();
-    assert!(error.contains("another snapload is at work"), "{error}");
+    assert!(
+        error.contains("another snapload process is writing"),
+        "{error}"
+    );
     drop(store);
     let error = open(&target, &study(4), true).unwrap_err().to_string();
     assert!(error.contains("there: # snapload"), "{error}");

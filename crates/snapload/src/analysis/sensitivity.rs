@@ -43,7 +43,7 @@ pub fn sensitivity(
     let keys: Vec<_> = keys.filter(|key| case.parameters().moves_by(key)).collect();
     let mut found = Vec::new();
     for (done, key) in keys.iter().enumerate() {
-        let progress = Progress::new("deriving", done as f64, keys.len() as f64);
+        let progress = Progress::new("derivatives", done as f64, keys.len() as f64);
         let Some(slopes) = slopes_by(case, key, count, &|| progress.tell(on_progress))? else {
             return Ok(Vec::new());
         };

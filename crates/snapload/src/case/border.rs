@@ -41,7 +41,7 @@ impl Parameters {
         if is_point {
             p.inertia = None;
             if let Some(inertia) = inertia {
-                let allowed = "no inertia at all for a point mass (body = \"point\")";
+                let allowed = "no inertia for a point mass (body = \"point\")";
                 let error = CaseError::value("inertia", Value::Number(inertia), allowed);
                 return Err(error.with_hint("leave inertia out, or choose body = \"rigid\""));
             }
@@ -148,7 +148,7 @@ impl Parameters {
     fn no_inertia(&self) -> CaseError {
         let (a, b) = (Value::Number(self.a), Value::Number(self.b));
         let allowed = format!(
-            "a number, 1e-12 <= inertia <= 1e6, as a = {a} and b = {b} give a rigid body none"
+            "a number, 1e-12 <= inertia <= 1e6, as a = {a} and b = {b} determine no inertia"
         );
         CaseError::value("inertia", "(left out)", allowed)
             .with_hint("give inertia, or a size a or b, or choose body = \"point\"")

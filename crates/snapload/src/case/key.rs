@@ -281,7 +281,7 @@ impl Key {
         let numbers = match self.kind {
             Kind::Number(Bounds { high, .. }) if high < f64::MAX => "a number",
             Kind::Pair(_) => "two numbers",
-            Kind::PerFreedom(_) => "a number or three",
+            Kind::PerFreedom(_) => "one number or three",
             _ => return CaseError::value(path, shown, self.allowed()),
         };
         // The keys of a case without tables are nondimensional, and errors do not name their unit.

@@ -82,7 +82,7 @@ pub const CASE_KEYS: Table = Table {
 pub static CASE: Schema = Schema {
     tables: &[CASE_KEYS],
     example: "f_o=0.5",
-    form: "one `key = value` a line, such as `f_o = 0.5`",
+    form: "one `key = value` per line, such as `f_o = 0.5`",
 };
 
 /// The key of a name, or an error with the nearest one.

@@ -59,7 +59,7 @@ impl Entries {
                 let heading = value.is_table() && table.heading == Heading::None;
                 Err(match error.fault {
                     Fault::UnknownKey { .. } if heading => error.with_hint(format!(
-                        "the keys of {} stand below no heading; leave out the line [{}]",
+                        "the keys of {} have no heading; leave out the line [{}]",
                         table.meaning,
                         echo(key)
                     )),
@@ -125,7 +125,7 @@ impl Entries {
             _ => {
                 let allowed = match many {
                     true => format!("the number of a {name}, from 1 to {count}"),
-                    false => format!("no number, as there is one {} only", table.header()),
+                    false => format!("no number, as there is only one {}", table.header()),
                 };
                 let path = format!("{name}.{number}");
                 Err(CaseError::value(&path, "(given)", allowed))
@@ -258,13 +258,13 @@ fn line_of(text: &str, at: usize) -> usize {
 fn twice(schema: &Schema, name: &str, line: &str) -> String {
     let name = echo(name);
     if !line.trim_start().starts_with('[') {
-        return format!("the key {name} stands twice");
+        return format!("the key {name} occurs twice");
     }
     match schema.table(&name) {
         Ok(table) if table.heading == Heading::Many => {
-            format!("[{name}] stands twice; write {} for each", table.header())
+            format!("[{name}] occurs twice; write {} for each", table.header())
         }
-        _ => format!("[{name}] stands twice; write all its keys below one"),
+        _ => format!("[{name}] occurs twice; write all its keys below one"),
     }
 }
 
@@ -303,7 +303,7 @@ fn malformed(schema: &Schema, name: &str, text: &str, error: &toml::de::Error) -
     let form = schema.form;
     CaseError::syntax(said)
         .with_hint(format!(
-            "a case file has {form}; words stand in quotes, and decimals have a point"
+            "a case file has {form}; words are in quotes, and decimals have a point"
         ))
         .at(format!(
             "{name}, line {}, column {column}",

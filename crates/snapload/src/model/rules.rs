@@ -50,7 +50,7 @@ pub enum Stop {
     UpperBound,
     /// A cable stuck at or above the settling height.
     SlidingStart,
-    /// The end of the time asked for.
+    /// The end of the requested time.
     EndTime,
     /// More impacts than allowed.
     ImpactLimit,
@@ -91,7 +91,7 @@ impl Stop {
                 "sliding start",
                 "a cable stuck at or above the settling height",
             ],
-            Self::EndTime => ["end_time", "end time", "the time asked for was over"],
+            Self::EndTime => ["end_time", "end time", "the requested time was over"],
             Self::ImpactLimit => [
                 "impact_limit",
                 "impact limit",
@@ -172,8 +172,14 @@ impl Limit {
     /// ...".
     const fn told(self) -> [&'static str; 2] {
         match self {
-            Self::Rotation => ["rotation", "the body has turned so far, either way [rad]"],
-            Self::UpperBound => ["highest point", "the highest point of the body is so high"],
+            Self::Rotation => [
+                "rotation",
+                "the rotation reaches this angle in either direction [rad]",
+            ],
+            Self::UpperBound => [
+                "highest point",
+                "the highest point of the body reaches this height",
+            ],
         }
     }
 

@@ -76,7 +76,7 @@ fn inertia_follows_from_the_size_unless_given() {
 
 #[test]
 fn a_body_without_inertia_is_refused() {
-    let allowed = "a = 0 and b = 0 give a rigid body none";
+    let allowed = "a = 0 and b = 0 determine no inertia";
     refused(&[("a", 0.into())], "inertia", "(left out)", allowed);
     // The square of the value underflows to zero.
     refused(
@@ -124,7 +124,7 @@ fn a_point_mass_has_no_size_and_no_rotation() {
         &[point, ("inertia", 0.1.into())],
         "inertia",
         "0.1",
-        "no inertia at all",
+        "no inertia for a point mass",
     );
 }
 

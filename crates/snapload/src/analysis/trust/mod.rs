@@ -118,7 +118,7 @@ impl Uncertainty {
                 self.keys.push((key.name, size));
             }
         } else {
-            let allowed = format!("no uncertainty: it is no quantity of the motion; {} are", {
+            let allowed = format!("an uncertainty of one of the keys {}", {
                 let mut all = START_KEYS.to_vec();
                 all.extend(UNCERTAIN_KEYS);
                 all.join(", ")

@@ -37,7 +37,7 @@ impl UncertainKey {
             }
         };
         let simulation = case.simulation_over(lift).map_err(|_| {
-            let allowed = "an uncertainty about a start that is not on the very edge";
+            let allowed = "no uncertainty, as the start is exactly at the limit of what is legal";
             CaseError::value(name, Value::Number(size), allowed)
         })?;
         let size = uniform(size);
