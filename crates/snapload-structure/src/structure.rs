@@ -323,8 +323,8 @@ impl Structure {
         let source = self.added_mass_source()?;
         let tonnes = |kilograms: f64| kilo(&kilograms, 1);
         Some(format!(
-            "{} t, and {} t of water move with it in x, {} t in z; it turns {} t m^2, and \
-             {} t m^2 of water with it: {source}",
+            "{} t, added mass {} t in x and {} t in z; moment of inertia {} t m^2, of the added mass \
+             {} t m^2: {source}",
             tonnes(body.mass_kg),
             tonnes(added.surge_kg),
             tonnes(added.heave_kg),
@@ -346,7 +346,9 @@ impl Structure {
         let mut parts = Vec::new();
         if current != 0.0 {
             let drag = kilo(&self.drag_of_current_n(), 1);
-            parts.push(format!("a current of {current} m/s drags with {drag} kN"));
+            parts.push(format!(
+                "a current of {current} m/s with a drag of {drag} kN"
+            ));
         }
         if [x, z] != [0.0; 2] {
             let [x, z] = [x, z].map(|newtons| kilo(&newtons, 1));

@@ -246,7 +246,7 @@ fn elastic_runs_both_ways() {
         .args(short)
         .assert()
         .success()
-        .stdout(contains("pulls of the lines that stretch").and(contains("motion.csv")));
+        .stdout(contains("pulls of elastic lines").and(contains("motion.csv")));
     let json: serde_json::Value =
         serde_json::from_slice(&fs::read(room.path().join("both.json")).unwrap()).unwrap();
     let (pull, snap) = (&json["pulls"][0], &json["inextensible"]["snaps"][0]);

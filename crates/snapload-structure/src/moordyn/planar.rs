@@ -39,26 +39,26 @@ const UNSUPPORTED: [(Section, &str, &str, &str); 4] = [
         Section::Rods,
         "RODS",
         "no rods: snapload's lines run from anchors to points of one body",
-        "make a rod that is fixed to the body a part of it: its mass, inertia and volume, and Body1 \
-         points for its ends",
+        "for a rod fixed to the body add its mass, inertia and volume to those of the body, and write \
+         its ends as points of Body1",
     ),
     (
         Section::Failure,
         "FAILURE",
-        "no failures: snapload says whether a line would break and goes on",
-        "take the section out; give the breaking load as line.1.breaking_load by --set",
+        "no failures: snapload reports whether a line would break, and keeps it",
+        "remove the section; give the breaking load as line.1.breaking_load by --set",
     ),
     (
         Section::Control,
         "CONTROL",
         "no control of line lengths",
-        "take the section out",
+        "remove the section",
     ),
     (
         Section::Loads,
         "EXTERNAL LOADS",
         "no external loads",
-        "take the section out; linear damping is body.linear_damping, given by --set",
+        "remove the section; linear damping is body.linear_damping, given by --set",
     ),
 ];
 
@@ -90,7 +90,7 @@ pub(super) fn body<'a>(sections: &'a Sections<'a>) -> Result<Option<Body<'a>>, C
     }
     let place_m = row.place(2, ["X0", "Y0", "Z0"])?;
     for (index, column) in [(5, "r0"), (6, "p0"), (7, "y0")] {
-        let hint = "where it rests, turned or not, is found";
+        let hint = "its rotation at rest is computed";
         row.number(index, column)?;
         row.zero(index, column, "0: the body is drawn upright", hint)?;
     }
@@ -98,7 +98,7 @@ pub(super) fn body<'a>(sections: &'a Sections<'a>) -> Result<Option<Body<'a>>, C
         9,
         "CG",
         "0: one centre of mass, buoyancy and added mass",
-        "if that is near enough, put the body's origin there, and take it from the z of its points",
+        "if one centre is accurate enough, put the body's origin there, and subtract CG from the z of its points",
     )?;
     Ok(Some(Body { row, place_m }))
 }
@@ -118,9 +118,14 @@ pub(super) fn points<'a>(
         // Rows that are too short are left to MoorDyn to refuse.
         let given = [(5, "Mass"), (6, "Volume"), (7, "CdA")].into_iter();
         for (index, column) in given.filter(|(index, _)| row.words.len() > *index) {
-            let hint = "give mass and volume of a point on the body to the body";
+            let hint = "add mass and volume of a point on the body to those of the body";
             row.number(index, column)?;
-            row.zero(index, column, "0: points are places and no things", hint)?;
+            row.zero(
+                index,
+                column,
+                "0: points have no mass, volume or drag",
+                hint,
+            )?;
         }
         points.insert(id, (row, point));
     }
@@ -152,7 +157,7 @@ fn point(row: &Row<'_>, body: Option<&Body<'_>>) -> Result<Point, CaseError> {
         _ => {
             return refuse(
                 "Fixed (the ground) or Body1 (the body)",
-                "a point that moves by itself, such as a joint or a clump, is not supported: lines \
+                "a free point, such as a joint or a clump, is not supported: lines \
                  run from the ground straight to the body",
             );
         }

@@ -128,8 +128,8 @@ impl Reader {
                 "wavekin" | "currents" | "seafloorfile" | "waterkin" => {
                     if number(word) != Some(0.0) {
                         self.note(format!(
-                            "{option} = {word} was left out: give [wave] or [sea]; the floor is \
-                             flat and there is no current."
+                            "{option} = {word} was left out: give [wave] or [sea], and site.current; \
+                             the floor is flat."
                         ));
                     }
                     continue;
@@ -170,8 +170,8 @@ impl Reader {
         let [drag, turning] = drag(row)?;
         if turning != 0.0 {
             self.note(format!(
-                "The body's rotational drag, CdA = {turning}, was left out: here turning_damping \
-                 is linear."
+                "The body's rotational drag, CdA = {turning}, was left out: snapload's \
+                 turning_damping is linear."
             ));
         }
         let displaced = volume * self.water_density;
@@ -304,7 +304,7 @@ fn ends<'a>(row: &Row<'_>, points: &'a Points<'a>) -> Result<Ends<'a>, CaseError
         (Holds::Ground, Holds::Body) => return Ok([a, b]),
         (Holds::Body, Holds::Ground) => return Ok([b, a]),
         (Holds::Ground, Holds::Ground) => {
-            ("ground", "take the line out, as it does not hold the body")
+            ("ground", "remove the line, as it does not hold the body")
         }
         (Holds::Body, Holds::Body) => ("body", "snapload moors one body to the ground"),
     };

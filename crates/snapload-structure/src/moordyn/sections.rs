@@ -250,8 +250,8 @@ fn refuse_first_version(origin: &str, line: &str) -> Result<(), CaseError> {
     };
     let allowed = "the columns of MoorDyn version 2; this is a file of version 1";
     let error = CaseError::value("column", word, allowed).with_hint(
-        "write LINE TYPES, POINTS and LINES as the manual of MoorDyn v2 has them, ID LineType \
-         AttachA AttachB UnstrLen NumSegs for a line",
+        "write LINE TYPES, POINTS and LINES as in the manual of MoorDyn v2, with the columns \
+         ID LineType AttachA AttachB UnstrLen NumSegs for a line",
     );
     Err(error.at(origin))
 }

@@ -59,7 +59,7 @@ fn project(structure: &Structure) -> Vec<(&str, String)> {
 pub fn write(name: &str, structure: &Structure, segments: u32) -> Result<String, CaseError> {
     check(&SEGMENTS, i64::from(segments))?;
     if structure.afloat.is_some() {
-        let allowed = "nothing: MoorDyn has no body that floats by coefficients of its own";
+        let allowed = "nothing: MoorDyn has no floating body with hydrodynamic coefficients";
         return Err(CaseError::value("[float]", "(given)", allowed));
     }
     let prepared = Prepared::new(structure.clone())?;
@@ -99,7 +99,7 @@ fn types(prepared: &Prepared, segments: u32) -> Result<Vec<[f64; 4]>, CaseError>
     let one = |(number, (line, spring)): (usize, (&crate::LineSi, &crate::Spring))| {
         let needed = |value: Option<f64>, key: &str, what: &str| {
             value.ok_or_else(|| {
-                let allowed = format!("a {what}, without which MoorDyn has no line");
+                let allowed = format!("a {what}, which a line of MoorDyn needs");
                 CaseError::value(&format!("line.{number}.{key}"), "(left out)", allowed)
                     .with_hint("or give a type and a diameter")
             })

@@ -30,9 +30,9 @@ pub(super) fn resistance(structure: &Structure) -> Vec<String> {
     let afloat = structure.afloat.iter().flat_map(|afloat| {
         let damping = &afloat.body.damping;
         [
-            ("beside waves in surge", damping[(0, 0)], "N s/m"),
-            ("beside waves in heave", damping[(1, 1)], "N s/m"),
-            ("beside waves in pitch", damping[(2, 2)], "N m s"),
+            ("surge (besides radiation)", damping[(0, 0)], "N s/m"),
+            ("heave (besides radiation)", damping[(1, 1)], "N s/m"),
+            ("pitch (besides radiation)", damping[(2, 2)], "N m s"),
         ]
     });
     let given = parts.into_iter().chain(afloat);

@@ -334,7 +334,11 @@ pub(super) fn of_seas(seas: &Seas) -> Result<[Picture; 2], FigureError> {
         (label, Range::Auto),
         ("−ln(−ln *P*)", Range::AtLeast(-1.6, 4.8)),
     ];
-    let gumbel = plot("The largest of each record on Gumbel's paper", axes, layers);
+    let gumbel = plot(
+        "The largest value of each record on Gumbel probability paper",
+        axes,
+        layers,
+    );
     let exceedance = exceedance(seas, &all, unit, label);
     Ok([
         draw("gumbel", Width::Column, &[gumbel])?,
@@ -352,7 +356,7 @@ fn exceedance(seas: &Seas, all: &[f64], unit: f64, label: &str) -> Plot {
     let points = all.iter().enumerate().map(harder).collect();
     let axes = [(label, FROM_ZERO), ("log₁₀ of snaps in 3 h", Range::Auto)];
     let layers = vec![line(vec![points], Stroke::default(), "")];
-    let description = "How often a snap is harder than a value, in three hours";
+    let description = "Number of snaps above a value, in three hours";
     let mut plot = plot(description, axes, layers);
     if all.is_empty() {
         plot.note = "no line snapped".to_owned();

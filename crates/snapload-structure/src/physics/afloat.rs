@@ -111,7 +111,7 @@ fn nowhere(
             ..afloat.clone()
         };
         if rest_afloat(structure, &calm).is_ok() {
-            let allowed = "a moment against which water and lines hold the body";
+            let allowed = "a moment with which the water and the lines hold the body";
             let moment = afloat.constant_moment_n_m;
             return CaseError::value("float.constant_moment", moment, allowed);
         }
@@ -119,14 +119,18 @@ fn nowhere(
     let lengths = structure.lines.iter().map(|line| line.length_m.to_string());
     let shown = format!("[{}]", lengths.collect::<Vec<_>>().join(", "));
     let Some((q, apart_m)) = adrift else {
-        return CaseError::value("line.length", shown, format!("lines that hold it; {error}"))
-            .with_hint("give run.start, or lines that hold the body");
+        return CaseError::value(
+            "line.length",
+            shown,
+            format!("lines that hold the body; {error}"),
+        )
+        .with_hint("give run.start, or change anchors, fairleads or lengths");
     };
     let [_, z] = structure.body.position_m;
     let apart = apart_m.iter().map(|apart| format!("{apart:.3}"));
     let allowed = format!(
-        "lines one of which at the least is taut at rest, so that the body is held in surge; without tension it \
-         floats at z = {:.3} m, where their ends are [{}] m apart",
+        "lengths with which at least one line is taut at rest, so that the body is held in surge; without tension it \
+         floats at z = {:.3} m, where the ends of the lines are [{}] m apart",
         z + q[1],
         apart.collect::<Vec<_>>().join(", ")
     );
@@ -134,12 +138,12 @@ fn nowhere(
     let [mass_kg, displaced_kg] = [structure.body.mass_kg, structure.displaced_mass_kg()];
     error.with_hint(match mass_kg > displaced_kg {
         true => format!(
-            "the body weighs {} t where it displaces {} t: make it lighter, or the lines shorter; run.start says \
-             where it begins without being held",
+            "the body weighs {} t but displaces {} t: make it lighter, or the lines shorter; or give run.start, \
+             where a body that is not held starts",
             kilo(&mass_kg, 1),
             kilo(&displaced_kg, 1)
         ),
-        false => "shorten the lines; run.start says where it begins without being held".to_owned(),
+        false => "shorten the lines, or give run.start, where a body that is not held starts".to_owned(),
     })
 }
 

@@ -90,7 +90,7 @@ pub fn equilibrium(structure: &Structure) -> Result<Equilibrium, CaseError> {
             "lines that hold the body under water; with these it rises until its top is {top:.2} m above the still water"
         );
         return Err(CaseError::value("line.length", lengths(structure), allowed)
-            .with_hint("shorten the lines, or make fast more of them"));
+            .with_hint("shorten the lines, or add lines"));
     }
     Ok(Equilibrium {
         place_m,
@@ -162,7 +162,7 @@ pub(super) fn pushed_away(
     let mut calm = structure.clone();
     calm.body.constant_force_n = [0.0; 2];
     calm.site.current_m_s = 0.0;
-    let allowed = "a load against which the lines hold the body where it can rest";
+    let allowed = "a load with which the lines hold the body at rest";
     let found = load_at_fault(structure, allowed);
     found.filter(|_| rests(&calm))
 }
@@ -181,9 +181,9 @@ fn nowhere(structure: &Structure) -> CaseError {
     if let Some(error) = pushed_away(structure, |calm| equilibrium(calm).is_ok()) {
         return error;
     }
-    let allowed = "lines within whose reach the body can rest upright";
+    let allowed = "lines with which the body can rest upright";
     CaseError::value("line.length", lengths(structure), allowed).with_hint(
-        "look at anchors, fairleads and lengths: every line must reach, and together they must \
+        "check anchors, fairleads and lengths: every line must reach, and together they must \
          hold the body without turning it over",
     )
 }

@@ -124,7 +124,7 @@ pub(crate) fn in_words(modes: &[NaturalMode]) -> String {
         None => format!("none ({})", mode.motion),
     };
     match modes {
-        [] => "no way, as the lines hold it fast,".to_owned(),
+        [] => "none, as the lines allow no motion".to_owned(),
         modes => modes.iter().map(one).collect::<Vec<_>>().join(", "),
     }
 }

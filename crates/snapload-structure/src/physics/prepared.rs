@@ -186,16 +186,13 @@ impl Prepared {
         if !self.held.is_empty() {
             let (natural, modes): (Vec<_>, Vec<_>) = self.held.iter().cloned().unzip();
             let held = periods_in_words(&natural, &modes);
-            rows.push(("held", format!("as long as the lines stay taut: {held}")));
+            rows.push(("taut", format!("while the lines stay taut: {held}")));
         }
         let stretched = self.on_lines_that_stretch();
         if !stretched.is_empty() {
             let (natural, modes): (Vec<_>, Vec<_>) = stretched.into_iter().unzip();
             let words = periods_in_words(&natural, &modes);
-            rows.push((
-                "stretched",
-                format!("on these lines as they stretch: {words}"),
-            ));
+            rows.push(("elastic", format!("with elastic lines: {words}")));
         }
         rows
     }

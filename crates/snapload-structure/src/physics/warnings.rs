@@ -136,8 +136,8 @@ fn warnings_afloat(prepared: &Prepared, afloat: &Afloat) -> Vec<Warning> {
     let lost = 100.0 * left_out(structure, afloat);
     let textbook = report.reading.format == Format::Section;
     let again = match textbook {
-        true => "give body.position and displaced_volume as they are there",
-        false => "compute them again there",
+        true => "give body.position and displaced_volume for the place of rest",
+        false => "compute them for the place of rest",
     };
     let mut found = vec![
         shared_loads(rest),
@@ -198,7 +198,7 @@ pub(crate) fn limits_afloat(
 fn shared_loads(rest: &Equilibrium) -> Option<Warning> {
     let words = rest.shared.as_ref().map(|shared| {
         format!(
-            "{} kN at z = {:.3} m, and by their stiffness {} kN at z = {:.3} m",
+            "{} kN at z = {:.3} m, elastic lines {} kN at z = {:.3} m",
             each_kilo(&shared.unstretched_n),
             rest.place_m[1],
             each_kilo(&rest.tension_n),
@@ -213,7 +213,7 @@ fn shared_loads(rest: &Equilibrium) -> Option<Warning> {
 fn stretch_at_rest(rest: &Equilibrium) -> Option<Warning> {
     let relaxed = rest.relaxed_n.as_ref()?;
     let words = format!(
-        "{} kN, and not {}",
+        "{} kN instead of {}",
         each_kilo(relaxed),
         each_kilo(&rest.tension_n)
     );

@@ -106,7 +106,7 @@ impl Assessment {
             false => ("fastest snap (m/s)", speeds),
         };
         if values.iter().all(Option::is_none) {
-            return "nothing is judged with more or less restitution either".to_owned();
+            return "nothing is judged with a lower or higher restitution either".to_owned();
         }
         let restitutions = rows.iter().map(|row| Some(row.restitution)).collect();
         let [values, restitutions] = [values, restitutions].map(|numbers: Vec<Option<f64>>| {
@@ -183,8 +183,8 @@ fn rest_words(rest: &Equilibrium) -> String {
     let [x, z] = rest.place_m.map(|coordinate| decimals(&coordinate, 3));
     if !rest.rests {
         return format!(
-            "nowhere that is known, as no line holds it in surge, and at the surge of its start it would not float \
-             without tension; begins at x = {x} m, z = {z} m"
+            "not known, as no line holds the body in surge, and at the surge of its start it would not float without \
+             tension; starts at x = {x} m, z = {z} m"
         );
     }
     let turned = decimals(&rest.theta_rad.to_degrees(), 2);

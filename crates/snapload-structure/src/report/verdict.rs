@@ -257,7 +257,7 @@ fn verdict(
 /// How a line would break.
 fn how_it_breaks(line: &LineOutcome, stretching: bool) -> &'static str {
     if stretching {
-        "as it stretches"
+        "as an elastic line"
     } else if line.peak_n.is_some_and(|peak| peak >= line.held_n) {
         "in a snap"
     } else {

@@ -39,8 +39,8 @@ impl Criterion {
     pub fn words(self) -> &'static str {
         match self {
             Self::Strength => "factored tension over strength, at most",
-            Self::NoSlack => "least tension over that at rest, above",
-            Self::FactoredLeast => "factored least tension over that at rest, above",
+            Self::NoSlack => "least tension over tension at rest, above",
+            Self::FactoredLeast => "factored least tension over tension at rest, above",
             Self::WaveForce => "vertical wave force over net buoyancy, at most",
         }
     }

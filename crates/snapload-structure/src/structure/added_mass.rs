@@ -84,8 +84,8 @@ impl AddedMass {
         let flow = match outline {
             Outline::Circle => "two-dimensional flow about a circle, C_a = 1",
             Outline::Rectangle => {
-                "two-dimensional flow about a rectangle (DNV-RP-C205, table D-1), without what ends \
-                 take off"
+                "two-dimensional flow about a rectangle (DNV-RP-C205, table D-1), without the \
+                 reduction at the ends"
             }
         };
         match self.by_default {

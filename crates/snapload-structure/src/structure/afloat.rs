@@ -15,8 +15,8 @@ const SAME_VOLUME: f64 = 0.01;
 /// water.
 const HALF_IMMERSED: f64 = 0.01;
 /// The message for a key that names a file in a case that has no folder for files.
-pub const READS_NO_FILES: &str = "nothing in a case that is read by itself, without the files beside \
-                                  it; without it a body floats on textbook values of its section";
+pub const READS_NO_FILES: &str = "nothing in a case that is read without the files beside it; \
+                                  without this key a body floats by textbook values of its section";
 /// The name that is shown if there is no file.
 const SECTION: &str = "textbook values of its section";
 
@@ -152,8 +152,8 @@ const OF_A_FILE: [&str; 8] = [
 fn section(fields: Fields<'_>, site: &Site, body: &BodySi) -> Result<Reading, CaseError> {
     for key in OF_A_FILE {
         if let Some(value) = fields.given(key) {
-            let allowed = "nothing without float.file, as textbook values of a section leave it nothing \
-                           to do";
+            let allowed = "nothing without float.file, as textbook values of a section do not \
+                           depend on it";
             return Err(fields.refuse(key, value, allowed));
         }
     }
@@ -162,12 +162,12 @@ fn section(fields: Fields<'_>, site: &Site, body: &BodySi) -> Result<Reading, Ca
     let refuse = |allowed: String| {
         fields
             .refuse("file", "(left out)", allowed)
-            .with_hint("give float.file, coefficients by a panel code")
+            .with_hint("give float.file, the coefficients from a panel code")
     };
     let shape = match body.outline {
         Outline::Rectangle => Shape::Rectangle,
         Outline::Circle if z.abs() > HALF_IMMERSED * body.width_m => {
-            let allowed = "a file, as textbook values of a circle are of one with its centre in the \
+            let allowed = "a file, as textbook values of a circle are for one with its centre in the \
                            still water";
             return Err(refuse(allowed.to_owned()));
         }
@@ -219,7 +219,10 @@ fn idle(fields: Fields<'_>, reading: &Reading) -> Result<(), CaseError> {
             .given(key)
             .filter(|_| reading.format != Format::Wamit)
         {
-            let allowed = format!("nothing for a file of {}; WAMIT's need it", reading.format);
+            let allowed = format!(
+                "nothing for a file of {}; only files of WAMIT need it",
+                reading.format
+            );
             return Err(fields.refuse(key, value, allowed));
         }
     }

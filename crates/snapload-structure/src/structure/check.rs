@@ -15,9 +15,10 @@ fn check_current(structure: &Structure) -> Result<(), CaseError> {
     if current == 0.0 || body.drag_area_m2 + body.linear_damping_n_s_m > 0.0 {
         return Ok(());
     }
-    let allowed = "0 for a body without drag_area or linear_damping, which a current does not move";
+    let allowed =
+        "0 for a body without drag_area or linear_damping, on which a current does not act";
     Err(CaseError::value("site.current", current, allowed)
-        .with_hint("give body.drag_area, C_d times the area that the current meets"))
+        .with_hint("give body.drag_area, C_d times the area across the current"))
 }
 
 /// Refuses impossible data of a floating body.
@@ -30,8 +31,8 @@ fn check_afloat(structure: &Structure) -> Result<(), CaseError> {
     };
     if z.abs() >= half {
         return refuse(format!(
-            "a centre within {half} m of the still water, half the body's height; one that is all \
-             under water has no [float]"
+            "a centre within {half} m of the still water, half the body's height; a submerged \
+             body has no [float]"
         ));
     }
     if z - half <= -structure.site.depth_m {
@@ -61,7 +62,7 @@ fn check_masses(structure: &Structure) -> Result<(), CaseError> {
     let [surge, heave] = body.moving_mass_kg();
     if !(heave / UNLIKE..=heave * UNLIKE).contains(&surge) {
         let allowed = format!(
-            "at most {UNLIKE:e} times as much mass to move along one axis as along the other"
+            "at most {UNLIKE:e} times as much moving mass along one axis as along the other"
         );
         let added = &body.added_mass;
         let shown = format!(
@@ -99,7 +100,7 @@ fn check_submerged(structure: &Structure) -> Result<(), CaseError> {
     let [_, upward] = body.constant_force_n;
     if structure.net_buoyancy_n() + upward <= 0.0 {
         let allowed = format!(
-            "a load that leaves some of the net buoyancy of {:.0} N to pull on the lines",
+            "a load with which some of the net buoyancy of {:.0} N still pulls on the lines",
             structure.net_buoyancy_n()
         );
         let shown = place(body.constant_force_n);
@@ -130,7 +131,7 @@ fn check_submerged(structure: &Structure) -> Result<(), CaseError> {
         if reach > line.length_m * (1.0 + ROUNDED) {
             let allowed = format!("at least the {reach:.3} m from its anchor to its fairlead");
             return Err(CaseError::value(&path("length"), line.length_m, allowed)
-                .with_hint("make the line longer, or put the body or the anchor elsewhere"));
+                .with_hint("make the line longer, or move the body or the anchor"));
         }
     }
     Ok(())

@@ -29,7 +29,8 @@ pub(super) fn read_design(entries: &Entries) -> Result<DesignRule, CaseError> {
         .given("force_share")
         .filter(|_| entries.count("float") > 0)
     {
-        let allowed = "nothing beside [float], as waves lift a body that floats by its waterplane";
+        let allowed =
+            "nothing beside [float], as waves act on a floating body through its waterplane";
         return Err(fields
             .refuse("force_share", value, allowed)
             .with_hint("leave it out; least_share and the factors check the lines' tensions"));
@@ -54,7 +55,7 @@ fn together<const N: usize>(
     let missing = (0..N).find(|&k| values[k].is_none());
     match missing {
         Some(k) if values.iter().any(Option::is_some) => {
-            let allowed = format!("a value, as {} go together", keys.join(", "));
+            let allowed = format!("a value, as {} must be given together", keys.join(", "));
             Err(fields.refuse(keys[k], "(left out)", allowed))
         }
         Some(_) => Ok(None),

@@ -263,7 +263,7 @@ fn read_water(entries: &Entries) -> Result<(Water, f64), CaseError> {
         (true, true) => {
             let allowed = "one of [wave] and [sea]";
             Err(CaseError::value("[sea]", "(beside [wave])", allowed)
-                .with_hint("take one of them out"))
+                .with_hint("remove one of them"))
         }
         (false, false) => Ok((Water::Still, 1.0)),
         (true, false) => {

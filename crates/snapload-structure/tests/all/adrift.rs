@@ -56,7 +56,10 @@ fn a_start_is_not_told_as_a_place_of_rest() {
     let assessment = assess(structure(&text(0.3)), 0, &unwatched).unwrap();
     assert!(!assessment.prepared.rest.rests);
     let told = assessment.summary("case");
-    assert!(told.contains("at rest   nowhere that is known"), "{told}");
+    assert!(
+        told.contains("at rest   not known, as no line holds the body"),
+        "{told}"
+    );
     assert!(told.contains("line 1    not known at rest"), "{told}");
     let json = assessment.to_json("case");
     assert!(json["rest"]["z_m"].is_null() && json["lines"][0]["rest_tension_n"].is_null());

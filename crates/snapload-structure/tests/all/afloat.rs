@@ -280,7 +280,9 @@ fn a_sea_is_answered_with_periods_and_limits() {
     let result = result.unwrap();
     let summary = result.summary("case");
     assert!(
-        summary.contains("periods") && summary.contains("heave") && summary.contains("held"),
+        summary.contains("periods")
+            && summary.contains("heave")
+            && summary.contains("while the lines stay taut"),
         "{summary}"
     );
     let rules: Vec<&str> = result.warnings.iter().map(|w| w.rule).collect();

@@ -232,11 +232,11 @@ fn a_place_of_rest_below_the_given_one_is_told_as_below() {
     let found = warnings.find(|w| w.rule == "place of rest");
     let words = &found.expect("a warning").message;
     assert!(
-        words.starts_with("the body rests 0.200 m below and at 0.0 degrees"),
+        words.starts_with("the body rests 0.200 m below the place for which its coefficients hold"),
         "{words}"
     );
     assert!(
-        words.ends_with("give body.position and displaced_volume as they are there"),
+        words.ends_with("give body.position and displaced_volume for the place of rest"),
         "{words}"
     );
 }

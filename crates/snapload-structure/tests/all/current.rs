@@ -105,7 +105,9 @@ fn a_current_is_told_and_has_a_side() {
     assert!((at(&right) + at(&left)).abs() < 1e-6);
     let summary = right.summary("case");
     assert!(
-        summary.contains("a current of 0.5 m/s drags with 7.7 kN; a constant force of 4.0 kN in x"),
+        summary.contains(
+            "a current of 0.5 m/s with a drag of 7.7 kN; a constant force of 4.0 kN in x"
+        ),
         "{summary}"
     );
 }

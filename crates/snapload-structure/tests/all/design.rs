@@ -228,7 +228,7 @@ fn factors_that_go_together_are_given_together() {
         let error = snapload_structure::Structure::parse("case", &text).expect_err("a refusal");
         let error = error.to_string();
         assert!(
-            error.contains(missing) && error.contains("go together"),
+            error.contains(missing) && error.contains("given together"),
             "{error}"
         );
     }
@@ -297,7 +297,8 @@ fn springs_and_records_are_checked_by_the_same_rule() {
         );
         let page = snapload_structure::note::seas_page(source("case"), &found).expect("a page");
         assert!(
-            page.contains("Checks by the rule") && found.summary("case").contains("of 5 records")
+            page.contains("Checks by the design rule")
+                && found.summary("case").contains("of 5 records")
         );
     }
 }

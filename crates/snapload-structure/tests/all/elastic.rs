@@ -393,7 +393,7 @@ fn it_may_start_where_the_lines_have_stretched() {
     assert_eq!(both.verdict().standing, Standing::Holds);
     let summary = both.summary("case");
     assert!(
-        summary.contains("beyond the reach of lines that do not stretch"),
+        summary.contains("with no inextensible lines, as the case starts beyond their reach"),
         "{summary}"
     );
     let under = structure(&still, &["run.start=[0, -9.5]"]);

@@ -24,12 +24,12 @@ fn where_nothing_is_judged_no_numbers_are_told() {
     assert!(assessment.outcome.end_s < 10.0 && assessment.outcome.is_unjudged());
     let told = flat(&assessment.summary("case"));
     for words in [
-        "of which nothing is judged, as that begins at 60 s",
+        "of which nothing is judged, as judging begins at 60 s",
         "kN at rest; nothing is judged; breaks at 1319 kN",
         "rebound nothing is judged",
         "4 turn over or touch the floor",
         "The mooring fails",
-        "before the 60 s were over after which it is judged",
+        "ended before 60 s, when judging begins",
     ] {
         assert!(told.contains(words), "{words} in {told}");
     }
@@ -86,7 +86,8 @@ fn nothing_judged_is_told_of_springs_and_records() {
     assert_eq!(records.judged_s(), 0.0);
     let told = flat(&records.summary("case"));
     assert!(
-        told.contains("judged nothing, as no record lasts for the 60 s") && !told.contains("slack"),
+        told.contains("judged nothing, as no record lasts longer than 60 s")
+            && !told.contains("slack"),
         "{told}"
     );
     let json = records.to_json("case");
@@ -112,7 +113,7 @@ fn a_line_that_breaks_before_it_is_judged_leaves_the_verdict_open() {
     let verdict = assessment.verdict();
     assert_eq!(verdict.standing, Standing::Open);
     for words in [
-        "Of what is judged no line breaks".to_owned(),
+        "In the judged time no line breaks".to_owned(),
         format!("kN, {hardest:.2} of its breaking load. It would break there"),
         "run.transient = 0".to_owned(),
     ] {
@@ -122,7 +123,7 @@ fn a_line_that_breaks_before_it_is_judged_leaves_the_verdict_open() {
             verdict.words
         );
     }
-    assert!(!verdict.words.contains("lines that do not stretch"));
+    assert!(!verdict.words.contains("inextensible lines"));
     assert_eq!(assessment.to_json("case")["verdict"]["standing"], "open");
     let note = page(source("case"), &assessment, None).unwrap();
     assert!(note.contains("class=\"verdict open\"") && !note.contains("class=\"verdict holds\""));
@@ -262,7 +263,7 @@ fn the_hardest_snap_is_told_alike_beside_springs() {
     let both = both_models(prepared, 1.0, f64::INFINITY, &unwatched).unwrap();
     let told = flat(&both.summary("case"));
     let words = format!(
-        "what the line's own mass adds is left out. With it, as snapload assess has them, the hardest is {hardest:.0} kN"
+        "snapload assess includes the line's own mass: the largest tension in a snap is then {hardest:.0} kN"
     );
     assert!(told.contains(&words), "{words} in {told}");
     let snap = &both.to_json("case")["inextensible"]["snaps"][0];
@@ -295,9 +296,9 @@ fn the_columns_of_pulls_are_explained() {
     }
     let told = flat(&summary);
     for column in [
-        "from, to: when",
+        "from, to: its start and end",
         "kN: its largest tension",
-        "back: how fast it gets shorter",
+        "back: speed at which the line shortens",
     ] {
         assert!(told.contains(column), "{column} in {told}");
     }
@@ -367,7 +368,7 @@ fn slack_before_anything_is_judged_is_told_as_such() {
     );
     let words = flat(&both.verdict().words);
     assert!(
-        words.contains("No line goes slack but in the first 6 s, which are not judged."),
+        words.contains("No line goes slack except in the first 6 s, which are not judged."),
         "{words}"
     );
 }

@@ -274,7 +274,10 @@ fn what_is_not_planar_or_not_supported_is_told() {
         (
             "500    0     90",
             "500    0|0|-2     90",
-            &["body 1, CG = 0|0|-2", "take it from the z of its points"],
+            &[
+                "body 1, CG = 0|0|-2",
+                "subtract CG from the z of its points",
+            ],
         ),
         (
             "-5    0       0      0 ",
@@ -347,7 +350,7 @@ fn what_is_not_planar_or_not_supported_is_told() {
         .expect_err("rods")
         .to_string();
     assert!(
-        error.contains("line 16: rod 1, RODS") && error.contains("a part of it"),
+        error.contains("line 16: rod 1, RODS") && error.contains("to those of the body"),
         "{error}"
     );
 }

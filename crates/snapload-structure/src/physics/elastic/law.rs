@@ -78,9 +78,9 @@ pub fn springs(prepared: &Prepared, stiffer: f64) -> Result<Vec<Spring>, CaseErr
     let restitution = prepared.structure.restitution;
     if restitution < LEAST_RESTITUTION {
         let shown = restitution;
-        let allowed = format!("{LEAST_RESTITUTION} or more for lines that stretch");
+        let allowed = format!("{LEAST_RESTITUTION} or more for elastic lines");
         return Err(CaseError::value("run.restitution", shown, allowed).with_hint(
-            "a damper for less pulls many times harder at first touch than the spring ever does",
+            "with a lower one the damper's force at the start of a pull is many times the largest of the spring",
         ));
     }
     let ratio = damping_ratio(restitution);
@@ -121,7 +121,7 @@ pub(in crate::physics) fn undamped(
     let spring = |(number, line): (usize, &LineSi)| {
         let rate = line.spring_rate_n_m().ok_or_else(|| {
             let key = format!("line.{number}.stiffness");
-            let allowed = "a stiffness, which a line that stretches needs";
+            let allowed = "a stiffness, which an elastic line needs";
             CaseError::value(&key, "(left out)", allowed)
                 .with_hint("give stiffness (EA in N), spring_rate, or a type and diameter")
         })?;

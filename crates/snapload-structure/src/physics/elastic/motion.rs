@@ -253,7 +253,7 @@ pub fn run_elastic(
         1..=USUAL_MEMORY => run::<WET>(prepared, &body, every_s, on_progress),
         LONG_MEMORY..=MOST_MEMORY => run::<WETTEST>(prepared, &body, every_s, on_progress),
         states => {
-            let allowed = format!("a memory of at most {MOST_MEMORY} states on lines that stretch");
+            let allowed = format!("a memory of at most {MOST_MEMORY} states with elastic lines");
             Err(CaseError::value("float.pairs", format!("({states} states)"), allowed).into())
         }
     }
@@ -274,7 +274,7 @@ fn run<const N: usize>(
     record.see(t, &state, pulling);
     let end = prepared.model.rules.t_end;
     while t < end && exceeded(prepared, &state).is_none() {
-        Progress::new("lines that stretch", t, end).tell(on_progress)?;
+        Progress::new("elastic lines", t, end).tell(on_progress)?;
         let longest_step = STEP / body.quickest(&state, pulling);
         let until = end.min(t + AT_A_TIME.min(TOGETHER * longest_step));
         let phase = Phase {
@@ -313,7 +313,7 @@ fn exceeded(prepared: &Prepared, state: &State) -> Option<Stop> {
 
 fn gave_up<const N: usize>(error: Error<f64, Components<N>>) -> CaseError {
     let shown: String = format!("({error:?})").chars().take(80).collect();
-    let allowed = "lines that the integrator can follow";
+    let allowed = "a stiffness with which the motion can be integrated";
     CaseError::value("line.stiffness", shown, allowed)
-        .with_hint("lower the stiffness, or the duration")
+        .with_hint("lower the stiffness or run.duration")
 }

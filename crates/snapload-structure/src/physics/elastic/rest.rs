@@ -29,7 +29,7 @@ const STEPS: usize = 400;
 /// Step of the difference quotients for the derivatives of rows.
 const DIFFERENCE: f64 = 1e-6;
 /// What lines have to do for a body to rest on them.
-const HELD: &str = "lines that hold the body at rest as they stretch";
+const HELD: &str = "elastic lines that hold the body at rest";
 /// What is added to the second derivatives at first, and at most.
 const DAMPING: [f64; 2] = [1e-6, 1e12];
 
@@ -47,7 +47,7 @@ impl Prepared {
         if rest.theta.abs() >= FRAC_PI_2 {
             let shown = format!("(turned by {:.0} degrees)", rest.theta.abs().to_degrees());
             return Err(CaseError::value("line.stiffness", shown, HELD)
-                .with_hint("look at the lines' lengths, and at the moments on the body"));
+                .with_hint("check the lengths of the lines and the moments on the body"));
         }
         let place_m = self.model.scales.to_si([rest.x, rest.y]);
         let tension = |line: usize| body.stretch(line, &rest).force.max(0.0);
@@ -176,5 +176,5 @@ fn nowhere(left: &Vector3<f64>) -> Result<State, CaseError> {
         left.amax()
     );
     Err(CaseError::value("line.stiffness", shown, HELD)
-        .with_hint("give run.start, or look at the lines' stiffness and lengths"))
+        .with_hint("give run.start, or check the stiffness and the lengths of the lines"))
 }
