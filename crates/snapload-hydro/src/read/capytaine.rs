@@ -338,13 +338,17 @@ fn complex(dataset: &Dataset, name: &str, dim: &str) -> Result<Vec<Complex<f64>>
         let found = labels.iter().position(|word| word == label);
         found.ok_or_else(|| {
             let found = format!("its labels are {}", labels.join(", "));
-            HydroError::layout("complex", found, "re and im are wanted")
+            HydroError::layout("complex", found, "re and im are expected")
         })
     };
     let (re, im) = (place("re")?, place("im")?);
     if labels.len() != 2 || values.len() % 2 != 0 {
         let found = format!("{} labels", labels.len());
-        return Err(HydroError::layout("complex", found, "re and im are wanted"));
+        return Err(HydroError::layout(
+            "complex",
+            found,
+            "re and im are expected",
+        ));
     }
     let half = values.len() / 2;
     let of = |k: usize| Complex::new(values[re * half + k], values[im * half + k]);
