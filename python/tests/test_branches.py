@@ -94,7 +94,7 @@ def test_the_branch_of_a_doubling_is_that_of_the_command(command_json):
 
 def test_switches_that_can_not_be_say_why():
     branch = volley()
-    with pytest.raises(snapload.NoOrbitError, match=r"the branch has 1 in its range, at 1\.680508"):
+    with pytest.raises(snapload.NoOrbitError, match=r"has 1 of the kind period doubling in its range, at 1\.680508"):
         branch.switch("period_doubling", 2)
     with pytest.raises(ValueError, match="kind = 'fold' is not allowed; allowed: 'period_doubling'"):
         branch.switch("fold")

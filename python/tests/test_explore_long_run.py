@@ -111,7 +111,7 @@ def test_a_safe_basin_is_eroded_as_the_command_says(open_page, command):
     line = page.evaluate("() => navigator.clipboard.readText()")
     told = command(*line.split()[1:]).replace("f_o", "fₒ").split()
     said = page.locator("#erosion-said").inner_text()
-    assert said.split() == told[-len(said.split()) :] and "neighbours were not looked at" in said
+    assert said.split() == told[-len(said.split()) :] and "neighbours were not run" in said
     expect(page.locator("#erosion")).to_be_visible()
 
 

@@ -156,7 +156,7 @@ def test_what_is_left_out_is_what_the_command_takes(command, verb, options):
 @pytest.mark.parametrize(
     ("options", "words"),
     [
-        (dict(periods=5, keep=9), "keep = 9 is not allowed; allowed: at most as many as there are in all"),
+        (dict(periods=5, keep=9), "keep = 9 is not allowed; allowed: at most periods = 5"),
         (dict(phase=1.0), "phase = 1 is not allowed; allowed: a part of the period"),
         (dict(periods=0), "periods = 0 is not allowed"),
         (dict(at="snaps"), "at = 'snaps' is not allowed; allowed: 'periods', 'impacts'"),

@@ -172,7 +172,7 @@ def test_where_there_is_no_orbit_it_is_said_why(command):
     assert "start={...}" in words and "snapload.find_orbits" in words and "--" not in words
     theirs = command("orbit", "--set", "f_o=0.5", fails=True)
     assert re.sub(r";.*", "", words) in theirs
-    with pytest.raises(snapload.NoOrbitError, match="and an orbit of 3 periods was asked for"):
+    with pytest.raises(snapload.NoOrbitError, match="but an orbit of 3 periods was requested"):
         snapload.Case(**VOLLEY).orbit(periods=3)
     assert issubclass(snapload.NoOrbitError, ValueError)
 

@@ -61,13 +61,13 @@ impl ExactCase {
         let unknown = |(limit, _): &(Limit, f64)| !PROVABLE.contains(limit);
         if let Some((limit, _)) = parameters.rules().limits.iter().find(unknown) {
             let (words, key) = (limit.stop().words(), limit.stop().name());
-            let why = format!("a proof does not know the {words}; leave {key} out");
+            let why = format!("proofs do not cover the {words}; leave {key} out");
             return Err(why);
         }
         let mut decimal = |key: &str, value: f64| {
             typed(key)
                 .or_else(|| Decimal::shortest(value))
-                .ok_or_else(|| format!("{key} = {value} is no decimal"))
+                .ok_or_else(|| format!("{key} = {value} is not a decimal"))
         };
         let mut numbers = Vec::new();
         for key in NUMBERS {
@@ -81,7 +81,7 @@ impl ExactCase {
             (Some(_), Some(written)) => Some(written),
             (Some(inertia), None) if Some(inertia) != natural => {
                 let shortest = Decimal::shortest(inertia);
-                Some(shortest.ok_or_else(|| format!("inertia = {inertia} is no decimal"))?)
+                Some(shortest.ok_or_else(|| format!("inertia = {inertia} is not a decimal"))?)
             }
             _ => None,
         };
@@ -141,7 +141,7 @@ impl ExactCase {
         ];
         for (holds, what) in allowed {
             if !holds {
-                return Err(format!("the case has not {what}"));
+                return Err(format!("the case violates {what}"));
             }
         }
         if self.is_point {
@@ -160,7 +160,7 @@ impl ExactCase {
         if heavy {
             Ok(())
         } else {
-            Err("a rigid body has an inertia above 0".to_owned())
+            Err("a rigid body needs an inertia above 0".to_owned())
         }
     }
 

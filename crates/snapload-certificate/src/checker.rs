@@ -61,7 +61,9 @@ impl Verdict {
 pub fn check(text: &str) -> Verdict {
     let certificate = match Written::read(text) {
         Ok(certificate) => certificate,
-        Err(error) => return Verdict::Malformed(format!("it can not be read as one: {error}")),
+        Err(error) => {
+            return Verdict::Malformed(format!("it can not be read as a certificate: {error}"));
+        }
     };
     match shape(&certificate) {
         Ok(case) => compare(&certificate, &case),
@@ -103,7 +105,12 @@ fn shape(certificate: &Written) -> Result<ExactCase, String> {
                 .try_for_each(|s| decimal("the state", s).map(|_| ()))?;
         }
         (None, None) if end.reason == UNDECIDED => {}
-        _ => return Err(format!("an end of the reason {:?} is not so", end.reason)),
+        _ => {
+            return Err(format!(
+                "an end with the reason {:?} is not allowed, or its t and state are not",
+                end.reason
+            ));
+        }
     }
     certificate.case.exact()
 }
@@ -134,7 +141,7 @@ fn compare(certificate: &Written, case: &ExactCase) -> Verdict {
             Err(ProofFailure::Enough) => Ok(()),
             Err(failure) => Err(failure),
             Ok(_) if seen != claims.len() => Err(ProofFailure::False(format!(
-                "there are {seen} impacts, and {} are claimed",
+                "the run has {seen} impacts and stretches, but {} are claimed",
                 claims.len()
             ))),
             Ok(end) => end_agrees(&end, certificate),
@@ -175,24 +182,24 @@ fn agrees(proved: &Proved, nth: usize, claim: Option<&Line>) -> Result<(), Proof
         (Proved::Stretch(ours), Some(Line::Stretch(theirs))) => {
             if theirs.mode != ours.mode() || theirs.event != ours.event {
                 return Err(ProofFailure::False(format!(
-                    "stretch {nth} is of cables {:?} and ends with {}",
+                    "entry {nth} is a stretch of cables {:?} that ends with {}, but another is claimed",
                     ours.mode(),
                     ours.event
                 )));
             }
             equals(
-                &format!("the begin of stretch {nth}"),
+                &format!("the beginning of the stretch in entry {nth}"),
                 &ours.from,
                 &theirs.from,
             )?;
             equals(
-                &format!("the end of stretch {nth}"),
+                &format!("the end of the stretch in entry {nth}"),
                 &ours.until,
                 &theirs.until,
             )
         }
         _ => Err(ProofFailure::False(format!(
-            "line {nth} of the run is another than is claimed, or more"
+            "entry {nth} of the run is not the claimed one, or none is claimed"
         ))),
     }
 }
@@ -204,26 +211,34 @@ fn impact_agrees(
 ) -> Result<(), ProofFailure> {
     if impact.cable + 1 != usize::from(cable) {
         return Err(ProofFailure::False(format!(
-            "impact {nth} is of cable {}, and cable {cable} is claimed",
+            "the impact in entry {nth} is of cable {}, but cable {cable} is claimed",
             impact.cable + 1
         )));
     }
-    equals(&format!("the time of impact {nth}"), &impact.t, t)?;
-    equals(&format!("v_n of impact {nth}"), &impact.v_n, v_n)
+    equals(
+        &format!("the time of the impact in entry {nth}"),
+        &impact.t,
+        t,
+    )?;
+    equals(
+        &format!("v_n of the impact in entry {nth}"),
+        &impact.v_n,
+        v_n,
+    )
 }
 
 fn end_agrees(end: &ProvedEnd, certificate: &Written) -> Result<(), ProofFailure> {
     let claim = &certificate.end;
     if end.reason.name() != claim.reason {
         return Err(ProofFailure::False(format!(
-            "the run ends as {}, and {} is claimed",
+            "the run ends with {}, but {} is claimed",
             end.reason.name(),
             claim.reason
         )));
     }
     let (Some(t), Some(state)) = (&claim.t, &claim.state) else {
         return Err(ProofFailure::False(
-            "an end without a time and a state".to_owned(),
+            "the end has no time and no state".to_owned(),
         ));
     };
     equals("the time of the end", &end.t, t)?;
@@ -250,7 +265,7 @@ fn equals(what: &str, ball: &Ball, text: &str) -> Result<(), ProofFailure> {
     } else if room.is_negative() {
         // With the decimals of certificates, as a double may not tell the two apart.
         let proved = fixed(ball, PLACES).unwrap_or_else(|| ball.to_f64().to_string());
-        let words = format!("{what}: {text} is claimed, and it is {proved}");
+        let words = format!("{what} is {proved}, but {text} is claimed");
         Err(ProofFailure::False(words))
     } else {
         Err(ProofFailure::undecided(format!("the last digit of {what}")))

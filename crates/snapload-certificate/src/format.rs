@@ -196,5 +196,5 @@ impl WrittenCase {
 
 /// A decimal of a certificate.
 pub(crate) fn decimal(what: &str, text: &str) -> Result<Decimal, String> {
-    Decimal::parse(text).ok_or_else(|| format!("{what} {text:?} is no decimal"))
+    Decimal::parse(text).ok_or_else(|| format!("{what} {text:?} is not a decimal"))
 }

@@ -109,7 +109,11 @@ fn proved(case: &ExactCase, supposed: &Supposed<'_>) -> Result<ProvedOrbit, Proo
         state,
         struck,
     } = *supposed;
-    let no_number = || ProofFailure::False("the section is at no number".to_owned());
+    let no_number = || {
+        ProofFailure::False(
+            "the phase, the periods or the state of the orbit is not a valid number".to_owned(),
+        )
+    };
     let phase = Decimal::shortest(phase).ok_or_else(no_number)?.ball(LIMBS);
     if periods == 0 || !state.iter().all(|number| number.is_finite()) {
         return Err(no_number());
@@ -191,7 +195,7 @@ fn contracting(
         inverse,
         size,
     } = near;
-    let mut why = ProofFailure::undecided("whether the lap contracts");
+    let mut why = ProofFailure::undecided("whether the map of the lap is a contraction");
     for radius in RADII.map(Radius::power_of_two) {
         let lap = match laps.of(&about(&centre, radius, moving), struck) {
             Ok(lap) => lap,

@@ -110,7 +110,7 @@ fn resting(
     }
     if !cables.is_empty() && !taut {
         let what =
-            "cables are taut from the start, and a proof of slack flight alone was asked for";
+            "cables are taut from the start, but a proof of slack flight alone was requested";
         return Err(ProofFailure::beyond(what));
     }
     Ok(ControlFlow::Continue(Hanging {

@@ -164,7 +164,12 @@ impl<'a> Run<'a> {
     fn root(&self, flight: &Flight<'_>, crossing: &Crossing) -> Result<Root, ProofFailure> {
         let which = crossing.which;
         let tau = self.newton(flight, crossing);
-        let flat = || ProofFailure::undecided(format!("whether {} is only touched", name(which)));
+        let flat = || {
+            ProofFailure::undecided(format!(
+                "whether {} is crossed or only touched",
+                name(which)
+            ))
+        };
         let inside = crossing.from.is_below(&tau) && tau.is_below(&crossing.to);
         if !inside {
             return Err(flat());
@@ -271,7 +276,7 @@ impl<'a> Run<'a> {
         let [x, y, theta, vx, vy, spin] = struck;
         let image = [x, y, theta, vx, vy, spin, &self.t + &root.centre];
         let (state, force) = self.flight(self.coarse).at(&root.whole);
-        let none = || ProofFailure::undecided("a cable that does not close");
+        let none = || ProofFailure::undecided("whether the cable closes");
         let inverse = impact.v_n.reciprocal().ok_or_else(none)?;
         let tau = root.whole.with_limbs(self.coarse.limbs);
         let [_, _, _, vx, vy, spin] = state;
@@ -370,7 +375,7 @@ impl<'a> Run<'a> {
             // The model takes the remaining normal velocity away although the cable has no tension,
             // which is not proved here.
             return Err(ProofFailure::beyond(format!(
-                "how a cable leaves that snaps slowly in turn with the other, at impact {}",
+                "how the cable becomes slack after slow snaps of both cables in turn, at impact {}",
                 self.impacts
             )));
         }
@@ -385,7 +390,7 @@ impl<'a> Run<'a> {
             (true, _) => Ok(false),
             (_, true) => Ok(true),
             _ => Err(ProofFailure::undecided(format!(
-                "{what} at impact {}, {:.2e} with a radius of {:.2e}",
+                "the sign of {what} at impact {}, {:.2e} with an error bound of {:.2e}",
                 self.impacts,
                 ball.to_f64(),
                 ball.radius().to_f64()
@@ -396,7 +401,7 @@ impl<'a> Run<'a> {
     /// Whether a snap is slower than `v_stick`; it then extends the row of slow snaps, and else
     /// ends it.
     pub(crate) fn is_slow(&mut self, v_n: &Ball, cable: usize) -> Result<bool, ProofFailure> {
-        let fast = self.sign(&(v_n - &self.coarse.v_stick), "v_n against v_stick")?;
+        let fast = self.sign(&(v_n - &self.coarse.v_stick), "v_n - v_stick")?;
         if fast {
             self.slow.clear();
         } else {
@@ -422,7 +427,7 @@ impl<'a> Run<'a> {
         if (sticks || taut >= 2) && (self.case.stop_when_settled || self.case.stop_when_sliding) {
             let height = Decimal::parse(SETTLING_HEIGHT).map(|d| d.ball(self.coarse.limbs));
             let above = y - &height.unwrap_or_else(Ball::zero);
-            let high = self.sign(&above, "the height over that of settling")?;
+            let high = self.sign(&above, "the height above that of settling")?;
             if !high && self.case.stop_when_settled {
                 return Ok(Some(Stop::Settled));
             }

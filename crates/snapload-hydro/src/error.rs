@@ -43,7 +43,7 @@ pub enum HydroError {
         words: String,
     },
     /// The file and the case contradict each other.
-    #[error("{what} is {file} in the file and {case} in the case; they have to agree")]
+    #[error("{what} is {file} in the file and {case} in the case; they must agree")]
     Disagreement {
         /// The quantity in which they differ.
         what: &'static str,

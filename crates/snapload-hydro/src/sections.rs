@@ -79,7 +79,7 @@ pub fn added_mass_of_section(
     let (b, t) = (half_width_m, height_m);
     for (what, length) in [("half the width in m", b), ("the height in m", t)] {
         if !(length > 0.0 && length.is_finite()) {
-            return Err(HydroError::value(what, length, "it has to be above 0"));
+            return Err(HydroError::value(what, length, "it must be above 0"));
         }
     }
     let (surge, double, coupling) = match shape {

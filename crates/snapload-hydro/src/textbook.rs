@@ -166,15 +166,15 @@ impl SectionBody {
     /// The warnings about its limits.
     fn limits(&self) -> Vec<Warning> {
         let words = "textbook values of a section have no damping by the waves that the body makes: \
-                     a resonance of heave or pitch is not to be believed without [float] damping, and \
-                     waves that are not long beside the body push otherwise. Compute a file with a \
-                     panel code";
+                     without [float] damping a resonance of heave or pitch is not reliable, and the \
+                     force of waves is wrong unless they are long compared with the body. Compute a \
+                     file with a panel code";
         let mut warnings = vec![Warning::new("textbook section", words.to_owned())];
         let ratio = self.length_m / (2.0 * self.half_width_m);
         if ratio < LONG {
             let words = format!(
-                "the body is {ratio:.1} times as long across the plane as it is wide: water that flows \
-                 round its ends makes the added mass smaller, by 5 % and more below {LONG} times"
+                "the body is {ratio:.1} times as long across the plane as it is wide: flow round its \
+                 ends reduces the added mass, by 5 % or more below a ratio of {LONG}"
             );
             warnings.push(Warning::new("ends", words));
         }

@@ -36,8 +36,8 @@ pub fn of_attractor(
     if let Some(stop) = section.stop {
         let t = section.end.1;
         return Ok(Err(NoOrbit(format!(
-            "the motion of this start stops at t = {t:.4}: {}; begin elsewhere with --start, or look \
-             for unstable orbits with --find N",
+            "the motion of this start stops at t = {t:.4}: {}; give a state near an orbit with \
+             --start, or search for unstable orbits with --find N",
             stop.meaning()
         ))));
     }
@@ -46,8 +46,8 @@ pub fn of_attractor(
         let exponent = exponent_in_words(largest.unwrap_or([f64::NAN; 2]));
         return Ok(Err(NoOrbit(format!(
             "the motion of this start repeats itself after no number of periods of the forcing up to \
-             {LONGEST_PERIOD}, as far as {ATTRACTOR_PERIODS} of them tell (largest Lyapunov exponent \
-             {exponent}); look for unstable orbits with --find N, or at snapload section"
+             {LONGEST_PERIOD}, judged by {ATTRACTOR_PERIODS} of them (largest Lyapunov exponent \
+             {exponent}); search for unstable orbits with --find N, or look at snapload section"
         ))));
     };
     if wanted
@@ -55,8 +55,8 @@ pub fn of_attractor(
         .is_some_and(|periods| period as u32 != periods)
     {
         return Ok(Err(NoOrbit(format!(
-            "the motion of this start repeats itself after {} of the forcing, and an orbit of {} was \
-             asked for; leave the periods out, or say near which state it is",
+            "the motion of this start repeats itself after {} of the forcing, but an orbit of {} was \
+             requested; leave the periods out, or give a state near it",
             periods(period),
             periods(wanted.periods.unwrap_or(1) as usize)
         ))));

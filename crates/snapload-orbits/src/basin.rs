@@ -162,7 +162,7 @@ impl Window {
         }
         if self.keys[0] == self.keys[1] {
             let twice = Value::Text(self.keys[0].to_owned());
-            return Err(CaseError::value("vary", twice, "two keys, each once"));
+            return Err(CaseError::value("vary", twice, "two different keys"));
         }
         if self.count() > MOST_CELLS {
             let cells = format!("a window of {} cells", self.count());

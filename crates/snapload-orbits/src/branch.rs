@@ -92,7 +92,7 @@ impl Branch {
         let Some(up) = continuation.first_tangent(&start) else {
             let end = BranchEnd {
                 at: orbit.at[0],
-                because: "the equations have no direction here".to_owned(),
+                because: "the equations do not determine a direction here".to_owned(),
             };
             return Ok(Self {
                 points: vec![point(orbit.clone(), 0.0)],
@@ -136,7 +136,7 @@ impl Branch {
             NoOrbit(match values.len() {
                 0 => format!("the branch has no {name} in its range; widen it"),
                 count => format!(
-                    "of the kind {name} the branch has {count} in its range, at {}",
+                    "the branch has {count} of the kind {name} in its range, at {}",
                     values.join(", ")
                 ),
             })
@@ -249,7 +249,7 @@ impl Walk<'_> {
         let (mut step, mut arclength) = (self.along.step, 0.0);
         while side.end.because.is_empty() {
             if side.points.len() >= self.along.most {
-                side.end.because = format!("{} points are enough", self.along.most);
+                side.end.because = format!("the limit of {} points is reached", self.along.most);
                 break;
             }
             let Some(there) = self.stepped(&continuation, &here, &tangent, step) else {
@@ -368,7 +368,7 @@ impl Walk<'_> {
                 side.end.at = event.value[0];
                 return Some(match kind {
                     Kind::Corner => "corner: two cables snap at once, and come in the other order beyond it",
-                    _ => "graze: a snap of the sequence has no speed left, and would open its cable beyond it",
+                    _ => "graze: a snap of the sequence has zero velocity here, and a negative one beyond it",
                 }
                 .to_owned());
             }

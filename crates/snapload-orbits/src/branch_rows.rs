@@ -109,7 +109,7 @@ pub fn branch_in_words(along: &str, branch: &Branch) -> String {
         .iter()
         .filter(|point| point.orbit.is_admissible());
     let mut text = format!(
-        "Branch    {} points, {} of them orbits that a body can have\n",
+        "Branch    {} points, {} of them admissible orbits\n",
         branch.points.len(),
         real.count()
     );

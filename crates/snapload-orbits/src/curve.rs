@@ -117,7 +117,7 @@ impl Curve {
         let Some(on_curve) = OnCurve::begun(continuation, start, event) else {
             let name = event.kind.name().replace('_', " ");
             return Ok(Err(NoOrbit(format!(
-                "Newton's method finds no {name} in two keys from the one at {:.9}",
+                "Newton's method finds no point of the curve from the {name} at {:.9}",
                 event.value[0]
             ))));
         };
@@ -261,7 +261,7 @@ const BORDERS: [&str; 6] = [
     "the end of the range",
     "the end of the range",
     "corner: two cables snap at once, and come in the other order beyond it",
-    "graze: another snap of the sequence has no speed left, and would open its cable beyond it",
+    "graze: another snap of the sequence has zero velocity here, and a negative one beyond it",
 ];
 
 /// A point this close to a border counts as on it.
@@ -285,7 +285,7 @@ impl Walk<'_> {
         let (mut step, mut arclength) = (self.across.step, 0.0);
         while side.end.because.is_empty() {
             if side.points.len() >= self.across.most {
-                side.end.because = format!("{} points are enough", self.across.most);
+                side.end.because = format!("the limit of {} points is reached", self.across.most);
                 break;
             }
             let stepped = on_curve.stepped(step).map(|(next, steps)| {

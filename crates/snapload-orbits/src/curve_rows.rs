@@ -87,7 +87,7 @@ pub fn curve_in_words(along: [&str; 2], curve: &Curve, from: &BranchEvent) -> St
     );
     let _ = writeln!(
         text,
-        "Curve     {} points, {real} of them orbits that a body can have",
+        "Curve     {} points, {real} of them admissible orbits",
         curve.points.len()
     );
     for (key, place) in [(first, 0), (second, 1)] {

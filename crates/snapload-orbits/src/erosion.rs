@@ -165,7 +165,7 @@ mod tests {
         assert_eq!(erosion.knee(), Some(0.0));
         assert_eq!(erosion.knee_between(), None);
         let told = words(&erosion);
-        assert!(told.contains("neighbours were not looked at"), "{told}");
+        assert!(told.contains("neighbours were not run"), "{told}");
     }
 
     /// What is said after the table.
@@ -181,13 +181,13 @@ mod tests {
             "Safe      0.9000 (0.0000 to 1.0000) at f_o = 0, 0.4000 (0.0000 to 1.0000) at f_o = 2";
         assert!(told.contains(safe), "{told}");
         let knee =
-            "at f_o = 1, up to which at least 0.9 of the safe part at f_o = 0, 0.9000, is left\n";
+            "at f_o = 1, up to which the safe part is at least 0.9 of that at f_o = 0, 0.9000\n";
         assert!(told.contains(knee), "{told}");
         let told = words(&eroded(
             true,
             &[[90, 100, 90], [80, 0, 0], [75, 100, 75], [40, 0, 0]],
         ));
-        let doubt = "of the safe part of the decided cells at f_o = 1, 0.8000, is left; or from 0 to beyond the last value by how";
+        let doubt = "is at least 0.9 of that at f_o = 1, 0.8000; from 0 to beyond the last value, depending on how";
         assert!(told.contains(doubt), "{told}");
     }
 

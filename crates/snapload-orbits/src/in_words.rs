@@ -18,7 +18,7 @@ const NO_START: &str =
 pub fn orbit_in_words(orbit: &Orbit) -> String {
     let stability = orbit.stability().name();
     let mut text = format!(
-        "Orbit     {stability}, of {}, which takes t = {:.6}\nEvents    {}\n",
+        "Orbit     {stability}, of {} (t = {:.6})\nEvents    {}\n",
         of_the_forcing(orbit.periods as usize),
         orbit.length,
         events_in_words(&orbit.lap.sequence)
@@ -44,20 +44,20 @@ pub fn orbit_in_words(orbit: &Orbit) -> String {
     let all: Vec<String> = orbit.multipliers.values.iter().map(multiplier).collect();
     let _ = writeln!(text, "Multiplier {}", all.join(", "));
     for why in &orbit.why_not {
-        let _ = writeln!(text, "Not a motion: {why}");
+        let _ = writeln!(text, "Not admissible: {why}");
     }
     if let Some(error) = orbit.return_error {
-        let _ = writeln!(text, "Returns   to {error:.1e} when it is run");
+        let _ = writeln!(text, "Returns   to within {error:.1e} when it is simulated");
     }
     let _ = match &orbit.proof {
         Some(Ok(proved)) => writeln!(
             text,
-            "Proved    to exist within {:.1e} of the section, and to be alone within {:.1e}{}",
+            "Proved    to exist within {:.1e} of the section, with no other orbit within {:.1e}{}",
             proved.error_of(&orbit.z),
             proved.alone_within,
             match proved.is_prime() {
                 true => "",
-                false => "; not that it takes no fewer periods",
+                false => "; fewer periods are not ruled out",
             }
         ),
         Some(Err(why)) => writeln!(text, "Unproved  {why}"),
@@ -96,7 +96,7 @@ pub(crate) fn exponent_in_words([mean, error]: [f64; 2]) -> String {
     match (mean.is_finite(), error.is_finite()) {
         // Adding 0 makes 0 of -0.
         (true, true) => format!("{:.4} +- {known:.4}", (mean * 1e4).round() / 1e4 + 0.0),
-        (true, false) => format!("{mean:.4} (of too few periods to know its error)"),
+        (true, false) => format!("{mean:.4} (too few periods for an error estimate)"),
         (false, _) => "-inf".to_owned(),
     }
 }
@@ -107,7 +107,7 @@ fn exponents_in_words(exponents: &[[f64; 2]]) -> String {
     let mut all: Vec<String> = left.map(|both| exponent_in_words(*both)).collect();
     let closed = exponents.len() - all.len();
     if closed > 0 {
-        all.push(format!("{closed} of -inf, which contact closes"));
+        all.push(format!("{closed} of -inf (directions closed by contact)"));
     }
     all.join(", ")
 }
@@ -143,14 +143,14 @@ pub fn section_in_words(section: &Section) -> String {
         Some(n) => writeln!(text, "Repeats   itself after {}", of_the_forcing(n)),
         None => writeln!(
             text,
-            "Repeats   itself after no number of periods of the forcing up to {}, the most that {} points tell",
+            "Repeats   itself after no number of periods of the forcing up to {}, the most that {} points can show",
             section.longest_period(),
             section.points.len()
         ),
     };
     if !section.exponents.is_empty() {
         let all = exponents_in_words(&section.exponents);
-        let _ = writeln!(text, "Exponents in a unit of time: {all}");
+        let _ = writeln!(text, "Exponents per unit of time: {all}");
     }
     if let Some(kept) = &section.impacts {
         let velocities = || kept.points.iter().map(|impact| impact.v_n);
@@ -222,7 +222,7 @@ pub fn basin_in_words(basin: &Basin) -> String {
     if let Some(speed) = m.iim {
         let _ = writeln!(
             text,
-            "Velocity  {speed:.4} is the least unsafe one there (IIM)"
+            "Velocity  {speed:.4} is the least unsafe one in the row nearest to the equilibrium (IIM)"
         );
     }
     text
@@ -236,7 +236,7 @@ fn beside_the_equilibrium(window: &Window) -> String {
     }
     let keys = away.iter().map(|(key, value)| format!("{key} = {value}"));
     let keys = keys.collect::<Vec<_>>().join(", ");
-    format!("Nearest   not told (LIM, IIM): the equilibrium is not in this plane, as {keys}\n")
+    format!("Nearest   undefined (LIM, IIM): the equilibrium is not in this plane, as {keys}\n")
 }
 
 /// An erosion: a row a value, and after an empty line what they come to.
@@ -282,7 +282,7 @@ pub fn erosion_in_words(erosion: &Erosion) -> String {
     text += &match windows.next() {
         // The plane moves with the key itself.
         Some(first) if first.are_starts() && START_KEYS.contains(&erosion.key) => format!(
-            "Nearest   not told (LIM, IIM) where a start key beside the two, {} among them, is not 0: the equilibrium \
+            "Nearest   undefined (LIM, IIM) where one of the other start keys, such as {}, is not 0: the equilibrium \
              is not in that plane\n",
             erosion.key
         ),
@@ -290,7 +290,7 @@ pub fn erosion_in_words(erosion: &Erosion) -> String {
         None => String::new(),
     };
     if !erosion.looked_beside() {
-        text += "Undecided not known, as neighbours were not looked at\n";
+        text += "Undecided unknown, as neighbours were not run\n";
     }
     text
 }
@@ -320,7 +320,7 @@ fn knee_in_words(erosion: &Erosion) -> String {
         (Some(knee), [(first, part), ..]) => {
             let (knee, first) = (six_digits(knee), six_digits(*first));
             format!(
-                "at {key} = {knee}, up to which at least {KNEE} of the {safe} at {key} = {first}, {part:.4}, is left"
+                "at {key} = {knee}, up to which the {safe} is at least {KNEE} of that at {key} = {first}, {part:.4}"
             )
         }
         (_, []) => format!("none, as no value has a {cell}"),
@@ -342,7 +342,7 @@ fn knee_in_words(erosion: &Erosion) -> String {
     match erosion.knee_between() {
         Some([low, high]) if [low, high] != [knee; 2] => {
             let (low, high) = (place(low), place(high));
-            format!("{told}; or from {low} to {high} by how undecided cells end")
+            format!("{told}; from {low} to {high}, depending on how undecided cells end")
         }
         _ => told,
     }
@@ -361,7 +361,7 @@ pub fn attraction_in_words(found: &Attraction) -> String {
             "Attractor {number}: {} cells, {}, {}",
             attractor.cells,
             periods(attractor.period),
-            symbol.unwrap_or_else(|| "not closed".to_owned())
+            symbol.unwrap_or_else(|| "orbit not found".to_owned())
         );
     }
     let others = found

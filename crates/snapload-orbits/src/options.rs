@@ -87,7 +87,7 @@ fn is_within_reach(family: &Moored, start: &Point) -> bool {
 /// A [`CaseError`] if more are to be kept than there are, or if the phase is not allowed.
 pub fn stretch(periods: u64, keep: u64, phase: f64) -> Result<Stretch, CaseError> {
     let Some(skip) = periods.checked_sub(keep) else {
-        let allowed = format!("at most as many as there are in all, which is periods = {periods}");
+        let allowed = format!("at most periods = {periods}");
         return Err(CaseError::value("keep", keep, allowed));
     };
     Ok(Stretch {
@@ -175,7 +175,7 @@ pub fn followed(
     let key = key_named(key)?.name;
     if !UNCERTAIN_KEYS.contains(&key) {
         let allowed = format!(
-            "a key that orbits change with: one of {}",
+            "a key on which orbits depend: one of {}",
             UNCERTAIN_KEYS.join(", ")
         );
         return Err(CaseError::value(option, key, allowed));

@@ -204,7 +204,9 @@ fn run_once<F: Family>(
         let others = words(&simulated.lap.sequence);
         why_not.push(format!("the motion has other events: {others}"));
     } else if error > RETURNS * (1.0 + largest) {
-        why_not.push(format!("the motion is off by {error:.1e} after one lap"));
+        why_not.push(format!(
+            "after one lap the motion differs from its start by {error:.1e}"
+        ));
     }
     Some(error)
 }

@@ -53,9 +53,9 @@ impl Orbit {
             return Ok(orbit);
         }
         Err(NoOrbit(format!(
-            "the motion of this start repeats itself, but Newton's method only came to another orbit, off \
-             by {far:.1e} in one coordinate; look at the motion with snapload section, or for orbits with \
-             --find N"
+            "the motion of this start repeats itself, but Newton's method converged to another orbit, which \
+             differs by {far:.1e} in one coordinate; look at the motion with snapload section, or search for \
+             orbits with --find N"
         )))
     }
 
@@ -110,7 +110,7 @@ impl Orbit {
                 .then(a.total_cmp(&b))
         });
         let why = failures.into_iter().next();
-        best.ok_or_else(|| why.unwrap_or_else(|| NoOrbit("nothing was found".to_owned())))
+        best.ok_or_else(|| why.unwrap_or_else(|| NoOrbit("no lap closes".to_owned())))
     }
 }
 
@@ -166,7 +166,7 @@ impl<F: Family> Search<'_, F> {
                 false => cables.join(", "),
             };
             reasons.push(format!(
-                "the snaps asked for are {asked}; leave the symbol out, or begin near another state"
+                "the requested snaps are {asked}; leave the symbol out, or begin near another state"
             ));
         }
         let (found, but) = (words(&orbit.lap.sequence), reasons.join("; "));
@@ -185,11 +185,10 @@ impl<F: Family> Search<'_, F> {
         for _ in 0..MOST_LAPS {
             let simulated = self.family.simulate(self.at, t, &z, t_end);
             let Some(simulated) = simulated else {
-                return Err(NoOrbit("this system has no simulation".to_owned()));
+                return Err(NoOrbit("this system can not be simulated".to_owned()));
             };
             if let Some(words) = simulated.illegal {
-                why =
-                    format!("the search came to a state beyond what is allowed; allowed: {words}");
+                why = format!("the search reached a state that is not allowed; allowed: {words}");
                 break;
             }
             if let Some((stop, t)) = simulated.stop {
@@ -224,7 +223,7 @@ impl<F: Family> Search<'_, F> {
             }
         }
         if why.is_empty() {
-            why = format!("Newton's method has not ended after {MOST_LAPS} laps");
+            why = format!("Newton's method has not converged after {MOST_LAPS} laps");
         }
         closing.ok_or(NoOrbit(why))
     }

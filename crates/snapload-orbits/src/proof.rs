@@ -27,12 +27,12 @@ impl Orbit {
         let taut = held.fold(TautSet::SLACK, TautSet::union);
         if let Some(cable) = taut.iter().next() {
             return Err(format!(
-                "cable {} is taut on a part of the lap, and proofs of orbits cover slack flight",
+                "cable {} is taut on a part of the lap, but proofs of orbits cover slack flight only",
                 cable + 1
             ));
         }
         if let Some(why) = self.why_not.first() {
-            return Err(format!("no body has it: {why}"));
+            return Err(format!("the orbit is not admissible: {why}"));
         }
         let supposed = Supposed {
             phase: self.phase,

@@ -65,7 +65,7 @@ impl Survey {
         let cable = |surface: usize| surface + 1;
         if let Some(snap) = self.least_speed.filter(|snap| snap.value < -ROUNDING) {
             why.push(format!(
-                "the snap of cable {} at t = {:.6} would open it: v_n = {:.3e}",
+                "the snap of cable {} at t = {:.6} would have a negative velocity, v_n = {:.3e}",
                 cable(snap.surface),
                 snap.t,
                 snap.value

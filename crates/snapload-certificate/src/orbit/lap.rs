@@ -44,9 +44,7 @@ impl Laps {
         let mut fine = Model::new(case, limbs)?;
         let mut coarse = Model::new(case, limbs.div_ceil(3).max(2))?;
         if fine.is_steady {
-            return Err(ProofFailure::beyond(
-                "a force that does not change has no period",
-            ));
+            return Err(ProofFailure::beyond("a constant force has no period"));
         }
         // T = 2π/|Ω|.
         let period = fine.functions.half_pi() * &fine.inverse_omega.abs();
@@ -83,7 +81,8 @@ impl Laps {
                         return Err(other_events(snap.impact.cable, impacts.len()));
                     }
                     if snap.stick.is_some() || snap.end.is_some() {
-                        let what = "a cable that stays taut: proofs of orbits cover slack flight";
+                        let what =
+                            "a cable stays taut, but proofs of orbits cover slack flight only";
                         return Err(ProofFailure::beyond(what));
                     }
                     derivative = product(&snap.jacobian, &derivative);
@@ -108,7 +107,7 @@ impl Laps {
                     let what = end.reason.name().replace('_', " ");
                     let t = end.t.to_f64();
                     return Err(ProofFailure::False(format!(
-                        "it ends at t = {t:.6}: {what}"
+                        "the motion ends at t = {t:.6}: {what}"
                     )));
                 }
             }
@@ -152,7 +151,7 @@ fn unit() -> Matrix {
 
 fn other_events(cable: usize, before: usize) -> ProofFailure {
     ProofFailure::False(format!(
-        "the motion has other snaps: cable {} is the one after {before}",
+        "the motion has other snaps: one of cable {} follows after {before} snaps",
         cable + 1
     ))
 }

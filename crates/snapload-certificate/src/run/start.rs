@@ -54,13 +54,13 @@ impl<'a> Run<'a> {
                 _ => watched.value.is_negative(),
             };
             if !clear && (&watched.value - &tolerance).is_positive() {
-                let what = format!("the start is past {}", name(which));
+                let what = format!("the start is beyond {}", name(which));
                 return Err(ProofFailure::False(what));
             }
             if !clear {
                 let what = format!(
-                    "the start: {} is {:.2e} away, and what counts as there is put right by a \
-                     projection that no theorem speaks of",
+                    "the start: {} is {:.2e} away, where a run moves the state onto it by a \
+                     projection that the proof does not cover",
                     name(which),
                     watched.value.to_f64()
                 );

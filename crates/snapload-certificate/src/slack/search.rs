@@ -218,7 +218,7 @@ fn undecided(path: &impl Path, (_, watched): &Moment) -> ProofFailure {
         _ => "which of them is reached first, or all at one instant",
     };
     ProofFailure::undecided(format!(
-        "{}: {which}, {value:.2e} from it",
+        "{}: {which}, at a distance of {value:.2e}",
         names.join(" and ")
     ))
 }
@@ -240,13 +240,13 @@ fn beginning(path: &impl Path, begin: &Ball, zeros: &Zeros) -> Result<Vec<Watche
     for (which, watched) in first.iter().enumerate() {
         let zero = zeros.iter().find(|(zero, _)| *zero == which);
         let (holds, what) = match zero {
-            Some((_, Zero::Opening)) => (watched.rate.is_negative(), "leaves"),
-            Some((_, Zero::Lifting | Zero::Released)) => (true, "leaves"),
-            None => (watched.value.is_negative(), "is clear"),
+            Some((_, Zero::Opening)) => (watched.rate.is_negative(), "is left"),
+            Some((_, Zero::Lifting | Zero::Released)) => (true, "is left"),
+            None => (watched.value.is_negative(), "is not yet reached"),
         };
         if !holds {
             let what = format!(
-                "whether {} {what} at the begin of a stretch",
+                "whether {} {what} at the beginning of a stretch",
                 path.words(which)
             );
             return Err(ProofFailure::undecided(what));

@@ -68,7 +68,7 @@ impl<const N: usize> Set<N> {
         let epsilon = departure(&product(&transposed, &new));
         if epsilon > Radius::power_of_two(-1) {
             return Err(ProofFailure::undecided(
-                "a set of states that has become flat",
+                "a set of states that has become too flat",
             ));
         }
         let turned = product(&transposed, &moved);

@@ -51,7 +51,7 @@ pub(crate) fn begin<const N: usize>(
     instants: &Instants,
 ) -> Result<Begun<N>, ProofFailure> {
     let model = equations.model;
-    let lost = || ProofFailure::undecided("the begin of a motion");
+    let lost = || ProofFailure::undecided("the beginning of a motion");
     let (whole, when) = hull_of(instants);
     // T has one limb less than the model's numbers, so that T + H is exact, too.
     let last = Radius::power_of_two(64 - 64 * model.limbs as i64);
@@ -120,7 +120,7 @@ fn picard<const N: usize>(
     at: &[Ball; N],
     shift: &Ball,
 ) -> Result<Short<N>, ProofFailure> {
-    let lost = || ProofFailure::undecided("the begin of a motion");
+    let lost = || ProofFailure::undecided("the beginning of a motion");
     let span = shift.upper();
     let times = time.clone().widened(span);
     let model = equations.model;

@@ -115,7 +115,7 @@ fn follow<const N: usize>(
         (t, zeros) = (next, Zeros::new());
         from = (Ball::zero(), Ball::zero());
     }
-    Err(ProofFailure::undecided("a taut motion of very many steps"))
+    Err(ProofFailure::undecided("a taut motion of too many steps"))
 }
 
 /// The beginning of a step: its time, the states, the time that is left, when the motion begins,
@@ -138,7 +138,7 @@ fn ending<const N: usize>(
     let begun = &now.from.1;
     if !begun.is_below(limit) {
         return Err(ProofFailure::undecided(
-            "a begin that lasts longer than a step",
+            "a beginning that lasts longer than a step",
         ));
     }
     let found = first_crossing(step, now.from, now.zeros, limit)?;
@@ -212,7 +212,8 @@ fn roots<const N: usize>(
             break;
         }
     }
-    let flat = || ProofFailure::undecided("an event of a taut motion that is only touched");
+    let flat =
+        || ProofFailure::undecided("whether an event of a taut motion is crossed or only touched");
     if !(crossing.from.is_below(&tau) && tau.is_below(&crossing.to)) {
         return Err(flat());
     }

@@ -98,7 +98,7 @@ impl<'a> Pair<'a> {
 
     /// The velocity after a law.
     fn velocity(&self, law: &Law) -> Result<[Ball; 3], ProofFailure> {
-        let lost = || ProofFailure::undecided("two cables of one effective mass");
+        let lost = || ProofFailure::undecided("the effective mass of both cables together");
         let state = after(std::slice::from_ref(law), self.model, self.state);
         let [.., vx, vy, spin] = state.ok_or_else(lost)?;
         Ok([vx, vy, spin])
@@ -108,7 +108,7 @@ impl<'a> Pair<'a> {
     fn leaves_slowly(&self, unloads: bool) -> Result<bool, ProofFailure> {
         let e = Ball::integer(1) + &self.model.e;
         let speed = &self.coupling * &e * &self.struck.v_n * &self.struck.inverse_w;
-        let what = "whether the taut cable leaves by less than v_stick";
+        let what = "whether the taut cable becomes slack more slowly than v_stick";
         Ok(!unloads || sign(&(&self.model.v_stick - &speed), what)?)
     }
 

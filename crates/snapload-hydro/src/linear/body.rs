@@ -90,7 +90,7 @@ impl Body {
             Some(_) => Ok(sum),
             None => Err(HydroError::Impossible(format!(
                 "mass and added mass together are not positive definite: {:.4e} in surge, {:.4e} in \
-                 heave, {:.4e} in pitch; mass, centre of gravity or moment of inertia can not be",
+                 heave, {:.4e} in pitch; correct the mass, the centre of gravity or the moment of inertia",
                 sum[(0, 0)],
                 sum[(1, 1)],
                 sum[(2, 2)]
@@ -117,7 +117,7 @@ fn of_the_file(
     let inertia = file[(2, 2)] - own_mass * square(own);
     if inertia <= 0.0 {
         let what = "the file's moment of inertia about its centre of gravity in kg m²";
-        let advice = "it has to be above 0; give the body's own (--inertia; body.moment_of_inertia \
+        let advice = "it must be above 0; give the body's own (--inertia; body.moment_of_inertia \
                       in a case)";
         return Err(HydroError::value(what, inertia, advice));
     }
@@ -128,7 +128,7 @@ fn of_the_file(
 fn positive(what: &str, value: f64) -> Result<(), HydroError> {
     match value > 0.0 && value.is_finite() {
         true => Ok(()),
-        false => Err(HydroError::value(what, value, "it has to be above 0")),
+        false => Err(HydroError::value(what, value, "it must be above 0")),
     }
 }
 
@@ -163,7 +163,7 @@ fn stiffness(
             .centre_of_mass_m
             .is_none_or(|centre| centre != centre_m);
     if other {
-        let advice = "the file's stiffness of pitch was made with its own centre of gravity and the \
+        let advice = "the file's pitch stiffness was computed for its own centre of gravity and the \
                       displaced mass; give both";
         let missing = |what: &str| HydroError::missing(what, advice);
         let displaced = statics.displaced_mass_kg;

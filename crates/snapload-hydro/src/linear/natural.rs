@@ -179,7 +179,9 @@ pub fn eigenvalues(
 
 fn of_matrix(matrix: DMatrix<f64>) -> Result<Vec<Complex<f64>>, HydroError> {
     let schur = Schur::try_new(matrix, f64::EPSILON, 100_000).ok_or_else(|| {
-        HydroError::Impossible("the eigenvalues of body and memory were not found".to_owned())
+        HydroError::Impossible(
+            "the eigenvalues of the body with its memory were not found".to_owned(),
+        )
     })?;
     let mut values: Vec<Complex<f64>> = schur.complex_eigenvalues().iter().copied().collect();
     values.sort_by(|a, b| a.im.total_cmp(&b.im).then(a.re.total_cmp(&b.re)));
@@ -199,7 +201,7 @@ pub(super) fn state_matrix(
     let mass = reduced(&body.with_added_mass(added_mass_inf)?, basis);
     let inverse = mass.try_inverse().ok_or_else(|| {
         HydroError::Impossible(
-            "the mass matrix is singular in the motions that are left".to_owned(),
+            "the mass matrix is singular in the motions that taut lines permit".to_owned(),
         )
     })?;
     let real = |term: &Term| term.pole.im == 0.0;

@@ -59,7 +59,7 @@ fn response(
         let solution = solved(body, *omega, coefficients(k, *omega), &force[k]);
         amplitude.push(solution.ok_or_else(|| {
             HydroError::Impossible(format!(
-                "the motion in waves of ω = {omega} rad/s has no bound: there is no damping"
+                "the motion in waves of ω = {omega} rad/s is unbounded: there is no damping"
             ))
         })?);
     }

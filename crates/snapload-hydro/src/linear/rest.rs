@@ -115,11 +115,7 @@ pub fn rest(hydro: &Hydrodynamics, body: &Body, lines: &[Line]) -> Result<Rest, 
         let numbers = [line.length_m, line.anchor_m[0], line.anchor_m[1]];
         if !(line.length_m > 0.0 && numbers.iter().all(|number| number.is_finite())) {
             let what = format!("the length of line {}", index + 1);
-            return Err(HydroError::value(
-                what,
-                line.length_m,
-                "it has to be above 0",
-            ));
+            return Err(HydroError::value(what, line.length_m, "it must be above 0"));
         }
         length = length.max(line.length_m);
     }
@@ -147,7 +143,7 @@ pub fn rest(hydro: &Hydrodynamics, body: &Body, lines: &[Line]) -> Result<Rest, 
     }
     best.map(|(_, rest)| rest).ok_or_else(|| {
         let words = "there is no place of rest: no taut line holds the body in surge, or nothing \
-                     holds it up; give lines, or a place to start from";
+                     holds it up; give lines that hold it, or a place to start from";
         HydroError::Impossible(words.to_owned())
     })
 }

@@ -223,7 +223,7 @@ fn chosen(
 ) -> Result<(Hydrodynamics, Block, Candidate), HydroError> {
     let best = |block: &Block| {
         block.chosen(options).ok_or_else(|| {
-            let words = "no exponentials were found that fit the damping; look at it for jumps";
+            let words = "no exponentials were found that fit the damping; check it for jumps";
             HydroError::Impossible(words.to_owned())
         })
     };
@@ -316,7 +316,7 @@ pub fn given(
     let asymmetric = (added_mass_inf - added_mass_inf.transpose()).amax();
     let symmetric = asymmetric <= 1e-6 * added_mass_inf.amax();
     if !symmetric {
-        let words = "added_mass_inf differs from its transpose, or is no number";
+        let words = "added_mass_inf differs from its transpose, or is not a number";
         return Err(HydroError::convention("symmetry", words));
     }
     let omega_max = hydro.range_rad_s()[1];
@@ -345,7 +345,7 @@ pub fn given(
     let worst = own.fold(0.0_f64, |worst, entry| worst.max(entry.rms));
     if worst > POOR {
         let words = format!(
-            "the given memory is off the file by {:.1} %; was it made of another file?",
+            "the given memory differs from the file by {:.1} %; was it made from another file?",
             100.0 * worst
         );
         fit.warnings.push(Warning::new("fit", words));
@@ -353,8 +353,8 @@ pub fn given(
     let least = fit.memory.least_eigenvalue(omega_max);
     if least < -1e-6 {
         let words = format!(
-            "the given memory is not passive: its damping falls to {:.2} % of its largest, and it can \
-             feed energy into the motion",
+            "the given memory is not passive: its damping falls to {:.2} % of its largest value, and \
+             it can feed energy into the motion",
             100.0 * least
         );
         fit.warnings.push(Warning::new("passivity", words));

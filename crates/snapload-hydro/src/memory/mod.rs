@@ -94,13 +94,14 @@ impl Memory {
             let name = format!("memory[{index}]");
             let Complex { re, im } = term.pole;
             if !(re < 0.0 && re.is_finite() && im.is_finite()) {
-                let wanted = "the real part of a pole is below zero, so that the memory fades";
+                let wanted =
+                    "the real part of a pole must be below zero, so that the memory decays";
                 return Err(HydroError::value(format!("{name}.pole[0]"), re, wanted));
             }
             let size = term.residue.iter().map(|r| r.norm()).fold(0.0, f64::max);
             if !size.is_finite() || term.residue.iter().any(|r| !r.re.is_finite()) {
                 let what = format!("{name}.residue");
-                return Err(HydroError::value(what, size, "numbers are wanted"));
+                return Err(HydroError::value(what, size, "it must be a finite number"));
             }
             let asymmetric = (term.residue - term.residue.transpose())
                 .iter()

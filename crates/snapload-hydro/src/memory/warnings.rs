@@ -16,8 +16,8 @@ pub(super) fn warnings(hydro: &Hydrodynamics, fit: &Fit) -> Vec<Warning> {
             let off = file[(i, i)] / own - 1.0;
             if own != 0.0 && off.abs() > 0.01 {
                 let words = format!(
-                    "the file's A(∞) of {freedom} differs by {:.1} % from the one that belongs to \
-                     its damping, which is used",
+                    "the file's A(∞) of {freedom} differs by {:.1} % from the value consistent with \
+                     its damping; the latter is used",
                     100.0 * off
                 );
                 warnings.push(Warning::new("added mass at infinity", words));
@@ -35,8 +35,8 @@ pub(super) fn warnings(hydro: &Hydrodynamics, fit: &Fit) -> Vec<Warning> {
     let long = length(hydro, fit);
     if long > PI / apart {
         let words = format!(
-            "frequencies are up to {apart:.3} rad/s apart, which shows a memory of at most {:.1} s, and \
-             this one lasts {long:.1} s; compute them closer",
+            "frequencies are up to {apart:.3} rad/s apart, which resolves a memory of at most {:.1} s, but \
+             this one lasts {long:.1} s; compute them at smaller steps",
             PI / apart
         );
         warnings.push(Warning::new("frequency steps", words));
@@ -47,7 +47,7 @@ pub(super) fn warnings(hydro: &Hydrodynamics, fit: &Fit) -> Vec<Warning> {
         .filter(|entry| entry.force == entry.motion);
     for entry in own.filter(|entry| !entry.outliers_rad_s.is_empty()) {
         let words = format!(
-            "the damping of {} is off the fit by more than 5 % of its largest at ω = {} rad/s",
+            "the damping of {} differs from the fit by more than 5 % of its largest value at ω = {} rad/s",
             FREEDOMS[entry.force],
             list(&entry.outliers_rad_s)
         );
@@ -86,15 +86,15 @@ fn of_block(block: &BlockQuality, entries: &[EntryQuality], warnings: &mut Vec<W
             format!(", {} alone to {:.1} %", entry.name(), 100.0 * entry.rms)
         });
         let words = format!(
-            "the memory of {names} fits the file to {:.1} % only{worst}; results are no better",
+            "the memory of {names} fits the file only to {:.1} %{worst}; results are no more accurate",
             100.0 * block.rms
         );
         warnings.push(Warning::new("fit", words));
     }
     if !block.left_out_rad_s.is_empty() {
         let words = format!(
-            "the coefficients of {names} at ω = {} rad/s stand apart from the others and were left \
-             out of the memory: irregular frequencies, most likely. Compute the file again with a \
+            "the coefficients of {names} at ω = {} rad/s deviate from the others and were left out \
+             of the memory, as they probably are irregular frequencies. Compute the file again with a \
              lid",
             list(&block.left_out_rad_s)
         );
@@ -102,8 +102,8 @@ fn of_block(block: &BlockQuality, entries: &[EntryQuality], warnings: &mut Vec<W
     }
     if block.damped {
         let words = format!(
-            "the memory of {names} could not be made passive for less than {:.0} % of fit; it is \
-             kept as it is, and linear damping of {:.2} % of the largest is added",
+            "making the memory of {names} passive would worsen its fit by more than {:.0} %; it is \
+             kept unchanged, and linear damping of {:.2} % of the largest value is added",
             100.0 * PRICE,
             -100.0 * block.least
         );

@@ -84,7 +84,7 @@ pub fn from_dataset(dataset: &Dataset, given: &Given) -> Result<Hydrodynamics, H
         let (n, m) = (names(dataset, ROW)?, names(dataset, COLUMN)?);
         if values.len() != omega.len() * n * m {
             let found = format!("{} values", values.len());
-            let wanted = "one for each frequency, force and motion is wanted";
+            let wanted = "one for each frequency, force and motion is expected";
             return Err(HydroError::layout(name, found, wanted));
         }
         let of = |block: &[f64]| picked(block, m, &rows, &columns, plane);
@@ -177,7 +177,7 @@ fn freedoms(
         .filter(|freedom| place(freedom).is_none())
         .collect();
     let advice = format!(
-        "{dim} has {}; Surge, Heave and Pitch are wanted, or Sway, Heave and Roll",
+        "{dim} has {}; Surge, Heave and Pitch are required, or Sway, Heave and Roll",
         words.join(", ")
     );
     Err(HydroError::missing(
@@ -221,7 +221,7 @@ fn frequency_dimension(dataset: &Dataset) -> Result<String, HydroError> {
         .find(|dim| FREQUENCIES.contains(&dim.as_str()));
     found.cloned().ok_or_else(|| {
         let found = format!("its dimensions are {}", variable.dims.join(", "));
-        let wanted = format!("one of {} is wanted", FREQUENCIES.join(", "));
+        let wanted = format!("one of {} is expected", FREQUENCIES.join(", "));
         HydroError::layout("added_mass", found, wanted)
     })
 }
@@ -270,7 +270,7 @@ fn excitation(
 ) -> Result<(Vec<f64>, Forces), HydroError> {
     let betas = dataset.arranged("wave_direction", &["wave_direction"])?;
     if let Some(beta) = betas.iter().find(|beta| beta.abs() > 2.0 * PI + IN_PLANE) {
-        let wanted = "radians are wanted, at most 2π; is it degrees?";
+        let wanted = "radians are expected, at most 2π; is it in degrees?";
         return Err(HydroError::value("wave_direction", *beta, wanted));
     }
     let parts: Vec<&str> = match dataset.has("diffraction_force") {
@@ -291,7 +291,7 @@ fn excitation(
     let freedoms = names(dataset, ROW)?;
     if sum.len() != count * betas.len() * freedoms {
         let found = format!("{} values", sum.len());
-        let wanted = "one for each frequency, direction and freedom is wanted";
+        let wanted = "one for each frequency, direction and freedom is expected";
         return Err(HydroError::layout("the wave force", found, wanted));
     }
     let sign = plane.signs();
@@ -316,7 +316,7 @@ fn excitation(
             Plane::Y => "π/2 or −π/2",
         };
         let found = format!("{betas:?} rad");
-        let wanted = format!("waves in the plane of motion are wanted, {wanted} to 1e-6");
+        let wanted = format!("waves in the plane of motion are required, {wanted} within 1e-6");
         return Err(HydroError::layout("wave_direction", found, wanted));
     }
     Ok((directions, forces))
@@ -324,7 +324,7 @@ fn excitation(
 
 /// A complex variable, whose dimension `complex` has the labels re and im.
 fn complex(dataset: &Dataset, name: &str, dim: &str) -> Result<Vec<Complex<f64>>, HydroError> {
-    let advice = "a dimension `complex` with the labels re and im is wanted, as Capytaine's \
+    let advice = "a dimension `complex` with the labels re and im is expected, as Capytaine's \
                   separate_complex_values makes it";
     let variable = dataset.variable(name)?;
     if !variable.dims.iter().any(|name| name == "complex") && !variable.is_other() {
@@ -338,13 +338,17 @@ fn complex(dataset: &Dataset, name: &str, dim: &str) -> Result<Vec<Complex<f64>>
         let found = labels.iter().position(|word| word == label);
         found.ok_or_else(|| {
             let found = format!("its labels are {}", labels.join(", "));
-            HydroError::layout("complex", found, "re and im are wanted")
+            HydroError::layout("complex", found, "re and im are expected")
         })
     };
     let (re, im) = (place("re")?, place("im")?);
     if labels.len() != 2 || values.len() % 2 != 0 {
         let found = format!("{} labels", labels.len());
-        return Err(HydroError::layout("complex", found, "re and im are wanted"));
+        return Err(HydroError::layout(
+            "complex",
+            found,
+            "re and im are expected",
+        ));
     }
     let half = values.len() / 2;
     let of = |k: usize| Complex::new(values[re * half + k], values[im * half + k]);
@@ -390,7 +394,7 @@ fn hydrostatics(
             return Err(HydroError::layout(
                 name,
                 found,
-                "one for each pair of freedoms is wanted",
+                "one for each pair of freedoms is expected",
             ));
         }
         let matrix = picked(&values, width, rows, columns, plane);

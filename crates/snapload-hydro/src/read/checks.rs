@@ -29,14 +29,14 @@ fn symmetry(hydro: &Hydrodynamics, warnings: &mut Vec<Warning>) -> Result<(), Hy
     if hydro.asymmetry > wrong {
         let words = format!(
             "A_ij and A_ji differ by {percent:.0} % of sqrt(A_ii A_jj); added mass is symmetric. \
-             Are the freedoms mixed up, or do they turn about different points?"
+             Are the freedoms mixed up, or do they refer to different points?"
         );
         return Err(HydroError::convention("symmetry", words));
     }
     if hydro.asymmetry > doubtful {
         let words = format!(
             "A_ij and A_ji differ by {percent:.1} % of sqrt(A_ii A_jj); their mean is taken. A \
-             finer mesh makes them equal"
+             finer mesh makes them more alike"
         );
         warnings.push(Warning::new("symmetry", words));
     }
@@ -63,7 +63,7 @@ fn damping(hydro: &Hydrodynamics, warnings: &mut Vec<Warning>) -> Result<(), Hyd
             .collect();
         if !below.is_empty() {
             let words = format!(
-                "the damping of {freedom} is below −1 % of its largest at ω = {} rad/s: irregular \
+                "the damping of {freedom} is below −1 % of its largest value at ω = {} rad/s: irregular \
                  frequencies, or a mesh that is too coarse",
                 shortened(&below)
             );
@@ -76,8 +76,8 @@ fn damping(hydro: &Hydrodynamics, warnings: &mut Vec<Warning>) -> Result<(), Hyd
     }
     if !high.is_empty() {
         let words = format!(
-            "at the last frequency the damping still is {} of its largest; the memory's first moments \
-             rest on a power law beyond. Compute higher frequencies",
+            "at the last frequency the damping still is {} of its largest value; the start of the memory \
+             depends on a power law beyond it. Compute higher frequencies",
             high.join(", ")
         );
         warnings.push(Warning::new("high frequencies", words));
@@ -102,7 +102,7 @@ fn stiffness(hydro: &Hydrodynamics, warnings: &mut Vec<Warning>) -> Result<(), H
         let wrong = difference > 0.01 * scale(i, j) && i != j && scale(i, j) > 0.0;
         if wrong {
             let words = format!(
-                "C of {} by {} is {} one way and {} the other",
+                "C of {} by {} is {}, but the transposed entry is {}; hydrostatic stiffness is symmetric",
                 FREEDOMS[i],
                 FREEDOMS[j],
                 c[(i, j)],
@@ -114,7 +114,7 @@ fn stiffness(hydro: &Hydrodynamics, warnings: &mut Vec<Warning>) -> Result<(), H
     for i in [1, 2] {
         if c[(i, i)] <= 0.0 {
             let words = format!(
-                "C of {} is {:.3e}: the body does not right itself and has to be held by its lines",
+                "C of {} is {:.3e}: the body is unstable without lines, which must hold it",
                 FREEDOMS[i],
                 c[(i, i)]
             );
@@ -146,8 +146,8 @@ fn low_frequency(
     let long = k * waterplane.sqrt() < LONG_WAVE;
     if !long {
         let words = format!(
-            "the lowest frequency, {omega:.3} rad/s, is too high for a proof of phases and units \
-             by the limit of long waves; compute lower ones"
+            "the lowest frequency, {omega:.3} rad/s, is too high to check phases and units in \
+             the limit of long waves; compute lower ones"
         );
         warnings.push(Warning::new("low frequencies", words));
         return Ok(());
@@ -157,16 +157,16 @@ fn low_frequency(
         if !(0.5..=2.0).contains(&ratio) {
             let words = format!(
                 "at ω = {omega:.3} rad/s the wave force on heave is {ratio:.3e} times the hydrostatic \
-                 stiffness of heave; it has to tend to 1. Are they in different units, or was the \
-                 stiffness given for another body?"
+                 stiffness of heave; for long waves the ratio must tend to 1. Are they in different units, \
+                 or was the stiffness given for another body?"
             );
             return Err(HydroError::convention("low-frequency limit of X3", words));
         }
     }
     if force[1].re < 0.5 * force[1].norm() {
         let words = format!(
-            "at ω = {omega:.3} rad/s the wave force on heave has the phase {:.0}°; it has to tend to 0, a \
-             force upwards under a crest",
+            "at ω = {omega:.3} rad/s the wave force on heave has the phase {:.0}°; for long waves it must \
+             tend to 0, an upward force under a crest",
             force[1].arg().to_degrees()
         );
         return Err(HydroError::convention("phase of X3", words));
@@ -179,8 +179,8 @@ fn low_frequency(
         };
         let words = format!(
             "for β = {beta}, a wave to {to}, the wave force on surge at ω = {omega:.3} rad/s has the phase \
-             {:.0}°; with e^{{−iωt}} it has to tend to {wanted}90°. Either the file is conjugate \
-             (e^{{+iωt}}), or β says where waves come from",
+             {:.0}°; with e^{{−iωt}} it must tend to {wanted}90°. Either the file is conjugate \
+             (e^{{+iωt}}), or its β is the direction that waves come from",
             force[0].arg().to_degrees()
         );
         return Err(HydroError::convention("phase of X1", words));
@@ -191,7 +191,7 @@ fn low_frequency(
 fn coverage(hydro: &Hydrodynamics, warnings: &mut Vec<Warning>) {
     let count = hydro.omega_rad_s.len();
     if count < 20 {
-        let words = format!("{count} frequencies; twenty and more are wanted for a memory");
+        let words = format!("{count} frequencies; a memory needs twenty or more");
         warnings.push(Warning::new("few frequencies", words));
     }
 }

@@ -63,7 +63,7 @@ impl Dataset {
                 return Err(HydroError::layout(
                     name,
                     found,
-                    "one value a place is wanted",
+                    "there must be as many values as the product of the lengths",
                 ));
             }
             for (dim, length) in variable.dims.iter().zip(&variable.shape) {
@@ -115,7 +115,7 @@ impl Dataset {
             _ => Err(HydroError::layout(
                 name,
                 "it does not hold strings",
-                "names are wanted",
+                "names are expected",
             )),
         }
     }
@@ -134,11 +134,11 @@ impl Dataset {
                 return Err(HydroError::layout(
                     name,
                     "it holds strings",
-                    "numbers are wanted",
+                    "numbers are expected",
                 ));
             }
             Values::Other(kind) => {
-                let advice = "plain numbers are wanted, complex ones with a dimension `complex` of \
+                let advice = "real numbers are expected, complex ones with a dimension `complex` of \
                               re and im, as Capytaine's separate_complex_values gives them";
                 return Err(HydroError::layout(
                     name,
@@ -178,13 +178,13 @@ impl Variable {
     /// The strides and lengths of dimensions in another order than they are stored in.
     fn order(&self, name: &str, wanted: &[&str]) -> Result<(Vec<usize>, Vec<usize>), HydroError> {
         let refuse = |found: String| {
-            let wanted = format!("dimensions {} are wanted", wanted.join(", "));
+            let wanted = format!("the dimensions {} are expected", wanted.join(", "));
             Err(HydroError::layout(name, found, wanted))
         };
         for (dim, length) in self.dims.iter().zip(&self.shape) {
             if !wanted.contains(&dim.as_str()) && *length != 1 {
                 return refuse(format!(
-                    "it has {length} values along {dim}, where one is wanted (several depths, \
+                    "it has {length} values along {dim}, where one is expected (several depths, \
                      densities or bodies?)"
                 ));
             }

@@ -131,7 +131,7 @@ pub fn read(path: &Path, given: &Given) -> Result<Reading, HydroError> {
             Reading::new(Format::Nemoh, hydro)
         }
         _ => Err(HydroError::Unreadable(
-            "it is none of: Capytaine's .nc; WAMIT's .1, .3, .2, .hst; Nemoh's .tec or its folder"
+            "it is none of these: Capytaine's .nc; WAMIT's .1, .3, .2, .hst; Nemoh's .tec or its folder"
                 .to_owned(),
         )),
     }
@@ -189,7 +189,7 @@ fn agreed(
 fn agreed_water(file: [Option<f64>; 3], given: &Given) -> Result<Water, HydroError> {
     let [density, gravity, depth] = file;
     let need = |what: &'static str, value: Option<f64>| {
-        let advice = "the file does not say; give it";
+        let advice = "the file does not have it; give it";
         value.ok_or_else(|| HydroError::missing(what, advice))
     };
     let what = "the density of the water in kg/m³";

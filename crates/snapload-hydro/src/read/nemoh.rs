@@ -44,7 +44,7 @@ pub fn from_nemoh(
     let motions = zones(name, radiation, 1 + 2 * SIX)?;
     if motions.len() != SIX {
         let found = format!("it has {} zones", motions.len());
-        let wanted = "one body with its six freedoms is wanted, one zone a motion";
+        let wanted = "one body with its six freedoms is expected, one zone for each motion";
         return Err(HydroError::layout(name, found, wanted));
     }
     let name = "ExcitationForce.tec";
@@ -57,7 +57,7 @@ pub fn from_nemoh(
             return Err(HydroError::layout(
                 name,
                 found,
-                format!("{count} are wanted"),
+                format!("{count} are expected"),
             ));
         }
     }
@@ -93,7 +93,7 @@ fn along_x<'a, 'b>(
     }
     if directions.is_empty() {
         let headings: Vec<&str> = waves.iter().map(|wave| wave.heading).collect();
-        let advice = format!("{name} has {headings:?}; beta = 0 or 180 is wanted");
+        let advice = format!("{name} has {headings:?}; beta = 0 or 180 is required");
         let what = "the excitation of waves along x";
         return Err(HydroError::missing(what, advice));
     }
@@ -142,7 +142,7 @@ fn zones<'a>(name: &'static str, text: &'a str, width: usize) -> Result<Vec<Zone
             _ => {
                 let start: String = line.trim().chars().take(60).collect();
                 let found = format!("line {} is {start:?}", index + 1);
-                let wanted = format!("{width} numbers are wanted, for one body's six freedoms");
+                let wanted = format!("{width} numbers are expected, for one body's six freedoms");
                 return Err(HydroError::layout(name, found, wanted));
             }
         }

@@ -79,14 +79,17 @@ fn dimensions(
         let references = read_object_references(&bytes, offset_size)?;
         let name = references.first().and_then(|address| name_at.get(address));
         let name = name.ok_or_else(|| {
-            Error::InvalidData(format!("{} has an axis that leads nowhere", set.name()))
+            Error::InvalidData(format!(
+                "{} has an axis whose dimension is not found",
+                set.name()
+            ))
         })?;
         names.push((*name).to_owned());
     }
     match names.len() == axes {
         true => Ok(names),
         false => Err(Error::InvalidData(format!(
-            "{} has too few names of axes",
+            "{} does not name all of its axes",
             set.name()
         ))),
     }

@@ -35,7 +35,7 @@ impl Table {
             .iter()
             .find(|row| row.omega.is_nan() || row.omega < 0.0)
         {
-            let wanted = "frequencies are numbers from 0 on";
+            let wanted = "a frequency must be 0 or above";
             return Err(HydroError::value("ω", row.omega, wanted));
         }
         self.rows.sort_by(|a, b| a.omega.total_cmp(&b.omega));
@@ -44,7 +44,7 @@ impl Table {
             .windows(2)
             .find(|pair| pair[0].omega == pair[1].omega)
         {
-            let wanted = "each frequency is wanted once";
+            let wanted = "each frequency may occur only once";
             return Err(HydroError::value("ω", pair[0].omega, wanted));
         }
         let (mut zero, mut inf) = (None, None);
@@ -63,7 +63,7 @@ impl Table {
         }
         if finite.len() < 4 {
             let found = format!("{} frequencies above 0 and below infinity", finite.len());
-            let wanted = "four are the least, twenty and more are wanted";
+            let wanted = "at least four are required, and twenty or more are recommended";
             return Err(HydroError::layout("the file", found, wanted));
         }
         finite.iter().try_for_each(Row::check)?;
@@ -114,7 +114,8 @@ impl Row {
             return Ok(());
         }
         let what = format!("the {what} at ω = {} rad/s", self.omega);
-        let wanted = "a number is wanted; take this frequency out of the file, or compute it again";
+        let wanted =
+            "a number is expected; remove this frequency from the file, or compute it again";
         Err(HydroError::value(what, value, wanted))
     }
 }

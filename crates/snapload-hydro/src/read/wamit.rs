@@ -130,12 +130,12 @@ fn lines<'a>(
             Err(_) if index == 0 => None,
             Ok(numbers) => {
                 let found = format!("line {} has {} numbers", index + 1, numbers.len());
-                let wanted = format!("{} to {} are wanted", counts.start(), counts.end());
+                let wanted = format!("{} to {} are expected", counts.start(), counts.end());
                 Some(Err(HydroError::layout(name, found, wanted)))
             }
             Err(_) => {
                 let found = format!("line {} is {:?}", index + 1, shortened(line));
-                Some(Err(HydroError::layout(name, found, "numbers are wanted")))
+                Some(Err(HydroError::layout(name, found, "numbers are expected")))
             }
         }
     })
@@ -151,7 +151,7 @@ fn mode(name: &'static str, value: f64) -> Result<usize, HydroError> {
     if whole {
         return Ok(value as usize);
     }
-    let wanted = "modes of one body are wanted, 1 to 6";
+    let wanted = "the modes of one body are expected, 1 to 6";
     Err(HydroError::value(
         format!("a mode of {name}"),
         value,
@@ -188,14 +188,14 @@ fn radiation(text: &str, units: &Units) -> Result<Vec<Row>, HydroError> {
             None if omega == 0.0 || omega.is_infinite() => {}
             None => {
                 let found = format!("no damping at {}", line[0]);
-                let wanted = "PER I J A B is wanted; does the first column hold periods?";
+                let wanted = "PER I J A B is expected; does the first column hold periods?";
                 return Err(HydroError::layout(name, found, wanted));
             }
         }
     }
     if let Some(lacking) = seen.iter().position(|seen| !seen) {
         let what = format!("the mode {0},{0}", MODES[lacking]);
-        let advice = "the .1 file has to have 1,1, 3,3 and 5,5 (surge, heave, pitch)";
+        let advice = "the .1 file must have 1,1, 3,3 and 5,5 (surge, heave, pitch)";
         return Err(HydroError::missing(what, advice));
     }
     Ok(rows)
@@ -241,7 +241,7 @@ fn excitation(text: &str, units: &Units, rows: &mut [Row]) -> Result<Vec<f64>, H
         });
         let omega = units.omega(line[0]);
         let Some(row) = rows.iter_mut().find(|row| row.omega == omega) else {
-            let wanted = "the frequencies of the .1 and the .3 file have to be the same";
+            let wanted = "the frequencies of the .1 and the .3 file must be the same";
             let what = format!("the first column of {name}");
             return Err(HydroError::value(what, line[0], wanted));
         };
@@ -253,7 +253,7 @@ fn excitation(text: &str, units: &Units, rows: &mut [Row]) -> Result<Vec<f64>, H
         row.excitation[at][i] = force * scale;
     }
     if directions.is_empty() {
-        let advice = format!("the .3 file has the headings {headings:?}; 0 or 180 is wanted");
+        let advice = format!("the .3 file has the headings {headings:?}; 0 or 180 is required");
         return Err(HydroError::missing(
             "the excitation of waves along x",
             advice,
@@ -276,7 +276,7 @@ fn agree(line: &[f64]) -> Result<(), HydroError> {
             "MOD {modulus}, PHA {} beside RE {}, IM {}",
             line[4], line[5], line[6]
         );
-        let wanted = "columns PER BETA I MOD PHA RE IM are wanted, PHA in degrees";
+        let wanted = "columns PER BETA I MOD PHA RE IM are expected, PHA in degrees";
         return Err(HydroError::layout("the .3 file", found, wanted));
     }
     Ok(())
@@ -310,7 +310,7 @@ fn stiffness(text: &str, units: &Units) -> Result<Matrix3<f64>, HydroError> {
         stiffness[(i, j)] = scale * line[2];
     }
     if !heave {
-        let advice = "the .hst file has to have the line 3 3 C";
+        let advice = "the .hst file must have the line 3 3 C";
         return Err(HydroError::missing("the mode 3,3", advice));
     }
     // Some files have only the upper triangle.

@@ -176,7 +176,7 @@ fn inertia_of_another(reading: &Reading, body: &Body, request: &Request) -> Opti
         .filter(|file| *file != body.centre_m);
     let what = match (heavier, moved) {
         (Some(displaced), _) => format!(
-            "the mass is {} t where the file's body displaces {} t",
+            "the mass is {} t, the file's body displaces {} t",
             kilo(&body.mass_kg, 1),
             kilo(&displaced, 1)
         ),
@@ -184,8 +184,8 @@ fn inertia_of_another(reading: &Reading, body: &Body, request: &Request) -> Opti
         (None, None) => return None,
     };
     let words = format!(
-        "{what}, and the moment of inertia is that of the file all the same, {} t m² about the centre of \
-         gravity: give its own (--inertia; body.moment_of_inertia in a case)",
+        "{what}, but the moment of inertia is still that of the file, {} t m² about the centre of \
+         gravity: give the body's own (--inertia; body.moment_of_inertia in a case)",
         kilo(&body.inertia_about_centre_kg_m2(), 1)
     );
     Some(Warning::new("moment of inertia", words))
@@ -271,13 +271,14 @@ impl Floating {
     fn balance_warning(&self) -> Option<Warning> {
         let pitch = self.unbalanced_pitch().filter(|_| self.rest.is_none())?;
         let angle = match pitch {
-            Some(pitch) => format!(", {:.1}° by its stiffness", plain(pitch.to_degrees(), 0.1)),
+            Some(pitch) => format!(" ({:.1}° by its stiffness)", plain(pitch.to_degrees(), 0.1)),
             None => String::new(),
         };
         let words = format!(
-            "a moment of {} kN m about the reference point is not balanced where the file has the body upright: \
-             without lines it lies turned{angle}, and its periods and response without lines are not those it \
-             has so. A centre of gravity under that of buoyancy makes no such moment",
+            "a moment of {} kN m about the reference point is not balanced in the upright position of the file: \
+             without lines the body floats inclined{angle}, but its periods and response without lines are \
+             those of the upright body. There is no such moment if the centres of gravity and buoyancy lie in \
+             one vertical line",
             kilo(&self.body.constant_force[2], 1)
         );
         Some(Warning::new("balance", words))
@@ -294,7 +295,7 @@ impl Floating {
         {
             let words = format!(
                 "a natural period of {:.2} s lies outside the file's frequencies, {low:.3} to \
-                 {high:.3} rad/s; compute them",
+                 {high:.3} rad/s; compute frequencies around it",
                 natural.period_s
             );
             warnings.push(Warning::new("natural periods", words));
@@ -302,8 +303,8 @@ impl Floating {
         let righting = self.body.stiffness[(2, 2)];
         if righting <= 0.0 {
             let words = format!(
-                "the stiffness in pitch is {} kN m: by itself the body turns over, and its response in \
-                 pitch tells nothing; lower its centre of gravity, or hold it by lines",
+                "the stiffness in pitch is {} kN m: without lines the body turns over, and its response \
+                 in pitch has no meaning; lower its centre of gravity, or hold it by lines",
                 kilo(&righting, 1)
             );
             warnings.push(Warning::new("stability", words));
@@ -313,8 +314,8 @@ impl Floating {
         for (_, mode) in pitch.filter(|(natural, _)| natural.freedom == 2) {
             if mode.damping_ratio < WEAK && self.body.damping[(2, 2)] == 0.0 {
                 let words = format!(
-                    "waves damp pitch by {:.1} % of critical only, and no other damping was given: its \
-                     resonance is not to be believed without",
+                    "waves damp pitch only by {:.1} % of critical, and no other damping was given: \
+                     without more damping its resonance is not reliable",
                     plain(100.0 * mode.damping_ratio, 0.1)
                 );
                 warnings.push(Warning::new("pitch", words));
@@ -326,8 +327,8 @@ impl Floating {
             let draft = weight * reading.hydro.water.gravity_m_s2 / self.body.stiffness[(1, 1)];
             if rest.q[2].abs() > 0.05 || (draft > 0.0 && rest.q[1].abs() > 0.1 * draft) {
                 let words = format!(
-                    "the body rests {:.3} m {} and at {:.1}° of pitch from where the file has it; \
-                     make the file again there",
+                    "the body rests {:.3} m {} its position in the file and at {:.1}° of pitch from it; \
+                     compute the file again at the position of rest",
                     rest.q[1].abs(),
                     if rest.q[1] < 0.0 { "below" } else { "above" },
                     plain(rest.q[2].to_degrees(), 0.1)

@@ -25,7 +25,7 @@ impl Report {
             "file",
             format!(
                 "{}, {} frequencies from {low:.3} to {high:.3} rad/s, {} direction{}; water of {} \
-                 kg/m³, {depth}; about ({}, {}) m",
+                 kg/m³, {depth}; reference point ({}, {}) m",
                 self.reading.format,
                 hydro.omega_rad_s.len(),
                 hydro.excitation.len(),
@@ -38,7 +38,7 @@ impl Report {
         say("memory", self.memory_words());
         match &self.floating {
             Ok(floating) => floating.say(&mut say),
-            Err(error) => say("not told", format!("periods and response: {error}")),
+            Err(error) => say("omitted", format!("periods and response: {error}")),
         }
         for warning in &self.warnings {
             say("warning", format!("{}: {}", warning.what, warning.words));
@@ -53,7 +53,7 @@ impl Report {
             |of: fn(&EntryQuality) -> f64| 100.0 * fit.entries.iter().map(of).fold(0.0, f64::max);
         let furthest = EntryQuality::worst(&fit.entries).map_or(String::new(), EntryQuality::name);
         if fit.memory.terms.is_empty() {
-            return "none, as no waves are made".to_owned();
+            return "none, as the body makes no waves".to_owned();
         }
         let how = match fit.blocks.as_slice() {
             [] => "given".to_owned(),
@@ -68,8 +68,8 @@ impl Report {
         };
         let damped = fit.blocks.iter().any(|block| block.damped);
         format!(
-            "{how}, {} states; off the file by at most {:.2} % (root mean square; {furthest}), off K(t) by at most \
-             {:.2} %, {:.1} % at its worst; {}",
+            "{how}, {} states; differs from the file by at most {:.2} % (root mean square; {furthest}), from K(t) \
+             by at most {:.2} %, at one instant {:.1} %; {}",
             fit.memory.states(),
             worst(|entry| entry.rms),
             worst(|entry| entry.kernel_rms),
@@ -98,7 +98,7 @@ impl Floating {
         }
         for (words, directions) in told {
             let to = directions.join(" and ");
-            say("response", format!("waves to {to}, at most: {words}"));
+            say("response", format!("waves to {to}, largest: {words}"));
         }
     }
 
@@ -113,7 +113,7 @@ impl Floating {
         let size = body.constant_force[2].abs();
         let moment = self.unbalanced_pitch();
         let moment = moment.map(|_| format!("a moment of {} kN m", kilo(&size, 1)));
-        let pitches = ", and where they hold decides how it pitches";
+        let pitches = ", and their fairleads decide the pitch";
         let (left, pitches) = match (lift, moment) {
             (Some(lift), Some(moment)) => (format!("{lift} and {moment} are"), pitches),
             (Some(lift), None) => (format!("{lift} are"), pitches),
@@ -121,8 +121,8 @@ impl Floating {
             (None, None) => return None,
         };
         Some(format!(
-            "{left} left for lines to hold{pitches}: periods and responses are those of a body held upright at \
-             the reference point"
+            "{left} not balanced: lines must hold the body{pitches}; periods and responses are those of a \
+             body held upright at the reference point"
         ))
     }
 
@@ -181,7 +181,7 @@ fn largest(peaks: &[(Peak, Option<f64>); 3]) -> String {
         };
         let size = match size.is_finite() {
             true => format!("{} {unit}", three_digits(size)),
-            false => "without bound, as nothing damps it,".to_owned(),
+            false => "unbounded (no damping)".to_owned(),
         };
         format!("{} {size} at {:.2} s", FREEDOMS[i], period(peak))
     };
@@ -191,7 +191,7 @@ fn largest(peaks: &[(Peak, Option<f64>); 3]) -> String {
     if let Some((_, ratio)) = narrow.iter().find(|(_, ratio)| *ratio > UNDAMPED) {
         let names: Vec<&str> = narrow.iter().map(|(i, _)| FREEDOMS[*i]).collect();
         words += &format!(
-            ". The peak of {} is so narrow that it is only as good as the damping, {:.2} % of critical",
+            ". The peak of {} is so narrow that it is only as accurate as the damping, {:.2} % of critical",
             names.join(" and "),
             100.0 * ratio
         );
@@ -223,7 +223,7 @@ pub fn periods_in_words(natural: &[Natural], modes: &[Mode]) -> String {
     };
     let all: Vec<String> = natural.iter().zip(modes).map(one).collect();
     match all.is_empty() {
-        true => "none: nothing rights the body".to_owned(),
+        true => "none: the body has no restoring stiffness".to_owned(),
         false => all.join("; "),
     }
 }

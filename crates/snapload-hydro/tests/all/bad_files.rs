@@ -181,7 +181,7 @@ fn other_layouts_are_named() {
     });
     says(
         &refusal(spoilt),
-        &["water_depth", "2 values", "one is wanted"],
+        &["water_depth", "2 values", "one is expected"],
     );
 }
 

@@ -66,7 +66,7 @@ fn files_without_hydrostatics_say_so() {
     let summary = report.summary();
     let missing = summary
         .iter()
-        .find(|(label, _)| label == "not told")
+        .find(|(label, _)| label == "omitted")
         .expect("a row");
     assert!(missing.1.contains("the mass is missing"), "{missing:?}");
     assert_eq!(
@@ -108,7 +108,9 @@ fn the_largest_response_is_that_of_the_resonance() {
     let words = told(&report);
     let degrees = format!("pitch {:.0} °/m at 3.80 s", of("amplitude").to_degrees());
     assert!(words.contains(&degrees), "{words}");
-    assert!(words.contains("pitch is so narrow that it is only as good as the damping, 0.61 %"));
+    assert!(
+        words.contains("pitch is so narrow that it is only as accurate as the damping, 0.61 %")
+    );
     let damped = told(&answer(5e4));
     assert!(!damped.contains("narrow"), "{damped}");
 }
@@ -198,7 +200,7 @@ fn a_moment_that_nothing_balances_is_told() {
     let words = of(&turned).concat();
     assert!(words.contains(&format!("{angle:.1}°")), "{words}");
     let (_, words) = balance(&turned).expect("a row");
-    let said = format!("a moment of {:.1} kN m is left", arm / 1e3);
+    let said = format!("a moment of {:.1} kN m is not balanced", arm / 1e3);
     assert!(words.contains(&said), "{words}");
     let json = serde_json::to_value(turned.to_json()).expect("JSON");
     assert!(json["warnings"].to_string().contains("upright"));

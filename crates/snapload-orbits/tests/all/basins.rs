@@ -109,7 +109,10 @@ fn the_knee_is_that_of_the_decided_cells() {
     assert!(low.is_some_and(|low| low < values[2]), "{low:?}");
     assert!(high.is_none_or(|high| high >= values[2]), "{high:?}");
     let text = erosion_in_words(&erosion);
-    assert!(text.contains("by how undecided cells end"), "{text}");
+    assert!(
+        text.contains("depending on how undecided cells end"),
+        "{text}"
+    );
 }
 
 #[test]
@@ -157,9 +160,9 @@ fn an_erosion_says_in_which_planes_there_are_distances() {
         let erosion = Erosion::of(window, key, values, false, &unwatched).unwrap();
         erosion_in_words(&erosion)
     };
-    assert!(!words(&window, "f_o", &[0.1, 0.2]).contains("not told (LIM"));
+    assert!(!words(&window, "f_o", &[0.1, 0.2]).contains("undefined (LIM"));
     let moving = words(&window, "vy", &[-0.1, 0.0, 0.1]);
-    assert!(moving.contains("where a start key beside the two, vy among them, is not 0"));
+    assert!(moving.contains("where one of the other start keys, such as vy, is not 0"));
     window.base.vx = 0.1;
     let beside = words(&window, "f_o", &[0.1, 0.2]);
     assert!(

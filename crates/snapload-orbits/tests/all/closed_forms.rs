@@ -98,7 +98,7 @@ fn the_oscillator_against_a_wall_has_its_closed_orbits() {
             assert_eq!(orbit.is_admissible(), solution["admissible"] == true);
             if v < 0.0 {
                 assert!(
-                    orbit.why_not[0].contains("would open it"),
+                    orbit.why_not[0].contains("negative velocity"),
                     "{:?}",
                     orbit.why_not
                 );

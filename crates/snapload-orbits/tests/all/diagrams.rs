@@ -99,7 +99,7 @@ fn taut_cables_close_the_directions_across_them() {
     };
     let found = section(&point);
     assert_eq!(found.exponents, [[f64::NEG_INFINITY, 0.0]; 4]);
-    assert!(section_in_words(&found).contains(": 4 of -inf, which contact closes\n"));
+    assert!(section_in_words(&found).contains(": 4 of -inf (directions closed by contact)\n"));
     let rocking = Parameters {
         f_o: 0.1,
         ..Parameters::STANDARD

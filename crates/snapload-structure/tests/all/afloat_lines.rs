@@ -162,7 +162,7 @@ fn a_body_without_a_file_has_the_water_of_its_section() {
         rules.contains(&"textbook section") && rules.contains(&"ends"),
         "{rules:?}"
     );
-    assert!(assessment.summary("case").contains("no waves are made"));
+    assert!(assessment.summary("case").contains("makes no waves"));
     for (from, to, says) in [
         ("[float]", "[float]\npairs = 4", "without float.file"),
         (
