@@ -186,7 +186,7 @@ def test_those_who_want_no_motion_get_none(open_page):
 
 def test_the_legend_tells_of_what_there_is(open_page):
     standard, sliding = open_page("f_o=0.3&t=0"), open_page("f_o=0.27&stop_when_settled=false&t=0")
-    cables = {"× snap of cable 1", "○ snap of cable 2", "cable 1 taut here", "cable 2 taut here", "at θ = 0"}
+    cables = {"× snap of cable 1", "○ snap of cable 2", "cable 1 taut here", "cable 2 taut here", "the same at θ = 0"}
     assert legend(standard) == cables | {"past the horizon"}, "it never slides nor rocks"
     assert legend(sliding) == cables | {"slack", "sliding", "rocking", "past the horizon"}
     expect(standard.locator("#ramp-key")).to_be_hidden()

@@ -220,17 +220,17 @@ def test_the_map_is_beside_the_scene_and_tells_what_is_sure(open_page, command_j
         if f_o == "0.4":
             page.keyboard.press("Home")
     assert told == {True, False}
-    expect(page.locator("#map-legend")).to_contain_text("not certain, as rounding may decide")
+    expect(page.locator("#map-legend")).to_contain_text("not certain: rounding may decide how they end")
 
 
 def test_the_map_goes_by_decades_where_values_do(open_page):
     page = open_page(f"t=0&map={MAP},rho1")
     expect(page.locator("#map-progress")).to_have_text("66 runs", timeout=60_000)
-    expect(page.locator("#map-legend")).not_to_contain_text("by decades")
+    expect(page.locator("#map-legend")).not_to_contain_text("logarithmic")
     page.locator("#map-colour").select_option("impacts")
     values = [int(row["impacts"]) for row in csv.DictReader(io.StringIO(map_table(page)))]
     by_decades = max(values) > 100 * min(value for value in values if value > 0)
-    assert by_decades == ("by decades" in page.locator("#map-legend").inner_text())
+    assert by_decades == ("logarithmic" in page.locator("#map-legend").inner_text())
 
 
 def map_table(page: Page) -> str:

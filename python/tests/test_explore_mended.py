@@ -99,7 +99,7 @@ def test_a_file_is_written_while_the_page_goes_on(open_page):
     button = page.locator('[data-file="impacts.csv"]')
     button.click()
     expect(button).to_be_disabled()
-    expect(page.locator("#take-said")).to_have_text("impacts.csv of values of your own: writing")
+    expect(page.locator("#take-said")).to_have_text("impacts.csv of your own values: writing")
     before = count(page)
     page.locator("#field-f_o").fill("0.29")
     settled(page, before)
@@ -318,7 +318,7 @@ def test_a_swipe_over_a_slider_leaves_its_value(open_page):
 def test_a_refused_link_says_what_is_shown(open_page):
     page = open_page("e=7", refused=1)
     expect(page.locator("#failed")).to_contain_text("e = 7 is not allowed")
-    expect(page.locator("#failed")).to_contain_text("that of the case of the start, the standard case")
+    expect(page.locator("#failed")).to_contain_text("the first case of the page, the standard case")
 
 
 def test_one_row_of_the_events_takes_the_tab_key(open_page):

@@ -17,12 +17,12 @@ async function post(path, body, signal) {
   });
   if (response.ok) return response;
   const { key, message } = await response.json().catch(() => ({}));
-  throw new Refused(message ?? `the server answered ${response.status}`, key);
+  throw new Refused(message ?? `the server answered with status ${response.status}`, key);
 }
 
 export async function fetchSchema() {
   const response = await fetch("api/schema");
-  if (!response.ok) throw new Refused(`the server answered ${response.status}`);
+  if (!response.ok) throw new Refused(`the server answered with status ${response.status}`);
   return response.json();
 }
 
@@ -136,7 +136,7 @@ export async function fetchTold(path, question, signal, onCome) {
   } catch (error) {
     throw error.name === "AbortError" ? error : inWords(error);
   }
-  throw new Error("The answer ended early. Is snapload explore still running?");
+  throw new Error("The answer is incomplete. Is snapload explore still running?");
 }
 
 /** The lines of an answer, each as it comes. */

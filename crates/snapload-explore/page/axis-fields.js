@@ -32,7 +32,7 @@ export class AxisFields {
       const range = usual ?? { low: about * 0.5, high: about * 2 || 1 };
       onChange({ ...now(), key: key.value, ...range });
     });
-    const words = `${legend}: from a lower to a higher value, in 2 to ${MOST_CELLS} ${counted}`;
+    const words = `${legend}: "from" must be less than "to", with 2 to ${MOST_CELLS} ${counted}`;
     for (const name of ENDS) {
       this.#field(name).addEventListener("change", () => {
         const axis = this.#typed();

@@ -23,7 +23,7 @@ const USUAL = {
   over: { key: "f_o", low: 0.03, high: 0.6, count: 20 },
 };
 /** The sides with their legends, and what each has a number of. */
-const SIDES = { x: ["Across", "cells"], y: ["Up", "cells"], over: ["Eroded by", "values"] };
+const SIDES = { x: ["Horizontal", "cells"], y: ["Vertical", "cells"], over: ["Third key", "values"] };
 const PATH = "api/basin";
 
 export class SafeBasin {
@@ -177,8 +177,8 @@ export class SafeBasin {
     const { x, y, ends, escapes, decided, question } = this.answer;
     const k = j * x.length + i;
     const place = `${question.x.key} = ${number(x[i], 6)}, ${question.y.key} = ${number(y[j], 6)}: `;
-    if (ends[k] === null) return `${place}no start, as it is beyond a cable or a limit`;
-    const sure = decided[k] ? "" : ", not certain: neighbours end otherwise";
+    if (ends[k] === null) return `${place}no legal start, as it is beyond the reach of a cable or beyond a limit`;
+    const sure = decided[k] ? "" : ", undecided: neighbours end differently";
     return `${place}${escapes[k] ? "not safe" : "safe"} (${reasonText(ends[k])})${sure}`;
   }
 
@@ -227,11 +227,11 @@ export class SafeBasin {
     if (this.pointed) outline(context, frame, question, this.pointed, colours);
     const swatch = (paint, text) => `<span><i class="swatch" style="background:${paint}"></i>${text}</span>`;
     const parts = [swatch(colours.safe, `safe (${safe})`), swatch(colours.escaped, `reaches a limit (${legal - safe})`)];
-    if (ends.length > legal) parts.push(swatch(colours.faint, `no start (${ends.length - legal})`));
-    if (undecided) parts.push(`<span><i class="swatch hatched"></i>not certain, as neighbours end otherwise (${undecided})</span>`);
+    if (ends.length > legal) parts.push(swatch(colours.faint, `no legal start (${ends.length - legal})`));
+    if (undecided) parts.push(`<span><i class="swatch hatched"></i>undecided: neighbours end differently (${undecided})</span>`);
     const html = parts.join("");
     if ($("basin-legend").innerHTML !== html) $("basin-legend").innerHTML = html;
-    const over = `Safe basin over ${question.x.key} and ${question.y.key}: ${safe} of ${legal} cells are safe`;
-    this.canvas.setAttribute("aria-label", `${over}. Arrow keys move, Enter begins there.`);
+    const over = `Safe basin over ${question.x.key} and ${question.y.key}: ${safe} of ${legal} legal cells are safe`;
+    this.canvas.setAttribute("aria-label", `${over}. Arrow keys move, Enter starts a run there.`);
   }
 }

@@ -148,7 +148,7 @@ export class Controls {
     const ends = ["low", "high"].map((name) => {
       const end = element("input", { type: "text", inputMode: "decimal", className: `end ${name}`, tabIndex: -1 });
       end.setAttribute("aria-label", `${key.name}: ${name} end of the slider`);
-      end.title = "The end of the slider; type another";
+      end.title = "End of the slider; it can be edited";
       return end;
     });
     const show = () => [ends[0].value, ends[1].value] = [plain(Number(slider.min)), plain(Number(slider.max))];

@@ -4,7 +4,7 @@ import { $ } from "./dom.js";
 import { fixed, modeName, number } from "./words.js";
 
 const ROWS = 50;
-const WORDS = { start: "start", horizon: "horizon of trust", parts: "the ghost parts from it", end: "end" };
+const WORDS = { start: "start", horizon: "horizon of trust", parts: "the ghost is 1e−3 away", end: "end" };
 
 export class EventTable {
   constructor({ onJump }) {
@@ -100,7 +100,7 @@ export class EventTable {
       .slice(first, first + ROWS)
       .map((event, k) => this.#row(event, first + k))
       .join("");
-    $("events-words").value = `${first + 1} to ${Math.min(first + ROWS, events.length)} of ${events.length}`;
+    $("events-words").value = `events ${first + 1} to ${Math.min(first + ROWS, events.length)} of ${events.length}`;
     $("events-previous").disabled = this.page === 0;
     $("events-next").disabled = this.page === this.#pages - 1;
   }

@@ -51,7 +51,7 @@ class Page {
     /** The time that was looked at when a run came that ends before it. */
     this.keptTime = null;
     this.link = new Link(this.state, {
-      onBroken: (parts) => note(`Not understood in the link, and left out: ${parts.join(", ")}`),
+      onBroken: (parts) => note(`Not understood in the link, and ignored: ${parts.join(", ")}`),
     });
     this.playback = new Playback(this.state, () => this.run);
     this.stage = new Stage(this.state, this.playback);
@@ -246,8 +246,8 @@ class Page {
     this.controls.showError(error);
     this.#lookUp();
     // A link may begin with values that can not be run: then there is the case of the start to look at.
-    const shown = this.run ? "the last values that could be run" : `the case of the start, ${this.state.schema.start.name}`;
-    $("failed").textContent = `Not run: ${error.message}\nThe picture is that of ${shown}.`;
+    const shown = this.run ? "the last values that could be run" : `the first case of the page, ${this.state.schema.start.name}`;
+    $("failed").textContent = `Not run: ${error.message}\nThe picture shows ${shown}.`;
     $("failed").hidden = false;
     if (!this.run) {
       this.runner.ask(
@@ -341,11 +341,11 @@ class Page {
     const { start, cases } = this.state.schema;
     const own = cases.some(({ code }) => code === start.name) ? [] : [new Option(start.name, start.name)];
     const thesis = document.createElement("optgroup");
-    thesis.label = "The thesis";
+    thesis.label = "Cases of the thesis";
     for (const { code, title, happens } of cases) {
       thesis.append(new Option(happens ? `${code}: ${happens} (${title})` : `${code}  ${title}`, code));
     }
-    select.append(...own, thesis, new Option("values of your own", ""));
+    select.append(...own, thesis, new Option("your own values", ""));
     select.addEventListener("change", () => {
       if (!select.value) return this.showCase();
       const { values } = cases.find(({ code }) => code === select.value) ?? start;

@@ -41,7 +41,7 @@ export class SweepMap {
     this.box = $("map-box");
     this.canvas = $("map");
     this.numeric = state.schema.keys.filter((key) => key.kind.type === "number");
-    this.axes = Object.entries({ x: "Across", y: "Up" }).map(
+    this.axes = Object.entries({ x: "Horizontal", y: "Vertical" }).map(
       ([side, legend]) =>
         new AxisFields(`map-${side}`, this.numeric, {
           legend,
@@ -127,7 +127,7 @@ export class SweepMap {
     } catch (error) {
       if (error.name === "AbortError") return;
       this.#progress(
-        error instanceof Refused ? error.message : "The map ended early. Is snapload explore still running?",
+        error instanceof Refused ? error.message : "The map is incomplete. Is snapload explore still running?",
       );
     } finally {
       if (this.controller === controller) {
@@ -310,7 +310,7 @@ export class SweepMap {
     this.#legend(colours);
     this.canvas.setAttribute(
       "aria-label",
-      `Map of ${prose(this.#column(state.map.colour).meaning)} over ${x.key} and ${y.key}, ${cells.done} of ${cells.count} runs. ` +
+      `Map of ${prose(this.#column(state.map.colour).meaning)} over ${x.key} and ${y.key}, ${cells.done} of ${cells.count} runs computed. ` +
         "Arrow keys move, Enter runs the cell.",
     );
   }
@@ -366,11 +366,11 @@ export class SweepMap {
       parts.unshift(
         `<span>${number(low, 3)}</span>`,
         `<i class="bar-key" style="background:linear-gradient(90deg,${CIVIDIS.join()})"></i>`,
-        `<span>${number(high, 3)}${log ? ", by decades" : ""}</span>`,
+        `<span>${number(high, 3)}${log ? ", logarithmic" : ""}</span>`,
       );
     }
     const unsure = cells.reason.filter((_, k) => this.#uncertain(k)).length;
-    if (unsure) parts.push(`<span><i class="swatch hatched"></i>not certain, as rounding may decide (${unsure})</span>`);
+    if (unsure) parts.push(`<span><i class="swatch hatched"></i>not certain: rounding may decide how they end (${unsure})</span>`);
     const html = parts.join("");
     if ($("map-legend").innerHTML !== html) $("map-legend").innerHTML = html;
   }

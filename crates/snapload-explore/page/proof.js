@@ -57,7 +57,7 @@ export class Proof {
   #seal({ proved, t, leaves, words, further, certificate }) {
     const reach = proved ? "proved to the end" : `proved up to t = ${number(Number(t), 5)}`;
     // What is shown is the run of doubles, and not what is proved.
-    const title = leaves === null ? reach : `${reach}; this run leaves the proof at impact ${leaves}`;
+    const title = leaves === null ? reach : `${reach}; this run departs from the proof at impact ${leaves}`;
     $("seal").classList.toggle("whole", proved);
     $("seal-sign").setAttribute("d", proved ? SIGNS.whole : SIGNS.part);
     $("seal-title").textContent = title;

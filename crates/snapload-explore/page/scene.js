@@ -384,7 +384,7 @@ function labels(run, cam, { width, height, colours, view }) {
   }
   if (inside(surface)) {
     const clear = waveHeight(run, cam) + (below > 0 ? 17 : 7);
-    shapes.push({ ...text, text: "sea surface (a sketch)", at: [12, surface + below * Math.max(clear, below > 0 ? 30 : 22)] });
+    shapes.push({ ...text, text: "sea surface (schematic)", at: [12, surface + below * Math.max(clear, below > 0 ? 30 : 22)] });
   }
   return shapes;
 }
@@ -429,6 +429,6 @@ export function sceneWords(run, t) {
   const happens = eventWords(run, t);
   return (
     `At t = ${fixed(t, 3)} T the body is at x = ${x}, y = ${y}, θ = ${theta}; ${modeName(moment.taut)}: ${lines}` +
-    `${happens ? `; here: ${happens}` : ""}.`
+    `${happens ? `; at this instant: ${happens}` : ""}.`
   );
 }

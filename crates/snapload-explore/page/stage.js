@@ -68,11 +68,11 @@ export class Stage {
     const parts = [end.words, horizon.words].flatMap((words) => prose(words).split("\n").map(sentence));
     if (ghost) {
       const apart =
-        ghost.parts_at === null ? "stays beside it to the end" : `parts from it at t = ${number(ghost.parts_at, 5)}`;
-      parts.push(`The neighbour, started ${number(Math.abs(ghost.by))} away in ${ghost.key}, ${apart}.`);
+        ghost.parts_at === null ? "stays within 1e−3 while both last" : `is 1e−3 away at t = ${number(ghost.parts_at, 5)}`;
+      parts.push(`The ghost, started ${number(Math.abs(ghost.by))} away in ${ghost.key}, ${apart}.`);
     }
-    if (this.run.ghost_error) parts.push(sentence(`no neighbour: ${this.run.ghost_error}`));
-    if (cut) parts.push(`Of ${cut.impacts} impacts the first ${cut.shown} are shown.`);
+    if (this.run.ghost_error) parts.push(sentence(`no ghost: ${this.run.ghost_error}`));
+    if (cut) parts.push(`Only the first ${cut.shown} of ${cut.impacts} impacts are shown.`);
     return parts.join(" ");
   }
 

@@ -34,7 +34,7 @@ export function structureGroups(state) {
     { title: "Run", keys: under("run"), open: wide },
     { title: "Body", keys: under("body"), open: false },
     { title: "Site", keys: under("site"), open: false },
-    { title: "Checks by your rule", keys: under("design"), open: false },
+    { title: "Design checks", keys: under("design"), open: false },
   ];
 }
 
@@ -60,8 +60,8 @@ function anotherSea(state) {
 
 /** Why a key can not be given as things are. */
 export function whyNot(name, state) {
-  if (name.startsWith("body.added_mass") && state.floats) return "the file of [float] has it";
-  if (name === "body.height" && state.value("body.shape") !== "rectangle") return "a circle has its width alone";
+  if (name.startsWith("body.added_mass") && state.floats) return "[float] gives the added mass";
+  if (name === "body.height" && state.value("body.shape") !== "rectangle") return "a circle has only a width";
   return undefined;
 }
 

@@ -51,16 +51,16 @@ export class StructurePins {
 
 function line({ values, water, waterNow, gist: of, preview }, i, shown) {
   const waters = water === null ? "" : `water: ${waterNow}`;
-  const what = [waters, changesInWords(values)].filter(Boolean).join(", ") || "the case as it is";
+  const what = [waters, changesInWords(values)].filter(Boolean).join(", ") || "the case, unchanged";
   const compared = of.largest === null ? ["fastest", 2] : ["largest", 2];
   const [name, digits] = compared;
   const difference = shown[name] === null ? 0 : of[name] - shown[name];
   const far = fixed(Math.abs(difference), digits);
-  const more = Number(far) === 0 ? "as now" : `${far} ${difference > 0 ? "more" : "less"} than now`;
+  const more = Number(far) === 0 ? "the same as now" : `${far} ${difference > 0 ? "more" : "less"} than now`;
   const much = of.largest === null ? `fastest snap ${fixed(of.fastest, 2)} m/s` : `utilisation ${fixed(of.largest, 2)}`;
-  const first = preview ? ", of its first minutes" : "";
+  const first = preview ? ", first minutes only" : "";
   const comes = of.judged
-    ? `${much} (${more}), fastest snap ${number(of.fastest, 3)} m/s, slack ${fixed(100 * of.slack, 1)} % at most`
+    ? `${much} (${more}), fastest snap ${number(of.fastest, 3)} m/s, slack at most ${fixed(100 * of.slack, 1)} % of the time`
     : "nothing judged";
   return (
     `<li><button type="button" class="back" data-pin="${i}" title="Show this again">${what}</button>: <b>${of.standing}</b>` +

@@ -140,6 +140,11 @@ export class StructureRun {
     return found;
   }
 
+  /** How many snaps of 1 cm/s or more there are, and jolts among them. */
+  get snapsInWords() {
+    return `${this.snaps.all} ${this.snaps.jolt.includes(true) ? "snaps and jolts" : "snaps"}`;
+  }
+
   /** What keys come to that the case leaves out, as far as the answer tells. */
   effective(state) {
     const { body } = this.assessment;

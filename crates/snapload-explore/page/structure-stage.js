@@ -27,8 +27,8 @@ export class StructureStage {
     $("standing").textContent = run.standing;
     $("said").textContent = verdict.words;
     $("trust").textContent = trust.words;
-    const whole = `the whole ${round(run.lasts_s)} s follow when the values stop changing`;
-    $("preview").textContent = run.preview ? `This is of the first ${round(run.tEnd)} s; ${whole}.` : "";
+    const whole = `the whole record of ${round(run.lasts_s)} s follows when the values stop changing`;
+    $("preview").textContent = run.preview ? `These results are for the first ${round(run.tEnd)} s; ${whole}.` : "";
     clearTimeout(this.saying);
     const words = sentence(run.standing) + ` ${verdict.words}`;
     this.saying = setTimeout(() => ($("announced").textContent = words), $("announced").textContent ? REST_MS : 0);

@@ -21,6 +21,11 @@ export class StructureTransport extends Transport {
     });
   }
 
+  /** Only the motion of the interval that is shown is here. */
+  get ends() {
+    return this.run.window;
+  }
+
   words(t, run) {
     return {
       value: `${fixed(t, 2)} of ${fixed(run.tEnd, 2)} s, ${tautWords(run, t)}`,
@@ -45,8 +50,8 @@ export class StructureTransport extends Transport {
     this.#strip($("strip"), this.run.window, true);
     this.#strip($("record"), [0, this.run.lasts_s], false);
     const { run } = this;
-    $("record-words").textContent = `${run.snaps.all} snaps in ${round(run.tEnd)} s`;
-    $("record").setAttribute("aria-label", `${run.snaps.all} snaps in ${round(run.tEnd)} s, each as high as it is hard`);
+    $("record-words").textContent = `${run.snapsInWords} in ${round(run.tEnd)} s`;
+    $("record").setAttribute("aria-label", `${run.snapsInWords} in ${round(run.tEnd)} s; the height shows the strength`);
   }
 
   /** Snaps as ticks in the colours of their lines; taut lines as bands in the stretch, and the stretch in the record. */
@@ -77,7 +82,7 @@ export class StructureTransport extends Transport {
       context.strokeRect(a, 1, Math.max(b - a, 3), height - 2);
       if (run.preview) {
         context.fillStyle = paints.muted;
-        context.fillText("to follow", x(run.tEnd) + 6, height - 6);
+        context.fillText("not run yet", x(run.tEnd) + 6, height - 6);
       }
     }
     this.#ticks(context, x, [from, to], height, paints);

@@ -60,8 +60,8 @@ export class StructureWaves {
   #tell({ periods_s, heights_m, cells, utilisation, length }) {
     const what = utilisation ? "Largest utilisation" : "Fastest snap [m/s]";
     $("waves-said").textContent =
-      `${what} in waves run for ${length} periods each; × fails or can not be run. Motions are chaotic, so that single cells may differ from their neighbours. ` +
-      "A click runs a wave.";
+      `${what} in waves run for ${length} periods each; ×: the run fails, or the wave can not be run. ` +
+      "Motions are chaotic, so that single cells may differ from those beside them. Click a cell to run its wave.";
     const plainly = (value) => Number(value.toPrecision(3));
     const cell = (i, j) => {
       const value = cells[i * heights_m.length + j];

@@ -38,7 +38,7 @@ class Page {
     this.hover = null;
     this.background = null;
     this.link = new Link(this.state, {
-      onBroken: (parts) => note(`Not understood in the link, and left out: ${parts.join(", ")}`),
+      onBroken: (parts) => note(`Not understood in the link, and ignored: ${parts.join(", ")}`),
     });
     this.playback = new Playback(this.state, () => this.run);
     this.stage = new StructureStage(this.state, this.playback);
@@ -91,7 +91,7 @@ class Page {
       [["g"], "g", "lines that stretch, on or off", () => $("elastic").click()],
       [["l"], "l", "loop on or off", () => this.state.set({ loop: !this.state.loop })],
       [["p"], "p", "pin this answer", () => this.pins.add()],
-      [["?"], "?", "these keys", () => $("help").click()],
+      [["?"], "?", "this help", () => $("help").click()],
     ]);
     this.tools();
     this.showChoices();
@@ -182,7 +182,7 @@ class Page {
       if (this.run.preview) await more({ whole: true });
       if (!current()) return;
       if (this.run.lasts_s <= LONGEST_WITH_NEIGHBOURS) await more({ whole: true, neighbours: true });
-      else $("preview").textContent = `Its neighbours and other restitutions take their time: ${this.run.shell}`;
+      else $("preview").textContent = `Neighbours and other restitutions of so long a record are run by the command: ${this.run.shell}`;
       if (current() && state.elastic) await this.#stretchable({ case: question.case, window: this.run.window }, abort);
     } catch (error) {
       if (error.name === "AbortError" || !current()) return;
@@ -213,7 +213,7 @@ class Page {
 
   fail(error) {
     this.controls.showError(error);
-    const shown = this.run ? "\nWhat is shown is of the last values that could be run." : "";
+    const shown = this.run ? "\nThe page shows the last values that could be run." : "";
     $("failed").textContent = `Not run: ${error.message}${shown}`;
     $("failed").hidden = false;
   }
@@ -368,7 +368,7 @@ try {
   const file = openedStructure();
   const opened = file ? await fetchStructureFile(file) : schema.start;
   if (opened) new Page(schema, opened, file);
-  else note("No structure is open. Drop its case file here, or begin with it: snapload explore docs/examples/cylinder.toml");
+  else note("No structure is open. Drop a case file here, or start the program with one: snapload explore docs/examples/cylinder.toml");
 } catch (error) {
   note(`The page could not start: ${error.message}. Is snapload explore still running?`);
   throw error;

@@ -65,7 +65,7 @@ export class Take {
   /** The file is of the values as they are now, whatever they become while it is written. */
   async #file(button) {
     const name = button.dataset.file;
-    const of = `${name} of ${this.state.caseName ?? "values of your own"}`;
+    const of = `${name} of ${this.state.caseName ?? "your own values"}`;
     button.disabled = true;
     this.say(`${of}: writing`);
     try {
@@ -95,7 +95,7 @@ export class Take {
     } catch (error) {
       if (error.name !== "AbortError") throw error;
       // The next file may be what it was given up for: what is said is of that one by now.
-      if (this.writing === writing) this.say(`${of} was given up.`);
+      if (this.writing === writing) this.say(`${of} was cancelled.`);
     } finally {
       if (this.writing === writing) {
         this.writing = null;
@@ -148,7 +148,7 @@ export class Take {
         this.say(`run.webm: ${Math.floor(100 * part)} %`);
       });
       if (blob) save(blob, "run.webm");
-      this.say(blob ? "run.webm is saved." : "The film was given up.");
+      this.say(blob ? "run.webm is saved." : "The animation was cancelled.");
     } finally {
       $("film").disabled = false;
       $("film-cancel").hidden = $("film-progress").hidden = true;

@@ -18,7 +18,7 @@ export const PLANES = {
   y: { words: "Phase plane of y", x: "y", y: "vy", axes: ["y  [L]", "velocity along y  [L/T]"] },
   theta: { words: "Phase plane of θ", x: "theta", y: "vtheta", axes: ["θ  [rad]", "angular velocity  [rad/T]"] },
   section: {
-    words: "Section once a period, x and y",
+    words: "Section once per period, x and y",
     x: "x",
     y: "y",
     axes: ["x  [L] at t = k 2π/Ω", "y  [L]"],
