@@ -325,12 +325,12 @@ def test_the_scene_and_the_animation_are_saved(open_page, tmp_path: Path):
     assert drawing.startswith("<svg") and drawing.count("<path") > 20 and "NaN" not in drawing
     picture = download(page, "#scene-png", tmp_path / "scene.png")
     assert picture[:8] == b"\x89PNG\r\n\x1a\n" and struct.unpack(">II", picture[16:24]) == (1920, 1352)
-    film = download(page, "#film", tmp_path / "run.webm")
-    assert film[:4] == b"\x1a\x45\xdf\xa3" and b"webm" in film[:128] and len(film) > 10_000
+    animation = download(page, "#animation", tmp_path / "run.webm")
+    assert animation[:4] == b"\x1a\x45\xdf\xa3" and b"webm" in animation[:128] and len(animation) > 10_000
     page.locator("#speed").select_option("0.1")
-    page.locator("#film").click()
-    page.locator("#film-cancel").click()
-    expect(page.locator("#take-said")).to_have_text("The animation was cancelled.")
+    page.locator("#animation").click()
+    page.locator("#animation-cancel").click()
+    expect(page.locator("#export-said")).to_have_text("The animation was cancelled.")
 
 
 def test_lines_to_copy_make_the_same_run(open_page, command_json):

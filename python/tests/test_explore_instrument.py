@@ -1,4 +1,4 @@
-"""The page of `snapload explore` as an instrument: hands on the scene, runs compared, the map, films, case files."""
+"""The page of `snapload explore` as an instrument: handles on the scene, runs compared, the map, animations, case files."""
 
 from __future__ import annotations
 
@@ -172,9 +172,9 @@ def test_it_moves_at_once_unless_that_is_not_wanted(open_page):
     assert exact_time(still) == 0
 
 
-def test_a_film_lasts_as_long_as_it_is_played_and_can_be_sought(open_page, tmp_path: Path):
+def test_an_animation_lasts_as_long_as_it_is_played_and_can_be_sought(open_page, tmp_path: Path):
     page = open_page("t=0&speed=5")
-    film = download(page, "#film", tmp_path / "run.webm")
+    animation = download(page, "#animation", tmp_path / "run.webm")
     player = page.context.new_page()
     player.goto("about:blank")
     told = player.evaluate(
@@ -192,7 +192,7 @@ def test_a_film_lasts_as_long_as_it_is_played_and_can_be_sought(open_page, tmp_p
             }
             return { duration: video.duration, width: video.videoWidth, sought };
         }""",
-        base64.b64encode(film).decode(),
+        base64.b64encode(animation).decode(),
     )
     # 7.2463 T at 5 T/s, thirty pictures a second, and the end stands for 0.7 s.
     assert told["duration"] == pytest.approx(round(30 * 7.2463 / 5) / 30 + 0.7, abs=0.05)

@@ -131,7 +131,7 @@ def test_a_note_tells_how_far_it_has_come(open_structure, tmp_path: Path):
     page.evaluate(
         """() => {
             window.told = [];
-            const said = document.getElementById('take-said');
+            const said = document.getElementById('export-said');
             new MutationObserver(() => window.told.push(said.textContent)).observe(said, { childList: true });
         }"""
     )
@@ -145,13 +145,13 @@ def test_a_note_tells_how_far_it_has_come(open_structure, tmp_path: Path):
     for stage in stages:
         percent = [int(found[2]) for found in stage]
         assert len(set(percent)) > 1 and percent == sorted(percent), percent
-    expect(page.locator("#take-said")).to_contain_text("is saved")
+    expect(page.locator("#export-said")).to_contain_text("is saved")
     for one in ["#file-progress", "#file-cancel"]:
         expect(page.locator(one)).to_be_hidden()
     page.locator('[id="field-wave.height"]').fill("2.4")
     page.locator('[data-file="note.html"]').click()
     page.locator("#file-cancel").click()
-    expect(page.locator("#take-said")).to_contain_text("was cancelled")
+    expect(page.locator("#export-said")).to_contain_text("was cancelled")
     expect(page.locator('[data-file="note.html"]')).to_be_enabled()
 
 
@@ -199,7 +199,7 @@ def test_the_hardest_snaps_and_the_record_lead_to_their_time(open_structure):
     comes_true(page, lambda: exact_time(page) == float(first.get_attribute("data-t")))
     expect(page.locator("#caption")).to_contain_text("snap of line")
     before = count(page)
-    page.locator("#stretch").evaluate("one => { one.value = 500; one.dispatchEvent(new Event('input')); }")
+    page.locator("#interval-start").evaluate("one => { one.value = 500; one.dispatchEvent(new Event('input')); }")
     settled(page, before)
     expect(page.locator("#window-words")).to_have_text("500.0 to 536.0 s")
     assert 500 <= exact_time(page) <= 536

@@ -2,7 +2,7 @@
 
 import { $, mark } from "./dom.js";
 import { MOST_CELLS, finite, isAxis, isCount, same } from "./state.js";
-import { plain } from "./words.js";
+import { fieldText } from "./formatting.js";
 
 const ENDS = ["low", "high", "count"];
 
@@ -68,7 +68,7 @@ export class AxisFields {
     this.shown = now;
     for (const name of ["key", ...ENDS]) {
       const field = this.#field(name);
-      if (document.activeElement !== field || name === "key") field.value = plain(now[name]);
+      if (document.activeElement !== field || name === "key") field.value = fieldText(now[name]);
       mark(field, { "aria-invalid": null });
     }
     if (this.wrong) this.onWrong("");

@@ -1,7 +1,7 @@
 // Safe basins: which cells of a window of two keys stay below the limits, how much of it that is, and how that part
 // shrinks along a third key.
 
-import { fetchTold } from "./api.js";
+import { fetchWithProgress } from "./api.js";
 import { AxisFields, withAxis } from "./axis-fields.js";
 import { axisWords, cellOf, crosshair, drawCellAxes, frameOf, outline, paintCells } from "./cells.js";
 import { $, put } from "./dom.js";
@@ -10,8 +10,8 @@ import { lines } from "./long-run.js";
 import { rangeText, studyLine } from "./map-files.js";
 import { prepare } from "./plot.js";
 import { same } from "./state.js";
-import { copy } from "./take.js";
-import { number, reasonText } from "./words.js";
+import { copy } from "./export.js";
+import { number, reasonText } from "./formatting.js";
 
 /**
  * Starts at rest of the thesis's bodies, and the force that erodes them. Where it is 0, many starts are symmetric: how
@@ -104,14 +104,14 @@ export class SafeBasin {
     $("basin-bar").value = 0;
     $("basin-progress").textContent = "";
     try {
-      const text = await fetchTold(PATH, question, asking.signal, ({ doing, percent }) => {
+      const text = await fetchWithProgress(PATH, question, asking.signal, ({ doing, percent }) => {
         if (this.asking !== asking) return;
         $("basin-bar").value = percent / 100;
         $("basin-progress").textContent = `${doing}, ${percent} %`;
       });
       const answer = { ...JSON.parse(text), asked: JSON.stringify(question), question };
       if (erodes) Object.assign(this, { eroded: answer, erosionDrawn: false });
-      else this.#take(answer);
+      else this.#setAnswer(answer);
       // Of an erosion the picture shows what its words have as a table, up to an empty line.
       $(erodes ? "erosion-said" : "basin-said").textContent = lines(answer.words.split("\n\n").at(-1));
       if (this.asking === asking) $("basin-progress").textContent = "";
@@ -125,7 +125,7 @@ export class SafeBasin {
   }
 
   /** No cell of the basin before is pointed at in another one, which may have fewer. */
-  #take(answer) {
+  #setAnswer(answer) {
     this.answer = answer;
     this.pointed = null;
     this.cursor = [0, 0];
@@ -195,7 +195,7 @@ export class SafeBasin {
   }
 
   /** The run is another: where it lies may follow from it. */
-  takeRun() {
+  runChanged() {
     if (this.answer && String(this.#place()) !== this.placed) this.#repaint();
   }
 

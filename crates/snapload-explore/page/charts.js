@@ -2,7 +2,7 @@
 
 import { drawColumn, drawMarks, label, span } from "./plot.js";
 import { TimeCharts, above, rows } from "./time-charts.js";
-import { fixed, number } from "./words.js";
+import { fixed, number } from "./formatting.js";
 
 /** What is read between rows far apart is said to be so. */
 export const about = (moment) => (moment.rough ? "about " : "");

@@ -1,7 +1,7 @@
 // What happened, as a table: it says what the charts show, and each row leads to its instant.
 
 import { $ } from "./dom.js";
-import { fixed, modeName, number } from "./words.js";
+import { fixed, modeName, number } from "./formatting.js";
 
 const ROWS = 50;
 const WORDS = { start: "start", horizon: "horizon of trust", parts: "the ghost is 1e−3 away", end: "end" };
@@ -24,7 +24,7 @@ export class EventTable {
     });
   }
 
-  take(run) {
+  setRun(run) {
     this.run = run;
     this.at = null;
     this.page = Math.min(this.page, this.#pages - 1);

@@ -18,9 +18,9 @@ import {
 import { $, put } from "./dom.js";
 import { mapCsv, sweepLine } from "./map-files.js";
 import { prepare } from "./plot.js";
-import { copy, save } from "./take.js";
+import { copy, save } from "./export.js";
 import { endColour } from "./theme.js";
-import { number, prose, reasonText } from "./words.js";
+import { number, withSymbols, reasonText } from "./formatting.js";
 
 /** Values that change while the map is open set it going again after so long a rest. */
 const REST_MS = 500;
@@ -53,7 +53,7 @@ export class SweepMap {
     );
     for (const column of state.schema.map.filter(({ name, kind }) => name === "reason" || kind === "number")) {
       const unit = column.unit ? ` [${column.unit}]` : "";
-      $("map-colour").append(new Option(prose(column.meaning) + unit, column.name));
+      $("map-colour").append(new Option(withSymbols(column.meaning) + unit, column.name));
     }
     $("map-colour").addEventListener("change", () =>
       state.set({ map: { ...state.map, colour: $("map-colour").value } }),
@@ -159,7 +159,7 @@ export class SweepMap {
   }
 
   /** The run is another: where it lies may follow from it. */
-  takeRun() {
+  runChanged() {
     if (this.cells && String(this.#place()) !== this.placed) this.draw();
   }
 
@@ -281,7 +281,7 @@ export class SweepMap {
     const sure = this.#uncertain(k) ? ", not certain" : "";
     const more = ["reason", "t", "impacts"].includes(colour)
       ? ""
-      : `, ${prose(this.#column(colour).meaning)} ${number(cells[colour][k])}`;
+      : `, ${withSymbols(this.#column(colour).meaning)} ${number(cells[colour][k])}`;
     return `${place}${reasonText(cells.reason[k])} at t = ${number(cells.t[k])}, ${cells.impacts[k]} impacts${more}${sure}`;
   }
 
@@ -310,7 +310,7 @@ export class SweepMap {
     this.#legend(colours);
     this.canvas.setAttribute(
       "aria-label",
-      `Map of ${prose(this.#column(state.map.colour).meaning)} over ${x.key} and ${y.key}, ${cells.done} of ${cells.count} runs computed. ` +
+      `Map of ${withSymbols(this.#column(state.map.colour).meaning)} over ${x.key} and ${y.key}, ${cells.done} of ${cells.count} runs computed. ` +
         "Arrow keys move, Enter runs the cell.",
     );
   }

@@ -3,7 +3,7 @@
 import { drawColumn, drawMarks, span } from "./plot.js";
 import { TimeCharts, above, rows } from "./time-charts.js";
 import { lineColour } from "./theme.js";
-import { fixed, number, round } from "./words.js";
+import { fixed, number, round } from "./formatting.js";
 
 const DEGREES = 180 / Math.PI;
 /** The breaking load is in the picture where tensions come to this part of it. */
@@ -53,7 +53,7 @@ export const breakingLoads = (run) => [
   ...new Set(run.lines.flatMap(({ breaking_load_n }) => (breaking_load_n ? [breaking_load_n / 1e3] : []))),
 ];
 
-/** The peaks of the snaps within the stretch that is shown. */
+/** The peaks of the snaps within the interval that is shown. */
 const peaksWithin = (run, [from, to]) => {
   const { t, peak } = run.snaps;
   return peak.filter((value, i) => value !== null && t[i] >= from && t[i] <= to);

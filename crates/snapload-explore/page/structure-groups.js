@@ -1,6 +1,6 @@
 // The keys of a structure in groups, those first that an engineer turns.
 
-import { plain } from "./words.js";
+import { fieldText } from "./formatting.js";
 
 const WAVES = { wave: "Regular wave", sea: "Irregular sea" };
 /** Of one line: what no other shares with it. */
@@ -68,5 +68,5 @@ export function whyNot(name, state) {
 /** What is changed in words, such as `wave.height = 2.5`. */
 export const changesInWords = (values) =>
   Object.entries(values)
-    .map(([name, value]) => `${name} = ${plain(value)}`)
+    .map(([name, value]) => `${name} = ${fieldText(value)}`)
     .join(", ");

@@ -1,8 +1,8 @@
-// A structure's run as the server answers it: where everything is at any time of the stretch that is shown, in metres,
+// A structure's run as the server answers it: where everything is at any time of the interval that is shown, in metres,
 // kilonewtons and seconds, z up from the still water.
 
 import { ends, hermite, lastAtOrBefore } from "./run.js";
-import { number } from "./words.js";
+import { number } from "./formatting.js";
 
 const COORDINATES = [
   ["x", "vx", "x"],
@@ -87,8 +87,8 @@ export class StructureRun {
     this.hardest = this.hardness.reduce((most, value) => Math.max(most, value), 0);
   }
 
-  /** Shows lines that stretch beside. */
-  beside(answer) {
+  /** The same run on lines that stretch, to be shown beside it; null for none. */
+  setElastic(answer) {
     this.elastic = answer;
     this.elasticAt = answer && answer.motion.t.length ? new StructureMotion(answer.motion) : null;
   }

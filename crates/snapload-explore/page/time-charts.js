@@ -2,7 +2,7 @@
 // of charts.
 
 import { Frame, drawAxes, inside, label, prepare, ticks } from "./plot.js";
-import { number } from "./words.js";
+import { number } from "./formatting.js";
 
 const MARGIN = { left: 50, right: 10, top: 6 };
 const NEAR_PX = 9;

@@ -2,7 +2,7 @@
 
 import { about } from "./charts.js";
 import { FONT, Frame, drawAxes, drawColumn, drawMarks, inside, label, prepare, span, stroke, ticks } from "./plot.js";
-import { fixed, number } from "./words.js";
+import { fixed, number } from "./formatting.js";
 
 const MARGIN = { left: 50, right: 10, top: 8, bottom: 34 };
 const REACH_PX = 40;

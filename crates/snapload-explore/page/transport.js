@@ -4,7 +4,7 @@ import { $, mark, put } from "./dom.js";
 import { NEAR_PX, prepare } from "./plot.js";
 import { SPEEDS } from "./state.js";
 import { colours } from "./theme.js";
-import { fixed, modeName, number } from "./words.js";
+import { fixed, modeName, number } from "./formatting.js";
 
 export class Transport {
   /** `speedWords` tells of a speed. */
@@ -51,7 +51,7 @@ export class Transport {
     this.state.set({ window: [Number(start.toPrecision(9)), Number((start + least).toPrecision(9))] });
   }
 
-  take(run) {
+  setRun(run) {
     this.run = run;
   }
 

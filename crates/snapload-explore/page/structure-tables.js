@@ -1,7 +1,7 @@
 // The answer in tables, as `snapload assess` and its page tell it: lines, checks, warnings, and the hardest snaps.
 
 import { $ } from "./dom.js";
-import { fixed, number, round, sentence } from "./words.js";
+import { fixed, number, round, sentence } from "./formatting.js";
 
 /** Of the snaps that are judged, and of those before, as the waves have just begun. */
 const [LISTED, EARLY] = [10, 3];
@@ -41,7 +41,7 @@ function lineRow(line, elastic) {
 }
 
 /** The lines, rigid and, where they are there, elastic side by side. */
-export function tellLines(run) {
+export function showLines(run) {
   const elastic = run.elastic?.elastic;
   const head = (words, unit, kind = "num") =>
     `<th scope="col" class="${kind}">${words}${unit ? `<br><span>${unit}</span>` : ""}</th>`;
@@ -65,7 +65,7 @@ export function tellLines(run) {
 }
 
 /** Checks by the rule of the case, other restitutions, and warnings. */
-export function tellRules(run) {
+export function showChecks(run) {
   const { checks, warnings } = run.assessment;
   const rows = checks.map((check) => {
     const of = check.line ? `line ${check.line}` : "body";
@@ -81,7 +81,7 @@ export function tellRules(run) {
 }
 
 /** The hardest snaps; each row leads to its instant. */
-export function tellSnaps(run) {
+export function showSnaps(run) {
   const { t, line, speed, peak, utilisation, jolt, all } = run.snaps;
   const order = t.map((_, i) => i).sort((a, b) => run.hardness[b] - run.hardness[a]);
   const judged = (i) => t[i] >= run.transient_s;

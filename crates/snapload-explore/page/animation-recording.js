@@ -4,7 +4,7 @@
 import { paint } from "./shapes.js";
 import { colours } from "./theme.js";
 import { webm } from "./webm.js";
-import { fixed } from "./words.js";
+import { fixed } from "./formatting.js";
 
 /** Codecs as browsers call them, and as the file does. */
 const CODECS = [
@@ -24,7 +24,7 @@ const STANDS_STILL_MS = 30_000;
 
 /**
  * A pause in which the page goes on. A page that nobody looks at has a timer once a second at the most, and would need an
- * hour for a film of two minutes; messages it has as they come.
+ * hour for an animation of two minutes; messages it has as they come.
  */
 const pause = () =>
   new Promise((done) => {
@@ -36,7 +36,7 @@ const pause = () =>
     port2.postMessage(null);
   });
 
-export class Film {
+export class AnimationRecording {
   /** `picture` makes shapes and a caption of a run at a time. */
   constructor({ run, picture, from, to, options, size }) {
     this.run = run;
