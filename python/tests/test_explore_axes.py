@@ -51,7 +51,8 @@ def test_an_axis_from_elsewhere_ends_what_was_wrong(open_page):
 def test_what_is_wrong_is_told_with_the_words_beside_it(open_page):
     page = open_page(BASIN)
     typed(page, "#basin-over-high", "-1")
-    expect(page.locator("#basin-pointed")).to_have_text('Third key: "from" must be less than "to", with 2 to 200 values')
+    words = 'Third key: "from" must be less than "to", with 2 to 200 values'
+    expect(page.locator("#basin-pointed")).to_have_text(words)
 
 
 def test_a_pale_basin_is_copied_as_it_is_shown(open_page):

@@ -1,4 +1,4 @@
-"""The page of `snapload explore` as an instrument: handles on the scene, runs compared, the map, animations, case files."""
+"""The page of `snapload explore` as an instrument: handles, runs compared, the map, animations, case files."""
 
 from __future__ import annotations
 

@@ -64,7 +64,7 @@ impl AxisGiven {
         let key = key_named(&self.key)?;
         if !matches!(key.kind, Kind::Number { .. }) {
             let message = format!(
-                "{} is not a number and can not be varied; choose another key",
+                "{} is not a real number and can not be varied; choose another key",
                 key.name
             );
             return Err(Refusal::values(message));
