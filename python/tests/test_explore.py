@@ -251,15 +251,15 @@ def test_the_ghost_is_a_neighbour_that_parts(open_page):
     before = count(page)
     page.keyboard.press("g")
     settled(page, before)
-    expect(page.locator("#said")).to_contain_text("The neighbour, started 1e−6 away in x, parts from it at t =")
-    parts_at = read(page.locator("#said").inner_text().split("parts from it at t = ")[1])
+    expect(page.locator("#said")).to_contain_text("The ghost, started 1e−6 away in x, is 1e−3 away at t =")
+    parts_at = read(page.locator("#said").inner_text().split("is 1e−3 away at t = ")[1])
     assert 0.5 < parts_at < 7.25
     before = count(page)
     page.locator("#ghost-size").fill("1e-12")
     page.locator("#ghost-size").press("Enter")
     settled(page, before)
     expect(page.locator("#said")).to_contain_text("1e−12")
-    later = read((page.locator("#said").inner_text() + " parts from it at t = 99").split("parts from it at t = ")[1])
+    later = read((page.locator("#said").inner_text() + " is 1e−3 away at t = 99").split("is 1e−3 away at t = ")[1])
     assert later > parts_at
 
 
@@ -275,7 +275,7 @@ def test_a_wrong_ghost_is_refused_in_words(open_page):
     size = page.locator("#ghost-size")
     page.locator("#ghost").check()
     for text, words in WRONG_GHOSTS:
-        expect(page.locator("#said")).to_contain_text("The neighbour, started 1e−6 away")
+        expect(page.locator("#said")).to_contain_text("The ghost, started 1e−6 away")
         size.fill(text)
         size.press("Enter")
         expect(page.locator("#error-ghost")).to_contain_text(words)
@@ -284,7 +284,7 @@ def test_a_wrong_ghost_is_refused_in_words(open_page):
             size.fill(good)
             size.press("Enter")
             expect(page.locator("#error-ghost")).to_be_hidden()
-            expect(page.locator("#said")).to_contain_text(f"The neighbour, started {told} away")
+            expect(page.locator("#said")).to_contain_text(f"The ghost, started {told} away")
             assert size.get_attribute("aria-invalid") is None
 
 
@@ -325,12 +325,12 @@ def test_the_scene_and_the_animation_are_saved(open_page, tmp_path: Path):
     assert drawing.startswith("<svg") and drawing.count("<path") > 20 and "NaN" not in drawing
     picture = download(page, "#scene-png", tmp_path / "scene.png")
     assert picture[:8] == b"\x89PNG\r\n\x1a\n" and struct.unpack(">II", picture[16:24]) == (1920, 1352)
-    film = download(page, "#film", tmp_path / "run.webm")
-    assert film[:4] == b"\x1a\x45\xdf\xa3" and b"webm" in film[:128] and len(film) > 10_000
+    animation = download(page, "#animation", tmp_path / "run.webm")
+    assert animation[:4] == b"\x1a\x45\xdf\xa3" and b"webm" in animation[:128] and len(animation) > 10_000
     page.locator("#speed").select_option("0.1")
-    page.locator("#film").click()
-    page.locator("#film-cancel").click()
-    expect(page.locator("#take-said")).to_have_text("The film was given up.")
+    page.locator("#animation").click()
+    page.locator("#animation-cancel").click()
+    expect(page.locator("#export-said")).to_have_text("The animation was cancelled.")
 
 
 def test_lines_to_copy_make_the_same_run(open_page, command_json):

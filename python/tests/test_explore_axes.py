@@ -21,7 +21,7 @@ def test_bounds_that_are_typed_one_after_the_other_are_an_axis(open_page):
     page = open_page(MAP)
     said, low, high = (page.locator(one) for one in ["#map-said", "#map-x-low", "#map-x-high"])
     typed(page, "#map-x-low", "1")
-    expect(said).to_have_text("Across: from a lower to a higher value, in 2 to 200 cells")
+    expect(said).to_have_text('Horizontal: "from" must be less than "to", with 2 to 200 cells')
     for field in [low, high]:
         expect(field).to_have_attribute("aria-invalid", "true")
     # Other values are no reason to take back what was typed.
@@ -39,7 +39,7 @@ def test_bounds_that_are_typed_one_after_the_other_are_an_axis(open_page):
 def test_an_axis_from_elsewhere_ends_what_was_wrong(open_page):
     page = open_page(MAP)
     typed(page, "#map-y-count", "1")
-    expect(page.locator("#map-said")).to_have_text("Up: from a lower to a higher value, in 2 to 200 cells")
+    expect(page.locator("#map-said")).to_have_text('Vertical: "from" must be less than "to", with 2 to 200 cells')
     expect(page.locator("#map-y-count")).to_have_attribute("aria-invalid", "true")
     expect(page.locator("#map-y-low")).to_have_attribute("aria-invalid", "false")
     page.locator("#map-wider").click()
@@ -51,7 +51,8 @@ def test_an_axis_from_elsewhere_ends_what_was_wrong(open_page):
 def test_what_is_wrong_is_told_with_the_words_beside_it(open_page):
     page = open_page(BASIN)
     typed(page, "#basin-over-high", "-1")
-    expect(page.locator("#basin-pointed")).to_have_text("Eroded by: from a lower to a higher value, in 2 to 200 values")
+    words = 'Third key: "from" must be less than "to", with 2 to 200 values'
+    expect(page.locator("#basin-pointed")).to_have_text(words)
 
 
 def test_a_pale_basin_is_copied_as_it_is_shown(open_page):

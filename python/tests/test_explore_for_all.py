@@ -93,9 +93,9 @@ def test_the_keys_are_told_and_can_be_turned_off(open_page):
 def test_a_slack_line_is_as_long_as_its_cable(code, floor):
     lines = code.evaluate(
         """async floor => {
-            const { hang } = await import('./hang.js');
+            const { slackLine } = await import('./slack-line.js');
             const ends = [[1, -1.2], [1.49, -0.05], [0.2, -1.3], [0, -1.1], [-0.7, -1.0], [0.9, -0.0001]];
-            return ends.map(end => ({ end, points: hang([0, 0], end, 1.6, Number(floor)) }));
+            return ends.map(end => ({ end, points: slackLine([0, 0], end, 1.6, Number(floor)) }));
         }""",
         floor,
     )
@@ -113,7 +113,7 @@ ROUNDING_PX = 1e-9
 def test_a_line_of_many_points_is_drawn_in_few_that_look_the_same(code):
     told = code.evaluate(
         """async () => {
-            const { Pen, SEEN_PX } = await import('./pen.js');
+            const { SimplifiedLine, SEEN_PX } = await import('./simplified-line.js');
             const wave = i => [i / 3, 60 * Math.sin(i / 25) * Math.cos(i / 190)];
             const turns = i => [50 * Math.cos(i * i / 9e4), 80 * Math.sin(i / 40)];
             const jagged = i => [i / 2, i % 2 ? 5 : -5];
@@ -122,9 +122,9 @@ def test_a_line_of_many_points_is_drawn_in_few_that_look_the_same(code):
                 const points = Array.from({ length: 1200 }, (_, i) => curve(i));
                 const drawn = [];
                 const add = (x, y) => drawn.push([x, y]);
-                const pen = new Pen({ moveTo: add, lineTo: add });
-                points.forEach(([x, y], i) => (i ? pen.lineTo(x, y) : pen.moveTo(x, y)));
-                pen.lift();
+                const line = new SimplifiedLine({ moveTo: add, lineTo: add });
+                points.forEach(([x, y], i) => (i ? line.lineTo(x, y) : line.moveTo(x, y)));
+                line.finish();
                 const apart = ([x, y], [ax, ay], [bx, by]) => {
                     const [dx, dy] = [bx - ax, by - ay];
                     const square = dx * dx + dy * dy || 1;
@@ -186,7 +186,7 @@ def test_those_who_want_no_motion_get_none(open_page):
 
 def test_the_legend_tells_of_what_there_is(open_page):
     standard, sliding = open_page("f_o=0.3&t=0"), open_page("f_o=0.27&stop_when_settled=false&t=0")
-    cables = {"× snap of cable 1", "○ snap of cable 2", "cable 1 taut here", "cable 2 taut here", "at θ = 0"}
+    cables = {"× snap of cable 1", "○ snap of cable 2", "cable 1 taut here", "cable 2 taut here", "the same at θ = 0"}
     assert legend(standard) == cables | {"past the horizon"}, "it never slides nor rocks"
     assert legend(sliding) == cables | {"slack", "sliding", "rocking", "past the horizon"}
     expect(standard.locator("#ramp-key")).to_be_hidden()

@@ -1,4 +1,4 @@
-"""The page of `snapload explore` as an instrument: hands on the scene, runs compared, the map, films, case files."""
+"""The page of `snapload explore` as an instrument: handles, runs compared, the map, animations, case files."""
 
 from __future__ import annotations
 
@@ -172,9 +172,9 @@ def test_it_moves_at_once_unless_that_is_not_wanted(open_page):
     assert exact_time(still) == 0
 
 
-def test_a_film_lasts_as_long_as_it_is_played_and_can_be_sought(open_page, tmp_path: Path):
+def test_an_animation_lasts_as_long_as_it_is_played_and_can_be_sought(open_page, tmp_path: Path):
     page = open_page("t=0&speed=5")
-    film = download(page, "#film", tmp_path / "run.webm")
+    animation = download(page, "#animation", tmp_path / "run.webm")
     player = page.context.new_page()
     player.goto("about:blank")
     told = player.evaluate(
@@ -192,7 +192,7 @@ def test_a_film_lasts_as_long_as_it_is_played_and_can_be_sought(open_page, tmp_p
             }
             return { duration: video.duration, width: video.videoWidth, sought };
         }""",
-        base64.b64encode(film).decode(),
+        base64.b64encode(animation).decode(),
     )
     # 7.2463 T at 5 T/s, thirty pictures a second, and the end stands for 0.7 s.
     assert told["duration"] == pytest.approx(round(30 * 7.2463 / 5) / 30 + 0.7, abs=0.05)
@@ -220,17 +220,17 @@ def test_the_map_is_beside_the_scene_and_tells_what_is_sure(open_page, command_j
         if f_o == "0.4":
             page.keyboard.press("Home")
     assert told == {True, False}
-    expect(page.locator("#map-legend")).to_contain_text("not certain, as rounding may decide")
+    expect(page.locator("#map-legend")).to_contain_text("not certain: rounding may decide how they end")
 
 
 def test_the_map_goes_by_decades_where_values_do(open_page):
     page = open_page(f"t=0&map={MAP},rho1")
     expect(page.locator("#map-progress")).to_have_text("66 runs", timeout=60_000)
-    expect(page.locator("#map-legend")).not_to_contain_text("by decades")
+    expect(page.locator("#map-legend")).not_to_contain_text("logarithmic")
     page.locator("#map-colour").select_option("impacts")
     values = [int(row["impacts"]) for row in csv.DictReader(io.StringIO(map_table(page)))]
     by_decades = max(values) > 100 * min(value for value in values if value > 0)
-    assert by_decades == ("by decades" in page.locator("#map-legend").inner_text())
+    assert by_decades == ("logarithmic" in page.locator("#map-legend").inner_text())
 
 
 def map_table(page: Page) -> str:

@@ -45,9 +45,9 @@ def test_a_safe_basin_is_that_of_the_command_and_a_cell_a_start(open_page, comma
     legend = page.locator("#basin-legend")
     expect(legend).to_contain_text(f"safe ({told['safe']})")
     expect(legend).to_contain_text(f"reaches a limit ({told['legal'] - told['safe']})")
-    expect(legend).to_contain_text(f"no start ({21 * 18 - told['legal']})")
+    expect(legend).to_contain_text(f"no legal start ({21 * 18 - told['legal']})")
     assert told["undecided"] > 0
-    expect(legend).to_contain_text(f"neighbours end otherwise ({told['undecided']})")
+    expect(legend).to_contain_text(f"undecided: neighbours end differently ({told['undecided']})")
     low, high = told["interval95"]
     expect(page.locator("#basin-said")).to_contain_text(f"{told['fraction']:.4f} ({low:.4f} to {high:.4f})")
     # What is not certain, not safe and no start differs from cell to cell; the words are those of the run.

@@ -99,7 +99,7 @@ def test_a_file_is_written_while_the_page_goes_on(open_page):
     button = page.locator('[data-file="impacts.csv"]')
     button.click()
     expect(button).to_be_disabled()
-    expect(page.locator("#take-said")).to_have_text("impacts.csv of values of your own: writing")
+    expect(page.locator("#export-said")).to_have_text("impacts.csv of your own values: writing")
     before = count(page)
     page.locator("#field-f_o").fill("0.29")
     settled(page, before)
@@ -318,7 +318,7 @@ def test_a_swipe_over_a_slider_leaves_its_value(open_page):
 def test_a_refused_link_says_what_is_shown(open_page):
     page = open_page("e=7", refused=1)
     expect(page.locator("#failed")).to_contain_text("e = 7 is not allowed")
-    expect(page.locator("#failed")).to_contain_text("that of the case of the start, the standard case")
+    expect(page.locator("#failed")).to_contain_text("the first case of the page, the standard case")
 
 
 def test_one_row_of_the_events_takes_the_tab_key(open_page):
@@ -329,14 +329,14 @@ def test_one_row_of_the_events_takes_the_tab_key(open_page):
     assert page.evaluate("() => document.activeElement.closest('tr').dataset.event") == "1"
 
 
-def test_a_film_comes_while_another_page_is_in_front(open_page, tmp_path: Path):
+def test_an_animation_comes_while_another_page_is_in_front(open_page, tmp_path: Path):
     page = open_page("t=0&speed=5")
     # A browser lets the timers of a page that nobody looks at ring once a second at the most.
     page.evaluate(
         "() => { const real = window.setTimeout; window.setTimeout = (f, ms) => real(f, Math.max(ms ?? 0, 1000)); }"
     )
     page.set_default_timeout(30_000)
-    assert len(download(page, "#film", tmp_path / "run.webm")) > 10_000
+    assert len(download(page, "#animation", tmp_path / "run.webm")) > 10_000
 
 
 @pytest.mark.parametrize("viewport", [PHONE, SMALLEST], ids=["phone", "smallest"])

@@ -21,7 +21,7 @@ def test_the_seal_opens_what_is_proved(open_page, command, tmp_path: Path):
     expect(page.locator("#seal")).to_be_hidden()
     prove(page)
     expect(page.locator("#seal-title")).to_have_text(
-        re.compile(r"^proved to the end; this run leaves the proof at impact \d+$")
+        re.compile(r"^proved to the end; this run departs from the proof at impact \d+$")
     )
     expect(page.locator("#seal-words")).to_be_hidden()
     expect(page.locator("#prove")).to_be_hidden()

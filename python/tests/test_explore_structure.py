@@ -131,7 +131,7 @@ def test_a_note_tells_how_far_it_has_come(open_structure, tmp_path: Path):
     page.evaluate(
         """() => {
             window.told = [];
-            const said = document.getElementById('take-said');
+            const said = document.getElementById('export-said');
             new MutationObserver(() => window.told.push(said.textContent)).observe(said, { childList: true });
         }"""
     )
@@ -145,13 +145,13 @@ def test_a_note_tells_how_far_it_has_come(open_structure, tmp_path: Path):
     for stage in stages:
         percent = [int(found[2]) for found in stage]
         assert len(set(percent)) > 1 and percent == sorted(percent), percent
-    expect(page.locator("#take-said")).to_contain_text("is saved")
+    expect(page.locator("#export-said")).to_contain_text("is saved")
     for one in ["#file-progress", "#file-cancel"]:
         expect(page.locator(one)).to_be_hidden()
     page.locator('[id="field-wave.height"]').fill("2.4")
     page.locator('[data-file="note.html"]').click()
     page.locator("#file-cancel").click()
-    expect(page.locator("#take-said")).to_contain_text("was given up")
+    expect(page.locator("#export-said")).to_contain_text("was cancelled")
     expect(page.locator('[data-file="note.html"]')).to_be_enabled()
 
 
@@ -188,7 +188,7 @@ def test_what_is_refused_is_said_at_its_field(open_structure, command):
     said = page.locator('[id="error-wave.height"]')
     expect(said).to_contain_text("60")
     assert said.inner_text().split("allowed", 1)[1].strip() in refused
-    expect(page.locator("#failed")).to_contain_text("of the last values that could be run")
+    expect(page.locator("#failed")).to_contain_text("the last values that could be run")
     expect(page.locator("#failed")).to_contain_text("Not run: wave.height = 60 ")
 
 
@@ -199,10 +199,14 @@ def test_the_hardest_snaps_and_the_record_lead_to_their_time(open_structure):
     comes_true(page, lambda: exact_time(page) == float(first.get_attribute("data-t")))
     expect(page.locator("#caption")).to_contain_text("snap of line")
     before = count(page)
-    page.locator("#stretch").evaluate("one => { one.value = 500; one.dispatchEvent(new Event('input')); }")
+    page.locator("#interval-start").evaluate("one => { one.value = 500; one.dispatchEvent(new Event('input')); }")
     settled(page, before)
     expect(page.locator("#window-words")).to_have_text("500.0 to 536.0 s")
     assert 500 <= exact_time(page) <= 536
+    # The motion of this interval alone is here.
+    for key, t in [("End", 536), ("Home", 500)]:
+        page.keyboard.press(key)
+        assert exact_time(page) == t
 
 
 def test_other_waves_are_a_table_whose_cells_are_run(open_structure):
@@ -224,7 +228,7 @@ def test_other_waves_are_a_table_whose_cells_are_run(open_structure):
 def test_answers_are_pinned_and_compared_in_words(open_structure):
     page = open_structure(f"{SHORT}&t=0&elastic=false")
     page.keyboard.press("p")
-    expect(page.locator("#pins li")).to_contain_text("as now")
+    expect(page.locator("#pins li")).to_contain_text("the same as now")
     before = count(page)
     page.locator('[id="field-wave.height"]').fill("3")
     settled(page, before)

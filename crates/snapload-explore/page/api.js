@@ -17,17 +17,17 @@ async function post(path, body, signal) {
   });
   if (response.ok) return response;
   const { key, message } = await response.json().catch(() => ({}));
-  throw new Refused(message ?? `the server answered ${response.status}`, key);
+  throw new Refused(message ?? `the server answered with status ${response.status}`, key);
 }
 
 export async function fetchSchema() {
   const response = await fetch("api/schema");
-  if (!response.ok) throw new Refused(`the server answered ${response.status}`);
+  if (!response.ok) throw new Refused(`the server answered with status ${response.status}`);
   return response.json();
 }
 
 /** A longer wait than this is cut short by a newer question; a shorter one is worth its picture. */
-const PATIENCE_MS = 120;
+const UNINTERRUPTED_MS = 120;
 
 /** Runs, one at a time; of the questions that come meanwhile only the latest is asked. */
 export class Runner {
@@ -35,34 +35,34 @@ export class Runner {
     this.onAnswer = onAnswer;
     this.onError = onError;
     this.path = path;
-    this.flying = null;
+    this.current = null;
     this.waiting = null;
   }
 
   ask(question, since) {
     this.waiting = { question, since };
-    const { flying } = this;
-    if (!flying) return this.#next();
+    const { current } = this;
+    if (!current) return this.#next();
     // Never twice in a row: where every answer takes longer than that, one would see nothing while one drags.
-    if (flying.afterOneCutShort) return;
+    if (current.afterOneCutShort) return;
     const cut = () => {
-      if (this.flying === flying && this.waiting) flying.controller.abort();
+      if (this.current === current && this.waiting) current.controller.abort();
     };
-    setTimeout(cut, Math.max(flying.begun + PATIENCE_MS - performance.now(), 0));
+    setTimeout(cut, Math.max(current.begun + UNINTERRUPTED_MS - performance.now(), 0));
   }
 
   async #next(afterOneCutShort = false) {
     const { question, since } = this.waiting;
     const controller = new AbortController();
     this.waiting = null;
-    this.flying = { controller, begun: performance.now(), afterOneCutShort };
+    this.current = { controller, begun: performance.now(), afterOneCutShort };
     let answer = null;
     try {
       answer = await (await post(this.path, question, controller.signal)).json();
     } catch (error) {
       if (error.name !== "AbortError") this.onError(inWords(error), question);
     }
-    this.flying = null;
+    this.current = null;
     if (this.waiting) this.#next(controller.signal.aborted);
     if (answer) this.onAnswer(answer, since, question);
   }
@@ -83,7 +83,7 @@ export async function fetchStructureFile(file) {
   return (await post("api/structure", file)).json();
 }
 
-/** Work that takes its time, and can be given up. */
+/** Work that takes long, and can be cancelled. */
 export async function fetchLong(path, question, signal) {
   try {
     return await (await post(path, question, signal)).json();
@@ -119,24 +119,24 @@ export async function* fetchMap(question, signal) {
 }
 
 /**
- * Work that takes its time and tells how far it has come: `onCome` is told of each line, { doing, percent }. Gives the
- * text that comes of it.
+ * Work that takes its time and reports its progress: `onProgress` gets each line, { doing, percent }. Gives the
+ * resulting text.
  * @param {string} path
  * @param {object} question
  * @param {AbortSignal} signal
- * @param {(come: { doing: string, percent: number }) => void} onCome
+ * @param {(progress: { doing: string, percent: number }) => void} onProgress
  */
-export async function fetchTold(path, question, signal, onCome) {
+export async function fetchWithProgress(path, question, signal, onProgress) {
   try {
     for await (const line of linesOf(await post(path, { ...question, told: true }, signal))) {
       if (line.error) throw new Refused(line.error.message, line.error.key);
       if (line.answer !== undefined) return line.answer;
-      onCome(line);
+      onProgress(line);
     }
   } catch (error) {
     throw error.name === "AbortError" ? error : inWords(error);
   }
-  throw new Error("The answer ended early. Is snapload explore still running?");
+  throw new Error("The answer is incomplete. Is snapload explore still running?");
 }
 
 /** The lines of an answer, each as it comes. */

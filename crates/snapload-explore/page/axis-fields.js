@@ -2,7 +2,7 @@
 
 import { $, mark } from "./dom.js";
 import { MOST_CELLS, finite, isAxis, isCount, same } from "./state.js";
-import { plain } from "./words.js";
+import { fieldText } from "./formatting.js";
 
 const ENDS = ["low", "high", "count"];
 
@@ -32,7 +32,7 @@ export class AxisFields {
       const range = usual ?? { low: about * 0.5, high: about * 2 || 1 };
       onChange({ ...now(), key: key.value, ...range });
     });
-    const words = `${legend}: from a lower to a higher value, in 2 to ${MOST_CELLS} ${counted}`;
+    const words = `${legend}: "from" must be less than "to", with 2 to ${MOST_CELLS} ${counted}`;
     for (const name of ENDS) {
       this.#field(name).addEventListener("change", () => {
         const axis = this.#typed();
@@ -68,7 +68,7 @@ export class AxisFields {
     this.shown = now;
     for (const name of ["key", ...ENDS]) {
       const field = this.#field(name);
-      if (document.activeElement !== field || name === "key") field.value = plain(now[name]);
+      if (document.activeElement !== field || name === "key") field.value = fieldText(now[name]);
       mark(field, { "aria-invalid": null });
     }
     if (this.wrong) this.onWrong("");

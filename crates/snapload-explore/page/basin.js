@@ -1,7 +1,7 @@
 // Safe basins: which cells of a window of two keys stay below the limits, how much of it that is, and how that part
 // shrinks along a third key.
 
-import { fetchTold } from "./api.js";
+import { fetchWithProgress } from "./api.js";
 import { AxisFields, withAxis } from "./axis-fields.js";
 import { axisWords, cellOf, crosshair, drawCellAxes, frameOf, outline, paintCells } from "./cells.js";
 import { $, put } from "./dom.js";
@@ -10,8 +10,8 @@ import { lines } from "./long-run.js";
 import { rangeText, studyLine } from "./map-files.js";
 import { prepare } from "./plot.js";
 import { same } from "./state.js";
-import { copy } from "./take.js";
-import { number, reasonText } from "./words.js";
+import { copy } from "./export.js";
+import { number, reasonText } from "./formatting.js";
 
 /**
  * Starts at rest of the thesis's bodies, and the force that erodes them. Where it is 0, many starts are symmetric: how
@@ -23,7 +23,7 @@ const USUAL = {
   over: { key: "f_o", low: 0.03, high: 0.6, count: 20 },
 };
 /** The sides with their legends, and what each has a number of. */
-const SIDES = { x: ["Across", "cells"], y: ["Up", "cells"], over: ["Eroded by", "values"] };
+const SIDES = { x: ["Horizontal", "cells"], y: ["Vertical", "cells"], over: ["Third key", "values"] };
 const PATH = "api/basin";
 
 export class SafeBasin {
@@ -104,14 +104,14 @@ export class SafeBasin {
     $("basin-bar").value = 0;
     $("basin-progress").textContent = "";
     try {
-      const text = await fetchTold(PATH, question, asking.signal, ({ doing, percent }) => {
+      const text = await fetchWithProgress(PATH, question, asking.signal, ({ doing, percent }) => {
         if (this.asking !== asking) return;
         $("basin-bar").value = percent / 100;
         $("basin-progress").textContent = `${doing}, ${percent} %`;
       });
       const answer = { ...JSON.parse(text), asked: JSON.stringify(question), question };
       if (erodes) Object.assign(this, { eroded: answer, erosionDrawn: false });
-      else this.#take(answer);
+      else this.#setAnswer(answer);
       // Of an erosion the picture shows what its words have as a table, up to an empty line.
       $(erodes ? "erosion-said" : "basin-said").textContent = lines(answer.words.split("\n\n").at(-1));
       if (this.asking === asking) $("basin-progress").textContent = "";
@@ -125,7 +125,7 @@ export class SafeBasin {
   }
 
   /** No cell of the basin before is pointed at in another one, which may have fewer. */
-  #take(answer) {
+  #setAnswer(answer) {
     this.answer = answer;
     this.pointed = null;
     this.cursor = [0, 0];
@@ -177,8 +177,8 @@ export class SafeBasin {
     const { x, y, ends, escapes, decided, question } = this.answer;
     const k = j * x.length + i;
     const place = `${question.x.key} = ${number(x[i], 6)}, ${question.y.key} = ${number(y[j], 6)}: `;
-    if (ends[k] === null) return `${place}no start, as it is beyond a cable or a limit`;
-    const sure = decided[k] ? "" : ", not certain: neighbours end otherwise";
+    if (ends[k] === null) return `${place}no legal start, as it is beyond the reach of a cable or beyond a limit`;
+    const sure = decided[k] ? "" : ", undecided: neighbours end differently";
     return `${place}${escapes[k] ? "not safe" : "safe"} (${reasonText(ends[k])})${sure}`;
   }
 
@@ -195,7 +195,7 @@ export class SafeBasin {
   }
 
   /** The run is another: where it lies may follow from it. */
-  takeRun() {
+  runChanged() {
     if (this.answer && String(this.#place()) !== this.placed) this.#repaint();
   }
 
@@ -227,11 +227,11 @@ export class SafeBasin {
     if (this.pointed) outline(context, frame, question, this.pointed, colours);
     const swatch = (paint, text) => `<span><i class="swatch" style="background:${paint}"></i>${text}</span>`;
     const parts = [swatch(colours.safe, `safe (${safe})`), swatch(colours.escaped, `reaches a limit (${legal - safe})`)];
-    if (ends.length > legal) parts.push(swatch(colours.faint, `no start (${ends.length - legal})`));
-    if (undecided) parts.push(`<span><i class="swatch hatched"></i>not certain, as neighbours end otherwise (${undecided})</span>`);
+    if (ends.length > legal) parts.push(swatch(colours.faint, `no legal start (${ends.length - legal})`));
+    if (undecided) parts.push(`<span><i class="swatch hatched"></i>undecided: neighbours end differently (${undecided})</span>`);
     const html = parts.join("");
     if ($("basin-legend").innerHTML !== html) $("basin-legend").innerHTML = html;
-    const over = `Safe basin over ${question.x.key} and ${question.y.key}: ${safe} of ${legal} cells are safe`;
-    this.canvas.setAttribute("aria-label", `${over}. Arrow keys move, Enter begins there.`);
+    const over = `Safe basin over ${question.x.key} and ${question.y.key}: ${safe} of ${legal} legal cells are safe`;
+    this.canvas.setAttribute("aria-label", `${over}. Arrow keys move, Enter starts a run there.`);
   }
 }

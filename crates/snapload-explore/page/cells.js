@@ -2,7 +2,7 @@
 
 import { Frame, drawAxes, fontOf, inside, label, ticks } from "./plot.js";
 import { mix } from "./theme.js";
-import { prose, unitText } from "./words.js";
+import { withSymbols, unitText } from "./formatting.js";
 
 const MARGIN = { left: 56, right: 12, top: 10, bottom: 40 };
 /** Larger than beside the small charts. */
@@ -32,20 +32,20 @@ export function cividis(part) {
 let pattern = null;
 
 /** Lines across a cell, dark beside light so that they are seen on every colour. */
-function hatch(context) {
+function hatch(target) {
   if (!pattern) {
     const tile = Object.assign(document.createElement("canvas"), { width: 6, height: 6 });
-    const pen = tile.getContext("2d");
+    const context = tile.getContext("2d");
     for (const shift of [0, 1]) {
-      pen.strokeStyle = shift ? "rgb(255 255 255 / 0.55)" : "rgb(0 0 0 / 0.55)";
+      context.strokeStyle = shift ? "rgb(255 255 255 / 0.55)" : "rgb(0 0 0 / 0.55)";
       for (const x of [-6, 0, 6]) {
-        pen.beginPath();
-        pen.moveTo(x + shift, 6);
-        pen.lineTo(x + 6 + shift, 0);
-        pen.stroke();
+        context.beginPath();
+        context.moveTo(x + shift, 6);
+        context.lineTo(x + 6 + shift, 0);
+        context.stroke();
       }
     }
-    pattern = context.createPattern(tile, "repeat");
+    pattern = target.createPattern(tile, "repeat");
   }
   return pattern;
 }
@@ -145,7 +145,7 @@ export function drawCellAxes(context, frame, { x, y }, colours, words) {
 /** A key at its axis: its symbol with its unit. */
 export function axisWords(keys, name) {
   const { symbol, unit } = keys.find((key) => key.name === name);
-  return unitText(unit) ? `${prose(symbol)}  [${unitText(unit)}]` : symbol;
+  return unitText(unit) ? `${withSymbols(symbol)}  [${unitText(unit)}]` : symbol;
 }
 
 /**

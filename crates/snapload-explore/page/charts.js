@@ -2,7 +2,7 @@
 
 import { drawColumn, drawMarks, label, span } from "./plot.js";
 import { TimeCharts, above, rows } from "./time-charts.js";
-import { fixed, number } from "./words.js";
+import { fixed, number } from "./formatting.js";
 
 /** What is read between rows far apart is said to be so. */
 export const about = (moment) => (moment.rough ? "about " : "");
@@ -98,7 +98,7 @@ const CHARTS = [
     read: (run, moment) => latestSnap(run, moment.t),
     marks: ({ impacts }) => ({ t: impacts.t, y: impacts.v_n }),
     markWords: impactWords,
-    words: (run) => `${run.impacts.t.length} snaps, the hardest ${number(run.norms.rho1)} L/T`,
+    words: (run) => `${run.impacts.t.length} impacts, the hardest ${number(run.norms.rho1)} L/T`,
   },
   {
     id: "tensions",

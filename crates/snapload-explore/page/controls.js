@@ -1,7 +1,7 @@
 // A slider and a field for every key, from the schema.
 
 import { mark, put } from "./dom.js";
-import { plain, prose, symbolHtml, unitText } from "./words.js";
+import { fieldText, withSymbols, symbolHtml, unitText } from "./formatting.js";
 import { readValue } from "./state.js";
 
 const GROUPS = [
@@ -85,8 +85,8 @@ export class Controls {
     if (wordy) name.textContent = key.symbol.replaceAll("_", " ");
     else name.innerHTML = symbolHtml(key.symbol);
     const meaning = element("span", { className: "meaning", id: `meaning-${key.name}` });
-    meaning.textContent = prose(["choice", "text"].includes(key.kind.type) ? key.meaning : key.title);
-    label.title = prose(key.meaning) + (key.default_in_words ? `. Default: ${prose(key.default_in_words)}` : "");
+    meaning.textContent = withSymbols(["choice", "text"].includes(key.kind.type) ? key.meaning : key.title);
+    label.title = withSymbols(key.meaning) + (key.default_in_words ? `. Default: ${withSymbols(key.default_in_words)}` : "");
     label.append(name, meaning);
     if (unit) meaning.append(element("span", { className: "unit", textContent: ` [${unit}]` }));
     return label;
@@ -112,16 +112,16 @@ export class Controls {
     field.addEventListener("input", (event) => {
       // While one types, only what is a number is tried; the rest waits for the end of typing.
       this.typing = key.name;
-      if (readValue(key, field.value) !== undefined) this.#take(parts, field.value, event, true);
+      if (readValue(key, field.value) !== undefined) this.#setText(parts, field.value, event, true);
     });
     field.addEventListener("change", (event) => {
       this.typing = null;
-      this.#take(parts, field.value, event, true);
+      this.#setText(parts, field.value, event, true);
       this.gesture += 1;
     });
     field.addEventListener("keydown", (event) => this.#stepField(parts, event));
     reset.addEventListener("click", (event) => {
-      this.#give(parts, null, event, true);
+      this.#setValue(parts, null, event, true);
       this.show();
       field.focus();
     });
@@ -132,12 +132,12 @@ export class Controls {
     const { low, high } = key.usual;
     const slider = element("input", { type: "range", className: "slider", id: `slider-${key.name}` });
     Object.assign(slider, { min: low, max: high, step: sliderStep(low, high) });
-    slider.setAttribute("aria-label", `${key.name}: ${prose(key.meaning)}`);
+    slider.setAttribute("aria-label", `${key.name}: ${withSymbols(key.meaning)}`);
     slider.addEventListener("input", (event) => {
       parts.field.value = slider.value;
-      this.#give(parts, Number(slider.value), event, false);
+      this.#setValue(parts, Number(slider.value), event, false);
     });
-    slider.addEventListener("change", (event) => this.#give(parts, Number(slider.value), event, true));
+    slider.addEventListener("change", (event) => this.#setValue(parts, Number(slider.value), event, true));
     this.#keepFromSwipes(parts, slider);
     parts.slider = slider;
     return slider;
@@ -148,11 +148,11 @@ export class Controls {
     const ends = ["low", "high"].map((name) => {
       const end = element("input", { type: "text", inputMode: "decimal", className: `end ${name}`, tabIndex: -1 });
       end.setAttribute("aria-label", `${key.name}: ${name} end of the slider`);
-      end.title = "The end of the slider; type another";
+      end.title = "End of the slider; it can be edited";
       return end;
     });
-    const show = () => [ends[0].value, ends[1].value] = [plain(Number(slider.min)), plain(Number(slider.max))];
-    const take = () => {
+    const show = () => [ends[0].value, ends[1].value] = [fieldText(Number(slider.min)), fieldText(Number(slider.max))];
+    const setEnds = () => {
       const [low, high] = ends.map((end) => readValue(key, end.value));
       const { low: least, high: most } = key.kind;
       if (low < high && low >= least && high <= most) {
@@ -162,7 +162,7 @@ export class Controls {
       }
       show();
     };
-    for (const end of ends) end.addEventListener("change", take);
+    for (const end of ends) end.addEventListener("change", setEnds);
     show();
     const ranged = element("div", { className: "ranged" });
     ranged.append(ends[0], slider, ends[1]);
@@ -174,7 +174,7 @@ export class Controls {
     let before = null;
     slider.addEventListener("pointerdown", () => (before = this.state.values[parts.key.name] ?? null));
     slider.addEventListener("pointercancel", (event) => {
-      this.#give(parts, before, event, true);
+      this.#setValue(parts, before, event, true);
       this.show();
     });
   }
@@ -186,7 +186,7 @@ export class Controls {
     event.preventDefault();
     const step = sliderStep(parts.key.usual.low, parts.key.usual.high) * (event.shiftKey ? 10 : 1);
     parts.field.value = String(Number((value + direction * step).toPrecision(12)));
-    this.#take(parts, parts.field.value, event, true);
+    this.#setText(parts, parts.field.value, event, true);
   }
 
   #flag(parts) {
@@ -194,7 +194,7 @@ export class Controls {
     const field = element("input", { type: "checkbox", id: `field-${key.name}`, className: "tick" });
     row.classList.add("key-flag");
     row.append(field, this.#label(key));
-    field.addEventListener("change", (event) => this.#give(parts, field.checked, event, true));
+    field.addEventListener("change", (event) => this.#setValue(parts, field.checked, event, true));
     parts.field = field;
   }
 
@@ -205,17 +205,17 @@ export class Controls {
     for (const option of key.kind.options) field.append(element("option", { value: option, textContent: option }));
     if (key.kind.options.some((option) => option.length > LONG_OPTION)) row.classList.add("key-wide");
     row.append(this.#label(key), field);
-    field.addEventListener("change", (event) => this.#give(parts, field.value || null, event, true));
+    field.addEventListener("change", (event) => this.#setValue(parts, field.value || null, event, true));
     parts.field = field;
   }
 
   /** What stands in a field: a number, nothing (the default), or text that the server will refuse in words. */
-  #take(parts, text, event, settled) {
+  #setText(parts, text, event, settled) {
     const value = text.trim() === "" ? null : (readValue(parts.key, text) ?? text.trim());
-    this.#give(parts, value, event, settled);
+    this.#setValue(parts, value, event, settled);
   }
 
-  #give(parts, value, event, settled) {
+  #setValue(parts, value, event, settled) {
     this.latest = parts.key.name;
     this.state.setValues({ [parts.key.name]: value });
     this.onChange({ since: event.timeStamp, settled, gesture: this.gesture });
@@ -228,7 +228,7 @@ export class Controls {
       const given = this.state.values[name];
       const follows = given === undefined && key.default_in_words !== "" && effective[name] !== undefined;
       const value = follows ? effective[name] : this.state.value(name);
-      const text = follows ? rounded(value) : plain(value);
+      const text = follows ? rounded(value) : fieldText(value);
       if (value === null && key.default_in_words) put(field, { placeholder: key.default_in_words });
       if (key.kind.type === "flag") put(field, { checked: value });
       else if (this.typing !== name) put(field, { value: text });
@@ -265,9 +265,9 @@ export class Controls {
 
 /** A number that was computed, as short as it is read. */
 function rounded(value) {
-  if (typeof value !== "number") return plain(value);
+  if (typeof value !== "number") return fieldText(value);
   const [mantissa, exponent] = value.toExponential(2).split("e");
-  return Math.abs(value) < 1e6 ? plain(Number(value.toPrecision(6))) : `${Number(mantissa)}e${Number(exponent)}`;
+  return Math.abs(value) < 1e6 ? fieldText(Number(value.toPrecision(6))) : `${Number(mantissa)}e${Number(exponent)}`;
 }
 
 /** A round step, some hundreds of which make the range. */

@@ -1,7 +1,7 @@
 // How the safe part of a window shrinks along a key: a line through the parts, each with its interval.
 
 import { Frame, drawAxes, drawColumn, inside, label, prepare, stroke, ticks } from "./plot.js";
-import { number } from "./words.js";
+import { number } from "./formatting.js";
 
 const MARGIN = { left: 56, right: 12, top: 10, bottom: 36 };
 

@@ -1,10 +1,10 @@
 // What happened, as a table: it says what the charts show, and each row leads to its instant.
 
 import { $ } from "./dom.js";
-import { fixed, modeName, number } from "./words.js";
+import { fixed, modeName, number } from "./formatting.js";
 
 const ROWS = 50;
-const WORDS = { start: "start", horizon: "horizon of trust", parts: "the ghost parts from it", end: "end" };
+const WORDS = { start: "start", horizon: "horizon of trust", parts: "the ghost is 1e−3 away", end: "end" };
 
 export class EventTable {
   constructor({ onJump }) {
@@ -24,7 +24,7 @@ export class EventTable {
     });
   }
 
-  take(run) {
+  setRun(run) {
     this.run = run;
     this.at = null;
     this.page = Math.min(this.page, this.#pages - 1);
@@ -100,7 +100,7 @@ export class EventTable {
       .slice(first, first + ROWS)
       .map((event, k) => this.#row(event, first + k))
       .join("");
-    $("events-words").value = `${first + 1} to ${Math.min(first + ROWS, events.length)} of ${events.length}`;
+    $("events-words").value = `events ${first + 1} to ${Math.min(first + ROWS, events.length)} of ${events.length}`;
     $("events-previous").disabled = this.page === 0;
     $("events-next").disabled = this.page === this.#pages - 1;
   }

@@ -10,13 +10,13 @@ function keyTable({ playback, transport, state, map, pins }) {
   const toggle = (name, one, other) => state.set({ [name]: state[name] === one ? other : one, zoom: null });
   return [
     ...timeKeys({ playback, transport }),
-    [["v"], "v", "real picture, or the thesis's", () => toggle("picture", "real", "thesis")],
+    [["v"], "v", "real picture, or that of the thesis", () => toggle("picture", "real", "thesis")],
     [["c"], "c", "whole scene, or close to the body", () => toggle("view", "whole", "close")],
     [["g"], "g", "ghost on or off", () => $("ghost").click()],
     [["l"], "l", "loop on or off", () => state.set({ loop: !state.loop })],
     [["p"], "p", "pin this run", () => pins.add()],
     [["m"], "m", "map open or closed", () => map.toggle()],
-    [["?"], "?", "these keys", () => $("help").click()],
+    [["?"], "?", "this help", () => $("help").click()],
   ];
 }
 
@@ -30,18 +30,13 @@ export function timeKeys({ playback, transport }) {
     [["ArrowRight"], "→", "next event", (event) => (event.shiftKey ? playback.fine(1) : playback.next())],
     [["ArrowLeft"], "←", "previous event", (event) => (event.shiftKey ? playback.fine(-1) : playback.previous())],
     [[], "shift + → ←", "a small step of time", null],
-    [["Home"], "Home", "to the start", () => go(playback, 0)],
-    [["End"], "End", "to the end", () => go(playback, Infinity)],
+    [["Home"], "Home", "to the start", () => transport.jump(transport.ends[0])],
+    [["End"], "End", "to the end", () => transport.jump(transport.ends[1])],
     [["+", "="], "+", "faster", () => playback.faster(1)],
     [["-", "_"], "−", "slower", () => playback.faster(-1)],
     [["["], "[", "zoom in on the time cursor", () => transport.zoom(0.5)],
     [["]"], "]", "zoom out", () => transport.zoom(2)],
   ];
-}
-
-function go(playback, t) {
-  playback.pause();
-  playback.seek(t);
 }
 
 /** Elements that need certain keys themselves. */

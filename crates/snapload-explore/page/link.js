@@ -17,7 +17,7 @@ export class Link {
   }
 
   read() {
-    const broken = this.state.takeFragment(location.hash.slice(1));
+    const broken = this.state.readFragment(location.hash.slice(1));
     this.written = this.state.toFragment();
     if (broken.length) this.onBroken(broken);
   }

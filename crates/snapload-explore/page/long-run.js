@@ -2,7 +2,7 @@
 
 import { fetchSection } from "./api.js";
 import { $ } from "./dom.js";
-import { number, prose } from "./words.js";
+import { number, withSymbols } from "./formatting.js";
 
 const STATE = ["x", "y", "theta", "vx", "vy", "vtheta"];
 const SYMBOLS = { x: "x", y: "y", theta: "θ", vx: "ẋ", vy: "ẏ", vtheta: "θ̇" };
@@ -11,7 +11,7 @@ const [WIDTH, HEIGHT] = [520, 300];
 const MARGIN = { left: 62, right: 12, top: 12, bottom: 40 };
 
 /** One question at a time, by one button, which ends it, too. */
-export class Asking {
+export class CancellableRequest {
   constructor(button, said, ask) {
     this.button = $(button);
     this.said = $(said);
@@ -47,7 +47,7 @@ export class Asking {
 }
 
 /** The words of the command, line by line, with single spaces. */
-export const lines = (words) => prose(words.trim().replaceAll(/ {2,}/g, " "));
+export const lines = (words) => withSymbols(words.trim().replaceAll(/ {2,}/g, " "));
 
 export class LongRun {
   /** @param {{ values: () => object, onPick: (start: object) => void }} page */
@@ -61,7 +61,7 @@ export class LongRun {
       $(id).replaceChildren(...STATE.map((key) => new Option(SYMBOLS[key], key, key === chosen, key === chosen)));
       $(id).addEventListener("change", () => this.#draw());
     }
-    this.section = new Asking("section-run", "section-said", async (signal) => {
+    this.section = new CancellableRequest("section-run", "section-said", async (signal) => {
       const answer = await fetchSection({ values: page.values() }, signal);
       if (signal.aborted) return "";
       this.points = answer.points.map(({ state }) => state);
@@ -71,7 +71,7 @@ export class LongRun {
   }
 
   /** The values are others now: what is shown is not theirs. */
-  take(values) {
+  setValues(values) {
     const key = JSON.stringify(values);
     if (key === this.key) return;
     this.key = key;

@@ -1,23 +1,23 @@
 // The path of the centre once more, larger, where it fills a few per cent of the picture.
 
-import { number } from "./words.js";
+import { number } from "./formatting.js";
 
 /** A path that fills less than this part of the picture is magnified, if that makes it this many times as large. */
 const [SMALL, LEAST] = [0.12, 3];
-/** The glass: its size as a part of the picture and at most [px], its distance from the edges. */
-const GLASS = { size: 0.3, most: 190, inset: 12, below: 0.22 };
+/** The inset: its size as a part of the picture and at most [px], its distance from the edges. */
+const INSET = { size: 0.3, most: 190, inset: 12, below: 0.22 };
 
-/** Its shapes in a glass beside the cables; `path` makes those of a path with a camera. */
+/** Its shapes in an inset beside the cables; `path` makes those of a path with a camera. */
 export function magnifier(run, t, cam, { width, height, colours, view, zoom, camera: held }, path) {
   const { x: across, y: up } = run.reach;
   const extent = Math.max(across[1] - across[0], up[1] - up[0]);
   const side = Math.min(width, height);
   if (view === "close" || zoom || held || !(extent > 0) || extent * cam.scale > SMALL * side) return [];
-  const size = Math.min(GLASS.size * side, GLASS.most);
+  const size = Math.min(INSET.size * side, INSET.most);
   const scale = (0.8 * size) / extent;
   if (scale < LEAST * cam.scale) return [];
   // Between the surface and the cable of that side.
-  const clip = [GLASS.inset, cam.up > 0 ? GLASS.below * height : (1 - GLASS.below) * height - size, size, size];
+  const clip = [INSET.inset, cam.up > 0 ? INSET.below * height : (1 - INSET.below) * height - size, size, size];
   const middle = [clip[0] + size / 2, clip[1] + size / 2];
   const [mx, my] = [0.5 * (across[0] + across[1]), 0.5 * (up[0] + up[1])];
   const place = ([px, py]) => [middle[0] + scale * (px - mx), middle[1] + cam.up * scale * (py - my)];

@@ -4,28 +4,28 @@ import { Runner, fetchCase, fetchSchema } from "./api.js";
 import { Charts } from "./charts.js";
 import { $, put } from "./dom.js";
 import { EventTable } from "./events.js";
-import { Hands } from "./hands.js";
+import { Handles } from "./handles.js";
 import { Keyboard } from "./keyboard.js";
 import { SafeBasin } from "./basin.js";
 import { SweepMap } from "./map.js";
-import { Take } from "./take.js";
+import { ExportPanel } from "./export.js";
 import { Controls, caseGroups, notOfAPoint } from "./controls.js";
 import { Link } from "./link.js";
 import { LongRun } from "./long-run.js";
-import { note, openStructure, opening, paintedSince, purposeAndSkip, themeButton } from "./page.js";
+import { acceptCaseFiles, note, openStructure, paintedSince, purposeAndSkip, themeButton } from "./page.js";
 import { onResize } from "./plot.js";
 import { Playback } from "./playback.js";
-import { Pins } from "./pins.js";
+import { PinnedRuns } from "./pinned-runs.js";
 import { Proof } from "./proof.js";
 import { Questions } from "./questions.js";
 import { Run } from "./run.js";
 import { sceneShapes } from "./scene.js";
-import { Stage } from "./stage.js";
+import { SceneView } from "./scene-view.js";
 import { State } from "./state.js";
-import { chooseTheme, chosenTheme, colours, stillness } from "./theme.js";
+import { chooseTheme, chosenTheme, colours, reducedMotion } from "./theme.js";
 import { PLANES, Trajectory } from "./trajectory.js";
 import { Transport } from "./transport.js";
-import { fixed, modeName } from "./words.js";
+import { fixed, modeName } from "./formatting.js";
 
 /** Rows of the motion that are asked for: few enough to come at once, and more for a long run that stays. */
 const SAMPLES = { first: 1200, finer: 3000 };
@@ -33,11 +33,11 @@ const LONG_T = 20;
 const PURPOSE_READ = "snapload-purpose-read";
 const REST_MS = 300;
 /** So long after a picture nobody drags any more. */
-const LOOK_UP_MS = 100;
+const TABLES_MS = 100;
 /** So long at the most a picture has no words. */
-const TELL_MS = 250;
+const DESCRIBE_MS = 250;
 /** What says something of the run. */
-const TOLD = ["summary", "said", "seal", "prove-said", "section-plot", "section-said", "question-words"];
+const DESCRIPTIONS = ["summary", "said", "seal", "prove-said", "section-plot", "section-said", "question-words"];
 
 chooseTheme(chosenTheme());
 
@@ -46,18 +46,18 @@ class Page {
     this.state = new State(schema);
     this.run = null;
     /** The questions of the run that is shown, of that which the words tell, and of that in the table of events. */
-    this.shown = this.told = this.tabled = null;
+    this.shown = this.described = this.tabled = null;
     this.hover = null;
     /** The time that was looked at when a run came that ends before it. */
     this.keptTime = null;
     this.link = new Link(this.state, {
-      onBroken: (parts) => note(`Not understood in the link, and left out: ${parts.join(", ")}`),
+      onBroken: (parts) => note(`Not understood in the link, and ignored: ${parts.join(", ")}`),
     });
     this.playback = new Playback(this.state, () => this.run);
-    this.stage = new Stage(this.state, this.playback);
-    this.hands = new Hands(this.stage, this.state, {
+    this.sceneView = new SceneView(this.state, this.playback);
+    this.handles = new Handles(this.sceneView, this.state, {
       onChange: (change) => this.changed(change),
-      onLetGo: () => this.playback.play(),
+      onRelease: () => this.playback.play(),
     });
     this.transport = new Transport(this.state, this.playback);
     this.playback.onPlaying = (playing) => {
@@ -82,12 +82,12 @@ class Page {
       onZoom: (window) => this.state.set({ window }),
     });
     this.events = new EventTable({ onJump: jump });
-    const study = { colours, own: (name) => this.#own(name), onPick: (values) => this.#begin(values) };
+    const study = { colours, own: (name) => this.#own(name), onPick: (values) => this.#startFrom(values) };
     this.map = new SweepMap(this.state, study);
     this.basin = new SafeBasin(this.state, study);
-    this.exports = new Take({
+    this.exports = new ExportPanel({
       state: this.state,
-      stage: this.stage,
+      sceneView: this.sceneView,
       now: () => this.run,
       question: () => ({ values: this.state.values, ghost: null, samples: SAMPLES.first }),
       address: () => this.link.address,
@@ -96,16 +96,16 @@ class Page {
         caption: (run, t) => `t = ${fixed(t, 2)} T · ${modeName(run.tautAt(t))}`,
       },
     });
-    this.pins = new Pins(this.state, () => this.run, { onChange: () => this.drawAll() });
+    this.pins = new PinnedRuns(this.state, () => this.run, { onChange: () => this.drawAll() });
     this.proof = new Proof();
     this.questions = new Questions(schema.questions, { values: () => this.state.values });
     this.longRun = new LongRun({
       values: () => this.state.values,
-      onPick: (start) => this.#begin(start),
+      onPick: (start) => this.#startFrom(start),
     });
     this.trajectory = new Trajectory($("trajectory"), { colours, onJump: jump, onHover: hover });
     this.runner = new Runner({
-      onAnswer: (answer, since, question) => this.take(answer, since, question),
+      onAnswer: (answer, since, question) => this.receive(answer, since, question),
       onError: (error, question) => this.fail(error, question),
     });
     this.state.listen((changed) => this.follow(changed));
@@ -122,12 +122,12 @@ class Page {
     this.link.read();
     this.ask();
     // Who opens the page sees at once that it moves; a link is shown at its own time.
-    this.playsAtOnce = fresh && !stillness.matches;
+    this.playsAtOnce = fresh && !reducedMotion.matches;
     onResize(() => this.redraw());
   }
 
   /** Some values are others from now on: it begins anew, with a step to go back. */
-  #begin(values) {
+  #startFrom(values) {
     this.state.set({ values: { ...this.state.values, ...values }, t: 0, window: null });
     this.link.write({ now: true });
   }
@@ -151,11 +151,11 @@ class Page {
     if (asked === this.asked) return;
     this.asked = asked;
     clearTimeout(this.refining);
-    clearTimeout(this.later);
+    clearTimeout(this.filling);
     this.runner.ask({ values, ghost, samples: SAMPLES.first }, since);
   }
 
-  take(answer, since, question) {
+  receive(answer, since, question) {
     this.run = new Run(answer);
     this.question = question;
     this.shown = keyOf(question);
@@ -163,42 +163,42 @@ class Page {
     if (latest) {
       put($("failed"), { hidden: true });
       this.controls.clearError();
-      if (question.ghost === this.state.ghost) this.stage.refuseGhost("");
+      if (question.ghost === this.state.ghost) this.sceneView.refuseGhost("");
     }
-    this.stage.take(this.run);
-    this.transport.take(this.run);
+    this.sceneView.setRun(this.run);
+    this.transport.setRun(this.run);
     this.#keepTime();
     if (this.state.window?.[0] >= this.run.tEnd) this.state.set({ window: null });
     this.drawAll();
     this.#drawNow();
-    this.#markTold();
+    this.#markStale();
     if (this.playsAtOnce) this.playback.play();
     this.playsAtOnce = false;
     if (question.samples === SAMPLES.first) this.afterwards(since, latest);
-    else this.tell();
+    else this.describe();
   }
 
   /** Says in words what the picture shows; once of each run, however often it is asked to. */
-  tell() {
-    clearTimeout(this.telling);
-    this.telling = null;
+  describe() {
+    clearTimeout(this.describing);
+    this.describing = null;
     const { run, question } = this;
-    if (this.toldRun === run) return;
-    this.toldRun = run;
-    this.told = this.shown;
-    this.stage.tell();
-    this.proof.take(question.values);
-    this.longRun.take(question.values);
-    this.questions.take(question.values);
-    this.#markTold();
-    this.map.takeRun();
-    this.basin.takeRun();
+    if (this.describedRun === run) return;
+    this.describedRun = run;
+    this.described = this.shown;
+    this.sceneView.describe();
+    this.proof.setValues(question.values);
+    this.longRun.setValues(question.values);
+    this.questions.setValues(question.values);
+    this.#markStale();
+    this.map.runChanged();
+    this.basin.runChanged();
     if (this.asked === this.shown) this.controls.show(run.values);
   }
 
   /** What is said of the run before is pale beside a newer picture. */
-  #markTold() {
-    for (const id of TOLD) $(id).classList.toggle("stale", this.told !== this.shown);
+  #markStale() {
+    for (const id of DESCRIPTIONS) $(id).classList.toggle("stale", this.described !== this.shown);
   }
 
   /** A shorter run is shown at its end; a longer one after it, at the time that was looked at before. */
@@ -210,23 +210,23 @@ class Page {
 
   /** What follows the picture: how long it took, its words, what is looked up in it, and more rows of a long run. */
   afterwards(since, latest) {
-    paintedSince(since, () => this.tell());
+    paintedSince(since, () => this.describe());
     // Where pictures come faster than they are painted, or nobody looks at the page and none is.
-    this.telling ??= setTimeout(() => this.tell(), TELL_MS);
-    this.#lookUp();
+    this.describing ??= setTimeout(() => this.describe(), DESCRIBE_MS);
+    this.#fillTables();
     if (latest) this.#refine();
   }
 
   /** What is looked up rather than seen follows when the values rest. */
-  #lookUp() {
-    clearTimeout(this.later);
-    this.later = setTimeout(() => {
+  #fillTables() {
+    clearTimeout(this.filling);
+    this.filling = setTimeout(() => {
       if (!this.run) return;
-      this.events.take(this.run);
+      this.events.setRun(this.run);
       this.tabled = this.shown;
       this.#showEvents(true);
-      this.exports.take(this.run);
-    }, LOOK_UP_MS);
+      this.exports.setRun(this.run);
+    }, TABLES_MS);
   }
 
   /** More rows of a long run that stays, above all where it is looked at. */
@@ -244,10 +244,10 @@ class Page {
   fail(error, question) {
     if (error.key === "ghost") return this.failGhost(error, question);
     this.controls.showError(error);
-    this.#lookUp();
+    this.#fillTables();
     // A link may begin with values that can not be run: then there is the case of the start to look at.
-    const shown = this.run ? "the last values that could be run" : `the case of the start, ${this.state.schema.start.name}`;
-    $("failed").textContent = `Not run: ${error.message}\nThe picture is that of ${shown}.`;
+    const shown = this.run ? "the last values that could be run" : `the first case of the page, ${this.state.schema.start.name}`;
+    $("failed").textContent = `Not run: ${error.message}\nThe picture shows ${shown}.`;
     $("failed").hidden = false;
     if (!this.run) {
       this.runner.ask(
@@ -259,7 +259,7 @@ class Page {
 
   /** A ghost that can not be run is no reason not to show the run. */
   failGhost(error, question) {
-    this.stage.refuseGhost(error.message);
+    this.sceneView.refuseGhost(error.message);
     this.controls.clearError();
     $("failed").hidden = true;
     // A newer question waits already, and must not be put aside for this one.
@@ -285,7 +285,7 @@ class Page {
     if (changed.has("values") || changed.has("map")) this.map.follow();
     if (changed.has("values") || changed.has("basin")) this.basin.follow();
     put($("axes"), { value: this.state.plane });
-    this.stage.showChoices();
+    this.sceneView.showChoices();
     this.transport.show();
     this.link.write();
   }
@@ -322,7 +322,7 @@ class Page {
   #drawNow() {
     cancelAnimationFrame(this.framed);
     this.framed = null;
-    this.stage.draw();
+    this.sceneView.draw();
     this.charts.cursor(this.state.t, this.hover);
     this.trajectory.cursor(this.state.t, this.hover);
     this.transport.show();
@@ -341,11 +341,11 @@ class Page {
     const { start, cases } = this.state.schema;
     const own = cases.some(({ code }) => code === start.name) ? [] : [new Option(start.name, start.name)];
     const thesis = document.createElement("optgroup");
-    thesis.label = "The thesis";
+    thesis.label = "Cases of the thesis";
     for (const { code, title, happens } of cases) {
       thesis.append(new Option(happens ? `${code}: ${happens} (${title})` : `${code}  ${title}`, code));
     }
-    select.append(...own, thesis, new Option("values of your own", ""));
+    select.append(...own, thesis, new Option("your own values", ""));
     select.addEventListener("change", () => {
       if (!select.value) return this.showCase();
       const { values } = cases.find(({ code }) => code === select.value) ?? start;
@@ -372,7 +372,7 @@ class Page {
 
   tools() {
     themeButton(() => this.redraw());
-    opening((file) => this.open(file));
+    acceptCaseFiles((file) => this.open(file));
     purposeAndSkip(PURPOSE_READ);
     for (const [name, { words }] of Object.entries(PLANES)) $("axes").append(new Option(words, name));
     $("axes").addEventListener("change", () => this.state.set({ plane: $("axes").value }));

@@ -1,6 +1,6 @@
 // A map as it is taken away: a table, and the command that computes it.
 
-import { plain } from "./words.js";
+import { fieldText } from "./formatting.js";
 
 /** The map as a table: a row a cell, empty where there is nothing. */
 export function mapCsv({ x, y, xs, ys, ...cells }, columns) {
@@ -18,10 +18,10 @@ export const sweepLine = ({ map, values }) => studyLine("sweep", values, [map.x,
 /** The command of a study over some axes, with the values that they leave, and more options. */
 export function studyLine(verb, values, axes, more) {
   const held = Object.entries(values).filter(([name]) => !axes.some(({ key }) => key === name));
-  const set = held.map(([name, value]) => `--set ${name}=${plain(value)}`);
+  const set = held.map(([name, value]) => `--set ${name}=${fieldText(value)}`);
   const vary = axes.map((axis) => `--vary ${rangeText(axis)}`);
   return [`snapload ${verb}`, ...set, ...vary, more].join(" ");
 }
 
 /** The values of an axis as the command takes them. */
-export const rangeText = ({ key, low, high, count }) => `${key}=${plain(low)}:${plain(high)}:${count}`;
+export const rangeText = ({ key, low, high, count }) => `${key}=${fieldText(low)}:${fieldText(high)}:${count}`;

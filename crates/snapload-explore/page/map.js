@@ -18,9 +18,9 @@ import {
 import { $, put } from "./dom.js";
 import { mapCsv, sweepLine } from "./map-files.js";
 import { prepare } from "./plot.js";
-import { copy, save } from "./take.js";
+import { copy, save } from "./export.js";
 import { endColour } from "./theme.js";
-import { number, prose, reasonText } from "./words.js";
+import { number, withSymbols, reasonText } from "./formatting.js";
 
 /** Values that change while the map is open set it going again after so long a rest. */
 const REST_MS = 500;
@@ -41,7 +41,7 @@ export class SweepMap {
     this.box = $("map-box");
     this.canvas = $("map");
     this.numeric = state.schema.keys.filter((key) => key.kind.type === "number");
-    this.axes = Object.entries({ x: "Across", y: "Up" }).map(
+    this.axes = Object.entries({ x: "Horizontal", y: "Vertical" }).map(
       ([side, legend]) =>
         new AxisFields(`map-${side}`, this.numeric, {
           legend,
@@ -53,7 +53,7 @@ export class SweepMap {
     );
     for (const column of state.schema.map.filter(({ name, kind }) => name === "reason" || kind === "number")) {
       const unit = column.unit ? ` [${column.unit}]` : "";
-      $("map-colour").append(new Option(prose(column.meaning) + unit, column.name));
+      $("map-colour").append(new Option(withSymbols(column.meaning) + unit, column.name));
     }
     $("map-colour").addEventListener("change", () =>
       state.set({ map: { ...state.map, colour: $("map-colour").value } }),
@@ -127,7 +127,7 @@ export class SweepMap {
     } catch (error) {
       if (error.name === "AbortError") return;
       this.#progress(
-        error instanceof Refused ? error.message : "The map ended early. Is snapload explore still running?",
+        error instanceof Refused ? error.message : "The map is incomplete. Is snapload explore still running?",
       );
     } finally {
       if (this.controller === controller) {
@@ -159,7 +159,7 @@ export class SweepMap {
   }
 
   /** The run is another: where it lies may follow from it. */
-  takeRun() {
+  runChanged() {
     if (this.cells && String(this.#place()) !== this.placed) this.draw();
   }
 
@@ -281,7 +281,7 @@ export class SweepMap {
     const sure = this.#uncertain(k) ? ", not certain" : "";
     const more = ["reason", "t", "impacts"].includes(colour)
       ? ""
-      : `, ${prose(this.#column(colour).meaning)} ${number(cells[colour][k])}`;
+      : `, ${withSymbols(this.#column(colour).meaning)} ${number(cells[colour][k])}`;
     return `${place}${reasonText(cells.reason[k])} at t = ${number(cells.t[k])}, ${cells.impacts[k]} impacts${more}${sure}`;
   }
 
@@ -310,7 +310,7 @@ export class SweepMap {
     this.#legend(colours);
     this.canvas.setAttribute(
       "aria-label",
-      `Map of ${prose(this.#column(state.map.colour).meaning)} over ${x.key} and ${y.key}, ${cells.done} of ${cells.count} runs. ` +
+      `Map of ${withSymbols(this.#column(state.map.colour).meaning)} over ${x.key} and ${y.key}, ${cells.done} of ${cells.count} runs computed. ` +
         "Arrow keys move, Enter runs the cell.",
     );
   }
@@ -366,11 +366,11 @@ export class SweepMap {
       parts.unshift(
         `<span>${number(low, 3)}</span>`,
         `<i class="bar-key" style="background:linear-gradient(90deg,${CIVIDIS.join()})"></i>`,
-        `<span>${number(high, 3)}${log ? ", by decades" : ""}</span>`,
+        `<span>${number(high, 3)}${log ? ", logarithmic" : ""}</span>`,
       );
     }
     const unsure = cells.reason.filter((_, k) => this.#uncertain(k)).length;
-    if (unsure) parts.push(`<span><i class="swatch hatched"></i>not certain, as rounding may decide (${unsure})</span>`);
+    if (unsure) parts.push(`<span><i class="swatch hatched"></i>not certain: rounding may decide how they end (${unsure})</span>`);
     const html = parts.join("");
     if ($("map-legend").innerHTML !== html) $("map-legend").innerHTML = html;
   }

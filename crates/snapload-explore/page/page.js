@@ -2,7 +2,7 @@
 
 import { fetchStructureFile } from "./api.js";
 import { $ } from "./dom.js";
-import { chooseTheme, chosenTheme, keep, kept, onSystemScheme, THEMES } from "./theme.js";
+import { chooseTheme, chosenTheme, store, stored, onSystemScheme, THEMES } from "./theme.js";
 
 /** Says something of the page as a whole; with no text, that there is nothing to say. */
 export function note(text) {
@@ -41,10 +41,10 @@ export function themeButton(redraw) {
 
 /** The line of purpose, closed for good under a name; and the link to the scene. */
 export function purposeAndSkip(name) {
-  $("purpose").hidden = kept(name) === "yes";
+  $("purpose").hidden = stored(name) === "yes";
   $("purpose-close").addEventListener("click", () => {
     $("purpose").hidden = true;
-    keep(name, "yes");
+    store(name, "yes");
   });
   // The address belongs to the state: a link within the page must not write into it.
   $("skip").addEventListener("click", (event) => {
@@ -65,7 +65,7 @@ export async function openStructure(file) {
 }
 
 /** A case file is opened by its button, or by dropping it anywhere. What is wrong with it is said. */
-export function opening(onFile) {
+export function acceptCaseFiles(onFile) {
   const open = async (file) => {
     if (!file) return;
     try {

@@ -1,7 +1,7 @@
 // Axes on a canvas: what the charts, the trajectory and the map have in common.
 
-import { Pen } from "./pen.js";
-import { fixed, number } from "./words.js";
+import { SimplifiedLine } from "./simplified-line.js";
+import { fixed, number } from "./formatting.js";
 
 /** Round values across a range, about so many, but two at the least: one alone gives no scale. */
 export function ticks(low, high, about) {
@@ -143,16 +143,16 @@ export const NEAR_PX = 0.4;
  * @param {(row: number) => boolean} there
  */
 export function drawColumn(context, frame, xs, ys, from = 0, to = xs.length, there = () => true) {
-  const pen = new Pen(context);
+  const line = new SimplifiedLine(context);
   let drawing = false;
   context.beginPath();
   for (let i = from; i < to; i += 1) {
     const drawn = there(i);
-    if (drawn && drawing) pen.lineTo(frame.x(xs[i]), frame.y(ys[i]));
-    else if (drawn) pen.moveTo(frame.x(xs[i]), frame.y(ys[i]));
+    if (drawn && drawing) line.lineTo(frame.x(xs[i]), frame.y(ys[i]));
+    else if (drawn) line.moveTo(frame.x(xs[i]), frame.y(ys[i]));
     drawing = drawn;
   }
-  pen.lift();
+  line.finish();
   context.stroke();
 }
 

@@ -2,7 +2,7 @@
 
 import { fetchProof } from "./api.js";
 import { $ } from "./dom.js";
-import { number, prose, sentence } from "./words.js";
+import { number, withSymbols, sentence } from "./formatting.js";
 
 /** A tick where the proof reaches the end, a bar where it does not. */
 const SIGNS = { whole: "M4.6 8.3 7 10.7 11.5 5.6", part: "M4.8 8h6.4" };
@@ -15,7 +15,7 @@ export class Proof {
   }
 
   /** The values of the run that is shown now. */
-  take(values) {
+  setValues(values) {
     const same = JSON.stringify(values) === JSON.stringify(this.values);
     this.values = values;
     if (same) return;
@@ -57,11 +57,11 @@ export class Proof {
   #seal({ proved, t, leaves, words, further, certificate }) {
     const reach = proved ? "proved to the end" : `proved up to t = ${number(Number(t), 5)}`;
     // What is shown is the run of doubles, and not what is proved.
-    const title = leaves === null ? reach : `${reach}; this run leaves the proof at impact ${leaves}`;
+    const title = leaves === null ? reach : `${reach}; this run departs from the proof at impact ${leaves}`;
     $("seal").classList.toggle("whole", proved);
     $("seal-sign").setAttribute("d", proved ? SIGNS.whole : SIGNS.part);
     $("seal-title").textContent = title;
-    $("seal-words").textContent = prose(words).split("\n").map(sentence).join("\n");
+    $("seal-words").textContent = withSymbols(words).split("\n").map(sentence).join("\n");
     $("seal-further").hidden = !further;
     $("seal-further").querySelector("code").textContent = further ?? "";
     this.file = URL.createObjectURL(new Blob([certificate], { type: "application/json" }));

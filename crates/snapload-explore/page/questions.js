@@ -2,8 +2,8 @@
 
 import { fetchAnswer } from "./api.js";
 import { $ } from "./dom.js";
-import { Asking } from "./long-run.js";
-import { plain, prose, sentence, unitText } from "./words.js";
+import { CancellableRequest } from "./long-run.js";
+import { fieldText, withSymbols, sentence, unitText } from "./formatting.js";
 
 export class Questions {
   /** @param {{ name: string, asks: string, options: any[] }[]} questions @param {{ values: () => object }} page */
@@ -11,7 +11,7 @@ export class Questions {
     this.questions = questions;
     $("question").replaceChildren(...questions.map(({ name }) => new Option(name, name)));
     $("question").addEventListener("change", () => this.#choose());
-    this.asking = new Asking("question-ask", "question-said", async (signal) => {
+    this.asking = new CancellableRequest("question-ask", "question-said", async (signal) => {
       this.#show("");
       const asked = { values: page.values(), options: this.#options() };
       const { words } = await fetchAnswer(this.chosen.name, asked, signal);
@@ -22,7 +22,7 @@ export class Questions {
   }
 
   /** The values are others now: what is shown is not theirs. */
-  take(values) {
+  setValues(values) {
     const key = JSON.stringify(values);
     if (key === this.key) return;
     this.key = key;
@@ -34,7 +34,7 @@ export class Questions {
     this.asking.stop();
     this.#show("");
     this.chosen = this.questions.find(({ name }) => name === $("question").value);
-    $("question-asks").textContent = sentence(prose(this.chosen.asks));
+    $("question-asks").textContent = sentence(withSymbols(this.chosen.asks));
     this.fields = this.chosen.options.map(field);
     $("question-options").replaceChildren(...this.fields.map(({ label }) => label));
   }
@@ -52,7 +52,7 @@ export class Questions {
 /** The field of an option, and how its value is read. What can be none is sent as it is: the program says why. */
 function field({ name, unit, meaning, kind, default: usual }) {
   const label = document.createElement("label");
-  label.title = prose(meaning);
+  label.title = withSymbols(meaning);
   label.append(`${name.replaceAll("_", " ")}${unitText(unit) && ` [${unitText(unit)}]`} `);
   /** @type {any} */
   const input = document.createElement(kind.type === "choice" ? "select" : "input");
@@ -64,7 +64,7 @@ function field({ name, unit, meaning, kind, default: usual }) {
   }
   if (kind.type === "choice") input.append(...kind.options.map((word) => new Option(word, word)));
   else input.className = "field";
-  input.value = plain(usual);
+  input.value = fieldText(usual);
   const isNumber = kind.type === "number" || kind.type === "count";
   return { name, label, value: () => (isNumber ? typed(input.value.trim()) : input.value || null) };
 }

@@ -1,12 +1,12 @@
 // The scene as an engineer would sketch it: a list of shapes for a run at a time.
 
 import { eventWords } from "./events.js";
-import { hang } from "./hang.js";
+import { slackLine } from "./slack-line.js";
 import { magnifier } from "./magnifier.js";
-import { Pen } from "./pen.js";
+import { SimplifiedLine } from "./simplified-line.js";
 import { arrow } from "./shapes.js";
 import { mix } from "./theme.js";
-import { fixed, modeName, number } from "./words.js";
+import { fixed, modeName, number } from "./formatting.js";
 
 /** How long a snap stays to be seen while the picture plays, in seconds of watching. */
 const AFTERGLOW_S = 0.45;
@@ -66,7 +66,7 @@ export function sceneShapes(run, t, options) {
   const { colours } = options;
   const cam = options.camera ?? camera(run, options);
   const moment = run.at(t);
-  const snaps = fresh(run, t, options);
+  const snaps = recentSnaps(run, t, options);
   const ghost = run.ghostAt?.at(Math.min(t, run.ghost.end.t));
   const close = options.view === "close";
   const paths = [
@@ -85,8 +85,8 @@ export function sceneShapes(run, t, options) {
   return [
     ...sea(run, t, cam, options),
     ...(close ? [] : paths),
-    ...(ghost ? neighbour(run, ghost, cam, options) : []),
-    ...run.geometry.cables.flatMap((cable, i) => line(run, i, moment, cam, options, snaps)),
+    ...(ghost ? ghostShapes(run, ghost, cam, options) : []),
+    ...run.geometry.cables.flatMap((cable, i) => cableShapes(run, i, moment, cam, options, snaps)),
     ...bodyShapes(run, moment, cam, { fill: colours.body, stroke: colours["body-edge"], width: 1.6 }),
     // From close by, the body is larger than its path, which would be hidden.
     ...(close ? paths : []),
@@ -103,7 +103,7 @@ export function sceneShapes(run, t, options) {
  * Impacts that are still to be seen at t, with how much of them is left (1 at the instant itself). A picture that
  * stands shows what is so at its instant, and no afterglow of what was before.
  */
-function fresh(run, t, { playing, speed }) {
+function recentSnaps(run, t, { playing, speed }) {
   const span = playing ? AFTERGLOW_S * speed : 0;
   const left = (i) => (span > 0 ? 1 - (t - run.impacts.t[i]) / span : 1);
   const all = run.impactsWithin(t - span, t).map((i) => ({ i, left: left(i) }));
@@ -187,13 +187,13 @@ function path(columns, t, cam, style, horizon, past) {
   const piece = (from, to, rest) => {
     const points = [];
     const add = (px, py) => points.push([px, py]);
-    const pen = new Pen({ moveTo: add, lineTo: add });
+    const line = new SimplifiedLine({ moveTo: add, lineTo: add });
     for (let i = Math.max(from, 0); i < to; i += 1) {
       const [px, py] = cam.place([x[i], y[i]]);
-      if (i > from && points.length) pen.lineTo(px, py);
-      else pen.moveTo(px, py);
+      if (i > from && points.length) line.lineTo(px, py);
+      else line.moveTo(px, py);
     }
-    pen.lift();
+    line.finish();
     return points.length > 1 ? [{ points, ...style, ...rest }] : [];
   };
   const old = Math.max(recent, 0);
@@ -245,9 +245,9 @@ function bodyShapes(run, moment, cam, style) {
   ];
 }
 
-function neighbour(run, ghost, cam, { colours, picture }) {
+function ghostShapes(run, ghost, cam, { colours, picture }) {
   const lines = run.geometry.cables.map((cable) => ({
-    points: hanging(cable, ghost, cam, picture),
+    points: slackPoints(cable, ghost, cam, picture),
     stroke: colours.ghost,
     width: 1.1,
     alpha: 0.6,
@@ -257,13 +257,13 @@ function neighbour(run, ghost, cam, { colours, picture }) {
 }
 
 /** A line from its anchor to its fairlead. On the page it hangs downwards; in the real picture the floor bears it. */
-function hanging(cable, moment, cam, picture) {
+function slackPoints(cable, moment, cam, picture) {
   const from = cam.place(cable.anchor);
   const to = cam.place(turned(cable.arm, moment));
-  return hang(from, to, cable.length * cam.scale, picture === "real" ? from[1] : Infinity);
+  return slackLine(from, to, cable.length * cam.scale, picture === "real" ? from[1] : Infinity);
 }
 
-function line(run, i, moment, cam, { colours, picture }, snaps) {
+function cableShapes(run, i, moment, cam, { colours, picture }, snaps) {
   const cable = run.geometry.cables[i];
   const colour = colours[`cable-${i + 1}`];
   const from = cam.place(cable.anchor);
@@ -275,7 +275,7 @@ function line(run, i, moment, cam, { colours, picture }, snaps) {
     const to = cam.place(turned(cable.arm, moment));
     return [{ points: [from, to], stroke: mix(colours.taut, colours.strained, part), width: 2.2 + 5 * part }, anchor];
   }
-  const hung = { points: hanging(cable, moment, cam, picture), stroke: colour, width: 1.5 };
+  const hung = { points: slackPoints(cable, moment, cam, picture), stroke: colour, width: 1.5 };
   // At the instant itself the line is straight, and nothing hangs.
   /** @type {object[]} */
   const shapes = snap?.left === 1 ? [anchor] : [hung, anchor];
@@ -384,7 +384,7 @@ function labels(run, cam, { width, height, colours, view }) {
   }
   if (inside(surface)) {
     const clear = waveHeight(run, cam) + (below > 0 ? 17 : 7);
-    shapes.push({ ...text, text: "sea surface (a sketch)", at: [12, surface + below * Math.max(clear, below > 0 ? 30 : 22)] });
+    shapes.push({ ...text, text: "sea surface (schematic)", at: [12, surface + below * Math.max(clear, below > 0 ? 30 : 22)] });
   }
   return shapes;
 }
@@ -429,6 +429,6 @@ export function sceneWords(run, t) {
   const happens = eventWords(run, t);
   return (
     `At t = ${fixed(t, 3)} T the body is at x = ${x}, y = ${y}, θ = ${theta}; ${modeName(moment.taut)}: ${lines}` +
-    `${happens ? `; here: ${happens}` : ""}.`
+    `${happens ? `; at this instant: ${happens}` : ""}.`
   );
 }

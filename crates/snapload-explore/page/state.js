@@ -108,7 +108,7 @@ export class State extends Watched {
   /**
    * Takes the state of a fragment, whole: what it does not name is as in the beginning. Gives what could not be read.
    */
-  takeFragment(fragment) {
+  readFragment(fragment) {
     if (!fragment) {
       this.set({ ...BEGINNING, values: { ...this.schema.start.values } });
       return [];

@@ -3,7 +3,7 @@
 import { drawColumn, drawMarks, span } from "./plot.js";
 import { TimeCharts, above, rows } from "./time-charts.js";
 import { lineColour } from "./theme.js";
-import { fixed, number, round } from "./words.js";
+import { fixed, number, round } from "./formatting.js";
 
 const DEGREES = 180 / Math.PI;
 /** The breaking load is in the picture where tensions come to this part of it. */
@@ -53,7 +53,7 @@ export const breakingLoads = (run) => [
   ...new Set(run.lines.flatMap(({ breaking_load_n }) => (breaking_load_n ? [breaking_load_n / 1e3] : []))),
 ];
 
-/** The peaks of the snaps within the stretch that is shown. */
+/** The peaks of the snaps within the interval that is shown. */
 const peaksWithin = (run, [from, to]) => {
   const { t, peak } = run.snaps;
   return peak.filter((value, i) => value !== null && t[i] >= from && t[i] <= to);
@@ -103,7 +103,7 @@ export function snapWords(run, i) {
   const { t, line: lines, speed, peak, utilisation, jolt } = run.snaps;
   const what = jolt[i] ? "jolt of" : "snap of";
   const pulls = peak[i] === null ? "" : ` · about ${round(peak[i])} kN`;
-  const part = utilisation[i] === null ? "" : `, ${fixed(utilisation[i], 2)} of breaking`;
+  const part = utilisation[i] === null ? "" : `, ${fixed(utilisation[i], 2)} of the breaking load`;
   return `${what} line ${lines[i]}${pulls}${part} · ${number(speed[i], 3)} m/s · t ${fixed(t[i], 2)} s`;
 }
 
@@ -112,7 +112,7 @@ const CHARTS = [
     id: "surface",
     symbol: "η",
     unit: "m",
-    name: "Water above the place of rest",
+    name: "Water surface above the place of rest",
     range: (run) => {
       const most = run.waves.reduce((sum, [amplitude]) => sum + amplitude, 0);
       const likely = 2.6 * Math.sqrt(run.waves.reduce((sum, [a]) => sum + a * a, 0));
@@ -169,7 +169,7 @@ const CHARTS = [
         : moment.tensions.map((T, i) => `${i + 1}: ${round(T)}`).join("  ") + " kN",
     marks: ({ snaps }) => ({ t: snaps.t, y: snaps.peak }),
     markWords: snapWords,
-    words: (run) => `at most ${round(run.mostTension)} kN while taut; ${run.snaps.all} snaps`,
+    words: (run) => `at most ${round(run.mostTension)} kN while taut; ${run.snapsInWords}`,
   },
 ];
 

@@ -1,6 +1,6 @@
 // The keys of a structure in groups, those first that an engineer turns.
 
-import { plain } from "./words.js";
+import { fieldText } from "./formatting.js";
 
 const WAVES = { wave: "Regular wave", sea: "Irregular sea" };
 /** Of one line: what no other shares with it. */
@@ -34,7 +34,7 @@ export function structureGroups(state) {
     { title: "Run", keys: under("run"), open: wide },
     { title: "Body", keys: under("body"), open: false },
     { title: "Site", keys: under("site"), open: false },
-    { title: "Checks by your rule", keys: under("design"), open: false },
+    { title: "Design checks", keys: under("design"), open: false },
   ];
 }
 
@@ -60,13 +60,13 @@ function anotherSea(state) {
 
 /** Why a key can not be given as things are. */
 export function whyNot(name, state) {
-  if (name.startsWith("body.added_mass") && state.floats) return "the file of [float] has it";
-  if (name === "body.height" && state.value("body.shape") !== "rectangle") return "a circle has its width alone";
+  if (name.startsWith("body.added_mass") && state.floats) return "[float] gives the added mass";
+  if (name === "body.height" && state.value("body.shape") !== "rectangle") return "a circle has only a width";
   return undefined;
 }
 
 /** What is changed in words, such as `wave.height = 2.5`. */
 export const changesInWords = (values) =>
   Object.entries(values)
-    .map(([name, value]) => `${name} = ${plain(value)}`)
+    .map(([name, value]) => `${name} = ${fieldText(value)}`)
     .join(", ");

@@ -1,8 +1,8 @@
-// A structure's run as the server answers it: where everything is at any time of the stretch that is shown, in metres,
+// A structure's run as the server answers it: where everything is at any time of the interval that is shown, in metres,
 // kilonewtons and seconds, z up from the still water.
 
 import { ends, hermite, lastAtOrBefore } from "./run.js";
-import { number } from "./words.js";
+import { number } from "./formatting.js";
 
 const COORDINATES = [
   ["x", "vx", "x"],
@@ -87,8 +87,8 @@ export class StructureRun {
     this.hardest = this.hardness.reduce((most, value) => Math.max(most, value), 0);
   }
 
-  /** Shows lines that stretch beside. */
-  beside(answer) {
+  /** The same run on lines that stretch, to be shown beside it; null for none. */
+  setElastic(answer) {
     this.elastic = answer;
     this.elasticAt = answer && answer.motion.t.length ? new StructureMotion(answer.motion) : null;
   }
@@ -138,6 +138,11 @@ export class StructureRun {
     const found = [];
     for (let i = this.latestSnap(to); i >= 0 && this.snaps.t[i] >= from; i -= 1) found.push(i);
     return found;
+  }
+
+  /** How many snaps of 1 cm/s or more there are, and jolts among them. */
+  get snapsInWords() {
+    return `${this.snaps.all} ${this.snaps.jolt.includes(true) ? "snaps and jolts" : "snaps"}`;
   }
 
   /** What keys come to that the case leaves out, as far as the answer tells. */

@@ -1,10 +1,10 @@
 // A structure to scale, in metres: the water's surface as linear theory has it, the body, its lines, and their snaps.
 
-import { hang } from "./hang.js";
+import { slackLine } from "./slack-line.js";
 import { turned } from "./scene.js";
 import { arrow } from "./shapes.js";
 import { lineColour, mix } from "./theme.js";
-import { fixed, number, round } from "./words.js";
+import { fixed, number, round } from "./formatting.js";
 
 /** How long a snap stays to be seen while the picture plays, in seconds of watching. */
 const AFTERGLOW_S = 0.45;
@@ -54,7 +54,7 @@ export function structureShapes(run, t, options) {
   const cam = options.camera ?? structureCamera(run, options);
   const { colours } = options;
   const moment = run.at(t);
-  const snaps = fresh(run, t, options);
+  const snaps = recentSnaps(run, t, options);
   const elastic = run.elasticAt?.at(t);
   const { lines } = run.geometry;
   return [
@@ -69,7 +69,7 @@ export function structureShapes(run, t, options) {
       stroke: colours["body-edge"],
       width: 1.4,
     })),
-    ...(elastic ? besideShapes(run, elastic, cam, colours) : []),
+    ...(elastic ? elasticShapes(run, elastic, cam, colours) : []),
     ...snaps.flatMap((snap) => snapShapes(run, snap, moment, cam, options)),
     ...lines.flatMap((line, i) => labelShapes(run, i, moment, cam, options)),
     ...scaleBar(run, cam, options),
@@ -77,7 +77,7 @@ export function structureShapes(run, t, options) {
 }
 
 /** Impacts that are still to be seen at t, the latest of each line, with how much of them is left. */
-function fresh(run, t, { playing, speed }) {
+function recentSnaps(run, t, { playing, speed }) {
   const span = playing ? AFTERGLOW_S * speed : 0;
   const seen = new Set();
   return run.snapsWithin(t - span, t).flatMap((i) => {
@@ -166,17 +166,17 @@ function bodyShapes(run, moment, cam, style) {
 }
 
 /** The same on lines that stretch. */
-function besideShapes(run, moment, cam, colours) {
+function elasticShapes(run, moment, cam, colours) {
   const lines = run.geometry.lines.map((line) => {
     const [from, to] = [cam.place(line.anchor), cam.place(turned(line.arm, moment))];
-    const points = hang(from, to, line.length * cam.scale, cam.level(-run.geometry.depth));
+    const points = slackLine(from, to, line.length * cam.scale, cam.level(-run.geometry.depth));
     return { points, stroke: colours.ghost, width: 1.2, alpha: 0.75, dash: [5, 4] };
   });
   return [...lines, ...bodyShapes(run, moment, cam, { stroke: colours.ghost, width: 1.4, alpha: 0.75 })];
 }
 
 /** How much of its strength a line carries, for its colour; of the most that any carries where that is not known. */
-export function strain(run, i, kilonewtons) {
+export function loadFraction(run, i, kilonewtons) {
   const { breaking_load_n } = run.lines[i];
   const most = breaking_load_n ? breaking_load_n / 1e3 : run.mostTension;
   return most > 0 ? Math.min(kilonewtons / most, 1) : 0;
@@ -193,11 +193,11 @@ function lineShapes(run, i, moment, cam, { colours }, snaps) {
   const anchor = { points: foot, closed: true, fill: colours.floor };
   const snap = snaps.find((one) => one.line === i + 1);
   if (moment.taut.includes(i + 1)) {
-    const part = strain(run, i, moment.tensions[i]);
+    const part = loadFraction(run, i, moment.tensions[i]);
     const stroke = mix(colours.taut, colours.strained, Math.sqrt(part));
     return [{ points: [from, to], stroke, width: 2.2 + 5 * part }, anchor];
   }
-  const points = hang(from, to, line.length * cam.scale, cam.level(-run.geometry.depth));
+  const points = slackLine(from, to, line.length * cam.scale, cam.level(-run.geometry.depth));
   const hung = { points, stroke: lineColour(colours, i + 1), width: 1.6 };
   if (!snap) return [hung, anchor];
   const strength = snapPart(run, snap.i) * snap.left;

@@ -1,7 +1,7 @@
 // The state of the page of a structure: the case that is open, what is changed in it, and what is looked at.
 
 import { SPEEDS, Watched, decode, finite, readValue } from "./state.js";
-import { plain } from "./words.js";
+import { fieldText } from "./formatting.js";
 
 const BEGINNING = {
   values: {},
@@ -36,7 +36,7 @@ export class StructureState extends Watched {
   loop = true;
   /** Whether lines that stretch are shown beside. */
   elastic = true;
-  /** The stretch of time that is shown [s]. @type {number[] | null} */
+  /** The interval of time that is shown [s]. @type {number[] | null} */
   window = null;
   /** @type {number[] | null} */
   zoom = null;
@@ -73,7 +73,7 @@ export class StructureState extends Watched {
   /** What every line has; null where they differ. */
   #ofAllLines(key) {
     const all = Array.from({ length: this.lines }, (_, i) => this.value(`line.${i + 1}.${key}`));
-    return all.every((value) => plain(value) === plain(all[0])) ? all[0] : null;
+    return all.every((value) => fieldText(value) === fieldText(all[0])) ? all[0] : null;
   }
 
   /** Some keys; a value of null, or that of the case, leaves one as it is there. */
@@ -95,13 +95,13 @@ export class StructureState extends Watched {
   get asked() {
     const order = Object.entries(this.values).sort(([a], [b]) => a.split(".").length - b.split(".").length);
     const other = (name) => ["wave", "sea"].some((water) => water !== this.waterNow && name.startsWith(`${water}.`));
-    const set = order.filter(([name]) => !other(name)).map(([name, value]) => `${name}=${plain(value)}`);
+    const set = order.filter(([name]) => !other(name)).map(([name, value]) => `${name}=${fieldText(value)}`);
     return { file: this.file, set, water: this.water };
   }
 
   /** The state as the fragment of a link. */
   toFragment() {
-    const parts = Object.entries(this.values).map(([name, value]) => [name, plain(value)]);
+    const parts = Object.entries(this.values).map(([name, value]) => [name, fieldText(value)]);
     for (const name of ["water", "speed", "loop", "elastic"]) {
       if (this[name] !== BEGINNING[name]) parts.push([name, String(this[name])]);
     }
@@ -112,7 +112,7 @@ export class StructureState extends Watched {
   }
 
   /** Takes the state of a fragment, whole. Gives what could not be read. */
-  takeFragment(fragment) {
+  readFragment(fragment) {
     const next = { ...BEGINNING, values: {} };
     const broken = [];
     for (const part of fragment ? fragment.split("&") : []) {

@@ -1,24 +1,29 @@
-// Playback of a structure's run: the strip of the stretch that is shown, and the whole record with where that is.
+// Playback of a structure's run: the strip of the interval that is shown, and the whole record with where that is.
 
 import { $ } from "./dom.js";
 import { prepare } from "./plot.js";
-import { tautWords } from "./structure-stage.js";
+import { tautWords } from "./structure-scene-view.js";
 import { colours, lineColour } from "./theme.js";
 import { Transport } from "./transport.js";
-import { fixed, round } from "./words.js";
+import { fixed, round } from "./formatting.js";
 
 const INSET_PX = 8;
 /** Of a swarm of snaps the hardest in so many pixels is enough. */
 const APART_PX = 1.5;
 
 export class StructureTransport extends Transport {
-  /** `onStretch` is told where the stretch that is shown is to begin. */
-  constructor(state, playback, { onStretch }) {
+  /** `onInterval` is told where the interval that is shown is to begin. */
+  constructor(state, playback, { onInterval }) {
     super(state, playback, (speed) => (speed === 1 ? "real time" : `${speed} times`));
-    $("stretch").addEventListener("input", () => {
+    $("interval-start").addEventListener("input", () => {
       playback.pause();
-      onStretch(Number($("stretch").value));
+      onInterval(Number($("interval-start").value));
     });
+  }
+
+  /** Only the motion of the interval that is shown is here. */
+  get ends() {
+    return this.run.window;
   }
 
   words(t, run) {
@@ -35,8 +40,8 @@ export class StructureTransport extends Transport {
     const [from, to] = this.run.window;
     // Over the whole record, as it is drawn above it.
     const most = Math.max(this.run.lasts_s - (to - from), 0);
-    Object.assign($("stretch"), { min: 0, max: most, value: from, disabled: most === 0 });
-    $("stretch").setAttribute("aria-valuetext", `from ${round(from)} to ${round(to)} of ${round(this.run.tEnd)} s`);
+    Object.assign($("interval-start"), { min: 0, max: most, value: from, disabled: most === 0 });
+    $("interval-start").setAttribute("aria-valuetext", `from ${round(from)} to ${round(to)} of ${round(this.run.tEnd)} s`);
     $("window-words").value = `${fixed(from, 1)} to ${fixed(to, 1)} s`;
     $("zoom-all").disabled = false;
   }
@@ -45,11 +50,11 @@ export class StructureTransport extends Transport {
     this.#strip($("strip"), this.run.window, true);
     this.#strip($("record"), [0, this.run.lasts_s], false);
     const { run } = this;
-    $("record-words").textContent = `${run.snaps.all} snaps in ${round(run.tEnd)} s`;
-    $("record").setAttribute("aria-label", `${run.snaps.all} snaps in ${round(run.tEnd)} s, each as high as it is hard`);
+    $("record-words").textContent = `${run.snapsInWords} in ${round(run.tEnd)} s`;
+    $("record").setAttribute("aria-label", `${run.snapsInWords} in ${round(run.tEnd)} s; the height shows the strength`);
   }
 
-  /** Snaps as ticks in the colours of their lines; taut lines as bands in the stretch, and the stretch in the record. */
+  /** Snaps as ticks in the colours of their lines; taut lines as bands in the interval, and the interval in the record. */
   #strip(canvas, [from, to], close) {
     const { context, width, height } = prepare(canvas);
     const { run } = this;
@@ -77,7 +82,7 @@ export class StructureTransport extends Transport {
       context.strokeRect(a, 1, Math.max(b - a, 3), height - 2);
       if (run.preview) {
         context.fillStyle = paints.muted;
-        context.fillText("to follow", x(run.tEnd) + 6, height - 6);
+        context.fillText("not run yet", x(run.tEnd) + 6, height - 6);
       }
     }
     this.#ticks(context, x, [from, to], height, paints);

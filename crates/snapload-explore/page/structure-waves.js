@@ -2,7 +2,7 @@
 
 import { fetchLong } from "./api.js";
 import { $ } from "./dom.js";
-import { fixed, number } from "./words.js";
+import { fixed, number } from "./formatting.js";
 
 export class StructureWaves {
   /** `onPick` is told of a wave that is to be run. */
@@ -49,7 +49,7 @@ export class StructureWaves {
     try {
       const answer = await fetchLong("api/structure/waves", { case: this.state.asked }, this.abort.signal);
       this.asked = asked;
-      this.#tell(answer);
+      this.#show(answer);
     } catch (error) {
       $("waves-said").textContent = error.message;
     }
@@ -57,11 +57,11 @@ export class StructureWaves {
     this.follow();
   }
 
-  #tell({ periods_s, heights_m, cells, utilisation, length }) {
+  #show({ periods_s, heights_m, cells, utilisation, length }) {
     const what = utilisation ? "Largest utilisation" : "Fastest snap [m/s]";
     $("waves-said").textContent =
-      `${what} in waves run for ${length} periods each; × fails or can not be run. Motions are chaotic, so that single cells may differ from their neighbours. ` +
-      "A click runs a wave.";
+      `${what} in waves run for ${length} periods each; ×: the run fails, or the wave can not be run. ` +
+      "Motions are chaotic, so that single cells may differ from those beside them. Click a cell to run its wave.";
     const plainly = (value) => Number(value.toPrecision(3));
     const cell = (i, j) => {
       const value = cells[i * heights_m.length + j];

@@ -1,27 +1,35 @@
 // The page of a structure: wires state, server, scene, charts and tables together.
 
-import { Runner, fetchCase, fetchLong, fetchStructureFile, fetchStructures, fetchTold } from "./api.js";
+import { Runner, fetchCase, fetchLong, fetchStructureFile, fetchStructures, fetchWithProgress } from "./api.js";
 import { Controls } from "./controls.js";
 import { $ } from "./dom.js";
 import { Keyboard, timeKeys } from "./keyboard.js";
 import { Link } from "./link.js";
-import { note, openStructure, openedStructure, opening, paintedSince, purposeAndSkip, themeButton } from "./page.js";
+import {
+  acceptCaseFiles,
+  note,
+  openStructure,
+  openedStructure,
+  paintedSince,
+  purposeAndSkip,
+  themeButton,
+} from "./page.js";
 import { onResize } from "./plot.js";
 import { Playback } from "./playback.js";
-import { chooseTheme, chosenTheme, colours, lineColour, stillness } from "./theme.js";
+import { chooseTheme, chosenTheme, colours, lineColour, reducedMotion } from "./theme.js";
 import { StructureCharts, breakingLoads } from "./structure-charts.js";
 import { structureGroups, whyNot } from "./structure-groups.js";
-import { StructureHands } from "./structure-hands.js";
-import { StructurePins } from "./structure-pins.js";
+import { StructureHandles } from "./structure-handles.js";
+import { PinnedAnswers } from "./structure-pinned-answers.js";
 import { StructureRun } from "./structure-run.js";
 import { structureShapes } from "./structure-scene.js";
-import { StructureStage } from "./structure-stage.js";
+import { StructureSceneView } from "./structure-scene-view.js";
 import { StructureState } from "./structure-state.js";
-import { tellLines, tellRules, tellSnaps } from "./structure-tell.js";
+import { showChecks, showLines, showSnaps } from "./structure-tables.js";
 import { StructureTransport } from "./structure-transport.js";
 import { StructureWaves } from "./structure-waves.js";
-import { Take } from "./take.js";
-import { fixed, round } from "./words.js";
+import { ExportPanel } from "./export.js";
+import { fixed, round } from "./formatting.js";
 
 /** Values that rest for so long are worth their neighbours, and lines that stretch. */
 const REST_MS = 300;
@@ -38,11 +46,13 @@ class Page {
     this.hover = null;
     this.background = null;
     this.link = new Link(this.state, {
-      onBroken: (parts) => note(`Not understood in the link, and left out: ${parts.join(", ")}`),
+      onBroken: (parts) => note(`Not understood in the link, and ignored: ${parts.join(", ")}`),
     });
     this.playback = new Playback(this.state, () => this.run);
-    this.stage = new StructureStage(this.state, this.playback);
-    this.transport = new StructureTransport(this.state, this.playback, { onStretch: (from) => this.stretch(from) });
+    this.sceneView = new StructureSceneView(this.state, this.playback);
+    this.transport = new StructureTransport(this.state, this.playback, {
+      onInterval: (from) => this.showInterval(from),
+    });
     this.playback.onPlaying = (playing) => {
       this.transport.showPlaying(playing);
       this.drawMoment();
@@ -53,9 +63,9 @@ class Page {
       whyNot,
       onChange: (change) => this.changed(change),
     });
-    this.hands = new StructureHands(this.stage, this.state, {
+    this.handles = new StructureHandles(this.sceneView, this.state, {
       onChange: (change) => this.changed(change),
-      onLetGo: () => this.playback.play(),
+      onRelease: () => this.playback.play(),
     });
     this.charts = new StructureCharts($("charts"), {
       colours,
@@ -63,17 +73,17 @@ class Page {
       onHover: (t, at) => this.setHover(t === null ? null : { t, at }),
       onZoom: (window) => this.state.set({ window }),
     });
-    this.exports = new Take({
+    this.exports = new ExportPanel({
       state: this.state,
-      stage: this.stage,
+      sceneView: this.sceneView,
       now: () => this.run,
       question: () => ({ case: this.state.asked }),
       address: () => this.link.address,
       path: "api/structure/export",
-      takeLong: ["note.html", "assess.json"],
+      slowFiles: ["note.html", "assess.json"],
       picture: { shapes: structureShapes, caption: (run, t) => `${this.state.caseName} · t = ${fixed(t, 2)} s` },
     });
-    this.pins = new StructurePins(this.state, () => this.run, { onBack: (pin) => this.back(pin) });
+    this.pins = new PinnedAnswers(this.state, () => this.run, { onBack: (pin) => this.restore(pin) });
     this.waves = new StructureWaves(this.state, {
       onPick: (values) => {
         this.state.setValues(values);
@@ -82,7 +92,7 @@ class Page {
     });
     this.runner = new Runner({
       path: "api/structure/run",
-      onAnswer: (answer, since, question) => this.take(answer, since, question),
+      onAnswer: (answer, since, question) => this.receive(answer, since, question),
       onError: (error) => this.fail(error),
     });
     this.state.listen((changed) => this.follow(changed));
@@ -91,11 +101,11 @@ class Page {
       [["g"], "g", "lines that stretch, on or off", () => $("elastic").click()],
       [["l"], "l", "loop on or off", () => this.state.set({ loop: !this.state.loop })],
       [["p"], "p", "pin this answer", () => this.pins.add()],
-      [["?"], "?", "these keys", () => $("help").click()],
+      [["?"], "?", "this help", () => $("help").click()],
     ]);
     this.tools();
     this.showChoices();
-    this.playsAtOnce = !location.hash && !stillness.matches;
+    this.playsAtOnce = !location.hash && !reducedMotion.matches;
     this.ask();
     onResize(() => this.drawAll());
   }
@@ -116,22 +126,22 @@ class Page {
     const asked = JSON.stringify(this.question);
     if (asked === this.asked) return;
     this.asked = asked;
-    this.rest();
+    this.stopBackground();
     this.runner.ask(this.question, since);
   }
 
   /** What was going on beside is of other values now. */
-  rest() {
+  stopBackground() {
     clearTimeout(this.resting);
     this.background?.abort();
     this.background = null;
-    this.#tellComing("");
+    this.#showProgress("");
   }
 
-  take(answer, since, question) {
+  receive(answer, since, question) {
     const before = this.run;
     this.run = new StructureRun(answer);
-    // What was computed of lines that stretch stays for another stretch of the same run.
+    // What was computed of lines that stretch stays for another interval of the same run.
     this.sameCase = before !== null && keyOf(this.ofCase) === keyOf(question.case);
     this.ofCase = question.case;
     const latest = this.asked === JSON.stringify(question);
@@ -143,38 +153,38 @@ class Page {
     $("failed").hidden = true;
     this.controls.clearError();
     this.controls.show(this.run.effective(this.state));
-    this.resting = setTimeout(() => this.goOn(), this.sameCase ? 0 : REST_MS);
+    this.resting = setTimeout(() => this.computeFurther(), this.sameCase ? 0 : REST_MS);
   }
 
   /** Shows the run that there is. */
   show() {
     const { run, state } = this;
-    this.stage.take(run);
-    this.transport.take(run);
-    // The stretch that the server chose is kept while values change, so that one thing changes at a time.
+    this.sceneView.setRun(run);
+    this.transport.setRun(run);
+    // The interval that the server chose is kept while values change, so that one thing changes at a time.
     const [from, to] = run.window;
     const t = state.t >= from && state.t <= to ? state.t : from;
     this.asked = JSON.stringify({ case: state.asked, window: run.window });
     state.set({ window: run.window, t });
-    tellLines(run);
-    tellRules(run);
-    tellSnaps(run);
-    this.exports.take(run);
+    showLines(run);
+    showChecks(run);
+    showSnaps(run);
+    this.exports.setRun(run);
     this.#legend();
     this.drawAll();
   }
 
   /** Values rest: the whole of a long record, neighbours, and lines that stretch, one after the other. */
-  async goOn() {
-    this.rest();
+  async computeFurther() {
+    this.stopBackground();
     const { question, state } = this;
     const abort = (this.background = new AbortController());
     const current = () => this.background === abort;
     const more = async (how) => {
-      const told = ({ doing, percent }) => current() && this.#tellComing(`${doing}, ${percent} %`);
-      const text = await fetchTold("api/structure/run", { ...question, ...how }, abort.signal, told);
+      const onProgress = ({ doing, percent }) => current() && this.#showProgress(`${doing}, ${percent} %`);
+      const text = await fetchWithProgress("api/structure/run", { ...question, ...how }, abort.signal, onProgress);
       if (!current()) return;
-      this.#tellComing("");
+      this.#showProgress("");
       this.run = new StructureRun(JSON.parse(text));
       this.show();
     };
@@ -182,28 +192,28 @@ class Page {
       if (this.run.preview) await more({ whole: true });
       if (!current()) return;
       if (this.run.lasts_s <= LONGEST_WITH_NEIGHBOURS) await more({ whole: true, neighbours: true });
-      else $("preview").textContent = `Its neighbours and other restitutions take their time: ${this.run.shell}`;
-      if (current() && state.elastic) await this.#stretchable({ case: question.case, window: this.run.window }, abort);
+      else $("preview").textContent = `Neighbours and other restitutions of so long a record are run by the command: ${this.run.shell}`;
+      if (current() && state.elastic) await this.#computeElastic({ case: question.case, window: this.run.window }, abort);
     } catch (error) {
       if (error.name === "AbortError" || !current()) return;
-      this.#tellComing("");
+      this.#showProgress("");
       $("preview").textContent = error.message;
     }
   }
 
   /** How far what follows the picture has come. */
-  #tellComing(words) {
+  #showProgress(words) {
     $("coming").textContent = words;
   }
 
-  async #stretchable(question, abort) {
+  async #computeElastic(question, abort) {
     $("elastic-said").textContent = "computing…";
     try {
       const answer = await fetchLong("api/structure/elastic", question, abort.signal);
       if (this.background !== abort) return;
-      this.run.beside(answer);
+      this.run.setElastic(answer);
       $("elastic-said").textContent = "";
-      tellLines(this.run);
+      showLines(this.run);
       this.drawAll();
     } catch (error) {
       if (error.name === "AbortError") return;
@@ -213,7 +223,7 @@ class Page {
 
   fail(error) {
     this.controls.showError(error);
-    const shown = this.run ? "\nWhat is shown is of the last values that could be run." : "";
+    const shown = this.run ? "\nThe page shows the last values that could be run." : "";
     $("failed").textContent = `Not run: ${error.message}${shown}`;
     $("failed").hidden = false;
   }
@@ -226,10 +236,10 @@ class Page {
     }
     if (changed.has("window")) queueMicrotask(() => this.ask());
     if (changed.has("elastic")) {
-      if (!this.state.elastic) this.run?.beside(null);
+      if (!this.state.elastic) this.run?.setElastic(null);
       $("elastic-said").textContent = "";
-      if (this.run) tellLines(this.run);
-      if (this.state.elastic && this.run) this.goOn();
+      if (this.run) showLines(this.run);
+      if (this.state.elastic && this.run) this.computeFurther();
     }
     if (["zoom", "window", "elastic"].some((name) => changed.has(name))) this.drawAll();
     else if (changed.has("t") || changed.has("speed")) this.drawMoment();
@@ -272,12 +282,12 @@ class Page {
   /** Goes to a time wherever it is in the record. */
   goTo(t) {
     const [from, to] = this.run.window;
-    if (t < from || t > to) this.stretch(t - (to - from) / 2);
+    if (t < from || t > to) this.showInterval(t - (to - from) / 2);
     this.jump(t);
   }
 
-  /** Shows a stretch as long as now that begins elsewhere. */
-  stretch(begin) {
+  /** Shows an interval as long as now that begins elsewhere. */
+  showInterval(begin) {
     const [from, to] = this.run.window;
     const length = to - from;
     const start = Math.min(Math.max(begin, 0), Math.max(this.run.tEnd - length, 0));
@@ -285,7 +295,7 @@ class Page {
     this.state.set({ window, t: Math.min(Math.max(this.state.t, window[0]), window[1]) });
   }
 
-  back({ values, water }) {
+  restore({ values, water }) {
     this.state.set({ values: { ...values }, water });
     this.link.write({ now: true });
   }
@@ -310,7 +320,7 @@ class Page {
     // However many events ask for it, a picture is painted once a frame.
     this.framed = requestAnimationFrame(() => {
       this.framed = null;
-      this.stage.draw();
+      this.sceneView.draw();
       this.charts.cursor(this.state.t, this.hover);
       this.transport.show();
     });
@@ -325,7 +335,7 @@ class Page {
 
   tools() {
     themeButton(() => this.drawAll());
-    opening((file) => this.open(file));
+    acceptCaseFiles((file) => this.open(file));
     purposeAndSkip(PURPOSE_READ);
     $("file").textContent = this.state.caseName;
     $("elastic").addEventListener("change", () => this.state.set({ elastic: $("elastic").checked }));
@@ -368,7 +378,7 @@ try {
   const file = openedStructure();
   const opened = file ? await fetchStructureFile(file) : schema.start;
   if (opened) new Page(schema, opened, file);
-  else note("No structure is open. Drop its case file here, or begin with it: snapload explore docs/examples/cylinder.toml");
+  else note("No structure is open. Drop a case file here, or start the program with one: snapload explore docs/examples/cylinder.toml");
 } catch (error) {
   note(`The page could not start: ${error.message}. Is snapload explore still running?`);
   throw error;

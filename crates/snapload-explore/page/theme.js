@@ -52,7 +52,7 @@ const KEY = "snapload-theme";
 export const THEMES = ["auto", "light", "dark"];
 
 /** What the browser keeps for the page under a name; it may keep nothing for us. */
-export function kept(name) {
+export function stored(name) {
   try {
     return localStorage.getItem(name);
   } catch {
@@ -60,7 +60,7 @@ export function kept(name) {
   }
 }
 
-export function keep(name, value) {
+export function store(name, value) {
   try {
     localStorage.setItem(name, value);
   } catch {
@@ -70,7 +70,7 @@ export function keep(name, value) {
 
 /** The theme that was chosen before; `auto` follows the system. */
 export function chosenTheme() {
-  const theme = kept(KEY);
+  const theme = stored(KEY);
   return THEMES.includes(theme) ? theme : "auto";
 }
 
@@ -78,7 +78,7 @@ export function chooseTheme(theme) {
   if (theme === "auto") delete document.documentElement.dataset.theme;
   else document.documentElement.dataset.theme = theme;
   caches.clear();
-  keep(KEY, theme);
+  store(KEY, theme);
 }
 
 /** Calls back when the system's scheme changes. */
@@ -89,4 +89,4 @@ export function onSystemScheme(listener) {
   });
 }
 
-export const stillness = matchMedia("(prefers-reduced-motion: reduce)");
+export const reducedMotion = matchMedia("(prefers-reduced-motion: reduce)");

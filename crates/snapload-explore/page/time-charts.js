@@ -2,7 +2,7 @@
 // of charts.
 
 import { Frame, drawAxes, inside, label, prepare, ticks } from "./plot.js";
-import { number } from "./words.js";
+import { number } from "./formatting.js";
 
 const MARGIN = { left: 50, right: 10, top: 6 };
 const NEAR_PX = 9;
@@ -136,7 +136,7 @@ export class TimeCharts {
     chart.draw(context, frame, this.run, { colours, pins: this.pins });
     context.restore();
     const when = `against time from ${number(range[0])} to ${number(range[1])} ${this.unit}`;
-    base.setAttribute("aria-label", `${chart.name} ${when}: ${chart.words(this.run)}. The events are in the table below.`);
+    base.setAttribute("aria-label", `${chart.name} ${when}: ${chart.words(this.run)}. The page has a table of the events.`);
   }
 
   /** What lies past the horizon of trust. */

@@ -2,7 +2,7 @@
 
 import { about } from "./charts.js";
 import { FONT, Frame, drawAxes, drawColumn, drawMarks, inside, label, prepare, span, stroke, ticks } from "./plot.js";
-import { fixed, number } from "./words.js";
+import { fixed, number } from "./formatting.js";
 
 const MARGIN = { left: 50, right: 10, top: 8, bottom: 34 };
 const REACH_PX = 40;
@@ -18,7 +18,7 @@ export const PLANES = {
   y: { words: "Phase plane of y", x: "y", y: "vy", axes: ["y  [L]", "velocity along y  [L/T]"] },
   theta: { words: "Phase plane of θ", x: "theta", y: "vtheta", axes: ["θ  [rad]", "angular velocity  [rad/T]"] },
   section: {
-    words: "Section once a period, x and y",
+    words: "Section once per period, x and y",
     x: "x",
     y: "y",
     axes: ["x  [L] at t = k 2π/Ω", "y  [L]"],

@@ -4,7 +4,7 @@ import { $, mark, put } from "./dom.js";
 import { NEAR_PX, prepare } from "./plot.js";
 import { SPEEDS } from "./state.js";
 import { colours } from "./theme.js";
-import { fixed, modeName, number } from "./words.js";
+import { fixed, modeName, number } from "./formatting.js";
 
 export class Transport {
   /** `speedWords` tells of a speed. */
@@ -15,8 +15,8 @@ export class Transport {
     for (const speed of SPEEDS) $("speed").append(new Option(speedWords(speed), String(speed)));
     const on = (id, action) => $(id).addEventListener("click", action);
     on("play", () => playback.toggle());
-    on("first", () => this.#jump(0));
-    on("last", () => this.#jump(this.run.tEnd));
+    on("first", () => this.jump(this.ends[0]));
+    on("last", () => this.jump(this.ends[1]));
     on("previous", () => playback.previous());
     on("next", () => playback.next());
     on("zoom-in", () => this.zoom(0.5));
@@ -30,7 +30,12 @@ export class Transport {
     });
   }
 
-  #jump(t) {
+  /** The first and the last time that can be gone to. */
+  get ends() {
+    return [0, this.run.tEnd];
+  }
+
+  jump(t) {
     this.playback.pause();
     this.playback.seek(t);
   }
@@ -46,7 +51,7 @@ export class Transport {
     this.state.set({ window: [Number(start.toPrecision(9)), Number((start + least).toPrecision(9))] });
   }
 
-  take(run) {
+  setRun(run) {
     this.run = run;
   }
 
@@ -77,7 +82,7 @@ export class Transport {
     return {
       value: `${fixed(t, 3)} of ${fixed(run.tEnd, 3)} T, ${modeName(run.tautAt(t))}`,
       clock: `t = ${fixed(t, 4)} T`,
-      counted: `impact ${run.latestImpact(t) + 1} of ${run.impacts.t.length}`,
+      counted: `impact ${run.latestImpact(t) + 1} of ${run.cut?.impacts ?? run.impacts.t.length}`,
     };
   }
 

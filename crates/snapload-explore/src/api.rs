@@ -81,7 +81,7 @@ pub(crate) fn router(start: Start, opened: Option<Opened>, port: u16) -> Router 
 }
 
 async fn wrong_method() -> Refusal {
-    let message = "this path is not asked in this way";
+    let message = "this path does not accept this method";
     Refusal::new(StatusCode::METHOD_NOT_ALLOWED, message)
 }
 

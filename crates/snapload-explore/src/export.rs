@@ -14,6 +14,8 @@ use std::time::Duration;
 
 /// The time budget of a run's neighbours.
 const BUDGET: Duration = Duration::from_secs(20);
+/// What is said where that is used up.
+const TOO_SLOW: &str = "its neighbours take longer than the page waits";
 /// The most impacts in a table; larger tables are left to the command line.
 const MOST_WRITTEN: usize = 100_000;
 /// The same for a picture: a path that covers the whole plane takes minutes to draw.
@@ -87,7 +89,7 @@ impl File {
             _ => MOST_WRITTEN,
         };
         if impacts > most {
-            let why = format!("this run has {impacts} impacts");
+            let why = format!("this run has {impacts} impacts, too many for the page");
             return Err(for_the_command(&case, &why));
         }
         let mut bytes = Vec::new();
@@ -123,7 +125,7 @@ impl File {
         let go_on = |progress: Progress| allowance.go_on(progress);
         let refuse = |unfinished| match unfinished {
             Unfinished::Case(error) => error.into(),
-            Unfinished::Cancelled(_) => for_the_command(case, "its neighbours take long"),
+            Unfinished::Cancelled(_) => for_the_command(case, TOO_SLOW),
         };
         let run = Trusted::run_alone(case, Uncertainty::default(), &go_on).map_err(refuse)?;
         if matches!(self, Self::Impacts) {
@@ -155,7 +157,5 @@ fn picture(
 
 fn for_the_command(case: &Case, why: &str) -> Refusal {
     let command = shell_line(case.parameters());
-    Refusal::values(format!(
-        "{why}, which is more than the page waits for\nhint: {command} --out results"
-    ))
+    Refusal::values(format!("{why}\nhint: {command} --out results"))
 }

@@ -61,11 +61,12 @@ impl Names {
         let authority = request.uri().authority();
         let other = authority.is_some_and(|name| !self.hosts.iter().any(|host| name == host));
         if among(&self.hosts, &HOST) != [true] || other {
-            let message = format!("this server answers to http://{host}/ only");
+            let message = format!("this server only accepts requests for http://{host}/");
             return Some(Refusal::new(StatusCode::MISDIRECTED_REQUEST, message));
         }
         if among(&self.origins, &ORIGIN).contains(&false) {
-            let message = format!("only the page of http://{host}/ itself is answered");
+            let message =
+                format!("this server only accepts requests from its own page, http://{host}/");
             return Some(Refusal::new(StatusCode::FORBIDDEN, message));
         }
         None

@@ -63,7 +63,10 @@ impl AxisGiven {
     pub(crate) fn read(&self) -> Result<Axis, Refusal> {
         let key = key_named(&self.key)?;
         if !matches!(key.kind, Kind::Number { .. }) {
-            let message = format!("{} holds no number that can be varied", key.name);
+            let message = format!(
+                "{} is not a real number and can not be varied; choose another key",
+                key.name
+            );
             return Err(Refusal::values(message));
         }
         let count = self.count;
@@ -73,7 +76,7 @@ impl AxisGiven {
         }
         let (low, high) = (format!("{:e}", self.low), format!("{:e}", self.high));
         let grid = Grid::new(&low, &high, count)
-            .ok_or_else(|| Refusal::values(format!("{low} to {high} is no range of numbers")))?;
+            .ok_or_else(|| Refusal::values(format!("{low} to {high} is not a range of numbers")))?;
         Ok(Axis {
             key: key.name,
             values: (0..count).map(|k| grid.value(k)).collect(),
@@ -200,9 +203,9 @@ pub(crate) static COLUMNS: [Column; 12] = [
     Column::quantity("y_max", Take::Number(|run| Some(run.outcome.norms.y_max))),
     Column::quantity("theta_max", Take::Number(|run| Some(run.outcome.norms.theta_max))),
     Column::new("t_sliding", "", "T", Take::Number(|run| Some(run.outcome.sliding)), "time with one taut cable"),
-    Column::new("t_rocking", "", "T", Take::Number(|run| Some(run.outcome.rocking)), "time with both taut"),
+    Column::new("t_rocking", "", "T", Take::Number(|run| Some(run.outcome.rocking)), "time with both cables taut"),
     Column::new("horizon_t", "", "T", Take::Number(|run| run.certainty?.horizon.map(|horizon| horizon.t)),
-        "time up to which the run can be trusted, where not to its end"),
+        "time up to which the run can be trusted, if not to its end"),
     Column::new("certain", "", "", Take::Flag(|run| Some(run.certainty?.decides_the_end())),
         "whether neighbours end in the same way"),
 ];
@@ -322,7 +325,7 @@ fn alone(case: &Case, allowance: &Allowance) -> Result<Run, Refusal> {
     done.map(run).map_err(|_| {
         let seconds = BUDGET.as_secs();
         Refusal::values(format!(
-            "not done after {seconds} s of computing\nhint: lower t_end or max_impacts"
+            "not finished after {seconds} s of computing\nhint: lower t_end or max_impacts"
         ))
     })
 }

@@ -95,7 +95,9 @@ impl From<JsonRejection> for Refusal {
                 let most = LARGEST_BODY >> 10;
                 Self::new(
                     status,
-                    format!("more than {most} KiB, which no case needs; open a case file in TOML"),
+                    format!(
+                        "the request has more than {most} KiB, which no case needs; open a case file in TOML"
+                    ),
                 )
             }
             status => Self::new(status, rejection.body_text()),

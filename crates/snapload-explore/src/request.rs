@@ -80,7 +80,7 @@ fn value(json: JsonValue) -> Result<Option<Value>, &'static str> {
         JsonValue::Number(number) => match (number.as_i64(), number.as_f64()) {
             (Some(whole), _) => Value::Integer(whole),
             (None, Some(number)) => Value::Number(number),
-            (None, None) => return Err("(a number beyond all bounds)"),
+            (None, None) => return Err("(a number out of range)"),
         },
         JsonValue::Array(_) => return Err("(a list)"),
         JsonValue::Object(_) => return Err("(a table)"),

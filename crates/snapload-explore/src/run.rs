@@ -111,8 +111,8 @@ pub(crate) fn follow(case: &Case, allowance: &Allowance) -> Result<Followed, Ref
 
 fn too_long(parameters: &Parameters, Cancelled { done }: Cancelled) -> Refusal {
     Refusal::values(format!(
-        "after {} s of computing this run has come to t = {done:.4} of {}\nhint: lower t_end or max_impacts, or run it \
-         without the page: {}",
+        "after {} s of computing this run has reached t = {done:.4} of {}\nhint: lower t_end or max_impacts, or run it \
+         on the command line: {}",
         BUDGET.as_secs(),
         parameters.t_end,
         shell_line(parameters)

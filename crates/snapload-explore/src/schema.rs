@@ -68,8 +68,8 @@ fn what_happens((outcome, certainty): &(Outcome, Certainty)) -> String {
         Stop::RotationLimit => format!("turns over at t = {about}{t:.1}"),
         Stop::SlidingStart => format!("begins to slide at t = {about}{t:.1}"),
         Stop::EndTime if outcome.rocking > 0.5 * t => format!("rocks on both cables{past}"),
-        Stop::EndTime if outcome.sliding > 0.0 => format!("slides on one cable, too{past}"),
-        Stop::EndTime => format!("goes on snapping, {about}{snaps} times by t = {t:.0}"),
+        Stop::EndTime if outcome.sliding > 0.0 => format!("slides on one cable at times{past}"),
+        Stop::EndTime => format!("continues to snap, {about}{snaps} times by t = {t:.0}"),
         Stop::ImpactLimit => format!("snaps more than {snaps} times by t = {about}{t:.1}"),
         limit => format!("reaches the {} at t = {about}{t:.1}", limit.words()),
     }

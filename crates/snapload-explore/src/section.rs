@@ -54,7 +54,7 @@ pub(crate) fn unfinished(why: Unfinished, time: Duration, command: &str) -> Refu
     match why {
         Unfinished::Case(error) => error.into(),
         Unfinished::Cancelled(_) => Refusal::values(format!(
-            "this takes more than {} s here\nhint: {command} has as long as it takes",
+            "this takes more than {} s, the limit of the page\nhint: {command} has no time limit",
             time.as_secs()
         )),
     }

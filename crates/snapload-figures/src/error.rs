@@ -21,7 +21,10 @@ impl fmt::Display for FigureError {
         match self {
             Self::NoPanel => write!(f, "a picture needs at least one panel"),
             Self::EqualScaleInStack => {
-                write!(f, "a panel with equal scale on both axes must stand alone")
+                write!(
+                    f,
+                    "a panel with equal scale on both axes must be the only panel"
+                )
             }
             Self::Scale => {
                 write!(

@@ -58,7 +58,7 @@ const MODES: [(Mode, Stroke, &str); 4] = [
         "sliding",
     ),
 ];
-const BEYOND: &str = "beyond the horizon";
+const BEYOND: &str = "past the horizon";
 
 /// The path of the body's centre, y against x, inside the boundaries of its region.
 ///

@@ -161,7 +161,7 @@ pub(crate) fn has_doubts(map: &Map) -> bool {
 pub(crate) fn samples(map: &Map) -> Vec<(Fill, String)> {
     let classes = map.classes.iter().enumerate();
     let classes = classes.map(|(index, name)| (Cell::Class(index), name.as_str()));
-    let others = [(Cell::Empty, "none"), (Cell::Fault, "no legal case")];
+    let others = [(Cell::Empty, "no value"), (Cell::Fault, "no legal case")];
     let occurring = classes
         .chain(others)
         .filter(|(cell, _)| map.cells.contains(cell));

@@ -98,7 +98,7 @@ impl Opened {
         }
         let name = &self.name;
         error.with_hint(format!(
-            "begin with it where its files are: snapload explore {name}"
+            "start the program in the folder of its files: snapload explore {name}"
         ))
     }
 

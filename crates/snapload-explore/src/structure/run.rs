@@ -50,8 +50,9 @@ pub(crate) fn answer(
         .window
         .filter(|[from, to]| !(0.0 <= *from && from < to))
     {
-        let message =
-            format!("window = [{from}, {to}]: allowed is two times, 0 <= from < to, or null");
+        let message = format!(
+            "window = [{from}, {to}] is not allowed; allowed: two times, 0 <= from < to, or null"
+        );
         return Err(Refusal::values(message));
     }
     let case = request.case.read(start)?;
@@ -131,7 +132,7 @@ pub(super) fn too_long(case: &Case, time: Duration, unfinished: Unfinished) -> R
     match unfinished {
         Unfinished::Case(error) => error.into(),
         Unfinished::Cancelled(_) => Refusal::values(format!(
-            "this takes more than the {} s that the page waits\nhint: lower run.duration, or ask without the page: {}",
+            "this takes more than {} s, the limit of the page\nhint: lower run.duration, or use the command line: {}",
             time.as_secs(),
             case.command("assess")
         )),

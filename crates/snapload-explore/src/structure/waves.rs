@@ -40,7 +40,9 @@ pub(crate) fn answer(
     let go_on = |progress: Progress| allowance.go_on(progress);
     let scan = note::scan(&case.structure, &go_on)
         .map_err(|cancelled| too_long(&case, BUDGET, Unfinished::Cancelled(cancelled)))?
-        .ok_or_else(|| Refusal::values("other waves are compared with a regular wave"))?;
+        .ok_or_else(|| {
+            Refusal::values("other waves are computed around a regular wave; the case has none")
+        })?;
     let lines = &case.structure.lines;
     let answer = Answer {
         periods_s: scan.periods_s,

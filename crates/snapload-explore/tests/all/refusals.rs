@@ -131,7 +131,7 @@ fn maps_that_ask_for_too_much_are_refused() {
                     map(axis("f_o", 2), axis("body", 2)),
                     422,
                     y.clone(),
-                    "y: body holds no number",
+                    "y: body is not a real number",
                 ),
                 (
                     map(axis("f_o", 2), axis("fo", 2)),

@@ -220,7 +220,7 @@ fn refusals_are_those_of_the_command() {
         let float = format!("{CYLINDER}[float]\n{key} = \"/etc/passwd\"\n");
         let (named, message) = refused(json!({ "file": { "name": "f.toml", "text": float } }));
         assert_eq!(named, format!("float.{key}"));
-        let begin = "begin with it where its files are: snapload explore f.toml";
+        let begin = "start the program in the folder of its files: snapload explore f.toml";
         assert!(
             message.contains("/etc/passwd") && message.contains(begin),
             "{message}"

@@ -135,7 +135,7 @@ fn every_figure_contains_its_labels() {
     );
     assert_says(
         rotation(&wave, Some(4.0)),
-        &["θ (rad)", "t (T)", "π/2", "−π/2", "beyond the horizon"],
+        &["θ (rad)", "t (T)", "π/2", "−π/2", "past the horizon"],
     );
     assert_says(
         snap_velocities([&wave, &wave], None),
@@ -271,7 +271,7 @@ fn values_have_a_bar_and_classes_a_legend() {
         Fault,
     ]));
     let said = letters(&values);
-    for wanted in ["no legal case", "none", "t (T)", "0", "3"] {
+    for wanted in ["no legal case", "no value", "t (T)", "0", "3"] {
         assert!(
             said.iter().any(|text| text == wanted),
             "{wanted} is not among {said:?}"

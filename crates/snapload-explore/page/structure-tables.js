@@ -1,7 +1,7 @@
 // The answer in tables, as `snapload assess` and its page tell it: lines, checks, warnings, and the hardest snaps.
 
 import { $ } from "./dom.js";
-import { fixed, number, round, sentence } from "./words.js";
+import { fixed, number, round, sentence } from "./formatting.js";
 
 /** Of the snaps that are judged, and of those before, as the waves have just begun. */
 const [LISTED, EARLY] = [10, 3];
@@ -41,15 +41,15 @@ function lineRow(line, elastic) {
 }
 
 /** The lines, rigid and, where they are there, elastic side by side. */
-export function tellLines(run) {
+export function showLines(run) {
   const elastic = run.elastic?.elastic;
   const head = (words, unit, kind = "num") =>
     `<th scope="col" class="${kind}">${words}${unit ? `<br><span>${unit}</span>` : ""}</th>`;
   const beside = (words, unit) => (elastic ? head(`${words},<br>elastic`, unit, "num stretch") : "");
   $("lines").innerHTML =
     `<thead><tr><th scope="col">Line</th>${head("Utilisation", "", "")}${head("Safety<br>factor", "")}` +
-    `${head("Breaks", "kN")}${head("Held", "kN")}${head("Snap<br>peak", "kN")}${beside("Peak", "kN")}` +
-    `${head("Slack", "%")}${beside("Slack", "%")}${head("Fastest", "m/s")}${head("Snaps", "")}` +
+    `${head("Breaking<br>load", "kN")}${head("Held", "kN")}${head("Snap<br>peak", "kN")}${beside("Peak", "kN")}` +
+    `${head("Slack", "%")}${beside("Slack", "%")}${head("Fastest<br>snap", "m/s")}${head("Snaps", "")}` +
     `${head("At rest", "kN")}${head("Least", "kN")}</tr></thead><tbody>` +
     run.lines.map((line, i) => lineRow(line, elastic?.lines[i])).join("") +
     "</tbody>";
@@ -60,12 +60,12 @@ export function tellLines(run) {
   $("lines-words").textContent =
     `${named}The run ${end.reason}, ${round(end.t_s)} s; judged from ${round(run.transient_s)} s on${nothing}. Held: the largest ` +
     "tension while a line stays taut; snap peak: estimated; slack: part of the time. Utilisation: the larger of the two " +
-    "over the breaking load; the safety factor is its inverse, with no factor of any rule in it." +
-    (elastic ? " Elastic: the same on lines that stretch, as snapload elastic has it." : "");
+    "over the breaking load; the safety factor is its inverse, and includes no factor of any rule." +
+    (elastic ? " Elastic: the same on lines that stretch, as by snapload elastic." : "");
 }
 
 /** Checks by the rule of the case, other restitutions, and warnings. */
-export function tellRules(run) {
+export function showChecks(run) {
   const { checks, warnings } = run.assessment;
   const rows = checks.map((check) => {
     const of = check.line ? `line ${check.line}` : "body";
@@ -74,14 +74,14 @@ export function tellRules(run) {
       ${number(check.limit)}: ${value}</li>`;
   });
   const heard = run.rebound ? `<p class="small">${sentence(run.rebound)}</p>` : "";
-  $("checks").innerHTML = (rows.length ? `<h3>Checks by your rule</h3><ul class="checks">${rows.join("")}</ul>` : "") + heard;
+  $("checks").innerHTML = (rows.length ? `<h3>Design checks</h3><ul class="checks">${rows.join("")}</ul>` : "") + heard;
   const told = warnings.map(({ rule, message }) => `<li><b>${escape(rule)}</b>: ${escape(message)}</li>`);
   $("warnings").innerHTML = told.length ? `<h3>Warnings</h3><ul class="warnings">${told.join("")}</ul>` : "";
   $("summary").textContent = run.summary;
 }
 
 /** The hardest snaps; each row leads to its instant. */
-export function tellSnaps(run) {
+export function showSnaps(run) {
   const { t, line, speed, peak, utilisation, jolt, all } = run.snaps;
   const order = t.map((_, i) => i).sort((a, b) => run.hardness[b] - run.hardness[a]);
   const judged = (i) => t[i] >= run.transient_s;
@@ -92,7 +92,7 @@ export function tellSnaps(run) {
     `<td><span class="c${((line[i] - 1) % 6) + 1}">${line[i]}</span>${jolt[i] ? " jolt" : ""}</td>` +
     `${cell(fixed(speed[i], 3))}${cell(peak[i] === null ? "–" : round(peak[i], 4))}` +
     `${cell(utilisation[i] === null ? "–" : fixed(utilisation[i], 2))}` +
-    `<td>${t[i] < run.transient_s ? "no, the waves have just begun" : "yes"}</td></tr>`;
+    `<td>${t[i] < run.transient_s ? "no, in the transient" : "yes"}</td></tr>`;
   $("events-body").innerHTML = hardest.map(row).join("");
-  $("events-words").textContent = all ? `${hardest.length} of the ${all} at 1 cm/s or more` : "no line snaps at 1 cm/s or more";
+  $("events-words").textContent = all ? `${hardest.length} of ${run.snapsInWords} at 1 cm/s or more` : "no snaps at 1 cm/s or more";
 }

@@ -4,10 +4,10 @@
 export const SEEN_PX = 0.25;
 
 /** Draws lines as the context of a canvas does, but leaves out points that lie on the way. */
-export class Pen {
-  /** @param {{ moveTo: (x: number, y: number) => void, lineTo: (x: number, y: number) => void }} paper */
-  constructor(paper) {
-    this.paper = paper;
+export class SimplifiedLine {
+  /** @param {{ moveTo: (x: number, y: number) => void, lineTo: (x: number, y: number) => void }} target */
+  constructor(target) {
+    this.target = target;
     /** The point that was drawn last, and the latest one. @type {number[] | null} */
     this.from = null;
     /** @type {number[] | null} */
@@ -16,16 +16,16 @@ export class Pen {
      * The piece that is not drawn yet: its direction as a vector of length 1, its length [px], and from which to which
      * angle [rad] off that direction it may be drawn so that it passes each skipped point within SEEN_PX.
      */
-    this.way = [0, 0];
-    this.far = 0;
+    this.direction = [0, 0];
+    this.distance = 0;
     this.angles = [0, 0];
   }
 
   moveTo(x, y) {
-    this.lift();
+    this.finish();
     this.from = null;
     if (!Number.isFinite(x + y)) return;
-    this.paper.moveTo(x, y);
+    this.target.moveTo(x, y);
     this.from = [x, y];
   }
 
@@ -34,33 +34,35 @@ export class Pen {
     if (!Number.isFinite(x + y)) return;
     if (!this.from) return this.moveTo(x, y);
     const [dx, dy] = [x - this.from[0], y - this.from[1]];
-    const far = Math.hypot(dx, dy);
-    const wide = Math.asin(Math.min(SEEN_PX / far, 1));
-    if (this.far === 0) {
+    const distance = Math.hypot(dx, dy);
+    const wide = Math.asin(Math.min(SEEN_PX / distance, 1));
+    if (this.distance === 0) {
       // Whatever is nearer than can be seen has no way yet.
-      if (far > SEEN_PX) Object.assign(this, { way: [dx / far, dy / far], far, angles: [-wide, wide] });
+      if (distance > SEEN_PX) {
+        Object.assign(this, { direction: [dx / distance, dy / distance], distance, angles: [-wide, wide] });
+      }
       this.latest = [x, y];
       return;
     }
-    const [wx, wy] = this.way;
-    const angle = Math.atan2(wx * dy - wy * dx, wx * dx + wy * dy);
+    const [ux, uy] = this.direction;
+    const angle = Math.atan2(ux * dy - uy * dx, ux * dx + uy * dy);
     const [low, high] = this.angles;
-    if (far < this.far || angle < low || angle > high) {
+    if (distance < this.distance || angle < low || angle > high) {
       const from = this.latest;
-      this.lift();
+      this.finish();
       this.from = from;
       this.lineTo(x, y);
       return;
     }
-    this.far = far;
+    this.distance = distance;
     this.angles = [Math.max(low, angle - wide), Math.min(high, angle + wide)];
     this.latest = [x, y];
   }
 
   /** Draws what is left of the line. */
-  lift() {
-    if (this.latest) this.paper.lineTo(this.latest[0], this.latest[1]);
+  finish() {
+    if (this.latest) this.target.lineTo(this.latest[0], this.latest[1]);
     this.latest = null;
-    this.far = 0;
+    this.distance = 0;
   }
 }

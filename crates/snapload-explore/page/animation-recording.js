@@ -4,7 +4,7 @@
 import { paint } from "./shapes.js";
 import { colours } from "./theme.js";
 import { webm } from "./webm.js";
-import { fixed } from "./words.js";
+import { fixed } from "./formatting.js";
 
 /** Codecs as browsers call them, and as the file does. */
 const CODECS = [
@@ -24,7 +24,7 @@ const STANDS_STILL_MS = 30_000;
 
 /**
  * A pause in which the page goes on. A page that nobody looks at has a timer once a second at the most, and would need an
- * hour for a film of two minutes; messages it has as they come.
+ * hour for an animation of two minutes; messages it has as they come.
  */
 const pause = () =>
   new Promise((done) => {
@@ -36,7 +36,7 @@ const pause = () =>
     port2.postMessage(null);
   });
 
-export class Film {
+export class AnimationRecording {
   /** `picture` makes shapes and a caption of a run at a time. */
   constructor({ run, picture, from, to, options, size }) {
     this.run = run;
@@ -61,8 +61,8 @@ export class Film {
     if (count > MOST_PICTURES) {
       const minutes = fixed(MOST_PICTURES / FRAMES_A_SECOND / 60, 0);
       throw new Error(
-        `This film would last ${fixed(seconds / 60, 0)} minutes, and ${minutes} is the most. ` +
-          "Raise the speed, or zoom in on the time that matters.",
+        `This animation would last ${fixed(seconds / 60, 0)} minutes; at most ${minutes} are allowed. ` +
+          "Raise the speed, or zoom in on a shorter interval.",
       );
     }
     const pictures = await this.#encode(codec, moving, count, onProgress);
@@ -75,7 +75,7 @@ export class Film {
       const { supported } = await encoder.isConfigSupported(this.#settings(pair[0]));
       if (supported) return pair;
     }
-    throw new Error("This browser can encode no film (WebCodecs). Recent ones can; or take the pictures.");
+    throw new Error("This browser can not encode video (WebCodecs). Use a newer one, or save single pictures.");
   }
 
   #settings(codec) {
@@ -103,7 +103,7 @@ export class Film {
       error: fail,
     });
     const watch = setInterval(() => {
-      if (performance.now() - lastOutputAt > STANDS_STILL_MS) fail(new Error("its encoder stands still; try once more"));
+      if (performance.now() - lastOutputAt > STANDS_STILL_MS) fail(new Error("the encoder stopped responding; try again"));
     }, 1000);
     const dequeued = () => new Promise((done) => encoder.addEventListener("dequeue", done, { once: true }));
     encoder.configure(this.#settings(codec));
@@ -125,7 +125,7 @@ export class Film {
       clearInterval(watch);
       if (encoder.state !== "closed") encoder.close();
     }
-    if (failure) throw new Error(`The film could not be encoded: ${failure.message}`);
+    if (failure) throw new Error(`The animation could not be encoded: ${failure.message}`);
     return this.cancelled ? null : pictures;
   }
 

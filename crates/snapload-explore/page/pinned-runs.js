@@ -4,13 +4,13 @@ import { fetchRun } from "./api.js";
 import { $ } from "./dom.js";
 import { Run } from "./run.js";
 import { MOST_PINS } from "./state.js";
-import { number, plain, reasonText } from "./words.js";
+import { number, fieldText, reasonText } from "./formatting.js";
 
 const SAMPLES = 1200;
 /** Wong's colours for those who see few (Nature Methods 8 (2011) 441), none of which a cable or a mode has. */
 const COLOURS = ["#009e73", "#cc79a7", "#7a6a00"];
 
-export class Pins {
+export class PinnedRuns {
   /** `now` gives the run that is shown; `onChange` follows a change of what there is to draw. */
   constructor(state, now, { onChange }) {
     this.state = state;
@@ -58,7 +58,7 @@ export class Pins {
 
   #line({ values, run, colour }, i, shown) {
     const keys = this.state.schema.keys.map((key) => key.name);
-    const value = (of, name) => plain(of[name] ?? this.state.defaults[name]);
+    const value = (of, name) => fieldText(of[name] ?? this.state.defaults[name]);
     const differ = keys.filter((name) => value(values, name) !== value(this.state.values, name));
     const what = differ.map((name) => `${name} = ${value(values, name)}`).join(", ") || "the run that is shown";
     const more = (a, b, words) => (a === b ? "" : ` (${words[a > b ? 0 : 1]})`);

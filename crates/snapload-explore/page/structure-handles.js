@@ -1,6 +1,6 @@
-// Hands on a structure: its body is pulled and let go, anchors and fairleads are moved, in metres.
+// Handles on a structure: its body is dragged and released, anchors and fairleads are moved, in metres.
 
-import { Hands, withinReach } from "./hands.js";
+import { Handles, withinReach } from "./handles.js";
 import { turned } from "./scene.js";
 
 /** How near a pointer has to be [px]. */
@@ -11,10 +11,10 @@ const near = (value) => Number(value.toFixed(2));
 /** @param {number[]} place */
 const pair = ([x, z]) => `[${near(x)}, ${near(z)}]`;
 
-export class StructureHands extends Hands {
-  /** What there is to take hold of at a place of the canvas, with the number of its line. */
-  at(px) {
-    const { run, moment, cam } = this.stage.view();
+export class StructureHandles extends Handles {
+  /** What can be dragged at a place of the canvas, with the number of its line. */
+  handleAt(px) {
+    const { run, moment, cam } = this.sceneView.view();
     const by = (point, reach) => Math.hypot(point[0] - px[0], point[1] - px[1]) <= reach;
     const { lines, width, height, outline } = run.geometry;
     const fairlead = lines.findIndex(({ arm }) => by(cam.place(turned(arm, moment)), REACH.fairlead));

@@ -22,7 +22,7 @@ export function fixed(value, decimals) {
 export const round = (value, digits = 3) => (Math.abs(value) >= 1000 ? fixed(value, 0) : number(value, digits));
 
 /** What a number field holds: every digit, and ASCII, so that it can be typed and sent. */
-export function plain(value) {
+export function fieldText(value) {
   if (value === null || value === undefined) return "";
   return typeof value === "number" && value !== 0 && Math.abs(value) < 1e-3 ? value.toExponential() : String(value);
 }
@@ -36,7 +36,7 @@ export function symbolHtml(symbol) {
 }
 
 /** Symbols in running text, such as those of the schema's meanings. */
-export function prose(text) {
+export function withSymbols(text) {
   return text
     .replaceAll("omega", "Ω")
     .replaceAll("theta", "θ")

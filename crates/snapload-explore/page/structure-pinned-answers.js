@@ -2,12 +2,12 @@
 
 import { $ } from "./dom.js";
 import { changesInWords } from "./structure-groups.js";
-import { fixed, number } from "./words.js";
+import { fixed, number } from "./formatting.js";
 
 const MOST_PINS = 5;
 
 /** What an answer comes to, in the order in which it is told. */
-function gist(run) {
+function outcome(run) {
   const known = run.lines.map(({ utilisation }) => utilisation);
   const largest = known.includes(null) ? null : Math.max(...known);
   const judged = run.lines.some(({ snaps }) => snaps !== null);
@@ -16,7 +16,7 @@ function gist(run) {
   return { standing: run.standing, judged, largest, fastest, slack };
 }
 
-export class StructurePins {
+export class PinnedAnswers {
   /** `now` gives the run that is shown; `onBack` is told of a pin that is to be shown again. */
   constructor(state, now, { onBack }) {
     this.state = state;
@@ -37,30 +37,30 @@ export class StructurePins {
     const run = this.now();
     if (!run || this.kept.length >= MOST_PINS) return;
     const { values, water, waterNow } = this.state;
-    this.kept.push({ values: { ...values }, water, waterNow, gist: gist(run), preview: run.preview });
+    this.kept.push({ values: { ...values }, water, waterNow, outcome: outcome(run), preview: run.preview });
     this.show();
   }
 
   show() {
     $("pin").disabled = this.kept.length >= MOST_PINS;
     const run = this.now();
-    const html = run ? this.kept.map((pin, i) => line(pin, i, gist(run))).join("") : "";
+    const html = run ? this.kept.map((pin, i) => line(pin, i, outcome(run))).join("") : "";
     if ($("pins").innerHTML !== html) $("pins").innerHTML = html;
   }
 }
 
-function line({ values, water, waterNow, gist: of, preview }, i, shown) {
+function line({ values, water, waterNow, outcome: of, preview }, i, shown) {
   const waters = water === null ? "" : `water: ${waterNow}`;
-  const what = [waters, changesInWords(values)].filter(Boolean).join(", ") || "the case as it is";
+  const what = [waters, changesInWords(values)].filter(Boolean).join(", ") || "the case, unchanged";
   const compared = of.largest === null ? ["fastest", 2] : ["largest", 2];
   const [name, digits] = compared;
   const difference = shown[name] === null ? 0 : of[name] - shown[name];
   const far = fixed(Math.abs(difference), digits);
-  const more = Number(far) === 0 ? "as now" : `${far} ${difference > 0 ? "more" : "less"} than now`;
+  const more = Number(far) === 0 ? "the same as now" : `${far} ${difference > 0 ? "more" : "less"} than now`;
   const much = of.largest === null ? `fastest snap ${fixed(of.fastest, 2)} m/s` : `utilisation ${fixed(of.largest, 2)}`;
-  const first = preview ? ", of its first minutes" : "";
+  const first = preview ? ", first minutes only" : "";
   const comes = of.judged
-    ? `${much} (${more}), fastest snap ${number(of.fastest, 3)} m/s, slack ${fixed(100 * of.slack, 1)} % at most`
+    ? `${much} (${more}), fastest snap ${number(of.fastest, 3)} m/s, slack at most ${fixed(100 * of.slack, 1)} % of the time`
     : "nothing judged";
   return (
     `<li><button type="button" class="back" data-pin="${i}" title="Show this again">${what}</button>: <b>${of.standing}</b>` +

@@ -1,4 +1,4 @@
-// Hands on the scene: pull the body and let it go, move anchors and fairleads, stretch the wave's ellipse, zoom in.
+// Handles on the scene: drag and release the body, move anchors and fairleads, scale the wave's ellipse, zoom in.
 
 import { ellipsePlace, turned } from "./scene.js";
 
@@ -27,19 +27,20 @@ export function withinReach(lines, [x, y], theta, clear) {
   return [x, y];
 }
 
-export class Hands {
+export class Handles {
   /**
-   * On the canvas of a stage. `onChange({ settled })` follows a change of values, `onLetGo` a body that was let go.
+   * On the canvas of a view of the scene. `onChange({ settled })` follows a change of values, `onRelease` a body that
+   * was released.
    */
-  constructor(stage, state, { onChange, onLetGo }) {
-    this.stage = stage;
+  constructor(sceneView, state, { onChange, onRelease }) {
+    this.sceneView = sceneView;
     this.state = state;
     this.onChange = onChange;
-    this.onLetGo = onLetGo;
+    this.onRelease = onRelease;
     this.held = null;
     this.pan = null;
-    this.fingers = new Map();
-    const { canvas } = stage;
+    this.pointers = new Map();
+    const { canvas } = sceneView;
     canvas.addEventListener("pointerdown", (event) => this.#press(event));
     canvas.addEventListener("pointermove", (event) => this.#move(event));
     for (const end of ["pointerup", "pointercancel"]) canvas.addEventListener(end, (event) => this.#release(event));
@@ -51,11 +52,11 @@ export class Hands {
   }
 
   /**
-   * What there is to take hold of at a place of the canvas; nothing where there is nothing.
+   * What can be dragged at a place of the canvas; null where there is nothing.
    * @returns {string | null}
    */
-  at(px) {
-    const { run, moment, cam, size } = this.stage.view();
+  handleAt(px) {
+    const { run, moment, cam, size } = this.sceneView.view();
     const near = (point, reach) => Math.hypot(point[0] - px[0], point[1] - px[1]) <= reach;
     const { cables } = run.geometry;
     const rigid = run.geometry.body.kind === "rigid";
@@ -71,24 +72,24 @@ export class Hands {
   }
 
   #press(event) {
-    if (event.button !== 0 || !this.stage.run) return;
+    if (event.button !== 0 || !this.sceneView.run) return;
     const px = [event.offsetX, event.offsetY];
-    this.fingers.set(event.pointerId, px);
-    if (this.fingers.size > 1) return this.#beginPinch();
-    const what = this.at(px);
-    const view = this.stage.view();
+    this.pointers.set(event.pointerId, px);
+    if (this.pointers.size > 1) return this.#beginPinch();
+    const what = this.handleAt(px);
+    const view = this.sceneView.view();
     if (what) {
       const centre = view.cam.place([view.moment.x, view.moment.y]);
       this.held = { what, view, offset: [px[0] - centre[0], px[1] - centre[1]], moved: false };
-      this.stage.hold(view.cam);
+      this.sceneView.fixCamera(view.cam);
     } else if (this.state.zoom) this.pan = { px, zoom: this.state.zoom, view };
-    if (what || this.pan) this.stage.canvas.setPointerCapture(event.pointerId);
+    if (what || this.pan) this.sceneView.canvas.setPointerCapture(event.pointerId);
   }
 
   #move(event) {
-    if (!this.stage.run) return;
+    if (!this.sceneView.run) return;
     const px = [event.offsetX, event.offsetY];
-    if (this.fingers.has(event.pointerId)) this.fingers.set(event.pointerId, px);
+    if (this.pointers.has(event.pointerId)) this.pointers.set(event.pointerId, px);
     if (this.pinch) return this.#pinch();
     if (this.held) {
       this.held.moved = true;
@@ -100,19 +101,19 @@ export class Hands {
       const [k, x, y] = this.pan.zoom;
       return this.state.set({ zoom: [k, rounded(x + from[0] - to[0], 5), rounded(y + from[1] - to[1], 5)] });
     }
-    this.stage.canvas.style.cursor = this.at(px) ? "grab" : this.state.zoom ? "move" : "";
+    this.sceneView.canvas.style.cursor = this.handleAt(px) ? "grab" : this.state.zoom ? "move" : "";
   }
 
   #release(event) {
-    this.fingers.delete(event.pointerId);
-    if (this.fingers.size < 2) this.pinch = null;
+    this.pointers.delete(event.pointerId);
+    if (this.pointers.size < 2) this.pinch = null;
     const { held } = this;
     this.pan = null;
     this.held = null;
-    this.stage.hold(null);
+    this.sceneView.fixCamera(null);
     if (!held?.moved) return;
     this.onChange({ since: event.timeStamp, settled: true });
-    if (held.what.startsWith("body") && event.type === "pointerup") this.onLetGo();
+    if (held.what.startsWith("body") && event.type === "pointerup") this.onRelease();
   }
 
   /** The values that put what is held under the pointer. */
@@ -154,14 +155,14 @@ export class Hands {
 
   #wheel(event) {
     // What scrolls the page goes on doing so; two fingers on a touchpad come with ctrl.
-    if (!event.ctrlKey || !this.stage.run) return;
+    if (!event.ctrlKey || !this.sceneView.run) return;
     event.preventDefault();
     this.#zoom(Math.exp(-event.deltaY / 250), [event.offsetX, event.offsetY]);
   }
 
   #beginPinch() {
     this.held = this.pan = null;
-    this.stage.hold(null);
+    this.sceneView.fixCamera(null);
     this.pinch = { before: this.#spread() };
   }
 
@@ -172,7 +173,7 @@ export class Hands {
   }
 
   #spread() {
-    const [one, two] = [...this.fingers.values()];
+    const [one, two] = [...this.pointers.values()];
     return {
       distance: Math.max(Math.hypot(one[0] - two[0], one[1] - two[1]), 1),
       middle: [(one[0] + two[0]) / 2, (one[1] + two[1]) / 2],
@@ -181,7 +182,7 @@ export class Hands {
 
   /** So many times as large about a place of the canvas, which stays where it is. */
   #zoom(factor, px) {
-    const { cam, whole, size } = this.stage.view();
+    const { cam, whole, size } = this.sceneView.view();
     const k = Math.min((cam.scale / whole) * factor, MOST_ZOOM);
     if (k <= 1) return this.state.set({ zoom: null });
     const [x, y] = cam.unplace(px);

@@ -6,8 +6,8 @@ import { prepare } from "./plot.js";
 import { readValue } from "./state.js";
 import { paint } from "./shapes.js";
 import { camera, sceneShapes, sceneWords } from "./scene.js";
-import { colours, stillness } from "./theme.js";
-import { modeName, number, plain, prose, sentence } from "./words.js";
+import { colours, reducedMotion } from "./theme.js";
+import { modeName, number, fieldText, withSymbols, sentence } from "./formatting.js";
 
 /** What a screen reader is told waits for a rest: not every position of a slider is worth a sentence. */
 const REST_MS = 900;
@@ -15,13 +15,13 @@ const REST_MS = 900;
 /** @returns {Iterable<any>} The choices of a name. */
 const radios = (name) => document.getElementsByName(name);
 
-export class Stage {
+export class SceneView {
   constructor(state, playback) {
     this.state = state;
     this.playback = playback;
     this.run = null;
     this.saying = null;
-    this.held = null;
+    this.fixedCamera = null;
     this.canvas = $("scene");
     for (const name of ["picture", "view"]) {
       for (const radio of radios(name)) {
@@ -46,12 +46,12 @@ export class Stage {
     mark($("ghost-size"), { "aria-invalid": text ? "true" : null });
   }
 
-  take(run) {
+  setRun(run) {
     this.run = run;
   }
 
   /** Says what comes of the run. */
-  tell() {
+  describe() {
     const { run } = this;
     this.#summarise();
     clearTimeout(this.saying);
@@ -65,14 +65,14 @@ export class Stage {
   /** How the run ends, how far it is known, and when its neighbour leaves it, in a sentence each. */
   #words() {
     const { end, horizon, ghost, cut } = this.run;
-    const parts = [end.words, horizon.words].flatMap((words) => prose(words).split("\n").map(sentence));
+    const parts = [end.words, horizon.words].flatMap((words) => withSymbols(words).split("\n").map(sentence));
     if (ghost) {
       const apart =
-        ghost.parts_at === null ? "stays beside it to the end" : `parts from it at t = ${number(ghost.parts_at, 5)}`;
-      parts.push(`The neighbour, started ${number(Math.abs(ghost.by))} away in ${ghost.key}, ${apart}.`);
+        ghost.parts_at === null ? "stays within 1e−3 while both last" : `is 1e−3 away at t = ${number(ghost.parts_at, 5)}`;
+      parts.push(`The ghost, started ${number(Math.abs(ghost.by))} away in ${ghost.key}, ${apart}.`);
     }
-    if (this.run.ghost_error) parts.push(sentence(`no neighbour: ${this.run.ghost_error}`));
-    if (cut) parts.push(`Of ${cut.impacts} impacts the first ${cut.shown} are shown.`);
+    if (this.run.ghost_error) parts.push(sentence(`no ghost: ${this.run.ghost_error}`));
+    if (cut) parts.push(`Only the first ${cut.shown} of ${cut.impacts} impacts are shown.`);
     return parts.join(" ");
   }
 
@@ -101,7 +101,7 @@ export class Stage {
   draw() {
     const { run, canvas, state } = this;
     const { context, width, height } = prepare(canvas);
-    const options = { ...this.options(width, height), camera: this.held };
+    const options = { ...this.options(width, height), camera: this.fixedCamera };
     paint(context, sceneShapes(run, Math.min(state.t, run.tEnd), options));
     this.#caption();
   }
@@ -109,20 +109,20 @@ export class Stage {
   options(width, height, scheme) {
     const { picture, view, zoom, speed } = this.state;
     const { playing } = this.playback;
-    return { width, height, picture, view, zoom, speed, playing, colours: colours(scheme), still: stillness.matches };
+    return { width, height, picture, view, zoom, speed, playing, colours: colours(scheme), still: reducedMotion.matches };
   }
 
   /** What is shown now, and how: the run, its moment, the camera, and the size of the canvas. */
   view() {
     const [width, height] = [this.canvas.clientWidth, this.canvas.clientHeight];
-    const cam = this.held ?? camera(this.run, this.options(width, height));
+    const cam = this.fixedCamera ?? camera(this.run, this.options(width, height));
     const moment = this.run.at(Math.min(this.state.t, this.run.tEnd));
     return { run: this.run, moment, cam, whole: cam.whole, size: { width, height } };
   }
 
   /** Keeps the camera where it is while something is moved by hand; lets it go with none. */
-  hold(cam) {
-    this.held = cam;
+  fixCamera(cam) {
+    this.fixedCamera = cam;
   }
 
   #caption() {
@@ -144,6 +144,6 @@ export class Stage {
       for (const radio of radios(name)) put(radio, { checked: radio.value === value });
     }
     put($("ghost"), { checked: ghost !== null });
-    if (ghost !== null) put($("ghost-size"), { value: plain(ghost) });
+    if (ghost !== null) put($("ghost-size"), { value: fieldText(ghost) });
   }
 }

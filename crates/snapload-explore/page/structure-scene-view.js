@@ -4,31 +4,31 @@ import { $ } from "./dom.js";
 import { prepare } from "./plot.js";
 import { paint } from "./shapes.js";
 import { structureCamera, structureShapes, structureWords } from "./structure-scene.js";
-import { colours, stillness } from "./theme.js";
+import { colours, reducedMotion } from "./theme.js";
 import { snapWords } from "./structure-charts.js";
-import { round, sentence } from "./words.js";
+import { round, sentence } from "./formatting.js";
 
 /** What a screen reader is told waits for a rest: not every position of a slider is worth a sentence. */
 const REST_MS = 900;
-export class StructureStage {
+export class StructureSceneView {
   constructor(state, playback) {
     this.state = state;
     this.playback = playback;
     this.run = null;
     this.saying = null;
-    this.held = null;
+    this.fixedCamera = null;
     this.canvas = $("scene");
   }
 
-  take(run) {
+  setRun(run) {
     this.run = run;
     const { verdict, trust } = run.assessment;
     $("verdict").dataset.standing = verdict.standing;
     $("standing").textContent = run.standing;
     $("said").textContent = verdict.words;
     $("trust").textContent = trust.words;
-    const whole = `the whole ${round(run.lasts_s)} s follow when the values stop changing`;
-    $("preview").textContent = run.preview ? `This is of the first ${round(run.tEnd)} s; ${whole}.` : "";
+    const whole = `the whole record of ${round(run.lasts_s)} s follows when the values stop changing`;
+    $("preview").textContent = run.preview ? `These results are for the first ${round(run.tEnd)} s; ${whole}.` : "";
     clearTimeout(this.saying);
     const words = sentence(run.standing) + ` ${verdict.words}`;
     this.saying = setTimeout(() => ($("announced").textContent = words), $("announced").textContent ? REST_MS : 0);
@@ -40,7 +40,7 @@ export class StructureStage {
 
   draw() {
     const { context, width, height } = prepare(this.canvas);
-    const options = { ...this.options(width, height), camera: this.held };
+    const options = { ...this.options(width, height), camera: this.fixedCamera };
     paint(context, structureShapes(this.run, this.t, options));
     this.#caption();
   }
@@ -48,19 +48,19 @@ export class StructureStage {
   options(width, height, scheme) {
     const { zoom, speed } = this.state;
     const { playing } = this.playback;
-    return { width, height, zoom, speed, playing, colours: colours(scheme), still: stillness.matches };
+    return { width, height, zoom, speed, playing, colours: colours(scheme), still: reducedMotion.matches };
   }
 
   /** What is shown now, and how: the run, its moment, the camera, and the size of the canvas. */
   view() {
     const [width, height] = [this.canvas.clientWidth, this.canvas.clientHeight];
-    const cam = this.held ?? structureCamera(this.run, this.options(width, height));
+    const cam = this.fixedCamera ?? structureCamera(this.run, this.options(width, height));
     return { run: this.run, moment: this.run.at(this.t), cam, whole: cam.whole, size: { width, height } };
   }
 
   /** Keeps the camera where it is while something is moved by hand; lets it go with none. */
-  hold(cam) {
-    this.held = cam;
+  fixCamera(cam) {
+    this.fixedCamera = cam;
   }
 
   #caption() {

@@ -7,7 +7,7 @@ const arc = (m) => 0.5 * (m * Math.hypot(1, m) + Math.asinh(m));
 const PIECES = 40;
 
 /** Points from a to b along a line of this length; on the floor, on which a lies, where it would hang through it. */
-export function hang(a, b, length, floor = Infinity) {
+export function slackLine(a, b, length, floor = Infinity) {
   const width = Math.max(Math.abs(b[0] - a[0]), 1e-9);
   const rise = b[1] - a[1];
   if (length <= Math.hypot(width, rise) * (1 + 1e-12)) return [a, b];

@@ -1,8 +1,8 @@
 // What can be taken away: files as the command writes them, the scene, the animation, and lines to copy.
 
-import { fetchFile, fetchTold } from "./api.js";
+import { fetchFile, fetchWithProgress } from "./api.js";
 import { $ } from "./dom.js";
-import { Film } from "./film.js";
+import { AnimationRecording } from "./animation-recording.js";
 import { paint, svg } from "./shapes.js";
 
 /** Size of the scene as a picture of its own [px], and how much finer its pixels are. */
@@ -10,30 +10,30 @@ const SIZE = { width: 960, height: 676 };
 const FINENESS = 2;
 const MAY_MS = 4000;
 
-export class Take {
+export class ExportPanel {
   /**
    * `question` gives what is asked of the server now, under `path`; `now` the run that is shown; `picture` makes shapes
-   * and a caption of a run at a time. Files that `take` long tell how far they have come.
+   * and a caption of a run at a time. Files that take long tell how far they have come.
    */
-  constructor({ state, stage, now, question, address, picture, path = "api/export", takeLong = [] }) {
+  constructor({ state, sceneView, now, question, address, picture, path = "api/export", slowFiles = [] }) {
     this.state = state;
-    this.stage = stage;
+    this.sceneView = sceneView;
     this.now = now;
     this.question = question;
     this.picture = picture;
     this.path = path;
     this.address = address;
-    this.film = null;
+    this.recording = null;
     this.writing = null;
     for (const button of document.querySelectorAll("[data-file]")) {
       button.addEventListener("click", () => this.#try(() => this.#file(button)));
     }
     $("scene-svg").addEventListener("click", () => this.#try(() => this.#sceneSvg()));
     $("scene-png").addEventListener("click", () => this.#try(() => this.#scenePng()));
-    $("film").addEventListener("click", () => this.#try(() => this.#film()));
-    $("film-cancel").addEventListener("click", () => this.film?.cancel());
-    this.takeLong = takeLong;
-    if (takeLong.length) $("file-cancel").addEventListener("click", () => this.writing?.abort());
+    $("animation").addEventListener("click", () => this.#try(() => this.#animation()));
+    $("animation-cancel").addEventListener("click", () => this.recording?.cancel());
+    this.slowFiles = slowFiles;
+    if (slowFiles.length) $("file-cancel").addEventListener("click", () => this.writing?.abort());
     for (const [id, text] of [
       ["copy-shell", () => this.now().shell],
       ["copy-python", () => this.now().python],
@@ -43,7 +43,7 @@ export class Take {
     }
   }
 
-  take(run) {
+  setRun(run) {
     $("shell").textContent = run.shell;
     $("python").textContent = run.python;
   }
@@ -59,18 +59,18 @@ export class Take {
   }
 
   say(text) {
-    $("take-said").textContent = text;
+    $("export-said").textContent = text;
   }
 
   /** The file is of the values as they are now, whatever they become while it is written. */
   async #file(button) {
     const name = button.dataset.file;
-    const of = `${name} of ${this.state.caseName ?? "values of your own"}`;
+    const of = `${name} of ${this.state.caseName ?? "your own values"}`;
     button.disabled = true;
     this.say(`${of}: writing`);
     try {
       const path = `${this.path}/${name}`;
-      if (this.takeLong.includes(name)) return await this.#long(path, name, of);
+      if (this.slowFiles.includes(name)) return await this.#slowFile(path, name, of);
       save(await fetchFile(path, this.question()), name);
     } finally {
       button.disabled = false;
@@ -79,13 +79,13 @@ export class Take {
   }
 
   /** A file that takes long; one at a time, as each has all processors. */
-  async #long(path, name, of) {
+  async #slowFile(path, name, of) {
     this.writing?.abort();
     const writing = (this.writing = new AbortController());
     $("file-cancel").hidden = $("file-progress").hidden = false;
     $("file-progress").value = 0;
     try {
-      const text = await fetchTold(path, this.question(), writing.signal, ({ doing, percent }) => {
+      const text = await fetchWithProgress(path, this.question(), writing.signal, ({ doing, percent }) => {
         if (this.writing !== writing) return;
         $("file-progress").value = percent / 100;
         this.say(`${of}: ${doing}, ${percent} %`);
@@ -95,7 +95,7 @@ export class Take {
     } catch (error) {
       if (error.name !== "AbortError") throw error;
       // The next file may be what it was given up for: what is said is of that one by now.
-      if (this.writing === writing) this.say(`${of} was given up.`);
+      if (this.writing === writing) this.say(`${of} was cancelled.`);
     } finally {
       if (this.writing === writing) {
         this.writing = null;
@@ -106,7 +106,7 @@ export class Take {
 
   #shapes(scheme) {
     const { t } = this.state;
-    return this.picture.shapes(this.now(), Math.min(t, this.now().tEnd), this.stage.options(SIZE.width, SIZE.height, scheme));
+    return this.picture.shapes(this.now(), Math.min(t, this.now().tEnd), this.sceneView.options(SIZE.width, SIZE.height, scheme));
   }
 
   #sceneSvg() {
@@ -129,30 +129,30 @@ export class Take {
     this.say("scene.png is saved.");
   }
 
-  async #film() {
+  async #animation() {
     const run = this.now();
     const [from, to] = this.state.window ?? [0, run.tEnd];
-    const film = (this.film = new Film({
+    const recording = (this.recording = new AnimationRecording({
       run,
       picture: this.picture,
       from,
       to: Math.min(to, run.tEnd),
-      options: { ...this.stage.options(SIZE.width, SIZE.height), playing: true },
+      options: { ...this.sceneView.options(SIZE.width, SIZE.height), playing: true },
       size: SIZE,
     }));
-    $("film").disabled = true;
-    $("film-cancel").hidden = $("film-progress").hidden = false;
+    $("animation").disabled = true;
+    $("animation-cancel").hidden = $("animation-progress").hidden = false;
     try {
-      const blob = await film.record((part) => {
-        $("film-progress").value = part;
+      const blob = await recording.record((part) => {
+        $("animation-progress").value = part;
         this.say(`run.webm: ${Math.floor(100 * part)} %`);
       });
       if (blob) save(blob, "run.webm");
-      this.say(blob ? "run.webm is saved." : "The film was given up.");
+      this.say(blob ? "run.webm is saved." : "The animation was cancelled.");
     } finally {
-      $("film").disabled = false;
-      $("film-cancel").hidden = $("film-progress").hidden = true;
-      this.film = null;
+      $("animation").disabled = false;
+      $("animation-cancel").hidden = $("animation-progress").hidden = true;
+      this.recording = null;
     }
   }
 }
