@@ -71,7 +71,7 @@ def versions() -> Iterator[str]:
     manifest = tomllib.loads(read("Cargo.toml"))
     for name, told in manifest["workspace"]["dependencies"].items():
         if name.startswith("snapload") and told.get("version") != here:
-            yield f"Cargo.toml: {name} is asked for as {told.get('version')}, and the version is {here}"
+            yield f"Cargo.toml: {name} is required as {told.get('version')}, but the version is {here}"
     places = {
         "CITATION.cff": rf"^version: {re.escape(here)}$",
         "docs/cite.md": rf"version = \{{{re.escape(here)}\}}",
@@ -83,7 +83,7 @@ def versions() -> Iterator[str]:
             yield f"{name}: its version is not {here}"
     log = read("CHANGELOG.md")
     if "## [Unreleased]" not in log and f"## [{here}]" not in log:
-        yield f"CHANGELOG.md: it tells neither of what is not released nor of {here}"
+        yield f"CHANGELOG.md: it has neither a section [Unreleased] nor one for {here}"
 
 
 def crates() -> Iterator[str]:
@@ -118,7 +118,7 @@ def texts() -> Iterator[str]:
     measured = {row.split("|")[3].strip() for row in read("README.md").splitlines() if row.count("|") == 8}
     for factor in re.findall(r"([\d.,]+) times", read("paper/paper.md")):
         if factor not in measured:
-            yield f"paper/paper.md: {factor} times is no figure of the table in README.md"
+            yield f"paper/paper.md: {factor} times is not in the table in README.md"
     known = set(re.findall(r"^@\w+\{(.+?),", read("paper/paper.bib"), re.MULTILINE))
     for key in sorted(set(re.findall(r"@([a-z]+\d{4}[a-z]*)", read("paper/paper.md"))) - known):
         yield f"paper/paper.md: {key} is not in paper.bib"
@@ -160,14 +160,14 @@ def wheel() -> None:
             if not any(name.endswith(needed) for name in names):
                 sys.exit(f"the wheel has no {needed}")
         if any("tests/" in name for name in names):
-            sys.exit("the wheel holds the tests")
+            sys.exit("the wheel contains the tests")
         run(sys.executable, "-m", "venv", fresh)
         run(fresh / "bin" / "python", "-m", "pip", "install", "--quiet", built, "pandas")
         outside = {"PATH": f"{fresh / 'bin'}:/usr/bin:/bin", "HOME": scratch, "MPLBACKEND": "Agg"}
         if shutil.which("cargo", path=outside["PATH"]):
-            print("there is a cargo in /usr/bin, which the wheel must not need")
+            print("cargo is in /usr/bin, so this does not show that the wheel works without it")
         try_out(room, fresh / "bin", outside)
-    print("the wheel is right")
+    print("the wheel works")
 
 
 def try_out(room: Path, programs: Path, outside: dict[str, str]) -> None:
@@ -184,7 +184,7 @@ def try_out(room: Path, programs: Path, outside: dict[str, str]) -> None:
         "modules = [snapload, *(importlib.import_module(f'snapload.{name}') for name in names)]\n"
         "results = [doctest.testmod(module) for module in modules]\n"
         "assert not sum(result.failed for result in results)\n"
-        "print(sum(result.attempted for result in results), 'examples are true')\n"
+        "print(sum(result.attempted for result in results), 'examples pass')\n"
     )
     print(run(programs / "python", "-c", examples, cwd=work, env=outside).strip())
     for words in (["--version"], ["run"], ["critical"], ["sweep", "--vary", "e=0.5,0.9", "--out", "e.parquet"]):
@@ -192,7 +192,7 @@ def try_out(room: Path, programs: Path, outside: dict[str, str]) -> None:
     told = run(programs / "snapload", "run", cwd=work, env=outside)
     first = re.search(r"```text\n(Case .*?)```", read("docs/start.md"), re.DOTALL)
     if first is None or first[1].split() != told.split():
-        sys.exit(f"the command of the wheel does not say what docs/start.md says:\n{told}")
+        sys.exit(f"the command of the wheel does not print what docs/start.md shows:\n{told}")
 
 
 if __name__ == "__main__":

@@ -23,7 +23,7 @@ def decimal(text):
     """The number that a decimal is, and half a unit of its last place, as fractions."""
     found = DECIMAL.fullmatch(text) if isinstance(text, str) and len(text) < 400 else None
     if not found:
-        raise No(3, f"{text!r} is no decimal")
+        raise No(3, f"{text!r} is not a decimal")
     sign, whole, fraction, power = found.groups()
     places = len(fraction or "") - int(power or 0)
     unit = fmpq(1, 10**places) if places >= 0 else fmpq(10**-places)
@@ -39,7 +39,7 @@ def same(what, ball, text):
     """The printed number is the true one to half a unit of its last place."""
     value, half = decimal(text)
     if not abs(ball - arb(value)) <= arb(half):
-        raise No(1 if abs(ball - arb(value)) > arb(half) else 2, f"{what}: {text} is claimed, {ball.str(25)} is true")
+        raise No(1 if abs(ball - arb(value)) > arb(half) else 2, f"{what}: {text} is claimed, the true value is {ball.str(25)}")
 
 def spread(ball):
     return arb(0, ball.abs_upper())
@@ -118,7 +118,7 @@ def stays_clear(flight, lo, hi, struck, hit):
         done, middle = done + 1, ((begin + end) / 2).mid()
         there = flight.watched(middle)
         if any(f > 0 for f, _, _ in there) or done > MOST_PIECES or not begin < middle < end:
-            raise No(1 if any(f > 0 for f, _, _ in there) else 2, f"something comes first, next to {begin.str(12)} later")
+            raise No(1 if any(f > 0 for f, _, _ in there) else 2, f"another event comes first, about {begin.str(12)} later")
         pieces += [(middle, end, there, last, False, is_last), (begin, middle, first, there, is_first, False)]
 
 def crossing(centre, whole, k, guess):
@@ -127,13 +127,13 @@ def crossing(centre, whole, k, guess):
     for _ in range(ctx.prec.bit_length()):
         value, rate, _ = centre.watched(tau)[k]
         if not (rate.mid() > 0 and abs(tau - guess) < arb(fmpq(1, 1000))):
-            raise No(1, "nothing is reached next to the time that is claimed")
+            raise No(1, "no event next to the claimed time")
         tau = (tau - value.mid() / rate.mid()).mid()
     value, rate, _ = whole.watched(tau)[k]
     reach = tau + spread(abs(value) * 4 / rate.mid() + arb(2) ** (20 - ctx.prec))
     slope = whole.watched(reach)[k][1]
     if not (slope > 0 and reach.contains_interior(tau - value / slope)):
-        raise No(2, "whether it is crossed, or only touched")
+        raise No(2, "whether a cable or limit is reached or only touched")
     return tau - centre.watched(tau)[k][0] / slope, tau - value / slope
 
 def struck(model, side, state, share):
@@ -176,7 +176,7 @@ def directions(matrix, sides):
         if len(basis) < 6 and hypot(*v) > least:
             basis.append([c / hypot(*v) for c in v])
     if len(basis) < 6:
-        raise No(2, "a set of states that has become flat")
+        raise No(2, "a set of states that has become degenerate")
     return arb_mat(basis).transpose()
 
 def ends_here(model, count, k, state, force, vn, slow):
@@ -201,7 +201,7 @@ def next_event(model, flight, c, t0, slack, last, claim, end):
     for k, (value, rate, _) in enumerate(flight.watched(slack)):  # the flight begins somewhere in T + slack
         bound = arb(fmpq(-1, 10**9)) if last is None and k < 2 else arb(0)
         if not (rate < 0 if k == last else value < bound):
-            raise No(1 if last is None and value > -2 * bound else 2, "a closed cable, or a stop, at the begin")
+            raise No(1 if last is None and value > -2 * bound else 2, "a closed cable, or a stop, at the beginning")
     at, k, (theta, spin) = None, None, flight.state[2::3]
     if reason == "end_time":
         tau = arb(model.exact["t_end"]) - t0
@@ -213,12 +213,12 @@ def next_event(model, flight, c, t0, slack, last, claim, end):
         k = claim[0] - 1 if claim else max(tops, key=tops.get)
         at, tau = crossing(Flight(model, t0, c), flight, k, guess)
     else:
-        raise No(1, "the run does not end so")
+        raise No(1, "the run does not end in this way")
     rooms = [tau - slack, model.quarter - abs(theta)] + [-f[0] for j, f in enumerate(flight.watched(tau)) if j != k]
     rooms += [model.exact["t_end"] - t0 - tau] if reason != "end_time" else []
     rooms += [model.quarter - abs(flight.state_at(tau)[2])] if reason != "rotation_limit" else []
     if not all(room > 0 for room in rooms):
-        raise No(1 if any(room < 0 for room in rooms) else 2, "something else comes first")
+        raise No(1 if any(room < 0 for room in rooms) else 2, "another event comes first")
     stays_clear(flight, arb(slack.upper()), arb(tau.upper() if k is None else tau.lower()), last, k)
     return at, tau, k
 
@@ -279,7 +279,7 @@ def check(source):
         text = source.read_text(encoding="utf-8") if isinstance(source, Path) else source
         certificate = json.loads(text, object_pairs_hook=lambda pairs: dict(pairs) if len(dict(pairs)) == len(pairs) else None)
         if not well_formed(certificate):
-            raise No(3, "not of the format, or of one that is not known here, such as of taut motion")
+            raise No(3, "not of format 1 (format 2, of taut motion, is not supported here)")
         bits = ctx.prec = certificate["bits"]
         while True:
             try:

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Alters certificates in 27 ways, and counts what the two checkers pass of it: nothing may be passed.
+"""Alters certificates in 27 ways, and counts what the two checkers accept: they must accept none.
 
 usage: alter.py SNAPLOAD [COUNT]      SNAPLOAD is the program; needs python-flint for tools/certificate_check.py
 
@@ -210,7 +210,7 @@ def main(binary, count):
     for (checker, status), times in sorted(answers.items()):
         print(f"  {checker}: exit status {status}: {times}")
     for kind, verdicts, case in passed:
-        print(f"PASSED {kind} {verdicts} {case}")
+        print(f"ACCEPTED {kind} {verdicts} {case}")
     return 1 if passed else 0
 
 

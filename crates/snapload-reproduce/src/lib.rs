@@ -40,10 +40,10 @@ pub enum ReportError {
     #[error("the list of figures can not be read: {0}")]
     List(#[from] toml::de::Error),
     /// The list of figures or the page refers to something that was not computed.
-    #[error("the report asks for {0}, which was not computed")]
+    #[error("the report refers to {0}, which was not computed")]
     Missing(String),
     /// Texts and judge of a claim do not match, or a run on which it is based is missing.
-    #[error("a claim can not be told: {0}")]
+    #[error("a claim can not be reported: {0}")]
     Claim(String),
 }
 

@@ -74,7 +74,7 @@ impl Chapter {
             return fault(id, "a sentence names it, but it is not judged");
         }
         match ids.iter().find(|id| !told.contains(*id)) {
-            Some(id) => fault(id, "it stems from no sentence"),
+            Some(id) => fault(id, "no sentence makes it"),
             None => Ok(()),
         }
     }
@@ -134,7 +134,7 @@ mod tests {
     ];
 
     #[test]
-    fn every_sentence_is_there_and_told_what_it_is() {
+    fn every_sentence_is_there_and_has_a_kind() {
         let chapter = read(include_str!("../claims/sentences.toml"));
         let lengths = chapter
             .sections

@@ -113,10 +113,10 @@ impl Stretch {
         };
         let how = match (self.event.as_str(), next) {
             (event, Some(next)) if event.starts_with(SNAP) && next.from == self.until => {
-                ", until it strikes the other boundary and keeps to this one"
+                ", until it hits the other boundary and stays on this one"
             }
             (event, _) if event.starts_with(SNAP) => {
-                ", until it strikes the other boundary and leaves this one"
+                ", until it hits the other boundary and leaves this one"
             }
             _ => "",
         };
@@ -178,7 +178,7 @@ pub(crate) fn story(code: &str) -> Vec<(Option<Number>, String)> {
 }
 
 fn flies(snaps: usize) -> String {
-    format!("flies free of both cables, with {snaps} snaps")
+    format!("moves with both cables slack, with {snaps} snaps")
 }
 
 #[cfg(test)]

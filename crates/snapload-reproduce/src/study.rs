@@ -192,7 +192,7 @@ pub(crate) fn exact(parameters: &Parameters, proved: Option<&Proved>) -> Result<
     Err(CaseError::value(
         "t",
         t,
-        format!("the end that is proved, {}", proved.t),
+        format!("the proved end, {}", proved.t),
     ))
 }
 

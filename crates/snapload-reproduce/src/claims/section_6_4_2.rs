@@ -97,7 +97,10 @@ fn reasons(table: &Table) -> Judged {
                 e.name()
             )
         };
-        first.map_or_else(|| format!("{}: none exceeds", e.name()), end)
+        first.map_or_else(
+            || format!("{}: no amplitude exceeds the limits", e.name()),
+            end,
+        )
     });
     let others: Vec<String> = others.collect();
     let entries = table.entries.len();
@@ -213,7 +216,7 @@ fn over_cable_length() -> Judged {
     let mut words: Vec<String> = members.iter().map(words).collect();
     words.dedup();
     Ok(Finding::robust(&members, |f_cr| falling(f_cr))
-        .value("forces", words.join("; by other starts ")))
+        .value("forces", words.join("; from other starts ")))
 }
 
 /// The critical forces by connection points, those of the circle and of the square of the same

@@ -4,7 +4,7 @@
 //! ["6.4.1-27"]
 //! claim = "The rotations get larger with the frequency."
 //! evidence = "largest rotation {rotations:.3}"
-//! not_reproduced.ends = "It holds of the ends of the range; steps the other way: {back} of 4."
+//! not_reproduced.ends = "It holds only for the ends of the range; {back} of 4 steps go the other way."
 //! ```
 //!
 //! A key `judged` gives the measure, threshold and range of the judgement, where these are a
@@ -129,7 +129,7 @@ pub(super) fn tell(id: &str, finding: &Finding) -> Result<Claim, ReportError> {
     let entries = ENTRIES.as_ref().map_err(|error| fault(error.to_string()))?;
     let (id, entry) = entries
         .get_key_value(id)
-        .ok_or_else(|| fault("it has no words".to_owned()))?;
+        .ok_or_else(|| fault("it has no text".to_owned()))?;
     let [evidence, judged, remark] = entry.tell(finding).map_err(fault)?;
     Ok(Claim {
         id,
@@ -150,10 +150,10 @@ pub(super) fn check_all(judged: &[&str]) -> Result<(), ReportError> {
     let fault = |id: &str, what: &str| Err(ReportError::Claim(format!("claim {id}: {what}")));
     let mut ids = ENTRIES.iter().flatten().map(|(id, _)| id.as_str());
     if let Some(id) = ids.find(|id| !judged.contains(id)) {
-        return fault(id, "it has words, but no judge");
+        return fault(id, "it has a text, but is not judged");
     }
     match judged.windows(2).find(|pair| pair[0] == pair[1]) {
-        Some(pair) => fault(pair[0], "it has two judges"),
+        Some(pair) => fault(pair[0], "it is judged twice"),
         None => Ok(()),
     }
 }
@@ -181,7 +181,7 @@ impl Entry {
         let told = |name: &str| place(name, "}") || place(name, ":");
         if let Some(name) = finding.values.keys().find(|name| !told(name)) {
             return Err(format!(
-                "its judge gives `{name}`, which its words do not tell"
+                "its judge gives `{name}`, which its text does not use"
             ));
         }
         let mut named: Vec<&str> = remarks().map(|(name, _)| &**name).collect();
@@ -189,12 +189,12 @@ impl Entry {
         let undecided = |name: &&&str| !finding.conditions.contains_key(**name);
         if let Some(name) = named.iter().find(undecided) {
             return Err(format!(
-                "a remark hangs on `{name}`, which its judge does not decide"
+                "a remark depends on `{name}`, which its judge does not decide"
             ));
         }
         match finding.conditions.keys().find(|name| !named.contains(name)) {
             Some(name) => Err(format!(
-                "its judge decides `{name}`, on which no remark hangs"
+                "its judge decides `{name}`, on which no remark depends"
             )),
             None => Ok(()),
         }
@@ -269,18 +269,18 @@ mod tests {
         let more = finding(Reproduced).value("two", 2_usize);
         assert_eq!(
             refused(more),
-            "its judge gives `two`, which its words do not tell"
+            "its judge gives `two`, which its text does not use"
         );
         let more = finding(Reproduced).found("snows", true);
         assert_eq!(
             refused(more),
-            "its judge decides `snows`, on which no remark hangs"
+            "its judge decides `snows`, on which no remark depends"
         );
         let mut less = finding(Reproduced);
         less.conditions.remove("rains");
         assert_eq!(
             refused(less),
-            "a remark hangs on `rains`, which its judge does not decide"
+            "a remark depends on `rains`, which its judge does not decide"
         );
         let mut less = finding(Reproduced);
         less.values.remove("holding");

@@ -193,7 +193,7 @@ impl Example {
         };
         let caption = format!(
             "Path of the body's centre in the {case} ({chapter}), the settling rule off: I start, S sliding \
-             starts, G the other boundary is struck while one cable is taut, R rocking starts, E the end at \
+             starts, G the other boundary is hit while one cable is taut, R rocking starts, E the end at \
              t = {}{still}.{inset}{}",
             run.end().t,
             beyond(known)
@@ -246,7 +246,7 @@ fn apart(plot: &Plot) -> Option<Inset> {
 fn beyond(known: &Known) -> String {
     match known.horizon {
         Some(t) => format!(
-            " In doubles the motion is known up to t = {t:.2}; what is later is drawn as such."
+            " In doubles the motion is known up to t = {t:.2}; later parts are marked in grey."
         ),
         None => String::new(),
     }

@@ -108,12 +108,12 @@ impl StateFigure {
             number(name, motion.tensions[cable], key)
         }));
         let why = if self.stands_in && !self.tabled(study) {
-            " No box of Table 6.1 slides on its left cable in our runs, so this is a square of the table under a \
-             stronger force."
+            " No box of Table 6.1 slides with its left cable taut in our runs, so this is a square of the table under \
+             a stronger force."
         } else {
             ""
         };
-        let caption = format!("{}{why} A state of a real run, at t = {t}:", self.what);
+        let caption = format!("{}{why} A computed state, at t = {t}:", self.what);
         let plot = Plot {
             description: caption.clone(),
             x: Axis::new("*x* (L)", Range::Auto),

@@ -96,7 +96,7 @@ impl Page<'_> {
                                     Kind::Claims(ids) => {
                                         @for id in ids { a href={ "#claim-" (id) } { (id) } " " }
                                     }
-                                    Kind::Definition => { "no claim: it sets, describes or refers" }
+                                    Kind::Definition => { "no claim: a convention, a description or a reference" }
                                     Kind::NotCheckable(why) => { "not checkable: " (why) }
                                 }
                             }

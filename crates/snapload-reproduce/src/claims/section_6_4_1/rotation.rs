@@ -229,9 +229,9 @@ fn close_to_rocking(tabled: &Tabled) -> Judged {
         let never = waits[k].iter().filter(|wait| wait.is_none()).count();
         let never = match never {
             0 => String::new(),
-            count => format!(" ({count} not within {AFTER})"),
+            count => format!(" ({count} starts not within {AFTER} T)"),
         };
-        format!("{}, rocks {known} later{never}", ending(own[k].end()))
+        format!("{}, rocks {known} T later{never}", ending(own[k].end()))
     });
     Ok(Finding::new(soon(&waits, CLOSE))
         .value("runs", words.join("; "))

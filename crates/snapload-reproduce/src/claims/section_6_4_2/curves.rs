@@ -212,7 +212,7 @@ fn local_extremes(study: &Study) -> Judged {
         let clearest = shown_span(members.iter().map(|points| points[1].1));
         let (key, value, r) = (symbol(curve), points[1].0, curve.r);
         texts.push(format!(
-            "{} {name}, the clearest of {clearest} at {key} = {value}, r = {r}",
+            "{} {name}, the clearest, {clearest}, at {key} = {value}, r = {r}",
             all.len()
         ));
     }

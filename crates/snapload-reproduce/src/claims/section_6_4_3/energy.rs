@@ -104,7 +104,7 @@ fn dissipated(sweeps: &Sweeps) -> Judged {
         };
         let exceed = spans(&|run| run.0.is_some_and(|t| t <= SOON));
         format!(
-            "{} of {} ({exceed} exceed before)",
+            "{} of {} ({exceed} exceed the limits before)",
             spans(&is_dissipated),
             starts[0].len()
         )

@@ -189,7 +189,7 @@ fn way_to_first_impact() -> Judged {
             .map(|run| first(run).unwrap_or((f64::NAN, f64::NAN)));
         found.push((point - rigid, q.0 < p.0));
         texts.push(format!(
-            "{rigid:.4}/{point:.4} and v_n {:.3}/{:.3} at {f_o}",
+            "{rigid:.4}/{point:.4} and v_n {:.3}/{:.3} at f_o = {f_o}",
             p.1, q.1
         ));
     }
