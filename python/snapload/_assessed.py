@@ -116,7 +116,7 @@ class Assessment(_Answer):
 
     @property
     def snaps(self) -> xarray.Dataset:
-        """Every snap and jolt of 1 cm/s or more, in order of time.
+        """Every snap, and every impact of a taut line, of 1 cm/s or more, in order of time.
 
         See Also
         --------

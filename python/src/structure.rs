@@ -1,4 +1,4 @@
-//! Structures in SI units: assessed, in many records of a sea, and on lines that stretch.
+//! Structures in SI units: assessed, in many records of a sea, and on elastic lines.
 
 use crate::errors::{of_case, of_program, of_work};
 use crate::interrupt::interruptible;
@@ -125,7 +125,7 @@ impl Structure {
         ))
     }
 
-    /// Runs it on lines that stretch and on lines that do not.
+    /// Runs it on elastic and on inextensible lines.
     fn elastic(
         &self,
         py: Python<'_>,
@@ -212,7 +212,7 @@ impl Elastic {
         self.found.summary(&self.name)
     }
 
-    /// The motion on lines that stretch, at the times that were kept.
+    /// The motion on elastic lines, at the times that were kept.
     fn motion(&self) -> MotionColumns {
         let samples = &self.found.elastic.samples;
         let scales = &self.found.sprung.model.scales;

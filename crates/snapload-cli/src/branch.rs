@@ -216,7 +216,7 @@ fn columns(key: &'static str, branch: &Branch) -> Vec<(&'static str, Values)> {
 }
 
 /// The names of the sorts of orbits.
-const OF_BRANCHES: [&str; 4] = ["stable", "neutral", "unstable", "no body has it"];
+const OF_BRANCHES: [&str; 4] = ["stable", "neutral", "unstable", "not admissible"];
 
 /// The branch in the order of its arclength, special points among the others.
 fn layers(key: &str, branch: &Branch, plot: &PlotFile) -> Vec<Layer> {

@@ -228,7 +228,7 @@ const OF_CURVES: [&str; 4] = [
     "of a stable orbit",
     "of a neutral orbit",
     "of an unstable orbit",
-    "no body has it",
+    "not admissible",
 ];
 
 fn layers(keys: [&str; 2], curve: &Curve, plot: &PlotFile) -> Vec<Layer> {

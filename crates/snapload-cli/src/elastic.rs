@@ -1,4 +1,4 @@
-//! `snapload elastic`: one structure on lines that stretch, beside the same on lines that do not.
+//! `snapload elastic`: one structure on elastic lines, beside the same on inextensible lines.
 use crate::bar::Bar;
 use crate::failure::Failure;
 use crate::json::JsonArgs;

@@ -11,7 +11,7 @@ const IN_SIGHT = 0.3;
 
 const reach = (column, scale = 1) => span([column], 0).map((v) => fixed(v * scale, 2)).join(" to ");
 
-/** A column as a line, and that of lines that stretch beside it. */
+/** A column as a line, and that of elastic lines beside it. */
 function line(name, scale = 1) {
   const scaled = (column) => (scale === 1 ? column : column.map((v) => v * scale));
   return (context, frame, run, { colours }) => {
@@ -101,7 +101,7 @@ function drawTensions(context, frame, run, { colours }) {
 /** Everything there is to say of a snap, in a line. */
 export function snapWords(run, i) {
   const { t, line: lines, speed, peak, utilisation, jolt } = run.snaps;
-  const what = jolt[i] ? "jolt of" : "snap of";
+  const what = jolt[i] ? "impact on taut" : "snap of";
   const pulls = peak[i] === null ? "" : ` · about ${round(peak[i])} kN`;
   const part = utilisation[i] === null ? "" : `, ${fixed(utilisation[i], 2)} of the breaking load`;
   return `${what} line ${lines[i]}${pulls}${part} · ${number(speed[i], 3)} m/s · t ${fixed(t[i], 2)} s`;

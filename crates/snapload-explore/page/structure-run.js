@@ -66,7 +66,7 @@ export class StructureRun {
   transient_s = 0;
   shell = "";
   python = "";
-  /** On lines that stretch, once it is there. @type {any} */
+  /** On elastic lines, once it is there. @type {any} */
   elastic = null;
   /** @type {StructureMotion | null} */
   elasticAt = null;
@@ -87,7 +87,7 @@ export class StructureRun {
     this.hardest = this.hardness.reduce((most, value) => Math.max(most, value), 0);
   }
 
-  /** The same run on lines that stretch, to be shown beside it; null for none. */
+  /** The same run on elastic lines, to be shown beside it; null for none. */
   setElastic(answer) {
     this.elastic = answer;
     this.elasticAt = answer && answer.motion.t.length ? new StructureMotion(answer.motion) : null;
@@ -140,9 +140,9 @@ export class StructureRun {
     return found;
   }
 
-  /** How many snaps of 1 cm/s or more there are, and jolts among them. */
+  /** How many snaps of 1 cm/s or more there are, and whether impacts of taut lines are among them. */
   get snapsInWords() {
-    return `${this.snaps.all} ${this.snaps.jolt.includes(true) ? "snaps and jolts" : "snaps"}`;
+    return `${this.snaps.all} ${this.snaps.jolt.includes(true) ? "snaps and impacts while taut" : "snaps"}`;
   }
 
   /** What keys come to that the case leaves out, as far as the answer tells. */

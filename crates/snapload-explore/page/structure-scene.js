@@ -165,7 +165,7 @@ function bodyShapes(run, moment, cam, style) {
   ];
 }
 
-/** The same on lines that stretch. */
+/** The same on elastic lines. */
 function elasticShapes(run, moment, cam, colours) {
   const lines = run.geometry.lines.map((line) => {
     const [from, to] = [cam.place(line.anchor), cam.place(turned(line.arm, moment))];

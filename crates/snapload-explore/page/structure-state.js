@@ -34,7 +34,7 @@ export class StructureState extends Watched {
   t = 0;
   speed = 1;
   loop = true;
-  /** Whether lines that stretch are shown beside. */
+  /** Whether elastic lines are shown beside. */
   elastic = true;
   /** The interval of time that is shown [s]. @type {number[] | null} */
   window = null;

@@ -48,7 +48,7 @@ export function showLines(run) {
   const beside = (words, unit) => (elastic ? head(`${words},<br>elastic`, unit, "num stretch") : "");
   $("lines").innerHTML =
     `<thead><tr><th scope="col">Line</th>${head("Utilisation", "", "")}${head("Safety<br>factor", "")}` +
-    `${head("Breaking<br>load", "kN")}${head("Held", "kN")}${head("Snap<br>peak", "kN")}${beside("Peak", "kN")}` +
+    `${head("Breaking<br>load", "kN")}${head("While<br>taut", "kN")}${head("Snap<br>peak", "kN")}${beside("Peak", "kN")}` +
     `${head("Slack", "%")}${beside("Slack", "%")}${head("Fastest<br>snap", "m/s")}${head("Snaps", "")}` +
     `${head("At rest", "kN")}${head("Least", "kN")}</tr></thead><tbody>` +
     run.lines.map((line, i) => lineRow(line, elastic?.lines[i])).join("") +
@@ -58,10 +58,10 @@ export function showLines(run) {
   const named = names.length === 1 && names[0] ? `Lines of ${names[0]}. ` : "";
   const nothing = run.lines.every(({ snaps }) => snaps === null) ? ", so that nothing is judged" : "";
   $("lines-words").textContent =
-    `${named}The run ${end.reason}, ${round(end.t_s)} s; judged from ${round(run.transient_s)} s on${nothing}. Held: the largest ` +
-    "tension while a line stays taut; snap peak: estimated; slack: part of the time. Utilisation: the larger of the two " +
+    `${named}The run ${end.reason}, ${round(end.t_s)} s; judged from ${round(run.transient_s)} s on${nothing}. While taut: the ` +
+    "largest tension as long as a line stays taut; snap peak: estimated; slack: part of the time. Utilisation: the larger of the two " +
     "over the breaking load; the safety factor is its inverse, and includes no factor of any rule." +
-    (elastic ? " Elastic: the same on lines that stretch, as by snapload elastic." : "");
+    (elastic ? " Elastic: the same with elastic lines, as computed by snapload elastic." : "");
 }
 
 /** Checks by the rule of the case, other restitutions, and warnings. */
@@ -89,7 +89,7 @@ export function showSnaps(run) {
   const hardest = some.sort((a, b) => t[a] - t[b]);
   const row = (i) =>
     `<tr data-t="${t[i]}"><td><button type="button" class="go" data-t="${t[i]}">${fixed(t[i], 3)}</button></td>` +
-    `<td><span class="c${((line[i] - 1) % 6) + 1}">${line[i]}</span>${jolt[i] ? " jolt" : ""}</td>` +
+    `<td><span class="c${((line[i] - 1) % 6) + 1}">${line[i]}</span>${jolt[i] ? " impact while taut" : ""}</td>` +
     `${cell(fixed(speed[i], 3))}${cell(peak[i] === null ? "–" : round(peak[i], 4))}` +
     `${cell(utilisation[i] === null ? "–" : fixed(utilisation[i], 2))}` +
     `<td>${t[i] < run.transient_s ? "no, in the transient" : "yes"}</td></tr>`;

@@ -31,7 +31,7 @@ import { StructureWaves } from "./structure-waves.js";
 import { ExportPanel } from "./export.js";
 import { fixed, round } from "./formatting.js";
 
-/** Values that rest for so long are worth their neighbours, and lines that stretch. */
+/** Values that rest for so long are worth their neighbours, and elastic lines. */
 const REST_MS = 300;
 /** Neighbours of a longer record [s] are for the command: forty of them would keep the machine busy for minutes. */
 const LONGEST_WITH_NEIGHBOURS = 1200;
@@ -98,7 +98,7 @@ class Page {
     this.state.listen((changed) => this.follow(changed));
     new Keyboard({ playback: this.playback }, [
       ...timeKeys(this),
-      [["g"], "g", "lines that stretch, on or off", () => $("elastic").click()],
+      [["g"], "g", "elastic lines, on or off", () => $("elastic").click()],
       [["l"], "l", "loop on or off", () => this.state.set({ loop: !this.state.loop })],
       [["p"], "p", "pin this answer", () => this.pins.add()],
       [["?"], "?", "this help", () => $("help").click()],
@@ -141,7 +141,7 @@ class Page {
   receive(answer, since, question) {
     const before = this.run;
     this.run = new StructureRun(answer);
-    // What was computed of lines that stretch stays for another interval of the same run.
+    // What was computed of elastic lines stays for another interval of the same run.
     this.sameCase = before !== null && keyOf(this.ofCase) === keyOf(question.case);
     this.ofCase = question.case;
     const latest = this.asked === JSON.stringify(question);
@@ -174,7 +174,7 @@ class Page {
     this.drawAll();
   }
 
-  /** Values rest: the whole of a long record, neighbours, and lines that stretch, one after the other. */
+  /** Values rest: the whole of a long record, neighbours, and elastic lines, one after the other. */
   async computeFurther() {
     this.stopBackground();
     const { question, state } = this;
@@ -270,7 +270,7 @@ class Page {
       return `<span style="color:${lineColour(paints, line)}">${mark} line ${line}</span>`;
     });
     const loads = breakingLoads(this.run).map((load) => `<span class="breaking">breaks at ${round(load, 4)} kN</span>`);
-    const stretch = this.run.elasticAt ? [`<span class="ghost-edge edge">on lines that stretch</span>`] : [];
+    const stretch = this.run.elasticAt ? [`<span class="ghost-edge edge">on elastic lines</span>`] : [];
     $("legend").innerHTML = [...lines, ...loads, ...stretch].join(" ");
   }
 

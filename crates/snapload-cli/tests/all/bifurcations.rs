@@ -237,7 +237,7 @@ fn sections_and_branches_are_drawn() {
     for word in [
         "stable",
         "unstable",
-        "no body has it",
+        "not admissible",
         "fold",
         "corner",
         "upper bound",
@@ -323,8 +323,8 @@ fn a_section_without_points_is_none() {
         .assert()
         .code(1)
         .stderr(contains(
-            "the motion of this start stops at t = 10.0247: the rotation reached its limit. That is before the first \
-             point of the section, which comes after 300 periods of the forcing; ask for fewer --periods",
+            "the motion from this start stops at t = 10.0247: the rotation reached its limit. That is before the \
+             first point of the section, which comes after 300 periods of the forcing; use fewer --periods",
         ));
     assert_eq!(std::fs::read_dir(d.path()).unwrap().count(), 0);
     snapload(d.path())

@@ -134,7 +134,7 @@ fn the_printed_pontoon_is_the_programs() {
     assert!(read("docs/pontoon.md").contains(case.trim_end()));
 }
 
-/// The same for the pontoon on lines that stretch, except for the computing time.
+/// The same for the pontoon on elastic lines, except for the computing time.
 #[test]
 fn the_printed_pulls_are_the_programs() {
     let mut program = assert_cmd::Command::new(assert_cmd::cargo::cargo_bin!("snapload"));

@@ -195,7 +195,10 @@ fn hydro_refuses_with_reasons() {
             &["decay", "pontoon.nc", "--from", "0,0,0"],
             "release the body from",
         ),
-        (&["decay", "pontoon.nc", "--step", "0"], "positive step"),
+        (
+            &["decay", "pontoon.nc", "--step", "0"],
+            "the step must be above 0",
+        ),
     ] {
         snapload(room.path())
             .args(words)

@@ -117,7 +117,7 @@ fn an_orbit_far_from_its_start_says_so() {
             .assert()
             .success();
         let words = String::from_utf8_lossy(&out.get_output().stdout).into_owned();
-        let told = words.contains(&format!("by {far:.3} in one coordinate"));
+        let told = words.contains(&format!("{far:.3} from the start in one coordinate"));
         assert_eq!(told, is_far, "{words}");
     }
     assert!(json("orbit", &[])["start_distance"].is_null());
@@ -295,7 +295,7 @@ fn what_can_not_be_is_refused() {
     refused(&["basin", "--vary", "x=0:1:3"], "a window has two keys");
     refused(
         &["basin", "--vary", "x=0:1:3", "--vary", "x=0:1:3"],
-        "each once",
+        "two different keys",
     );
     refused(
         &["basin", "--vary", "x=0:1:3", "--vary", "e=0:2:3"],

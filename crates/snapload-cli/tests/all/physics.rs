@@ -167,7 +167,7 @@ fn critical_refuses_in_words() {
     refused(&["--over", "e=0:x:3"], "not a number");
     refused(&["--over", "e=0:1:0"], "whole number");
     refused(&["--over", "omgea=0:1:3"], "did you mean omega");
-    refused(&["--over", "f_o=0:1:3"], "what is sought");
+    refused(&["--over", "f_o=0:1:3"], "the key that is searched");
     refused(&["--over", "e=0:2:3"], "0 <= e <= 1");
     refused(&["--step", "0"], "--step = 0");
     refused(&["--max", "1e9"], "million");

@@ -146,7 +146,7 @@ fn a_name_keeps_its_promise() {
     let d = directory();
     let wanted = || {
         contains("can not write x.csv: rows are written as Parquet")
-            .and(contains("end it in .parquet"))
+            .and(contains("choose a name that ends in .parquet"))
     };
     sweep(d.path(), &SHORT, "x.csv").code(2).stderr(wanted());
     snapload(d.path())

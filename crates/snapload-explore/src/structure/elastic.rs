@@ -1,4 +1,4 @@
-//! `/api/structure/elastic`: the same structure on lines that stretch, as by `snapload elastic`.
+//! `/api/structure/elastic`: the same structure on elastic lines, as by `snapload elastic`.
 use super::Latest;
 use super::motion::Columns;
 use super::opened::{Asked, Opened};

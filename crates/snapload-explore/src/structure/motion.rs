@@ -24,7 +24,7 @@ impl Columns {
         }
     }
 
-    /// Of lines that do not stretch, with rows just before and just after each snap.
+    /// Of inextensible lines, with rows just before and just after each snap.
     pub(super) fn of(run: &Trajectory, scales: &Scales, [from, to]: [f64; 2]) -> Self {
         let mut columns = Self::new(run.system().cables.len());
         let mut playback = Playback::new(run);
@@ -66,7 +66,7 @@ impl Columns {
         });
     }
 
-    /// Of lines that stretch.
+    /// Of elastic lines.
     pub(super) fn of_elastic(run: &ElasticRun, scales: &Scales, [from, to]: [f64; 2]) -> Self {
         let lines = run
             .samples

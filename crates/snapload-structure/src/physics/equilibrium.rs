@@ -51,12 +51,12 @@ pub struct Equilibrium {
     pub relaxed_n: Option<Vec<f64>>,
 }
 
-/// The tensions on lines that do not stretch, and the position on lines that do.
+/// The tensions on inextensible lines, and the position on elastic lines.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Shared {
-    /// The tensions of lines that do not stretch \[N\].
+    /// The tensions of inextensible lines \[N\].
     pub unstretched_n: Vec<f64>,
-    /// Centre `[x, z]` on lines that stretch \[m\].
+    /// Centre `[x, z]` on elastic lines \[m\].
     pub place_m: [f64; 2],
 }
 
@@ -305,7 +305,7 @@ fn rest(system: &System, set: &[usize], start: State) -> Option<State> {
     rests.then_some(at)
 }
 
-/// The small motions of a body on lines that do not stretch.
+/// The small motions of a body on inextensible lines.
 pub(super) struct SmallMotions {
     /// Σ T_i ∇(n_i, s_i) over (x, y, θ), symmetric.
     pub(super) curvature: Matrix3<f64>,

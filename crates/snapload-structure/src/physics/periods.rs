@@ -6,7 +6,7 @@
 //!
 //! over q = (x, y, θ), with the mass matrix M, which includes the added mass, and T_i and k_i the
 //! tension at rest and the spring rate of line i. The first sum is the stiffness of the tension as
-//! the lines turn, the second that of the springs. On lines that do not stretch the second is left
+//! the lines turn, the second that of the springs. On inextensible lines the second is left
 //! out, and q is restricted to the motions that keep taut every line that pulls. From K v = ω² M v
 //! follow ω² and the mode v (L. Meirovitch, *Elements of Vibration Analysis* (1986), section 4.3).
 
@@ -39,9 +39,9 @@ pub struct NaturalMode {
 /// The natural periods for both models of a line, the longest first.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct NaturalPeriods {
-    /// On lines that do not stretch: one for each degree of freedom that the taut lines allow.
+    /// On inextensible lines: one for each degree of freedom that the taut lines allow.
     pub inextensible: Vec<NaturalMode>,
-    /// On lines that stretch, if their stiffness is known and the body rests on them.
+    /// On elastic lines, if their stiffness is known and the body rests on them.
     pub elastic: Option<Vec<NaturalMode>>,
 }
 
@@ -72,7 +72,7 @@ impl Prepared {
     }
 }
 
-/// Natural motions of a floating body on lines that stretch: K of the springs and of the water
+/// Natural motions of a floating body on elastic lines: K of the springs and of the water
 /// together, with A(ω) of the file and with the memory. None where a stiffness is not known.
 ///
 /// # Errors

@@ -41,7 +41,7 @@ impl Prepared {
         Ok(prepared)
     }
 
-    /// The same for lines that stretch, which may already be stretched at the start of the case.
+    /// The same for elastic lines, which may already be stretched at the start of the case.
     ///
     /// # Errors
     /// A [`CaseError`] if it has no position of rest or the start is not possible.
@@ -53,7 +53,7 @@ impl Prepared {
         }
     }
 
-    /// Whether its start is within reach of lines that do not stretch.
+    /// Whether its start is within reach of inextensible lines.
     pub fn starts_within_reach(&self) -> bool {
         self.simulation(1.0).is_ok()
     }
@@ -227,7 +227,7 @@ impl Prepared {
     }
 }
 
-/// Whether the distribution of the load at rest differs from that on lines that do not stretch,
+/// Whether the distribution of the load at rest differs from that on inextensible lines,
 /// whose tensions come first. For a floating body the water carries the load that stretching lines
 /// lose, so that the parts of the lines' total load are compared.
 fn shared_otherwise(structure: &Structure, tensions_n: [&[f64]; 2]) -> bool {

@@ -65,7 +65,7 @@ struct ElasticText<'a> {
     /// time slack if it did not stretch.
     lines: Vec<([f64; 4], Option<f64>)>,
     rows: Vec<String>,
-    /// The number of snaps of lines that do not stretch.
+    /// The number of snaps of inextensible lines.
     snaps: usize,
     /// The hardest of them by the complete estimate, the line's own mass included \[N\].
     hardest_n: Option<f64>,

@@ -266,7 +266,7 @@ fn how_it_breaks(line: &LineOutcome, stretching: bool) -> &'static str {
 }
 
 impl BothModels {
-    /// Whether lines that stretch go slack, and whether one breaks.
+    /// Whether elastic lines go slack, and whether one breaks.
     pub fn verdict(&self) -> Verdict {
         let (structure, outcome) = (&self.sprung.structure, &self.outcome);
         let pulls = self.elastic.pulls.iter();

@@ -1,4 +1,4 @@
-//! The same case on lines that stretch and on lines that do not.
+//! The same case on elastic and on inextensible lines.
 
 use super::design::{Check, checks};
 use super::outcome::{Outcome, add_slack};
@@ -18,7 +18,7 @@ pub struct BothModels {
     pub prepared: Prepared,
     /// The factor by which the lines' stiffness was multiplied.
     pub stiffer: f64,
-    /// The lines that stretch.
+    /// The elastic lines.
     pub springs: Vec<Spring>,
     /// The same about its position of rest on these lines.
     pub sprung: Prepared,
@@ -28,11 +28,11 @@ pub struct BothModels {
     pub outcome: Outcome,
     /// Time that its computation took \[s\].
     pub elastic_took_s: f64,
-    /// The same on lines that do not stretch; none if the case starts beyond their reach.
+    /// The same on inextensible lines; none if the case starts beyond their reach.
     pub inextensible: Option<Inextensible>,
 }
 
-/// A motion on lines that do not stretch.
+/// A motion on inextensible lines.
 #[derive(Clone, Debug, Default)]
 pub struct Inextensible {
     /// The snaps, without slow ones and jolts.
@@ -44,7 +44,7 @@ pub struct Inextensible {
 }
 
 /// Runs a structure on lines `stiffer` times as stiff as they are, from its position of rest on
-/// them unless the case gives a start, and on lines that do not stretch; the motion on the former
+/// them unless the case gives a start, and on inextensible lines; the motion on the former
 /// is kept every `every_s` seconds.
 ///
 /// # Errors
@@ -79,12 +79,12 @@ pub fn both_models(
 }
 
 impl BothModels {
-    /// The checks by the rule of the case, of the lines that stretch.
+    /// The checks by the rule of the case, of the elastic lines.
     pub fn checks(&self) -> Vec<Check> {
         checks(&self.sprung, &self.outcome, false)
     }
 
-    /// Rules of thumb that the case violates, except those that are decided by lines that stretch.
+    /// Rules of thumb that the case violates, except those that are decided by elastic lines.
     pub fn warnings(&self) -> Vec<Warning> {
         let (structure, run) = (&self.sprung.structure, &self.elastic);
         warnings(&self.sprung)

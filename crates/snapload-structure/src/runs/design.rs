@@ -227,7 +227,7 @@ pub(crate) fn line_checks(prepared: &Prepared, outcome: &Outcome, open: bool) ->
 pub(crate) fn force_check(prepared: &Prepared) -> Option<Check> {
     let share = prepared.structure.design.force_share?;
     let value = wave_force_part(prepared);
-    // On lines that stretch considerably the body rests higher, where the waves are larger.
+    // On elastic lines considerably the body rests higher, where the waves are larger.
     let open = prepared.rest.shared.is_some();
     Some(Check::new(Criterion::WaveForce, None, value, share, open))
 }
@@ -244,7 +244,7 @@ impl Tensions {
     fn new(prepared: &Prepared, outcome: &Outcome, line: usize) -> Self {
         let of_line = &outcome.lines[line];
         Self {
-            // Both of lines that do not stretch, if those would share the load differently.
+            // Both of inextensible lines, if those would share the load differently.
             rest_n: match &prepared.rest.shared {
                 Some(shared) => Some(shared.unstretched_n[line]),
                 None => prepared.rest.known_tensions_n()[line],

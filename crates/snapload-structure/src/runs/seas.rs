@@ -46,7 +46,7 @@ pub struct Seas {
 pub enum Lines {
     /// Inextensible lines, which snap.
     Inextensible,
-    /// Lines that stretch, as springs.
+    /// Elastic lines, as springs.
     Elastic,
 }
 
@@ -54,7 +54,7 @@ pub enum Lines {
 /// ones.
 ///
 /// # Errors
-/// A [`CaseError`] unless the count is of [`SEEDS`], if the case has no sea, the structure rests nowhere, or lines that stretch have no
+/// A [`CaseError`] unless the count is of [`SEEDS`], if the case has no sea, the structure rests nowhere, or elastic lines have no
 /// stiffness, and [`Unfinished::Cancelled`].
 pub fn seas(
     structure: Structure,
@@ -74,13 +74,13 @@ pub fn seas(
         Lines::Inextensible => Prepared::new(structure)?,
         Lines::Elastic => Prepared::for_springs(structure)?,
     };
-    // For lines that stretch, the position of rest on them is reported.
+    // For elastic lines, the position of rest on them is reported.
     let told = match lines {
         Lines::Inextensible => prepared.clone(),
         Lines::Elastic => prepared.on_springs(&springs(&prepared, 1.0)?)?,
     };
     let mut warnings = warnings(&told);
-    // Rules that are decided by lines that stretch do not apply to them.
+    // Rules that are decided by elastic lines do not apply to them.
     warnings.retain(|warning| lines == Lines::Inextensible || warning.decided_by.is_none());
     let open = warnings.iter().any(|warning| warning.decided_by.is_some());
     let counter = Counter::new("records", 0, count.into(), on_progress);

@@ -1,4 +1,4 @@
-//! The outcome of one run on lines that stretch.
+//! The outcome of one run on elastic lines.
 
 use super::outcome::{LineOutcome, Outcome};
 use crate::physics::elastic::{ElasticRun, run_elastic, springs};
@@ -8,7 +8,7 @@ use snapload::Stop;
 use snapload::analysis::{OnProgress, Unfinished};
 
 impl Outcome {
-    /// Runs a structure on lines that stretch, from its position of rest on them, and returns the
+    /// Runs a structure on elastic lines, from its position of rest on them, and returns the
     /// outcome, with the structure about that position.
     ///
     /// # Errors
@@ -25,7 +25,7 @@ impl Outcome {
         Ok((sprung, outcome))
     }
 
-    /// The outcome of a motion on lines that stretch. A snap is a pull that begins at
+    /// The outcome of a motion on elastic lines. A snap is a pull that begins at
     /// [`SLOWEST_M_S`] or more.
     pub(super) fn of_pulls(sprung: &Prepared, run: &ElasticRun) -> Self {
         let transient_s = sprung.structure.transient_s;

@@ -63,7 +63,7 @@ fn a_start_is_not_told_as_a_place_of_rest() {
     assert!(told.contains("line 1    not known at rest"), "{told}");
     let json = assessment.to_json("case");
     assert!(json["rest"]["z_m"].is_null() && json["lines"][0]["rest_tension_n"].is_null());
-    // So far turned nothing rests on lines that stretch either.
+    // So far turned nothing rests on elastic lines either.
     let prepared = Prepared::for_springs(structure(&text(1000.0))).unwrap();
     let refused = both_models(prepared, 1.0, f64::INFINITY, &unwatched).unwrap_err();
     let shown = refused.to_string();

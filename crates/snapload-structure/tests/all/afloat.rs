@@ -222,7 +222,7 @@ fn slack_lines_leave_the_response_of_the_frequency_domain() {
     }
 }
 
-/// On lines that stretch the body rests where hydrostatics, weight and pulls are in balance.
+/// On elastic lines the body rests where hydrostatics, weight and pulls are in balance.
 #[test]
 fn stretched_lines_share_the_load_with_the_water() {
     let text = case(-0.2, 2.0, 9.666, "", "duration = 5");
@@ -354,7 +354,7 @@ fn what_a_floating_body_can_not_be_is_refused() {
     }
 }
 
-/// Linear theory is left on lines that stretch, too, and said to be.
+/// Linear theory is left on elastic lines, too, and said to be.
 #[test]
 fn the_limits_are_told_of_lines_that_stretch() {
     let sea = "[sea]\nhs = 1.6\ntp = 5.5\ncomponents = 60";

@@ -335,7 +335,7 @@ fn a_memory_is_carried_to_the_centre() {
     assert!(warned.is_none(), "{warned:?}");
 }
 
-/// In waves, with snaps on lines that stretch and with the memory, the pontoon's lines pull at the
+/// In waves, with snaps on elastic lines and with the memory, the pontoon's lines pull at the
 /// times and with the tensions that another program computed.
 #[test]
 fn snaps_on_springs_are_those_of_another_program() {

@@ -89,7 +89,7 @@ fn a_body_held_below_its_centre_is_a_double_pendulum() {
 }
 
 /// The example's periods on its chains, as a mooring engineer computed them with another program;
-/// with lines a hundred thousand times as stiff, those on lines that do not stretch.
+/// with lines a hundred thousand times as stiff, those on inextensible lines.
 #[test]
 fn the_cylinder_swings_as_others_found() {
     let prepared = Prepared::new(structure(CYLINDER)).expect("a start");
@@ -234,7 +234,7 @@ fn factors_that_go_together_are_given_together() {
     }
 }
 
-/// The checks of lines that stretch, recomputed from their tensions, and those of many records,
+/// The checks of elastic lines, recomputed from their tensions, and those of many records,
 /// each of which has the checks of its own run.
 #[test]
 fn springs_and_records_are_checked_by_the_same_rule() {

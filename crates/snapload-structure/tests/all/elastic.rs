@@ -1,4 +1,4 @@
-//! Lines that stretch: known motions, and the limit of stiff lines.
+//! Elastic lines: known motions, and the limit of stiff lines.
 
 use serde_json::Value;
 use snapload::Limit;
@@ -140,7 +140,7 @@ fn damping_ratios_of_known_restitutions() {
 }
 
 /// The same case on both kinds of lines: as the lines get stiffer, the times and speeds of the
-/// snaps tend to those of lines that do not stretch, with an error proportional to the duration of
+/// snaps tend to those of inextensible lines, with an error proportional to the duration of
 /// the contact, which is as 1/sqrt(k).
 #[test]
 fn stiff_lines_are_lines_that_do_not_stretch() {
@@ -310,7 +310,7 @@ fn lines_share_what_they_hold_by_their_stiffness() {
     }
 }
 
-/// A line that is slack where the body rests on lines that do not stretch has the damper of its own
+/// A line that is slack where the body rests on inextensible lines has the damper of its own
 /// effective mass, however long it is.
 #[test]
 fn a_slack_line_has_the_damper_of_its_mass() {
@@ -338,8 +338,8 @@ fn a_slack_line_has_the_damper_of_its_mass() {
     }
 }
 
-/// A body that goes down on its lines ends where it touches the floor, as it does on lines that do
-/// not stretch.
+/// A body that goes down on its lines ends where it touches the floor, as it does on
+/// inextensible lines.
 #[test]
 fn the_floor_ends_a_run() {
     let waves = [
@@ -371,7 +371,7 @@ fn the_floor_ends_a_run() {
     assert!(below.clone().all(|sample| sample.t_s > last), "{last}");
 }
 
-/// The position of rest on lines that stretch may be out of reach of those that do not: it is a
+/// The position of rest on elastic lines may be out of reach of inextensible ones: it is a
 /// legal start, from which the body does not move in still water, and there is nothing to compare
 /// it with.
 #[test]

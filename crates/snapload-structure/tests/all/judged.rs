@@ -65,7 +65,7 @@ fn where_nothing_is_judged_no_numbers_are_told() {
     assert!(!note.contains("No line snaps at 1 cm/s or more"));
 }
 
-/// The same for lines that stretch, and for records.
+/// The same for elastic lines, and for records.
 #[test]
 fn nothing_judged_is_told_of_springs_and_records() {
     let text = EXAMPLE.replace("height = 2\n", "height = 12\n");
@@ -130,7 +130,7 @@ fn a_line_that_breaks_before_it_is_judged_leaves_the_verdict_open() {
     let all = EXAMPLE.replace("[run]", "[run]\ntransient = 0");
     let all = assess(structure(&all), 0, &unwatched).unwrap();
     assert_eq!(all.verdict().standing, Standing::Breaks);
-    // The same is reported of lines that stretch.
+    // The same is reported of elastic lines.
     let short = EXAMPLE.replace("[run]", "[run]\nduration = 12");
     let prepared = Prepared::for_springs(structure(&short)).unwrap();
     let both = both_models(prepared, 1.0, f64::INFINITY, &unwatched).unwrap();
@@ -251,7 +251,7 @@ fn without_snaps_no_tension_of_snaps_is_told() {
     );
 }
 
-/// A snap has a single tension: the table with the lines that stretch says what its numbers leave
+/// A snap has a single tension: the table with the elastic lines says what its numbers leave
 /// out, and gives the same tension as the assessment.
 #[test]
 fn the_hardest_snap_is_told_alike_beside_springs() {

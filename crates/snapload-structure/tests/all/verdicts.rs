@@ -255,7 +255,7 @@ fn the_restitution_is_varied() {
 }
 
 /// Two lines side by side, one of them 5 mm shorter, share the load as two springs do: s₁ = s₂ + δ
-/// and k₁ s₁ + k₂ s₂ = F. With lines that do not stretch the shorter one would carry all of it.
+/// and k₁ s₁ + k₂ s₂ = F. With inextensible lines the shorter one would carry all of it.
 #[test]
 fn the_stretch_of_lines_shares_the_load_at_rest() {
     let line = |length: f64| {

@@ -1,4 +1,4 @@
-//! A body on lines that stretch: the forces of the lines at a state, and the acceleration.
+//! A body on elastic lines: the forces of the lines at a state, and the acceleration.
 
 use super::law::Spring;
 use snapload::{State, System, TautSet, Waves};

@@ -70,7 +70,7 @@ pub fn damping_ratio(restitution: f64) -> f64 {
 
 /// The lines of a structure as springs, `stiffer` times as stiff as they are, with dampers that
 /// give its restitution for the effective mass M/w of the body along each line, where the structure
-/// rests on lines that do not stretch.
+/// rests on inextensible lines.
 ///
 /// # Errors
 /// A [`CaseError`] if a line has no stiffness, or the restitution is too small.

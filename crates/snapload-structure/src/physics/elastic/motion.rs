@@ -1,4 +1,4 @@
-//! The motion on lines that stretch.
+//! The motion on elastic lines.
 //!
 //! Between the instants at which a line begins or ceases to pull the forces are smooth. So the
 //! motion is integrated from one such instant to the next with the set of pulling lines fixed, by
@@ -229,7 +229,7 @@ impl<M: Method<N>, const N: usize> Steps<'_, M, N> {
     }
 }
 
-/// Runs a structure on lines that stretch, to the end of its duration or until it is turned by a
+/// Runs a structure on elastic lines, to the end of its duration or until it is turned by a
 /// quarter. The state is kept at every multiple of `every_s` and at the end, or nowhere if that is
 /// infinite.
 ///
@@ -302,7 +302,7 @@ fn run<const N: usize>(
     Ok(record.finish(t, state, pulling, stop))
 }
 
-/// The limit that a state exceeds, as for lines that do not stretch. It is checked from time to
+/// The limit that a state exceeds, as for inextensible lines. It is checked from time to
 /// time, so that a run may end a little late.
 fn exceeded(prepared: &Prepared, state: &State) -> Option<Stop> {
     let (system, rules) = (&prepared.model.system, &prepared.model.rules);

@@ -1,4 +1,4 @@
-//! The record of a motion on lines that stretch.
+//! The record of a motion on elastic lines.
 
 use super::body::SprungBody;
 use crate::options::sampling;
@@ -43,7 +43,7 @@ pub struct Sample {
     pub tension_n: Vec<f64>,
 }
 
-/// A motion on lines that stretch.
+/// A motion on elastic lines.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct ElasticRun {
     /// Every pull, in the order of their beginnings.

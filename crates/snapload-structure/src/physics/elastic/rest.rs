@@ -1,6 +1,6 @@
-//! The position of rest on lines that stretch.
+//! The position of rest on elastic lines.
 //!
-//! Pulling lines are stretched, so that the body rests higher than on lines that do not stretch,
+//! Pulling lines are stretched, so that the body rests higher than on inextensible lines,
 //! and the distribution of the load among several lines follows from their stiffness. The position
 //! of rest is the minimum of the potential energy of buoyancy and springs,
 //!
@@ -65,7 +65,7 @@ impl Prepared {
             relaxed_n: None,
         };
         let structure = self.structure.clone();
-        // With a start of the case the run is compared with lines that do not stretch, in the same
+        // With a start of the case the run is compared with inextensible lines, in the same
         // waves.
         let model = match structure.start_m {
             // The coefficients of a floating body refer to the mean position, which does not change
