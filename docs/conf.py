@@ -36,7 +36,7 @@ exclude_patterns = ["README.md", "_build"]
 nitpicky = True
 nitpick_ignore_regex = [("py:.*", r"^(?!snapload\.(?!_engine)).*")]
 # A variable of types, and the keywords of a call, have no page.
-nitpick_ignore = [("py:class", "snapload._scales.Result"), ("py:class", "snapload._hydro.Asked")]
+nitpick_ignore = [("py:class", "snapload._scales.Convertible"), ("py:class", "snapload._hydro.HydroOptions")]
 
 # Mathematics is typeset in the browser by files of the site itself, so that it is there without a network.
 mathjax_path = "mathjax/tex-chtml.js"

@@ -165,9 +165,9 @@ def test_a_flight_is_drawn_smoothly():
     ax = run.plot()
     drawn = np.concatenate([line.get_xydata() for line in ax.lines if len(line.get_xydata()) > 400])
     path = drawn[np.isfinite(drawn).all(axis=1)]
-    from snapload._plot import times_of
+    from snapload._plot import curve_times
 
-    times = times_of(run, 0.0, run.end.t)
+    times = curve_times(run, 0.0, run.end.t)
     middle = (times[1:] + times[:-1]) / 2
     exact, ends = run.at(middle), run.at(times)
     off = np.abs((ends.y[1:] + ends.y[:-1]) / 2 - exact.y).max()

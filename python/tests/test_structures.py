@@ -14,7 +14,7 @@ CYLINDER = ROOT / "docs" / "examples" / "cylinder.toml"
 
 def test_answers_are_those_of_the_command(command_json: Callable[..., Any]) -> None:
     changes = {"run.duration": 90, "line.2.length": 6.05, "wave.direction": "-x", "run.start": [0.1, -3.9]}
-    sets = [f"--set={key}={snapload._structure._written(value)}" for key, value in changes.items()]
+    sets = [f"--set={key}={snapload._structure._toml_value(value)}" for key, value in changes.items()]
     structure = snapload.Structure.from_toml(CYLINDER, changes)
     said = command_json("assess", str(CYLINDER), *sets, "--neighbours", "2")
     assert structure.assess(neighbours=2).data == said
