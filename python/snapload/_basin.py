@@ -87,8 +87,12 @@ def safe_basin(case: Case, *, trust: bool = True, progress: bool = True, **windo
     data, coords = json.loads(answer), _axis_coordinates(axes)
     shape = tuple(len(values) for _, values, _ in coords.values())
     variables: dict[str, Any] = {}
-    for name, kind, data, words in columns:
-        variables[name] = (tuple(coords), _column(kind, data, words).reshape(shape), {"long_name": _LONG_NAMES[name]})
+    for name, kind, buffer, words in columns:
+        variables[name] = (
+            tuple(coords),
+            _column(kind, buffer, words).reshape(shape),
+            {"long_name": _LONG_NAMES[name]},
+        )
     ends: list[str] = next(entry["words"] for entry in _engine.columns() if entry["name"] == "end")
     codes = {word: code for code, word in enumerate(ends)}
     outcomes = variables["outcome"][1]
@@ -160,7 +164,7 @@ def basins_of_attraction(
     with progress_bar("basins of attraction", _PROGRESS_TOTAL, progress) as report_progress:
         answer, columns, orbits = _engine.basins_of_attraction(engine, axes, transient, report_progress)
     data, coords = json.loads(answer), _axis_coordinates(axes)
-    found = {name: _column(kind, data, words) for name, kind, data, words in columns}
+    found = {name: _column(kind, buffer, words) for name, kind, buffer, words in columns}
     shape = tuple(len(values) for _, values, _ in coords.values())
     end_reasons: list[str] = next(entry["words"] for entry in _engine.columns() if entry["name"] == "end")
     codes = {"": -1, "attracted": 0, "aperiodic": 0} | {word: -2 - place for place, word in enumerate(end_reasons)}
@@ -315,8 +319,8 @@ def _measure_attributes(data: dict[str, Any]) -> dict[str, Any]:
     return {name: or_nan(data[name]) for name in names} | {"interval95": np.array(data["interval95"])}
 
 
-def _column(kind: str, data: bytearray, categories: list[str]) -> NDArray[Any]:
+def _column(kind: str, buffer: bytearray, words: list[str]) -> NDArray[Any]:
     """The values of all cells."""
     if kind == "words":
-        return np.array(categories, dtype=object)[np.frombuffer(data, dtype=np.int32)]
-    return np.frombuffer(data, dtype=kind)
+        return np.array(words, dtype=object)[np.frombuffer(buffer, dtype=np.int32)]
+    return np.frombuffer(buffer, dtype=kind)
