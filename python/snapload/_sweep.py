@@ -226,12 +226,13 @@ def merge(parts: Iterable[str | PathLike[str]], out: str | PathLike[str]) -> xar
 
     >>> import subprocess, sys, tempfile
     >>> import snapload
-    >>> room = tempfile.mkdtemp()
-    >>> half = f"sweep --vary e=0.5,0.9 --shard {{k}}/2 --out {room}/part-{{k}}.parquet"
+    >>> folder = tempfile.mkdtemp()
+    >>> half = f"sweep --vary e=0.5,0.9 --shard {{k}}/2 --out {folder}/part-{{k}}.parquet"
     >>> for k in (1, 2):
-    ...     words = [sys.executable, "-m", "snapload", *half.format(k=k).split()]
-    ...     _ = subprocess.run(words, check=True, capture_output=True)
-    >>> snapload.merge([f"{room}/part-1.parquet", f"{room}/part-2.parquet"], f"{room}/whole.parquet").e.values.tolist()
+    ...     command = [sys.executable, "-m", "snapload", *half.format(k=k).split()]
+    ...     _ = subprocess.run(command, check=True, capture_output=True)
+    >>> parts = [f"{folder}/part-1.parquet", f"{folder}/part-2.parquet"]
+    >>> snapload.merge(parts, f"{folder}/whole.parquet").e.values.tolist()
     [0.5, 0.9]
     """
     if isinstance(parts, (str, PathLike)):

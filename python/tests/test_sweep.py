@@ -99,9 +99,9 @@ except KeyboardInterrupt:
 
 
 def interrupt(call: str, after: str = "", at_work: Callable[[], bool] | None = None) -> tuple[float, str]:
-    """Sends Ctrl-C to a Python at work; gives how long it took to answer, and what it says after that.
+    """Sends Ctrl-C to a Python at work; returns the time until it answered, and what it printed after that.
 
-    It is sent as soon as `at_work` holds, or else after 0.7 s to calls that go on for minutes."""
+    It is sent as soon as `at_work` holds, or else after 0.7 s to calls that take minutes."""
     code = INTERRUPTED.format(call=call, after=after)
     with subprocess.Popen([sys.executable, "-c", code], stdout=subprocess.PIPE, text=True) as process:
         assert process.stdout is not None and process.stdout.readline() == "ready\n"
@@ -109,7 +109,7 @@ def interrupt(call: str, after: str = "", at_work: Callable[[], bool] | None = N
             time.sleep(0.7)
         else:
             while not at_work():
-                assert process.poll() is None, "it ended before it was told to"
+                assert process.poll() is None, "it ended before the signal was sent"
                 time.sleep(0.001)
         sent = time.monotonic()
         process.send_signal(signal.SIGINT)
