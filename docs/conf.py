@@ -1,4 +1,4 @@
-"""The manual as a site: one for the command line, Rust and Python."""
+"""Configuration of the manual as a site."""
 
 import importlib
 import os
@@ -22,7 +22,7 @@ extensions = [
     "sphinx.ext.viewcode",
 ]
 if "READTHEDOCS" in os.environ:
-    # Types of other libraries lead to their manuals, where these can be asked for.
+    # Types of other libraries link to their manuals, if these can be downloaded.
     extensions.append("sphinx.ext.intersphinx")
     intersphinx_mapping = {
         "python": ("https://docs.python.org/3", None),
@@ -32,22 +32,22 @@ if "READTHEDOCS" in os.environ:
         "xarray": ("https://docs.xarray.dev/en/stable", None),
     }
 exclude_patterns = ["README.md", "_build"]
-# Everything that is wrong is told, and the tests make an error of it.
+# All warnings are reported, and the tests treat them as errors.
 nitpicky = True
 nitpick_ignore_regex = [("py:.*", r"^(?!snapload\.(?!_engine)).*")]
-# A variable of types, and the keywords of a call, have no page.
-nitpick_ignore = [("py:class", "snapload._scales.Result"), ("py:class", "snapload._hydro.Asked")]
+# A type variable and the keyword arguments of a call have no page.
+nitpick_ignore = [("py:class", "snapload._scales.Convertible"), ("py:class", "snapload._hydro.HydroOptions")]
 
-# Mathematics is typeset in the browser by files of the site itself, so that it is there without a network.
+# Formulas are typeset in the browser by files of the site itself, without a network.
 mathjax_path = "mathjax/tex-chtml.js"
-# A formula is a wide thing, and a phone is not.
+# Wide formulas scroll on narrow screens.
 html_static_path = ["static"]
 html_css_files = ["manual.css"]
 
 myst_heading_anchors = 3
 myst_enable_extensions = ["dollarmath"]
 
-# The notebooks are run when the site is built, so what they show is what the package says.
+# The notebooks are run when the site is built, so that they show the results of this version.
 nb_execution_mode = "force"
 nb_execution_raise_on_error = True
 nb_execution_timeout = 120
@@ -72,12 +72,12 @@ html_theme_options = {
 
 
 def setup(app: Any) -> None:
-    """Tells Sphinx what the site has beside its pages."""
+    """Registers the step that copies MathJax."""
     app.connect("build-finished", _copy_mathjax)
 
 
 def _copy_mathjax(app: Any, error: Exception | None) -> None:
-    """Copies what the mathematics of the pages takes of MathJax: its program, its fonts, its parts for rare signs."""
+    """Copies the parts of MathJax that the pages need: program, fonts and extensions."""
     if error is None and app.builder.format == "html":
         source = Path(importlib.import_module("sphinx-mathjax-offline").__path__[0]) / "static" / "mathjax"
         for part in ("tex-chtml.js", "output/chtml/fonts/woff-v2", "input/tex/extensions"):

@@ -28,37 +28,37 @@ def type_of(key: dict) -> str:
     return key["kind"]
 
 
-def given_type_of(key: dict) -> str:
+def optional_type_of(key: dict) -> str:
     return type_of(key) + (" | None" if may_be_none(key) else "")
 
 
 def may_be_none(key: dict) -> bool:
-    """The natural inertia, the missing one of a point mass, and no limit are asked for by None."""
+    """The natural inertia, the missing one of a point mass, and the absence of a limit are given as None."""
     return key["name"] == "inertia" or key["standard"] is None
 
 
-def python_words(words: str) -> str:
-    """Words of the engine with the values as Python writes them."""
-    return words.replace("true", "True").replace("false", "False")
+def python_literals(text: str) -> str:
+    """Text of the engine with the values as Python writes them."""
+    return text.replace("true", "True").replace("false", "False")
 
 
 def unit_of(key: dict) -> str:
     return f" [{key['unit']}]" if key["unit"] not in ("", "1") else ""
 
 
-def tupled(names: str) -> str:
-    """Names with a comma and a blank behind each, as what stands in a tuple."""
+def tuple_items(names: str) -> str:
+    """Names with a comma and a space after each, as the contents of a tuple."""
     return names.removesuffix(" ") if names.count(",") == 1 else names.removesuffix(", ")
 
 
-def ends() -> str:
+def end_types() -> str:
     """Why a run ends, as a type and as names."""
     stops = _engine.stops()
     reasons = "".join(f'    "{name}",\n' for name, _ in stops)
     limits = {name: meaning for name, meaning in stops if meaning is not None}
     names = "".join(f'"{name}", ' for name in limits)
     fields = "".join(f"    {name}: float | None = None\n" for name in limits)
-    told = "".join(f"    {name} : float, optional\n        The run ends where {limits[name]}.\n" for name in limits)
+    lines = "".join(f"    {name} : float, optional\n        The run ends where {limits[name]}.\n" for name in limits)
     return f"""#: Why a run ends.
 Reason = Literal[
 {reasons}]
@@ -67,7 +67,7 @@ Reason = Literal[
 REASONS: tuple[Reason, ...] = get_args(Reason)
 
 #: Those of them that are limits of the motion.
-LIMITS: tuple[Reason, ...] = ({tupled(names)})
+LIMITS: tuple[Reason, ...] = ({tuple_items(names)})
 
 
 @dataclass(frozen=True, kw_only=True, repr=False)
@@ -78,7 +78,7 @@ class LimitBounds:
 
 #: The same as a section of a docstring.
 LIMIT_PARAMETERS = \"\"\"
-{told.rstrip()}
+{lines.rstrip()}
 \"\"\"
 
 """
@@ -86,18 +86,18 @@ LIMIT_PARAMETERS = \"\"\"
 
 def generate() -> str:
     keys = _engine.keys()
-    text = HEAD + ends()
+    text = HEAD + end_types()
     optional = "".join(f'"{key["name"]}", ' for key in keys if may_be_none(key))
-    text += f"#: Keys that None takes back to what holds without them.\nOPTIONAL = ({tupled(optional)})\n\n\n"
+    text += f"#: Keys that None takes back to what holds without them.\nOPTIONAL = ({tuple_items(optional)})\n\n\n"
     text += 'class Keys(TypedDict, total=False):\n    """The keys that a case takes."""\n\n'
-    text += "".join(f"    {key['name']}: {given_type_of(key)}\n" for key in keys)
+    text += "".join(f"    {key['name']}: {optional_type_of(key)}\n" for key in keys)
     text += '\n\nclass Axes(TypedDict, total=False):\n    """The keys that a study varies."""\n\n'
     text += "".join(f"    {key['name']}: ArrayLike\n" for key in keys)
     text += '\n\nclass KeyValues:\n    """The keys of a case as properties."""\n\n'
     text += "    def keys(self) -> dict[str, Any]:\n"
     text += '        """Every key in effect with its value."""\n        raise NotImplementedError\n'
     for key in keys:
-        kind = given_type_of(key)
+        kind = optional_type_of(key)
         text += f"""
     @property
     def {key["name"]}(self) -> {kind}:
@@ -108,12 +108,15 @@ def generate() -> str:
     text += '\n\n#: The keys as a section of a docstring.\nPARAMETERS = """'
     for key in keys:
         kind = "{" + ", ".join(f'"{word}"' for word in key["words"]) + "}" if key["words"] else key["kind"]
-        told = f"{key['meaning'][0].upper()}{key['meaning'][1:]}{unit_of(key)}; "
-        told += f"allowed: ``{python_words(key['allowed'])}``; "
-        told = fill(
-            f"{told}default {python_words(key['default'])}.", 112, initial_indent=" " * 8, subsequent_indent=" " * 8
+        about = f"{key['meaning'][0].upper()}{key['meaning'][1:]}{unit_of(key)}; "
+        about += f"allowed: ``{python_literals(key['allowed'])}``; "
+        about = fill(
+            f"{about}default {python_literals(key['default'])}.",
+            112,
+            initial_indent=" " * 8,
+            subsequent_indent=" " * 8,
         )
-        text += f"\n    {key['name']} : {kind}, optional\n{told}"
+        text += f"\n    {key['name']} : {kind}, optional\n{about}"
     return text + '\n"""\n'
 
 

@@ -28,9 +28,11 @@ LINK = re.compile(r"\]\((?!https?://|#)([^)]+)\)")
 
 
 def main() -> None:
-    wrong = [words for check in (versions, crates, package, texts, workflows, links) for words in check()]
-    if wrong:
-        sys.exit("not ready to be released:\n  " + "\n  ".join(wrong))
+    problems = [
+        problem for check in (versions, crates, package, metadata_texts, workflows, links) for problem in check()
+    ]
+    if problems:
+        sys.exit("not ready to be released:\n  " + "\n  ".join(problems))
     run(sys.executable, "release/third_party.py", "--check")
     print("versions, metadata, licences and workflows agree")
     if "--quick" not in sys.argv:
@@ -52,13 +54,13 @@ def read(name: str) -> str:
     return (ROOT / name).read_text(encoding="utf-8")
 
 
-def run(*words: str | Path, **options: object) -> str:
+def run(*arguments: str | Path, **options: object) -> str:
     """Runs a command; what it says is shown if it fails."""
     options = {"cwd": ROOT, "text": True, "stdout": subprocess.PIPE, "stderr": subprocess.STDOUT, **options}
-    done = subprocess.run([str(word) for word in words], **options)
-    if done.returncode != 0:
-        sys.exit(f"{' '.join(map(str, words))}\n{done.stdout}")
-    return str(done.stdout)
+    result = subprocess.run([str(word) for word in arguments], **options)
+    if result.returncode != 0:
+        sys.exit(f"{' '.join(map(str, arguments))}\n{result.stdout}")
+    return str(result.stdout)
 
 
 def version() -> str:
@@ -69,9 +71,9 @@ def versions() -> Iterator[str]:
     """One version everywhere."""
     here = version()
     manifest = tomllib.loads(read("Cargo.toml"))
-    for name, told in manifest["workspace"]["dependencies"].items():
-        if name.startswith("snapload") and told.get("version") != here:
-            yield f"Cargo.toml: {name} is required as {told.get('version')}, but the version is {here}"
+    for name, entry in manifest["workspace"]["dependencies"].items():
+        if name.startswith("snapload") and entry.get("version") != here:
+            yield f"Cargo.toml: {name} is required as {entry.get('version')}, but the version is {here}"
     places = {
         "CITATION.cff": rf"^version: {re.escape(here)}$",
         "docs/cite.md": rf"version = \{{{re.escape(here)}\}}",
@@ -110,7 +112,7 @@ def package() -> Iterator[str]:
             yield f"pyproject.toml: it has no {key}"
 
 
-def texts() -> Iterator[str]:
+def metadata_texts() -> Iterator[str]:
     """Files that stand for the project in other places."""
     about = json.loads(read(".zenodo.json"))
     if about["title"] not in read("CITATION.cff"):
@@ -145,14 +147,14 @@ def links() -> Iterator[str]:
 def wheel() -> None:
     """Builds the wheel and tries it where there is neither Rust nor these sources."""
     with tempfile.TemporaryDirectory(prefix="rehearsal-") as scratch:
-        room = Path(scratch)
-        tools, fresh = room / "tools", room / "fresh"
+        folder = Path(scratch)
+        tools, venv = folder / "tools", folder / "fresh"
         run(sys.executable, "-m", "venv", tools)
         run(tools / "bin" / "python", "-m", "pip", "install", "--quiet", MATURIN)
         profile = os.environ.get("REHEARSAL_PROFILE", "dist")
-        build = [tools / "bin" / "maturin", "build", "--locked", "--out", room, "--profile", profile]
+        build = [tools / "bin" / "maturin", "build", "--locked", "--out", folder, "--profile", profile]
         print(run(*build).splitlines()[-1].strip())
-        (built,) = room.glob("*.whl")
+        (built,) = folder.glob("*.whl")
         print(f"{built.name}, {built.stat().st_size / 1e6:.1f} MB")
         with zipfile.ZipFile(built) as contents:
             names = contents.namelist()
@@ -161,23 +163,23 @@ def wheel() -> None:
                 sys.exit(f"the wheel has no {needed}")
         if any("tests/" in name for name in names):
             sys.exit("the wheel contains the tests")
-        run(sys.executable, "-m", "venv", fresh)
-        run(fresh / "bin" / "python", "-m", "pip", "install", "--quiet", built, "pandas")
-        outside = {"PATH": f"{fresh / 'bin'}:/usr/bin:/bin", "HOME": scratch, "MPLBACKEND": "Agg"}
-        if shutil.which("cargo", path=outside["PATH"]):
+        run(sys.executable, "-m", "venv", venv)
+        run(venv / "bin" / "python", "-m", "pip", "install", "--quiet", built, "pandas")
+        environment = {"PATH": f"{venv / 'bin'}:/usr/bin:/bin", "HOME": scratch, "MPLBACKEND": "Agg"}
+        if shutil.which("cargo", path=environment["PATH"]):
             print("cargo is in /usr/bin, so this does not show that the wheel works without it")
-        try_out(room, fresh / "bin", outside)
+        test_wheel(folder, venv / "bin", environment)
     print("the wheel works")
 
 
-def try_out(room: Path, programs: Path, outside: dict[str, str]) -> None:
+def test_wheel(folder: Path, programs: Path, environment: dict[str, str]) -> None:
     """The first page of the manual, the examples, and the command, from the wheel."""
-    work = room / "work"
+    work = folder / "work"
     work.mkdir()
-    fence = re.search(r"```python\n(import snapload\n.*?)```", read("docs/python.md"), re.DOTALL)
-    assert fence is not None
-    (work / "first.py").write_text(fence[1])
-    run(programs / "python", "first.py", cwd=work, env=outside)
+    example = re.search(r"```python\n(import snapload\n.*?)```", read("docs/python.md"), re.DOTALL)
+    assert example is not None
+    (work / "first.py").write_text(example[1])
+    run(programs / "python", "first.py", cwd=work, env=environment)
     examples = (
         "import doctest, importlib, pkgutil, snapload\n"
         "names = [m.name for m in pkgutil.iter_modules(snapload.__path__) if not m.name.startswith('__')]\n"
@@ -186,13 +188,13 @@ def try_out(room: Path, programs: Path, outside: dict[str, str]) -> None:
         "assert not sum(result.failed for result in results)\n"
         "print(sum(result.attempted for result in results), 'examples pass')\n"
     )
-    print(run(programs / "python", "-c", examples, cwd=work, env=outside).strip())
-    for words in (["--version"], ["run"], ["critical"], ["sweep", "--vary", "e=0.5,0.9", "--out", "e.parquet"]):
-        run(programs / "snapload", *words, cwd=work, env=outside)
-    told = run(programs / "snapload", "run", cwd=work, env=outside)
-    first = re.search(r"```text\n(Case .*?)```", read("docs/start.md"), re.DOTALL)
-    if first is None or first[1].split() != told.split():
-        sys.exit(f"the command of the wheel does not print what docs/start.md shows:\n{told}")
+    print(run(programs / "python", "-c", examples, cwd=work, env=environment).strip())
+    for arguments in (["--version"], ["run"], ["critical"], ["sweep", "--vary", "e=0.5,0.9", "--out", "e.parquet"]):
+        run(programs / "snapload", *arguments, cwd=work, env=environment)
+    output = run(programs / "snapload", "run", cwd=work, env=environment)
+    documented = re.search(r"```text\n(Case .*?)```", read("docs/start.md"), re.DOTALL)
+    if documented is None or documented[1].split() != output.split():
+        sys.exit(f"the command of the wheel does not print what docs/start.md shows:\n{output}")
 
 
 if __name__ == "__main__":

@@ -23,54 +23,54 @@ TEXTS = re.compile(r"^(licen[cs]e|copying|unlicense|notice|copyright)", re.IGNOR
 
 def libraries() -> list[dict]:
     """All libraries that are linked into what is published, by name and version."""
-    words = ["cargo", "metadata", "--format-version", "1", "--locked"]
-    about = json.loads(subprocess.run(words, cwd=ROOT, capture_output=True, check=True).stdout)
+    command = ["cargo", "metadata", "--format-version", "1", "--locked"]
+    about = json.loads(subprocess.run(command, cwd=ROOT, capture_output=True, check=True).stdout)
     packages = {package["id"]: package for package in about["packages"]}
     nodes = {node["id"]: node for node in about["resolve"]["nodes"]}
-    open_ends = [key for key, package in packages.items() if package["name"] in PUBLISHED]
+    pending = [key for key, package in packages.items() if package["name"] in PUBLISHED]
     seen: set[str] = set()
-    while open_ends:
-        key = open_ends.pop()
+    while pending:
+        key = pending.pop()
         if key in seen:
             continue
         seen.add(key)
         for dependency in nodes[key]["deps"]:
             if any(kind["kind"] is None for kind in dependency["dep_kinds"]):
-                open_ends.append(dependency["pkg"])
+                pending.append(dependency["pkg"])
     linked = [packages[key] for key in seen if packages[key]["source"] is not None]
     return sorted(linked, key=lambda package: (package["name"], package["version"]))
 
 
-def holds(expression: str, allowed: set[str]) -> bool:
+def permitted(expression: str, allowed: set[str]) -> bool:
     """Whether a licence expression can be kept with the licences allowed."""
-    words = re.findall(r"\(|\)|[^\s()/]+|/", expression.replace(" WITH ", "~WITH~"))
+    tokens = re.findall(r"\(|\)|[^\s()/]+|/", expression.replace(" WITH ", "~WITH~"))
 
-    def either() -> bool:
-        answer = both()
-        while words and words[0] in ("OR", "/"):
-            words.pop(0)
-            answer = both() or answer
-        return answer
+    def any_of() -> bool:
+        result = all_of()
+        while tokens and tokens[0] in ("OR", "/"):
+            tokens.pop(0)
+            result = all_of() or result
+        return result
 
-    def both() -> bool:
-        answer = one()
-        while words and words[0] == "AND":
-            words.pop(0)
-            answer = one() and answer
-        return answer
+    def all_of() -> bool:
+        result = single()
+        while tokens and tokens[0] == "AND":
+            tokens.pop(0)
+            result = single() and result
+        return result
 
-    def one() -> bool:
-        word = words.pop(0)
-        if word != "(":
-            return word.replace("~WITH~", " WITH ") in allowed
-        answer = either()
-        words.pop(0)
-        return answer
+    def single() -> bool:
+        token = tokens.pop(0)
+        if token != "(":
+            return token.replace("~WITH~", " WITH ") in allowed
+        result = any_of()
+        tokens.pop(0)
+        return result
 
-    return either()
+    return any_of()
 
 
-def texts(package: dict) -> dict[str, str]:
+def licence_texts(package: dict) -> dict[str, str]:
     """The files with the words of its licences."""
     folder = Path(package["manifest_path"]).parent
     found = [file for file in sorted(folder.iterdir()) if file.is_file() and TEXTS.match(file.name)]
@@ -80,7 +80,9 @@ def texts(package: dict) -> dict[str, str]:
 def main() -> None:
     allowed = set(tomllib.loads((ROOT / "deny.toml").read_text())["licenses"]["allow"])
     linked = libraries()
-    wrong = [f"{p['name']} {p['version']}: {p['license']}" for p in linked if not holds(p["license"] or "", allowed)]
+    wrong = [
+        f"{p['name']} {p['version']}: {p['license']}" for p in linked if not permitted(p["license"] or "", allowed)
+    ]
     if wrong:
         sys.exit("licences that deny.toml does not allow:\n  " + "\n  ".join(wrong))
     # Many libraries have the same text, which stands once.
@@ -90,7 +92,7 @@ def main() -> None:
     without = []
     for package in linked:
         name = f"{package['name']} {package['version']}"
-        found = texts(package)
+        found = licence_texts(package)
         if not found:
             without.append(f"{name}: {package['license']}, {package['repository']}")
         for text in found.values():

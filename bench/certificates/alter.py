@@ -25,7 +25,7 @@ CASES = (["--set", "e=0.5"], ["--set", "f_o=0.31"], ["--case", "1910001000-559"]
          ["--set", "max_impacts=12"], ["--case", "1921001000-559"])
 
 
-def moved(text, step):
+def shifted(text, step):
     """A decimal with a decimal step added, exactly."""
     return format(Decimal(text) + step, "f")
 
@@ -34,37 +34,37 @@ def unit(text):
     return Decimal(1).scaleb(Decimal(text).as_tuple().exponent)
 
 
-def spot(rng, c):
+def random_impact(rng, c):
     return rng.randrange(len(c["impacts"]))
 
 
 def time_by(size):
     def alter(rng, c):
-        k = spot(rng, c)
-        c["impacts"][k][1] = moved(c["impacts"][k][1], Decimal(size) * rng.choice((1, -1)))
+        k = random_impact(rng, c)
+        c["impacts"][k][1] = shifted(c["impacts"][k][1], Decimal(size) * rng.choice((1, -1)))
     return alter
 
 
 def digit(place):
     def alter(rng, c):
-        line = c["impacts"][spot(rng, c)]
+        line = c["impacts"][random_impact(rng, c)]
         line[place] = str(Decimal(line[place]) + unit(line[place]) * rng.choice((1, -1)))
         line[place] = line[place].lower().replace("e+", "e")
     return alter
 
 
 def speed(rng, c):
-    line = c["impacts"][spot(rng, c)]
+    line = c["impacts"][random_impact(rng, c)]
     line[2] = str(Decimal(line[2]) * (1 + Decimal(rng.choice(("1e-3", "-1e-6", "1e-12"))))).lower()[:60]
 
 
 def cable(rng, c):
-    line = c["impacts"][spot(rng, c)]
+    line = c["impacts"][random_impact(rng, c)]
     line[0] = 3 - line[0]
 
 
 def drop(rng, c):
-    c["impacts"].pop(spot(rng, c))
+    c["impacts"].pop(random_impact(rng, c))
 
 
 def drop_last(rng, c):
@@ -72,16 +72,16 @@ def drop_last(rng, c):
 
 
 def add(rng, c):
-    k = spot(rng, c)
-    c["impacts"].insert(k, [rng.choice((1, 2)), moved(c["impacts"][k][1], Decimal("-1e-4")), "1.25e-2"])
+    k = random_impact(rng, c)
+    c["impacts"].insert(k, [rng.choice((1, 2)), shifted(c["impacts"][k][1], Decimal("-1e-4")), "1.25e-2"])
 
 
 def append(rng, c):
-    c["impacts"].append([rng.choice((1, 2)), moved(c["end"]["t"], Decimal("1e-3")), "1.25e-2"])
+    c["impacts"].append([rng.choice((1, 2)), shifted(c["end"]["t"], Decimal("1e-3")), "1.25e-2"])
 
 
 def double(rng, c):
-    k = spot(rng, c)
+    k = random_impact(rng, c)
     c["impacts"].insert(k, list(c["impacts"][k]))
 
 
@@ -98,16 +98,16 @@ def effective(c):
 
 def parameter_last(rng, c):
     key = rng.choice(effective(c))
-    c["case"][key] = moved(c["case"][key], unit(c["case"][key]) / 1000)
+    c["case"][key] = shifted(c["case"][key], unit(c["case"][key]) / 1000)
 
 
 def parameter_tiny(rng, c):
     key = rng.choice(effective(c))
-    c["case"][key] = moved(c["case"][key], Decimal("1e-16") * rng.choice((1, -1)))
+    c["case"][key] = shifted(c["case"][key], Decimal("1e-16") * rng.choice((1, -1)))
 
 
 def half_height(rng, c):
-    c["case"]["b"] = moved(c["case"]["b"], Decimal("1e-9"))
+    c["case"]["b"] = shifted(c["case"]["b"], Decimal("1e-9"))
 
 
 def inertia(rng, c):
@@ -122,17 +122,17 @@ def reason(rng, c):
 
 
 def end_time(rng, c):
-    c["end"]["t"] = moved(c["end"]["t"], unit(c["end"]["t"]) * rng.choice((1, -1)))
+    c["end"]["t"] = shifted(c["end"]["t"], unit(c["end"]["t"]) * rng.choice((1, -1)))
 
 
 def end_state(rng, c):
     k = rng.randrange(6)
-    c["end"]["state"][k] = moved(c["end"]["state"][k], unit(c["end"]["state"][k]))
+    c["end"]["state"][k] = shifted(c["end"]["state"][k], unit(c["end"]["state"][k]))
 
 
 def end_sign(rng, c):
     k = rng.choice([k for k in range(6) if Decimal(c["end"]["state"][k])])
-    c["end"]["state"][k] = moved(c["end"]["state"][k], -2 * Decimal(c["end"]["state"][k]))
+    c["end"]["state"][k] = shifted(c["end"]["state"][k], -2 * Decimal(c["end"]["state"][k]))
 
 
 def settle_flag(rng, c):
@@ -155,7 +155,7 @@ def fewer(rng, c):
 
 
 def sooner(rng, c):
-    c["case"]["t_end"] = moved(c["end"]["t"], -Decimal(rng.choice(("0.01", "0.1"))))
+    c["case"]["t_end"] = shifted(c["end"]["t"], -Decimal(rng.choice(("0.01", "0.1"))))
 
 
 def faster_stick(rng, c):
@@ -176,42 +176,42 @@ KINDS = {
 }
 
 
-def program(binary, text):
+def check_with_program(binary, text):
     with tempfile.NamedTemporaryFile("w", suffix=".cert") as file:
         file.write(text)
         file.flush()
-        done = subprocess.run([binary, "certify", "--check", file.name], capture_output=True, text=True, check=False)
-        return done.returncode
+        result = subprocess.run([binary, "certify", "--check", file.name], capture_output=True, text=True, check=False)
+        return result.returncode
 
 
 def main(binary, count):
     rng = random.Random(1)
-    true_ones = []
+    certificates = []
     for arguments in CASES:
-        done = subprocess.run([binary, "certify", *arguments, "--json", "-"], capture_output=True, text=True, check=True)
-        certificate = json.loads(done.stdout)
-        assert program(binary, done.stdout) == 0 and certificate_check.check(done.stdout)[0] == 0, arguments
-        true_ones.append(certificate)
-    passed, answers = [], Counter()
+        result = subprocess.run([binary, "certify", *arguments, "--json", "-"], capture_output=True, text=True, check=True)
+        certificate = json.loads(result.stdout)
+        assert check_with_program(binary, result.stdout) == 0 and certificate_check.check(result.stdout)[0] == 0, arguments
+        certificates.append(certificate)
+    accepted, statuses = [], Counter()
     for n in range(count):
         kind = list(KINDS)[n % len(KINDS)]
-        certificate = copy.deepcopy(rng.choice([c for c in true_ones if len(c["impacts"]) > 2]))
+        certificate = copy.deepcopy(rng.choice([c for c in certificates if len(c["impacts"]) > 2]))
         before = json.dumps(certificate)
         if kind in ("half-height", "inertia") and certificate["case"]["body"] == "point":
             certificate["case"]["a"] = "0.1"
         KINDS[kind](rng, certificate)
         text = json.dumps(certificate)
         assert text != before, kind
-        verdicts = program(binary, text), certificate_check.check(text)[0]
-        answers.update([("program", verdicts[0]), ("Python", verdicts[1])])
+        verdicts = check_with_program(binary, text), certificate_check.check(text)[0]
+        statuses.update([("program", verdicts[0]), ("Python", verdicts[1])])
         if 0 in verdicts:
-            passed.append((kind, verdicts, certificate["case"]))
+            accepted.append((kind, verdicts, certificate["case"]))
     print(f"{count} altered certificates of {len(KINDS)} kinds")
-    for (checker, status), times in sorted(answers.items()):
-        print(f"  {checker}: exit status {status}: {times}")
-    for kind, verdicts, case in passed:
+    for (checker, status), count in sorted(statuses.items()):
+        print(f"  {checker}: exit status {status}: {count}")
+    for kind, verdicts, case in accepted:
         print(f"ACCEPTED {kind} {verdicts} {case}")
-    return 1 if passed else 0
+    return 1 if accepted else 0
 
 
 if __name__ == "__main__":

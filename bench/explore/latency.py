@@ -23,7 +23,7 @@ from playwright.sync_api import Page, sync_playwright
 ROOT = Path(__file__).resolve().parents[2]
 CASES = ["1910001000-359", "1920001000-359", "1922001000-359", "sliding-example", "rocking-example"]
 STEPS = 30
-SLIDE = "(slider, value) => { slider.value = value; slider.dispatchEvent(new Event('input', { bubbles: true })); }"
+SET_SLIDER = "(slider, value) => { slider.value = value; slider.dispatchEvent(new Event('input', { bubbles: true })); }"
 
 
 def main() -> None:
@@ -32,17 +32,17 @@ def main() -> None:
         browser = shutil.which("chromium") or shutil.which("chromium-headless-shell")
         chromium = playwright.chromium.launch(executable_path=browser, args=["--no-sandbox"])
         print(f"{'case':<24}{'value':<14}{'median':>9}{'90 %':>9}{'slowest':>9}   ms, {STEPS} steps each")
-        thesis = []
+        thesis_times = []
         for case in CASES:
             for key in ["f_o", "e"]:
-                thesis += dragged(chromium, [program, "explore", "--case", case], case, key)
-        told("the thesis's cases", "", thesis)
+                thesis_times += measure_drag(chromium, [program, "explore", "--case", case], case, key)
+        print_row("the thesis's cases", "", thesis_times)
         cylinder = [program, "explore", "docs/examples/cylinder.toml"]
-        dragged(chromium, cylinder, "cylinder.toml", "wave.height")
+        measure_drag(chromium, cylinder, "cylinder.toml", "wave.height")
         chromium.close()
 
 
-def dragged(chromium, command: list[str | Path], case: str, key: str) -> list[float]:
+def measure_drag(chromium, command: list[str | Path], case: str, key: str) -> list[float]:
     """Drags a slider over a tenth of its range, and tells how long each picture took."""
     command = [*command, "--no-browser", "--port", "0"]
     with subprocess.Popen(command, cwd=ROOT, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True) as server:
@@ -52,38 +52,38 @@ def dragged(chromium, command: list[str | Path], case: str, key: str) -> list[fl
         context = chromium.new_context(viewport={"width": 1440, "height": 900}, reduced_motion="reduce")
         page = context.new_page()
         page.goto(address[0])
-        wait(page, 0)
+        wait_for_picture(page, 0)
         slider = page.locator(f'[id="slider-{key}"]')
         low, high, value = (float(slider.evaluate(f"one => one.{name}")) for name in ["min", "max", "value"])
         page.wait_for_timeout(500)
-        took = []
+        milliseconds = []
         for step in range(STEPS):
-            before = count(page)
-            slider.evaluate(SLIDE, min(max(value + (high - low) * 0.1 * (step / STEPS - 0.5), low), high))
-            wait(page, before)
-            took.append(float(page.locator("#took").get_attribute("data-ms") or "nan"))
+            before = picture_count(page)
+            slider.evaluate(SET_SLIDER, min(max(value + (high - low) * 0.1 * (step / STEPS - 0.5), low), high))
+            wait_for_picture(page, before)
+            milliseconds.append(float(page.locator("#took").get_attribute("data-ms") or "nan"))
         context.close()
         server.send_signal(signal.SIGINT)
-    told(case, key, took)
-    return took
+    print_row(case, key, milliseconds)
+    return milliseconds
 
 
-def count(page: Page) -> int:
+def picture_count(page: Page) -> int:
     return int(page.locator("#took").get_attribute("data-count") or 0)
 
 
-def wait(page: Page, after: int) -> None:
+def wait_for_picture(page: Page, after: int) -> None:
     """Waits for the next picture; a value that is where it was makes none."""
     for _ in range(400):
-        if count(page) > after:
+        if picture_count(page) > after:
             return
         page.wait_for_timeout(5)
 
 
-def told(case: str, key: str, took: list[float]) -> None:
-    ordered = sorted(took)
-    most = ordered[round(0.9 * (len(ordered) - 1))]
-    print(f"{case:<24}{key:<14}{statistics.median(took):>9.1f}{most:>9.1f}{ordered[-1]:>9.1f}")
+def print_row(case: str, key: str, milliseconds: list[float]) -> None:
+    ordered = sorted(milliseconds)
+    percentile_90 = ordered[round(0.9 * (len(ordered) - 1))]
+    print(f"{case:<24}{key:<14}{statistics.median(milliseconds):>9.1f}{percentile_90:>9.1f}{ordered[-1]:>9.1f}")
 
 
 if __name__ == "__main__":

@@ -24,11 +24,11 @@ EXAMPLE = "docs/examples/cylinder.toml"
 PAGE = ROOT / "docs" / "elastic.md"
 
 # The example, let go off its place of rest, for the time of the first pulls.
-OFF_REST = ["run.start=[0.3,-4.2]", "run.duration=4"]
-STILL = [*OFF_REST, "wave.height=0", "run.restitution=1"]
-BESIDE = ["run.start=[-0.2,-4.4]", "run.duration=3", "wave.height=0", "run.restitution=1"]
-WAVE = [*OFF_REST, "wave.height=1.5", "run.restitution=1"]
-DAMPED = [*OFF_REST, "wave.height=1.5", "run.restitution=0.5"]
+OFF_EQUILIBRIUM = ["run.start=[0.3,-4.2]", "run.duration=4"]
+STILL = [*OFF_EQUILIBRIUM, "wave.height=0", "run.restitution=1"]
+STILL_OTHER_START = ["run.start=[-0.2,-4.4]", "run.duration=3", "wave.height=0", "run.restitution=1"]
+WAVE = [*OFF_EQUILIBRIUM, "wave.height=1.5", "run.restitution=1"]
+DAMPED = [*OFF_EQUILIBRIUM, "wave.height=1.5", "run.restitution=0.5"]
 LIGHT = ["line.mass_per_length=0.1"]
 
 Pull = tuple[int, float, float, float]  # line, from, to, largest tension
@@ -45,41 +45,41 @@ def elastic(program: str, sets: list[str], stiffer: float = 1.0) -> dict:
 
 
 @contextlib.contextmanager
-def silent():
+def silence_output():
     """MoorDyn prints the time at every step, from C++."""
-    kept = os.dup(1), os.dup(2)
-    with open(os.devnull, "w") as nothing:
-        os.dup2(nothing.fileno(), 1)
-        os.dup2(nothing.fileno(), 2)
+    saved = os.dup(1), os.dup(2)
+    with open(os.devnull, "w") as devnull:
+        os.dup2(devnull.fileno(), 1)
+        os.dup2(devnull.fileno(), 2)
         try:
             yield
         finally:
-            os.dup2(kept[0], 1)
-            os.dup2(kept[1], 2)
+            os.dup2(saved[0], 1)
+            os.dup2(saved[1], 2)
 
 
-class Pulls:
+class PullFinder:
     """Finds the pulls in tensions that come step by step."""
 
     def __init__(self, lines: int, threshold: float) -> None:
-        self.now: list[list[float] | None] = [None] * lines
-        self.threshold, self.done = threshold, []
+        self.open_pulls: list[list[float] | None] = [None] * lines
+        self.threshold, self.closed_pulls = threshold, []
 
-    def see(self, t: float, dt: float, tensions: list[float]) -> None:
+    def add(self, t: float, dt: float, tensions: list[float]) -> None:
         for line, tension in enumerate(tensions):
-            pull = self.now[line]
+            pull = self.open_pulls[line]
             if tension > self.threshold:
                 if pull is None:
-                    self.now[line] = [t - dt, tension]
+                    self.open_pulls[line] = [t - dt, tension]
                 else:
                     pull[1] = max(pull[1], tension)
             elif pull is not None:
-                self.done.append((line + 1, pull[0], t, pull[1]))
-                self.now[line] = None
+                self.closed_pulls.append((line + 1, pull[0], t, pull[1]))
+                self.open_pulls[line] = None
 
-    def all(self, end: float) -> list[Pull]:
-        left = [(i + 1, p[0], end, p[1]) for i, p in enumerate(self.now) if p is not None]
-        return sorted([*self.done, *left], key=lambda pull: pull[1])
+    def pulls(self, end: float) -> list[Pull]:
+        left = [(i + 1, p[0], end, p[1]) for i, p in enumerate(self.open_pulls) if p is not None]
+        return sorted([*self.closed_pulls, *left], key=lambda pull: pull[1])
 
 
 def option(text: str, key: str) -> float:
@@ -91,27 +91,29 @@ def table(text: str, header: str) -> list[list[str]]:
     return [line.split() for line in block.strip().splitlines()[2:]]
 
 
-def alone(text: str, end: float, dt: float, threshold: float) -> tuple[list[Pull], float]:
+def run_moordyn(text: str, end: float, dt: float, threshold: float) -> tuple[list[Pull], float]:
     """MoorDyn moves the body by itself, in still water."""
     lines = len(table(text, "LINES"))
-    with tempfile.TemporaryDirectory() as folder, silent():
+    with tempfile.TemporaryDirectory() as folder, silence_output():
         file = Path(folder) / "lines.txt"
         file.write_text(text)
         system = moordyn.Create(str(file))
         moordyn.Init(system, [], [])
         handles = [moordyn.GetLine(system, i + 1) for i in range(lines)]
-        pulls, t = Pulls(lines, threshold), 0.0
+        pulls, t = PullFinder(lines, threshold), 0.0
         begin = time.process_time()
         while t < end - dt / 2:
             moordyn.Step(system, [], [], t, dt)
             t += dt
-            pulls.see(t, dt, [moordyn.GetLineFairTen(line) for line in handles])
-        took = time.process_time() - begin
+            pulls.add(t, dt, [moordyn.GetLineFairTen(line) for line in handles])
+        seconds = time.process_time() - begin
         moordyn.Close(system)
-    return pulls.all(end), took
+    return pulls.pulls(end), seconds
 
 
-def water(depth: float, z: float, height: float, period: float, g: float) -> tuple[float, float, float]:
+def water_acceleration(
+    depth: float, z: float, height: float, period: float, g: float
+) -> tuple[float, float, float]:
     """ω, and the largest accelerations of the water in x and z by linear theory at the level z."""
     omega = 2 * math.pi / period
     k = omega**2 / g
@@ -122,33 +124,33 @@ def water(depth: float, z: float, height: float, period: float, g: float) -> tup
     return omega, factor * math.cosh(k * (z + depth)), factor * math.sinh(k * (z + depth))
 
 
-def coupled(
+def run_coupled(
     text: str, end: float, dt: float, threshold: float, wave: tuple[float, float, float]
 ) -> tuple[list[Pull], float]:
     """MoorDyn has the lines, and a velocity Verlet scheme here moves the body in the wave."""
-    words = table(text, "BODIES")[0]
-    x, z = float(words[2]), float(words[4])
-    mass, inertia, volume, added = (float(words[i]) for i in (8, 10, 11, 13))
+    body_row = table(text, "BODIES")[0]
+    x, z = float(body_row[2]), float(body_row[4])
+    mass, inertia, volume, added = (float(body_row[i]) for i in (8, 10, 11, 13))
     rho, g = option(text, "rho"), option(text, "g")
     moving = mass + added * rho * volume
     omega, a_x, a_z = wave
     points = {row[0]: row for row in table(text, "POINTS")}
-    bound = [row[3] for row in table(text, "LINES")]
-    arms = [(float(points[p][2]), float(points[p][4])) for p in bound]
+    line_points = [row[3] for row in table(text, "LINES")]
+    arms = [(float(points[p][2]), float(points[p][4])) for p in line_points]
     # The body is no object of the file any more; its points are moved instead.
     text = re.sub(r"-+ BODIES -+\n(.*\n){3}", "", text)
-    for point, (a, b) in zip(bound, arms, strict=True):
+    for point, (a, b) in zip(line_points, arms, strict=True):
         row = points[point]
         new = [point, "Coupled", str(x + a), "0", str(z + b), *row[5:]]
         text = text.replace("  ".join(row), "  ".join(new))
 
-    def free(t: float) -> tuple[float, float]:
+    def free_acceleration(t: float) -> tuple[float, float]:
         per = rho * volume * (1 + added) / moving
         up = (rho * volume - mass) * g / moving
         return per * a_x * math.cos(omega * t), up - per * a_z * math.sin(omega * t)
 
     # Counter-clockwise with z up: x' = x cos θ − z sin θ, z' = x sin θ + z cos θ.
-    def ends(s: np.ndarray) -> tuple[list[float], list[float]]:
+    def attachment_points(s: np.ndarray) -> tuple[list[float], list[float]]:
         cosine, sine = math.cos(s[2]), math.sin(s[2])
         place, speed = [], []
         for a, b in arms:
@@ -157,18 +159,18 @@ def coupled(
             speed += [s[3] - w * s[5], 0.0, s[4] + u * s[5]]
         return place, speed
 
-    with tempfile.TemporaryDirectory() as folder, silent():
+    with tempfile.TemporaryDirectory() as folder, silence_output():
         file = Path(folder) / "lines.txt"
         file.write_text(text)
         system = moordyn.Create(str(file))
         state = np.array([x, z, 0.0, 0.0, 0.0, 0.0])
-        moordyn.Init(system, *ends(state))
+        moordyn.Init(system, *attachment_points(state))
         handles = [moordyn.GetLine(system, i + 1) for i in range(len(arms))]
-        pulls, t = Pulls(len(arms), threshold), 0.0
-        acceleration = np.array([*free(0.0), 0.0])
+        pulls, t = PullFinder(len(arms), threshold), 0.0
+        acceleration = np.array([*free_acceleration(0.0), 0.0])
         begin = time.process_time()
         while t < end - dt / 2:
-            place, speed = ends(state)
+            place, speed = attachment_points(state)
             force = np.array(moordyn.Step(system, place, speed, t, dt))
             state[:3] += dt * state[3:] + dt * dt / 2 * acceleration
             t += dt
@@ -178,14 +180,14 @@ def coupled(
                 (a * cosine - b * sine) * force[3 * i + 2] - (a * sine + b * cosine) * force[3 * i]
                 for i, (a, b) in enumerate(arms)
             )
-            u, w = free(t)
+            u, w = free_acceleration(t)
             new = np.array([u + f_x / moving, w + f_z / moving, turning / inertia])
             state[3:] += dt / 2 * (acceleration + new)
             acceleration = new
-            pulls.see(t, dt, [moordyn.GetLineFairTen(line) for line in handles])
-        took = time.process_time() - begin
+            pulls.add(t, dt, [moordyn.GetLineFairTen(line) for line in handles])
+        seconds = time.process_time() - begin
         moordyn.Close(system)
-    return pulls.all(end), took
+    return pulls.pulls(end), seconds
 
 
 def overlap(one: Pull, other: Pull) -> float:
@@ -203,7 +205,7 @@ def compare(
     by_itself: bool = False,
     finer: float = 1.0,
 ) -> dict:
-    own = elastic(program, sets)
+    snapload_results = elastic(program, sets)
     text = snapload(program, ["moordyn", "write"], sets, "--segments", str(segments))
     inner = option(text, "dtM") / finer
     text = re.sub(r"\S+(  dtM)", rf"{inner:.3g}\1", text)
@@ -212,27 +214,27 @@ def compare(
     rest = json.loads(snapload(program, ["assess"], sets, "--neighbours", "0", "--no-scan", "--json", "-"))
     z = rest["rest"]["z_m"] if "rest" in rest else float("nan")
     if by_itself:
-        found, took = alone(text, end, dt, threshold)
+        moordyn_pulls, seconds = run_moordyn(text, end, dt, threshold)
     else:
-        wave = water(option(text, "WtrDpth"), z, height, 6.0, option(text, "g"))
-        found, took = coupled(text, end, dt, threshold, wave)
-    pulls = [(p["line"], p["from_s"], p["to_s"], p["peak_n"]) for p in own["pulls"]]
+        wave = water_acceleration(option(text, "WtrDpth"), z, height, 6.0, option(text, "g"))
+        moordyn_pulls, seconds = run_coupled(text, end, dt, threshold, wave)
+    pulls = [(p["line"], p["from_s"], p["to_s"], p["peak_n"]) for p in snapload_results["pulls"]]
     rows = []
-    for ours in pulls:
-        theirs = max(found, key=lambda pull: overlap(ours, pull), default=None)
-        known = theirs is not None and overlap(ours, theirs) > 0
-        rows.append({"snapload": ours, "moordyn": theirs if known else None})
+    for snapload_pull in pulls:
+        moordyn_pull = max(moordyn_pulls, key=lambda pull: overlap(snapload_pull, pull), default=None)
+        matched = moordyn_pull is not None and overlap(snapload_pull, moordyn_pull) > 0
+        rows.append({"snapload": snapload_pull, "moordyn": moordyn_pull if matched else None})
     return {
         "name": name, "set": sets, "segments": segments, "step_s": dt, "alone": by_itself,
         "threshold_n": threshold, "dtM_s": option(text, "dtM"), "pulls": rows,
-        "counts": {"snapload": len(pulls), "moordyn": len(found)},
-        "seconds": {"snapload": own["took_s"], "moordyn": took},
+        "counts": {"snapload": len(pulls), "moordyn": len(moordyn_pulls)},
+        "seconds": {"snapload": snapload_results["took_s"], "moordyn": seconds},
     }  # fmt: skip
 
 
 def convergence(program: str) -> list[dict]:
     rows = []
-    sets = [*OFF_REST, "wave.height=1.5", "run.restitution=1"]
+    sets = [*OFF_EQUILIBRIUM, "wave.height=1.5", "run.restitution=1"]
     for stiffer in (1.0, 1e1, 1e2, 1e3, 1e4, 1e5, 1e6):
         report = elastic(program, sets, stiffer)
         snaps = report["inextensible"]["snaps"][:3]
@@ -248,18 +250,20 @@ def markdown(results: dict) -> tuple[str, str]:
     first = "| stiffness × | second snap: time, speed off by | third snap: time, speed off by | computed in |\n"
     first += "| --- | --- | --- | --- |\n"
     for row in results["convergence"]:
-        cells = [
-            f"{t:+.1e} s, {v:+.1e} m/s" if same else "of another line" for t, v, same in row["off"][1:3]
-        ]
+        cells = [f"{t:+.1e} s, {v:+.1e} m/s" if same else "of another line" for t, v, same in row["off"][1:3]]
         cells += ["not reached"] * (2 - len(cells))
         first += f"| {row['stiffer']:g} | {' | '.join(cells)} | {1e3 * row['seconds']:.1f} ms |\n"
     second = ""
     for case in results["cases"]:
-        took, counts = case["seconds"], case["counts"]
+        seconds, counts = case["seconds"], case["counts"]
         second += f"**{case['name']}** (steps of {case['step_s']:g} s, `dtM` {case['dtM_s']:g} s; computed in "
-        second += f"{1e3 * took['snapload']:.1f} ms by snapload, {took['moordyn']:.2f} s by MoorDyn; "
-        second += f"{counts['snapload']} and {counts['moordyn']} pulls above {case['threshold_n'] / 1e3:g} kN)\n\n"
-        second += "| line | pulls, snapload (s) | pulls, MoorDyn (s) | peak, snapload (kN) | peak, MoorDyn (kN) "
+        second += f"{1e3 * seconds['snapload']:.1f} ms by snapload, {seconds['moordyn']:.2f} s by MoorDyn; "
+        second += (
+            f"{counts['snapload']} and {counts['moordyn']} pulls above {case['threshold_n'] / 1e3:g} kN)\n\n"
+        )
+        second += (
+            "| line | pulls, snapload (s) | pulls, MoorDyn (s) | peak, snapload (kN) | peak, MoorDyn (kN) "
+        )
         second += "| off by |\n| --- | --- | --- | --- | --- | --- |\n"
         for row in case["pulls"]:
             line, a0, a1, a = row["snapload"]
@@ -273,7 +277,7 @@ def markdown(results: dict) -> tuple[str, str]:
     return first, second
 
 
-def into_page(name: str, text: str) -> None:
+def insert_into_page(name: str, text: str) -> None:
     page = PAGE.read_text()
     pattern = rf"(<!-- {name} -->\n).*?(<!-- /{name} -->)"
     filled = re.sub(pattern, lambda m: f"{m[1]}\n{text.strip()}\n\n{m[2]}", page, flags=re.DOTALL)
@@ -299,7 +303,7 @@ def main() -> None:
             compare(
                 "Still water from beside, with a tenth of MoorDyn's step",
                 program,
-                [*BESIDE, *LIGHT],
+                [*STILL_OTHER_START, *LIGHT],
                 1e-4,
                 by_itself=True,
                 finer=10.0,
@@ -311,7 +315,7 @@ def main() -> None:
     (HERE / "results.json").write_text(json.dumps(results, indent=1) + "\n")
     if PAGE.exists():
         for name, text in zip(("convergence", "moordyn"), markdown(results), strict=True):
-            into_page(name, text)
+            insert_into_page(name, text)
     print("\n".join(markdown(results)))
 
 

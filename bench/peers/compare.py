@@ -3,12 +3,12 @@
 from dataclasses import asdict, dataclass
 
 # An impact that is off by no more counts as right; one that is off by more may still be the same impact.
-RIGHT = 1e-6
-FARTHEST = 1e-3
-NEAREST = 1e-5  # what doubles have lost by the horizon, where impacts are as near to each other
+RIGHT_TOLERANCE = 1e-6
+MAX_RADIUS = 1e-3
+MIN_RADIUS = 1e-5  # what doubles have lost by the horizon, where impacts are as near to each other
 
 # Doubles end the standard case within 3e-3 of each other, by luck; what is farther off is another end.
-SAME_END = 1e-2
+END_TOLERANCE = 1e-2
 
 Impact = tuple[float, int, float]  # t, cable, v_n
 
@@ -30,46 +30,48 @@ class Comparison:
         return asdict(self)
 
 
-def reaches(truth: list[Impact]) -> list[float]:
-    """How far off each impact may be and still be told from its neighbours of the same cable."""
-    out = []
-    for t, cable, _ in truth:
-        others = [abs(t - u) for u, other, _ in truth if other == cable and u != t]
-        out.append(max(NEAREST, min(FARTHEST, min(others, default=FARTHEST) / 4.0)))
-    return out
+def match_radii(reference: list[Impact]) -> list[float]:
+    """The largest time error at which each impact is not confused with others of its cable."""
+    radii = []
+    for t, cable, _ in reference:
+        others = [abs(t - other_t) for other_t, other, _ in reference if other == cable and other_t != t]
+        radii.append(max(MIN_RADIUS, min(MAX_RADIUS, min(others, default=MAX_RADIUS) / 4.0)))
+    return radii
 
 
-def compare(truth: list[Impact], true_end: dict, found: list[Impact], end: dict, horizon: int) -> Comparison:
+def compare(
+    reference: list[Impact], reference_end: dict, found: list[Impact], end: dict, horizon: int
+) -> Comparison:
     """`horizon` counts the true impacts that are compared."""
-    last = truth[horizon][0] if horizon < len(truth) else float("inf")
-    reach = reaches(truth)
-    taken: dict[int, int] = {}
-    for k, (t, cable, _) in enumerate(truth[:horizon]):
-        near = [
-            (abs(t - u), i)
-            for i, (u, other, _) in enumerate(found)
-            if other == cable and i not in taken and abs(t - u) <= reach[k]
+    last = reference[horizon][0] if horizon < len(reference) else float("inf")
+    radii = match_radii(reference)
+    matched_to: dict[int, int] = {}
+    for k, (t, cable, _) in enumerate(reference[:horizon]):
+        candidates = [
+            (abs(t - found_t), i)
+            for i, (found_t, other, _) in enumerate(found)
+            if other == cable and i not in matched_to and abs(t - found_t) <= radii[k]
         ]
-        if near:
-            taken[min(near)[1]] = k
-    matched = set(taken.values())
-    strays = [u for i, (u, _, _) in enumerate(found) if i not in taken and u < last]
-    wrong = [k + 1 for k in range(horizon) if k not in matched]
-    wrong += [sum(t < u for t, _, _ in truth) + 1 for u in strays]
-    right = 0
-    for (t, cable, _), (u, other, _) in zip(truth, found, strict=False):
-        if cable != other or abs(t - u) > RIGHT:
+        if candidates:
+            matched_to[min(candidates)[1]] = k
+    matched = set(matched_to.values())
+    unmatched = [found_t for i, (found_t, _, _) in enumerate(found) if i not in matched_to and found_t < last]
+    wrong_from = [k + 1 for k in range(horizon) if k not in matched]
+    wrong_from += [sum(t < found_t for t, _, _ in reference) + 1 for found_t in unmatched]
+    right_in_a_row = 0
+    for (t, cable, _), (found_t, other, _) in zip(reference, found, strict=False):
+        if cable != other or abs(t - found_t) > RIGHT_TOLERANCE:
             break
-        right += 1
-    kind_right = end["kind"] == true_end["kind"]
-    end_time_error = abs(end["t"] - true_end["t"])
+        right_in_a_row += 1
+    kind_right = end["kind"] == reference_end["kind"]
+    end_time_error = abs(end["t"] - reference_end["t"])
     return Comparison(
         found=len(matched),
         missed=horizon - len(matched),
-        invented=len(strays),
-        first_wrong=min(wrong, default=None),
-        right_up_to=right,
+        invented=len(unmatched),
+        first_wrong=min(wrong_from, default=None),
+        right_up_to=right_in_a_row,
         end_kind_right=kind_right,
-        end_right=kind_right and end_time_error < SAME_END,
+        end_right=kind_right and end_time_error < END_TOLERANCE,
         end_time_error=end_time_error,
     )

@@ -11,7 +11,7 @@ def significant(value: float) -> str:
     return f"{value:,.0f}" if value >= 10.0 else f"{value:.2g}"
 
 
-def cells(row: dict, ours: float | None, compared: int) -> list[str]:
+def cells(row: dict, snapload_cost: float | None, compared: int) -> list[str]:
     name = f"{row['tool']}, {row['way']}"
     if "left_out" in row:
         return [name, "left out", "", "", "", "", ""]
@@ -23,7 +23,7 @@ def cells(row: dict, ours: float | None, compared: int) -> list[str]:
     return [
         f"{row['tool']} {row['version']}, {row['way']}",
         significant(cost),
-        significant(cost / ours) if ours else "",
+        significant(cost / snapload_cost) if snapload_cost else "",
         f"{row['found']} / {row['missed']} / {row['invented']}",
         f"{min(row['right_up_to'], compared)}",
         f"{kind}: {verdict}",
@@ -32,9 +32,9 @@ def cells(row: dict, ours: float | None, compared: int) -> list[str]:
 
 
 def markdown(results: dict) -> str:
-    truth = results["truth"]
-    compared = truth["compared"]
-    ours = next((r.get("us_an_impact") for r in results["peers"] if r["tool"] == "snapload"), None)
+    reference = results["truth"]
+    compared = reference["compared"]
+    snapload_cost = next((r.get("us_an_impact") for r in results["peers"] if r["tool"] == "snapload"), None)
     head = [
         "the standard case in",
         "µs an impact",
@@ -45,13 +45,13 @@ def markdown(results: dict) -> str:
         "off by",
     ]
     rows = [head, ["---", *["---:"] * 4, "---", "---:"]]
-    rows += [cells(row, ours, compared) for row in results["peers"]]
+    rows += [cells(row, snapload_cost, compared) for row in results["peers"]]
     lines = ["| " + " | ".join(row) + " |" for row in rows]
     left_out = [r for r in results["peers"] if "left_out" in r]
     notes = [f"{row['tool']} is left out: {row['left_out']}." for row in left_out]
     source = (
         f"Measured {results['date']} on {results['machine']} (load {results['load']}); "
-        f"of the {truth['impacts']} true impacts the first {compared} are compared, "
+        f"of the {reference['impacts']} true impacts the first {compared} are compared, "
         "those that double precision can decide."
     )
     return "\n".join([*lines, "", " ".join([source, *notes])])

@@ -16,9 +16,7 @@ from __future__ import annotations
 
 from typing import get_type_hints
 
-from ._assessed import Assessment, Elastic, Seas
 from ._axes import evenly
-from ._base_orbit import Admissible, NoOrbitError
 from ._basin import basins_of_attraction, erosion, safe_basin
 from ._basin_plot import plot_basin, plot_diagram, plot_erosion
 from ._branch import Branch
@@ -31,16 +29,18 @@ from ._hydro import Hydro
 from ._long_run import LyapunovSpectrum, lyapunov_spectrum, orbit_diagram, section
 from ._neighbours import Ensemble, Share, ensemble
 from ._orbit import Orbit, SystemOrbit, find_orbits
-from ._parts import Body, Cable, Forcing, Sinusoid
+from ._orbit_base import Admissible, NoOrbitError
 from ._reproduce import reproduce
 from ._run import Run
+from ._run_results import End, Norms, Outcome, Trust
 from ._scales import Scales
 from ._sensitivities import sensitivities
 from ._structure import Structure
+from ._structure_results import Assessment, Elastic, Seas
 from ._sweep import merge, open_study, sweep
 from ._system import System, SystemRun
+from ._system_parts import Body, Cable, Forcing, Sinusoid
 from ._table import Table
-from ._told import End, Norms, Outcome, Trust
 from ._verify import Verification, verify
 
 __all__ = [
@@ -98,9 +98,9 @@ __all__ = [
     "verify",
 ]
 
-# What is public is called by the name by which it is imported. What its annotations name stands where it was written.
+# Public classes report the module from which they are imported; their annotations are resolved where they were written.
 for _name in __all__:
-    if isinstance(_it := globals()[_name], type):
-        _it.__annotations__ = get_type_hints(_it)
-        _it.__module__ = __name__
-del _name, _it
+    if isinstance(_item := globals()[_name], type):
+        _item.__annotations__ = get_type_hints(_item)
+        _item.__module__ = __name__
+del _name, _item

@@ -14,9 +14,9 @@ import numpy as np
 from matplotlib import animation, pyplot
 from matplotlib.patches import Polygon
 
-from ._check import whole
-from ._plot import cables_of, named, times_of
-from ._progress import bar
+from ._arguments import whole_number
+from ._plot import axis_label, cable_styles, curve_times
+from ._progress import progress_bar
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -25,12 +25,12 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
-    from ._base_run import BaseRun
+    from ._run_base import BaseRun
 
 #: The longest animation, in pictures.
-_MOST_FRAMES = 5000
+_MAX_FRAMES = 5000
 
-#: What can be written, by ending, and by which writer of Matplotlib.
+#: The writer of Matplotlib for each file extension.
 _WRITERS = {".gif": "pillow", ".mp4": "ffmpeg", ".html": "html"}
 
 
@@ -58,10 +58,10 @@ class Animation:
             raise ValueError(
                 f"start = {start!r}, stop = {stop!r} is not allowed; allowed: 0 <= start < stop <= {end!r}, the end"
             )
-        fps = whole("fps", fps)
-        if not 0 < seconds * fps <= _MOST_FRAMES:
+        fps = whole_number("fps", fps)
+        if not 0 < seconds * fps <= _MAX_FRAMES:
             raise ValueError(
-                f"seconds = {seconds!r} is not allowed; allowed: 0 < seconds <= {_MOST_FRAMES / fps:g} at {fps} "
+                f"seconds = {seconds!r} is not allowed; allowed: 0 < seconds <= {_MAX_FRAMES / fps:g} at {fps} "
                 "pictures per second"
             )
         self._run, self._span, self._fps = run, (float(start), stop), fps
@@ -71,12 +71,12 @@ class Animation:
     def _html(self) -> str:
         scene = _scene_data(self._run, *self._span, self._count)
         page = resources.files(__package__).joinpath("animation.html").read_text(encoding="utf-8")
-        words = {
+        data = {
             "scene": scene,
             "seconds": self._count / self._fps,
             "colours": scene["colours"],
         }
-        return page.replace("{id}", f"snapload-{uuid4().hex}").replace("{data}", json.dumps(words))
+        return page.replace("{id}", f"snapload-{uuid4().hex}").replace("{data}", json.dumps(data))
 
     def _repr_html_(self) -> str:
         return self._html
@@ -121,9 +121,13 @@ class Animation:
             raise ValueError(f"{target}: there is no {writer} on this machine; install it, or write a .gif or .html")
         figure, artist = self._animation()
         try:
-            with bar(f"writing {target.name}", self._count, shown=True) as more:
+            with progress_bar(f"writing {target.name}", self._count, visible=True) as report_progress:
                 artist.save(
-                    target, writer=writer, fps=self._fps, dpi=110, progress_callback=lambda *_: more and more(1)
+                    target,
+                    writer=writer,
+                    fps=self._fps,
+                    dpi=110,
+                    progress_callback=lambda *_: report_progress and report_progress(1),
                 )
         finally:
             pyplot.close(figure)
@@ -131,7 +135,7 @@ class Animation:
 
     def _animation(self) -> tuple[Figure, animation.FuncAnimation]:
         figure, ax = pyplot.subplots(figsize=(5.0, 3.6), layout="constrained", dpi=80)
-        update = _scene(ax, _scene_data(self._run, *self._span, self._count))
+        update = _draw_scene(ax, _scene_data(self._run, *self._span, self._count))
         # The layout is computed once and not for every picture.
         figure.canvas.draw()
         figure.set_layout_engine("none")
@@ -141,9 +145,9 @@ class Animation:
 def _scene_data(run: BaseRun, start: float, stop: float, count: int) -> dict[str, Any]:
     """The data of the scene: its fixed parts, and at each time the position of the body and the taut cables."""
     geometry = run._geometry()
-    outline, size = geometry.outline(), geometry.size()
+    outline, half_extent = geometry.outline(), geometry.half_extent()
     anchors = [list(anchor) for anchor, _, _ in geometry.cables]
-    path, times = run.at(times_of(run, start, stop, 12)), np.linspace(start, stop, count)
+    path, times = run.at(curve_times(run, start, stop, 12)), np.linspace(start, stop, count)
     frames = run.at(times)
     t, cables, v_n = (run.impacts[name] for name in ("t", "cable", "v_n"))
     # A snap has no duration; it is shown long enough to be seen.
@@ -151,16 +155,16 @@ def _scene_data(run: BaseRun, start: float, stop: float, count: int) -> dict[str
     taut = []
     for cable in range(1, len(anchors) + 1):
         snaps = t[(cables == cable) & (v_n > 0)]
-        struck = np.searchsorted(snaps, times, side="right") > np.searchsorted(snaps, times - flash, side="right")
-        taut.append(((frames[f"T{cable}"] > 0) | struck).astype(int).tolist())
+        snapping = np.searchsorted(snaps, times, side="right") > np.searchsorted(snaps, times - flash, side="right")
+        taut.append(((frames[f"T{cable}"] > 0) | snapping).astype(int).tolist())
     xs, ys = [x for x, _ in anchors], [y for _, y in anchors]
-    left, right = min(*xs, path.x.min() - size), max(*xs, path.x.max() + size)
-    low, high = min(*ys, path.y.min() - 1.3 * size), max(*ys, path.y.max() + 1.3 * size)
+    left, right = min(*xs, path.x.min() - half_extent), max(*xs, path.x.max() + half_extent)
+    low, high = min(*ys, path.y.min() - 1.3 * half_extent), max(*ys, path.y.max() + 1.3 * half_extent)
     edge = 0.03 * max(right - left, high - low)
     return {
         "anchors": anchors,
-        "names": [named(run, "$x$", "L"), named(run, "$y$", "L")],
-        "colours": [colour for colour, _ in cables_of(run).values()],
+        "names": [axis_label(run, "$x$", "L"), axis_label(run, "$y$", "L")],
+        "colours": [colour for colour, _ in cable_styles(run).values()],
         "fairleads": [list(fairlead) for _, fairlead, _ in geometry.cables],
         "outline": outline.round(6).tolist(),
         "box": [left - edge, right + edge, low - edge, high + edge],
@@ -170,7 +174,7 @@ def _scene_data(run: BaseRun, start: float, stop: float, count: int) -> dict[str
     }
 
 
-def _scene(ax: Axes, scene: dict[str, Any]) -> Callable[[int], list[Artist]]:
+def _draw_scene(ax: Axes, scene: dict[str, Any]) -> Callable[[int], list[Artist]]:
     """Draws the fixed parts, and returns the function that moves the other parts to a frame."""
     anchors, fairleads, outline, path, frames = (
         np.array(scene[name]) for name in ("anchors", "fairleads", "outline", "path", "frames")
@@ -187,20 +191,20 @@ def _scene(ax: Axes, scene: dict[str, Any]) -> Callable[[int], list[Artist]]:
     (trail,) = ax.plot([], [], color="black", linewidth=0.9, zorder=4)
     body = Polygon(outline, facecolor="white", edgecolor="black")
     ax.add_patch(body)
-    clock = ax.text(0.5, 0.95, "", transform=ax.transAxes, ha="center", va="top", fontsize="small")
+    time_text = ax.text(0.5, 0.95, "", transform=ax.transAxes, ha="center", va="top", fontsize="small")
 
     def move(k: int) -> list[Artist]:
         now, x, y, theta = frames[k]
         sine, cosine = np.sin(theta), np.cos(theta)
         turn, centre = np.array([[cosine, -sine], [sine, cosine]]), np.array([x, y])
         body.set_xy(outline @ turn.T + centre)
-        behind = path[path[:, 0] <= now]
-        trail.set_data(behind[:, 1], behind[:, 2])
+        past = path[path[:, 0] <= now]
+        trail.set_data(past[:, 1], past[:, 2])
         for cable, line in enumerate(lines):
             line.set_data(*np.column_stack([anchors[cable], turn @ fairleads[cable] + centre]))
             taut = scene["taut"][cable][k]
             line.set(linewidth=2.4 if taut else 0.9, linestyle="-" if taut else "--")
-        clock.set_text(f"$t$ = {now:.2f}")
-        return [*lines, trail, body, clock]
+        time_text.set_text(f"$t$ = {now:.2f}")
+        return [*lines, trail, body, time_text]
 
     return move

@@ -11,10 +11,10 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from . import _engine
-from ._check import number, whole
+from ._arguments import number, whole_number
 
 
-def listed(key: str, values: ArrayLike | str) -> str | NDArray[Any]:
+def axis_values(key: str, values: ArrayLike | str) -> str | NDArray[Any]:
     """The values along one axis: text of a range, or a list."""
     if isinstance(values, str) and ":" in values:
         return values
@@ -28,7 +28,7 @@ def listed(key: str, values: ArrayLike | str) -> str | NDArray[Any]:
     return np.ravel(array)
 
 
-def side(key: str, ends: Any) -> str | tuple[float, float]:
+def range_ends(key: str, ends: Any) -> str | tuple[float, float]:
     """The ends of one side of a box."""
     if isinstance(ends, str):
         return ends
@@ -40,7 +40,7 @@ def side(key: str, ends: Any) -> str | tuple[float, float]:
     return low, high
 
 
-def values_of(values: str | NDArray[Any]) -> NDArray[Any]:
+def all_values(values: str | NDArray[Any]) -> NDArray[Any]:
     """All values along an axis."""
     if isinstance(values, str):
         first, last, count = values.split(":")
@@ -48,7 +48,7 @@ def values_of(values: str | NDArray[Any]) -> NDArray[Any]:
     return values
 
 
-def table_of(cases: Any) -> bytes:
+def cases_csv(cases: Any) -> bytes:
     """A table of cases as a CSV file for the command line, with an empty cell for each missing value."""
     names = getattr(cases, "column_names", getattr(cases, "columns", None))
     if names is None and isinstance(cases, Mapping):
@@ -111,5 +111,5 @@ def evenly(first: float | str, last: float | str, count: int) -> NDArray[np.floa
     (0.3, 0.30000000000000004)
     """
     ends = (("first", first), ("last", last))
-    words = [end if isinstance(end, str) else repr(number(name, end)) for name, end in ends]
-    return np.frombuffer(_engine.evenly(words[0], words[1], whole("count", count)))
+    decimals = [end if isinstance(end, str) else repr(number(name, end)) for name, end in ends]
+    return np.frombuffer(_engine.evenly(decimals[0], decimals[1], whole_number("count", count)))

@@ -10,23 +10,23 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from . import _engine
-from ._axes import listed
+from ._arguments import engine_case, whole_number
+from ._axes import axis_values
 from ._case import Case
-from ._check import engine_of, whole
 from ._keys import Axes
-from ._later import Later
+from ._lazy_import import LazyModule
 from ._orbit import Orbit
-from ._progress import bar
+from ._progress import progress_bar
 from ._signature import with_keys
 from ._table import numbers, or_nan
 
 if TYPE_CHECKING:
     import xarray
 else:
-    xarray = Later("xarray")
+    xarray = LazyModule("xarray")
 
 #: The total of a progress bar, if the work has several stages.
-_WHOLE = 1000
+_PROGRESS_TOTAL = 1000
 
 
 def safe_basin(case: Case, *, trust: bool = True, progress: bool = True, **window: Unpack[Axes]) -> xarray.Dataset:
@@ -79,25 +79,29 @@ def safe_basin(case: Case, *, trust: bool = True, progress: bool = True, **windo
     >>> bool(basin.safe.sum() / basin.legal.sum() == basin.attrs["gim"])
     True
     """
-    from ._dataset import ABOUT, flags
+    from ._dataset import COMMON_ATTRIBUTES, flag_attributes
 
-    engine, sides = engine_of(case), _sides(window)
-    with bar("safe basin", _WHOLE, progress) as tell:
-        answer, columns = _engine.safe_basin(engine, sides, bool(trust), tell)
-    told, coords = json.loads(answer), _coords(sides)
+    engine, axes = engine_case(case), _window_axes(window)
+    with progress_bar("safe basin", _PROGRESS_TOTAL, progress) as report_progress:
+        answer, columns = _engine.safe_basin(engine, axes, bool(trust), report_progress)
+    data, coords = json.loads(answer), _axis_coordinates(axes)
     shape = tuple(len(values) for _, values, _ in coords.values())
     variables: dict[str, Any] = {}
-    for name, kind, data, words in columns:
-        variables[name] = (tuple(coords), _column(kind, data, words).reshape(shape), {"long_name": _MEANINGS[name]})
+    for name, kind, buffer, words in columns:
+        variables[name] = (
+            tuple(coords),
+            _column(kind, buffer, words).reshape(shape),
+            {"long_name": _LONG_NAMES[name]},
+        )
     ends: list[str] = next(entry["words"] for entry in _engine.columns() if entry["name"] == "end")
     codes = {word: code for code, word in enumerate(ends)}
     outcomes = variables["outcome"][1]
     code = np.array([codes.get(word, -1) for word in outcomes.ravel()], dtype=np.int8).reshape(shape)
-    about = flags(ends)
-    about |= {"long_name": "how the run ended, as a number", "flag_meanings": " ".join(["not_legal", *ends])}
-    variables["outcome_code"] = (tuple(coords), code, about)
-    attrs = {"title": "A safe basin of a body on cables", **ABOUT, **_measures(told)}
-    attrs["cell"] = np.array([told["cell"][key] for key in told["keys"]])
+    code_attributes = flag_attributes(ends)
+    code_attributes |= {"long_name": "how the run ended, as a number", "flag_meanings": " ".join(["not_legal", *ends])}
+    variables["outcome_code"] = (tuple(coords), code, code_attributes)
+    attrs = {"title": "A safe basin of a body on cables", **COMMON_ATTRIBUTES, **_measure_attributes(data)}
+    attrs["cell"] = np.array([data["cell"][key] for key in data["keys"]])
     return xarray.Dataset(variables, coords, attrs)
 
 
@@ -153,36 +157,36 @@ def basins_of_attraction(
     >>> labels.dims, attractors[1]
     (('x', 'y'), <Orbit: stable, 1 period, 2, 1>)
     """
-    from ._dataset import ABOUT
+    from ._dataset import COMMON_ATTRIBUTES
 
-    engine, sides = engine_of(case), _sides(window)
-    transient = whole("transient", transient)
-    with bar("basins of attraction", _WHOLE, progress) as tell:
-        answer, columns, orbits = _engine.basins_of_attraction(engine, sides, transient, tell)
-    told, coords = json.loads(answer), _coords(sides)
-    found = {name: _column(kind, data, words) for name, kind, data, words in columns}
+    engine, axes = engine_case(case), _window_axes(window)
+    transient = whole_number("transient", transient)
+    with progress_bar("basins of attraction", _PROGRESS_TOTAL, progress) as report_progress:
+        answer, columns, orbits = _engine.basins_of_attraction(engine, axes, transient, report_progress)
+    data, coords = json.loads(answer), _axis_coordinates(axes)
+    found = {name: _column(kind, buffer, words) for name, kind, buffer, words in columns}
     shape = tuple(len(values) for _, values, _ in coords.values())
-    stops: list[str] = next(entry["words"] for entry in _engine.columns() if entry["name"] == "end")
-    codes = {"": -1, "attracted": 0, "aperiodic": 0} | {word: -2 - place for place, word in enumerate(stops)}
+    end_reasons: list[str] = next(entry["words"] for entry in _engine.columns() if entry["name"] == "end")
+    codes = {"": -1, "attracted": 0, "aperiodic": 0} | {word: -2 - place for place, word in enumerate(end_reasons)}
     labels = np.array([codes[word] for word in found["outcome"]], dtype=np.int32)
     attracted = ~np.isnan(found["attractor"])
     labels[attracted] = found["attractor"][attracted].astype(np.int32)
-    numbers = [row["attractor"] for row in told["attractors"]]
-    named = [(-2 - place, word) for place, word in reversed(list(enumerate(stops)))]
-    named += [(-1, "not_legal"), (0, "aperiodic"), *((number, f"attractor_{number}") for number in numbers)]
+    numbers = [row["attractor"] for row in data["attractors"]]
+    flag_names = [(-2 - place, word) for place, word in reversed(list(enumerate(end_reasons)))]
+    flag_names += [(-1, "not_legal"), (0, "aperiodic"), *((number, f"attractor_{number}") for number in numbers)]
     attrs = {
         "long_name": "attractor",
-        "flag_values": np.array([value for value, _ in named], dtype=np.int32),
-        "flag_meanings": " ".join(word for _, word in named),
-        "legal": told["legal"],
-        "cells": np.array([row["cells"] for row in told["attractors"]], dtype=np.int64),
-        "fractions": np.array([row["fraction"] for row in told["attractors"]], dtype=np.float64),
-        "periods": np.array([row["period"] for row in told["attractors"]], dtype=np.int64),
-        **ABOUT,
+        "flag_values": np.array([value for value, _ in flag_names], dtype=np.int32),
+        "flag_meanings": " ".join(word for _, word in flag_names),
+        "legal": data["legal"],
+        "cells": np.array([row["cells"] for row in data["attractors"]], dtype=np.int64),
+        "fractions": np.array([row["fraction"] for row in data["attractors"]], dtype=np.float64),
+        "periods": np.array([row["period"] for row in data["attractors"]], dtype=np.int64),
+        **COMMON_ATTRIBUTES,
     }
     array = xarray.DataArray(labels.reshape(shape), coords, tuple(coords), "attractor", attrs)
-    closed = zip(numbers, orbits, strict=True)
-    return array, {number: Orbit(case, orbit) for number, orbit in closed if orbit is not None}
+    label_orbits = zip(numbers, orbits, strict=True)
+    return array, {number: Orbit(case, orbit) for number, orbit in label_orbits if orbit is not None}
 
 
 with_keys(basins_of_attraction, defaults=False)
@@ -244,34 +248,34 @@ def erosion(
     >>> bool(eroded.gim[2] < eroded.gim[0]), eroded["if"].dims
     (True, ('f_o',))
     """
-    from ._dataset import ABOUT, attributes
+    from ._dataset import COMMON_ATTRIBUTES, attributes
 
-    engine, sides = engine_of(case), _sides(window)
+    engine, axes = engine_case(case), _window_axes(window)
     if not isinstance(over, Mapping) or len(over) != 1:
         allowed = "one key with its values, such as {'f_o': '0:0.6:21'}"
         raise ValueError(f"over = {over!r} is not allowed; allowed: {allowed}")
     ((key, values),) = over.items()
-    third = key, listed(key, values)
-    with bar("erosion", _WHOLE, progress) as tell:
-        told = json.loads(_engine.erosion(engine, sides, third, bool(trust), tell))
-    points = told["points"]
+    over_axis = key, axis_values(key, values)
+    with progress_bar("erosion", _PROGRESS_TOTAL, progress) as report_progress:
+        data = json.loads(_engine.erosion(engine, axes, over_axis, bool(trust), report_progress))
+    points = data["points"]
     variables: dict[str, Any] = {}
     for point in points:
         point["low"], point["high"] = point["interval95"]
-    for name, meaning in _ERODED.items():
+    for name, meaning in _EROSION_VARIABLES.items():
         variables[name] = (key, numbers(points, name), {"long_name": meaning})
     coords = {key: (key, np.array([point["value"] for point in points], dtype=np.float64), attributes()[key])}
-    knees: dict[str, Any] = {"knee": or_nan(told["knee"])}
-    if told["knee_between"] is not None:
-        knees["knee_between"] = [or_nan(knee) for knee in told["knee_between"]]
-    attrs = {"title": "Erosion of a safe basin of a body on cables", **ABOUT, **knees}
+    knees: dict[str, Any] = {"knee": or_nan(data["knee"])}
+    if data["knee_between"] is not None:
+        knees["knee_between"] = [or_nan(knee) for knee in data["knee_between"]]
+    attrs = {"title": "Erosion of a safe basin of a body on cables", **COMMON_ATTRIBUTES, **knees}
     return xarray.Dataset(variables, coords, attrs)
 
 
 with_keys(erosion, defaults=False)
 
-#: The columns of an erosion, and what they are.
-_ERODED = {
+#: The variables of an erosion, and their long names.
+_EROSION_VARIABLES = {
     "gim": "global integrity: safe part",
     "low": "lower end of its 95 % interval",
     "high": "upper end of its 95 % interval",
@@ -284,7 +288,7 @@ _ERODED = {
     "decided_fraction": "safe part of the decided cells",
 }
 
-_MEANINGS = {
+_LONG_NAMES = {
     "outcome": "how the run ended",
     "t": "when it ended, in T",
     "legal": "whether the start is legal",
@@ -294,29 +298,29 @@ _MEANINGS = {
 }
 
 
-def _sides(window: Mapping[str, Any]) -> list[tuple[str, Any]]:
+def _window_axes(window: Mapping[str, Any]) -> list[tuple[str, Any]]:
     """The two keys of a window with their values."""
     if len(window) != 2:
         given = ", ".join(window) or "none"
         allowed = "two keys with their values, such as x='-0.4:0.4:41', y='0.02:0.72:36'"
         raise ValueError(f"keys = {given} is not allowed; allowed: {allowed}")
-    return [(key, listed(key, values)) for key, values in window.items()]
+    return [(key, axis_values(key, values)) for key, values in window.items()]
 
 
-def _coords(sides: list[tuple[str, Any]]) -> dict[str, Any]:
-    from ._dataset import labels
+def _axis_coordinates(axes: list[tuple[str, Any]]) -> dict[str, Any]:
+    from ._dataset import grid_coordinates
 
-    return labels(sides)
+    return grid_coordinates(axes)
 
 
-def _measures(told: dict[str, Any]) -> dict[str, Any]:
+def _measure_attributes(data: dict[str, Any]) -> dict[str, Any]:
     """The measures as attributes of a kind that every file format of xarray can store."""
     names = ("legal", "safe", "fraction", "undecided", "past_horizon", "gim", "lim", "if", "iim")
-    return {name: or_nan(told[name]) for name in names} | {"interval95": np.array(told["interval95"])}
+    return {name: or_nan(data[name]) for name in names} | {"interval95": np.array(data["interval95"])}
 
 
-def _column(kind: str, data: bytearray, words: list[str]) -> NDArray[Any]:
+def _column(kind: str, buffer: bytearray, words: list[str]) -> NDArray[Any]:
     """The values of all cells."""
     if kind == "words":
-        return np.array(words, dtype=object)[np.frombuffer(data, dtype=np.int32)]
-    return np.frombuffer(data, dtype=kind)
+        return np.array(words, dtype=object)[np.frombuffer(buffer, dtype=np.int32)]
+    return np.frombuffer(buffer, dtype=kind)

@@ -16,8 +16,8 @@ if TYPE_CHECKING:
     import xarray
     from matplotlib.axes import Axes
 
-#: The colour of each end of a run: light where it is safe, dark where a limit is reached. What is not here is another
-#: limit.
+#: The colour of each end of a run: light where it is safe, dark where a limit is reached. An end that is
+#: absent is another limit.
 _ENDS = {
     "settled": ("#9AD0F3", "settled"),
     "end_time": ("#56B4E9", "continues"),
@@ -32,18 +32,18 @@ _OTHER_LIMIT = "#5D3A9B"
 _ATTRACTORS = ("#9AD0F3", ORANGE, GREEN, "#CC79A7", "#F0E442", BLUE)
 
 #: The colours of cells outside the window, and of motions without a period.
-_NOTHING, _APERIODIC = "white", "#BBBBBB"
+_OUTSIDE_COLOUR, _APERIODIC_COLOUR = "white", "#BBBBBB"
 
 
 def draw_basin(basin: xarray.Dataset | xarray.DataArray, ax: Axes | None) -> Axes:
     """Draws a map of cells."""
-    axes_of: Any = basin
+    label_array: Any = basin
     if hasattr(basin, "data_vars") and "outcome" in basin.data_vars:
-        numbers, looks = _of_ends(np.asarray(basin["outcome"].values))
+        numbers, styles = _end_numbers(np.asarray(basin["outcome"].values))
         undecided = ~basin["decided"].values & basin["legal"].values if "decided" in basin.data_vars else None
         first, second = basin["outcome"].dims
     elif "flag_meanings" in getattr(basin, "attrs", {}):
-        numbers, looks = _of_labels(axes_of)
+        numbers, styles = _label_numbers(label_array)
         undecided = None
         first, second = basin.dims
     else:
@@ -54,52 +54,52 @@ def draw_basin(basin: xarray.Dataset | xarray.DataArray, ax: Axes | None) -> Axe
 
     ax = new_axes(ax, 0.9)
     x, y = np.asarray(basin[first].values), np.asarray(basin[second].values)
-    colours = ListedColormap([_NOTHING, *(colour for colour, _ in looks)])
-    norm = BoundaryNorm(np.arange(-0.5, len(looks) + 1), len(looks) + 1)
+    colours = ListedColormap([_OUTSIDE_COLOUR, *(colour for colour, _ in styles)])
+    norm = BoundaryNorm(np.arange(-0.5, len(styles) + 1), len(styles) + 1)
     ax.pcolormesh(_edges(x), _edges(y), numbers.T, cmap=colours, norm=norm, rasterized=True)
-    shown = [Patch(facecolor=colour, edgecolor="black", linewidth=0.4, label=name) for colour, name in looks]
+    shown = [Patch(facecolor=colour, edgecolor="black", linewidth=0.4, label=name) for colour, name in styles]
     if undecided is not None and undecided.any():
         _hatch(ax, x, y, undecided)
         shown.append(Patch(facecolor="white", edgecolor="black", hatch="//////", linewidth=0.4, label="undecided"))
     ax.set_xlabel(key_label(str(first)))
     ax.set_ylabel(key_label(str(second)))
-    above: dict[str, Any] = {"loc": "lower center", "bbox_to_anchor": (0.5, 1.0), "ncols": 3}
-    ax.legend(handles=shown, fontsize="small", frameon=False, handlelength=1.2, columnspacing=1.0, **above)
+    legend_options: dict[str, Any] = {"loc": "lower center", "bbox_to_anchor": (0.5, 1.0), "ncols": 3}
+    ax.legend(handles=shown, fontsize="small", frameon=False, handlelength=1.2, columnspacing=1.0, **legend_options)
     return ax
 
 
-def _of_ends(outcomes: NDArray[Any]) -> tuple[NDArray[np.int64], list[tuple[str, str]]]:
+def _end_numbers(outcomes: NDArray[Any]) -> tuple[NDArray[np.int64], list[tuple[str, str]]]:
     """The end of each cell as a number from 1, and the style of each number; 0 is no legal start."""
     numbers = np.zeros(outcomes.shape, dtype=np.int64)
-    looks: list[tuple[str, str]] = []
+    styles: list[tuple[str, str]] = []
     for word in dict.fromkeys([*_ENDS, *REASONS]):
-        look, there = _look_of(word), outcomes == word
-        if there.any():
-            if look not in looks:
-                looks.append(look)
-            numbers[there] = looks.index(look) + 1
-    return numbers, looks
+        style, cells = _end_style(word), outcomes == word
+        if cells.any():
+            if style not in styles:
+                styles.append(style)
+            numbers[cells] = styles.index(style) + 1
+    return numbers, styles
 
 
-def _look_of(reason: str) -> tuple[str, str]:
+def _end_style(reason: str) -> tuple[str, str]:
     """The colour and the words of an end."""
     return _ENDS.get(reason, (_OTHER_LIMIT, reason.replace("_", " ")))
 
 
-def _of_labels(labels: xarray.DataArray) -> tuple[NDArray[np.int64], list[tuple[str, str]]]:
+def _label_numbers(labels: xarray.DataArray) -> tuple[NDArray[np.int64], list[tuple[str, str]]]:
     """The number and the style of each cell, from labels of attractors."""
     values = np.asarray(labels.values)
     words = dict(zip(labels.attrs["flag_values"].tolist(), labels.attrs["flag_meanings"].split(), strict=True))
     numbers = np.zeros(values.shape, dtype=np.int64)
-    looks: list[tuple[str, str]] = []
+    styles: list[tuple[str, str]] = []
     for value in sorted(set(values.ravel().tolist()) - {-1}, key=lambda value: (value < 1, abs(value))):
         if value > 0:
-            look = _ATTRACTORS[(value - 1) % len(_ATTRACTORS)], f"attractor {value}"
+            style = _ATTRACTORS[(value - 1) % len(_ATTRACTORS)], f"attractor {value}"
         else:
-            look = (_APERIODIC, "no period") if value == 0 else _look_of(words[value])
-        looks.append(look)
-        numbers[values == value] = len(looks)
-    return numbers, looks
+            style = (_APERIODIC_COLOUR, "no period") if value == 0 else _end_style(words[value])
+        styles.append(style)
+        numbers[values == value] = len(styles)
+    return numbers, styles
 
 
 def _hatch(ax: Axes, x: NDArray[Any], y: NDArray[Any], cells: NDArray[np.bool_]) -> None:
@@ -112,8 +112,8 @@ def _hatch(ax: Axes, x: NDArray[Any], y: NDArray[Any], cells: NDArray[np.bool_])
         Rectangle((left[i], low[j]), left[i + 1] - left[i], low[j + 1] - low[j])
         for i, j in zip(*np.nonzero(cells), strict=True)
     ]
-    look: dict[str, Any] = {"facecolor": "none", "edgecolor": "black", "linewidth": 0.3}
-    ax.add_collection(PatchCollection(boxes, hatch="//////", **look))
+    hatch_style: dict[str, Any] = {"facecolor": "none", "edgecolor": "black", "linewidth": 0.3}
+    ax.add_collection(PatchCollection(boxes, hatch="//////", **hatch_style))
 
 
 def _edges(values: NDArray[Any]) -> NDArray[np.float64]:
@@ -134,31 +134,36 @@ def draw_erosion(eroded: xarray.Dataset, ax: Axes | None) -> Axes:
     ax.plot(values, eroded["gim"], color=BLUE, linewidth=1.4, marker="o", markersize=3, label="part (GIM)")
     if (eroded["undecided"] > 0).any():
         # The knee is computed without the undecided cells.
-        of_decided: dict[str, Any] = {"color": BLUE, "linestyle": ":", "linewidth": 1.1, "label": "of decided cells"}
-        ax.plot(values, eroded["decided_fraction"], **of_decided)
+        decided_style: dict[str, Any] = {
+            "color": BLUE,
+            "linestyle": ":",
+            "linewidth": 1.1,
+            "label": "of decided cells",
+        }
+        ax.plot(values, eroded["decided_fraction"], **decided_style)
     ax.set_ylim(bottom=0)
     ax.set_xlabel(key_label(key))
     ax.set_ylabel("safe part of the starts")
     if not np.isnan(eroded.attrs["knee"]):
         ax.axvline(eroded.attrs["knee"], **REFERENCE)
-        # On the side on which the axes go on.
+        # On the side on which the axes continue.
         side, place = ("right", (-3, 3)) if eroded.attrs["knee"] > np.min(values) else ("left", (3, 3))
-        look: dict[str, Any] = {"textcoords": "offset points", "fontsize": "small", "ha": side}
-        ax.annotate("knee", (eroded.attrs["knee"], 0), place, **look)
+        text_options: dict[str, Any] = {"textcoords": "offset points", "fontsize": "small", "ha": side}
+        ax.annotate("knee", (eroded.attrs["knee"], 0), place, **text_options)
     lines, names = ax.get_legend_handles_labels()
-    looks = (("lim", VERMILION, "--", "^", "nearest (LIM)"), ("if", GREEN, "-.", "s", "disc (IF)"))
-    shown = [look for look in looks if not np.isnan(eroded[look[0]]).all()]
-    if shown:
+    measures = (("lim", VERMILION, "--", "^", "nearest (LIM)"), ("if", GREEN, "-.", "s", "disc (IF)"))
+    defined = [measure for measure in measures if not np.isnan(eroded[measure[0]]).all()]
+    if defined:
         right = ax.twinx()
-        for name, colour, style, marker, words in shown:
-            of: dict[str, Any] = {"color": colour, "linestyle": style, "marker": marker, "markersize": 3}
-            right.plot(values, eroded[name], linewidth=1.1, label=words, **of)
+        for name, colour, style, marker, legend_name in defined:
+            line_options: dict[str, Any] = {"color": colour, "linestyle": style, "marker": marker, "markersize": 3}
+            right.plot(values, eroded[name], linewidth=1.1, label=legend_name, **line_options)
         right.set_ylim(bottom=0)
         right.set_ylabel("distance in the window")
         more = right.get_legend_handles_labels()
         lines, names = lines + more[0], names + more[1]
-    above: dict[str, Any] = {"loc": "lower center", "bbox_to_anchor": (0.5, 1.0), "ncols": 3}
-    ax.legend(lines, names, fontsize="small", frameon=False, handlelength=1.8, columnspacing=1.0, **above)
+    legend_options: dict[str, Any] = {"loc": "lower center", "bbox_to_anchor": (0.5, 1.0), "ncols": 3}
+    ax.legend(lines, names, fontsize="small", frameon=False, handlelength=1.8, columnspacing=1.0, **legend_options)
     return ax
 
 
@@ -173,13 +178,19 @@ def draw_diagram(diagram: xarray.Dataset, y: str, ax: Axes | None, style: dict[s
     ax = new_axes(ax, 0.8)
     key = str(diagram["stop"].dims[0])
     values = np.repeat(diagram[key].values, diagram.sizes["k"])
-    look: dict[str, Any] = {"linestyle": "none", "marker": ".", "markersize": 1.6, "markeredgewidth": 0}
-    ax.plot(values, diagram[y].values.ravel(), **{**look, "color": "black", "rasterized": True, **style})
+    marker_style: dict[str, Any] = {"linestyle": "none", "marker": ".", "markersize": 1.6, "markeredgewidth": 0}
+    ax.plot(values, diagram[y].values.ravel(), **{**marker_style, "color": "black", "rasterized": True, **style})
     stopped = diagram["stop"].values != ""
     if stopped.any():
-        places = diagram[key].values[stopped]
-        sign: dict[str, Any] = {"color": VERMILION, "marker": "|", "markersize": 6, "linestyle": "none"}
-        ax.plot(places, np.zeros(len(places)), transform=ax.get_xaxis_transform(), label="stops at a limit", **sign)
+        stopped_at = diagram[key].values[stopped]
+        stop_style: dict[str, Any] = {"color": VERMILION, "marker": "|", "markersize": 6, "linestyle": "none"}
+        ax.plot(
+            stopped_at,
+            np.zeros(len(stopped_at)),
+            transform=ax.get_xaxis_transform(),
+            label="stops at a limit",
+            **stop_style,
+        )
     ax.set_xlabel(key_label(key))
     ax.set_ylabel(label(y))
     legend_above(ax)

@@ -4,13 +4,13 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
-from ._later import Later
+from ._lazy_import import LazyModule
 
 if TYPE_CHECKING:
     import matplotlib.axes
     import xarray
 else:
-    matplotlib, xarray = Later("matplotlib"), Later("xarray")
+    matplotlib, xarray = LazyModule("matplotlib"), LazyModule("xarray")
 
 
 def plot_basin(

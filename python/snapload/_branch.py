@@ -12,23 +12,23 @@ import numpy as np
 from numpy.typing import NDArray
 
 from . import _engine
-from ._axes import side
-from ._base_orbit import STATE, NoOrbitError, complexes
+from ._arguments import number as a_number
+from ._arguments import whole_number
+from ._axes import range_ends
 from ._branch_events import events_table
-from ._check import number as a_number
-from ._check import whole
-from ._later import Later
+from ._lazy_import import LazyModule
 from ._orbit import Orbit
-from ._progress import bar
+from ._orbit_base import STATE, NoOrbitError, complex_array
+from ._progress import progress_bar
 from ._table import Table
 
 if TYPE_CHECKING:
     import matplotlib.axes
     import xarray
 else:
-    matplotlib, xarray = Later("matplotlib"), Later("xarray")
+    matplotlib, xarray = LazyModule("matplotlib"), LazyModule("xarray")
 
-#: How a branch is followed: from and to, the first step, points in either direction.
+#: The options of a continuation: range of the key, first step, points in either direction.
 Options: TypeAlias = tuple[str | tuple[float, float], float, int]
 
 #: What can be drawn of a branch against its key.
@@ -73,28 +73,28 @@ class Branch:
         along: str,
         options: Options,
         engine: _engine.Branch | None,
-        path: tuple[tuple[int | None, Options], ...] = (),
-        told: dict[str, Any] | None = None,
+        switches: tuple[tuple[int | None, Options], ...] = (),
+        data: dict[str, Any] | None = None,
     ) -> None:
-        if told is None:
+        if data is None:
             assert engine is not None
-            told = json.loads(engine.json()) | {"words": engine.summary().rstrip("\n")}
+            data = json.loads(engine.json()) | {"words": engine.summary().rstrip("\n")}
         self.case = orbit.case
-        self.along: str = told["along"]
-        self.ends: tuple[dict[str, Any], ...] = tuple(told["ends"])
-        self._begun, self._options, self._path = (orbit, along, options), options, path
-        self._made, self._told = engine, told
+        self.along: str = data["along"]
+        self.ends: tuple[dict[str, Any], ...] = tuple(data["ends"])
+        self._start, self._options, self._switches = (orbit, along, options), options, switches
+        self._engine_object, self._data = engine, data
 
     @property
-    def _followed(self) -> _engine.Branch:
+    def _engine_branch(self) -> _engine.Branch:
         """The branch of the engine. It does not travel to other processes, where it is computed again."""
-        if self._made is None:
-            orbit, along, options = self._begun
-            made = _engine.continuation(orbit._engine, along, *options, None)
-            for number, options in self._path:
-                made = _born(*made.doubled(number, *options, None))
-            self._made = made
-        return self._made
+        if self._engine_object is None:
+            orbit, along, options = self._start
+            branch = _engine.continuation(orbit._engine, along, *options, None)
+            for number, options in self._switches:
+                branch = branch_or_error(*branch.doubled(number, *options, None))
+            self._engine_object = branch
+        return self._engine_object
 
     @cached_property
     def points(self) -> xarray.Dataset:
@@ -116,9 +116,9 @@ class Branch:
         >>> points.multipliers.dims, bool(points.stable.any()), bool(points.stable.all())
         (('point', 'multiplier'), True, False)
         """
-        from ._dataset import ABOUT, attributes
+        from ._dataset import COMMON_ATTRIBUTES, attributes
 
-        rows, about = self._told["points"], attributes()
+        rows, key_attributes = self._data["points"], attributes()
 
         def column(name: str, dtype: Any) -> NDArray[Any]:
             values = [np.nan if row[name] is None else row[name] for row in rows]
@@ -126,15 +126,17 @@ class Branch:
 
         states = np.array([row["section"] for row in rows], dtype=np.float64)
         variables: dict[str, Any] = {
-            name: ("point", states[:, place], {**about[name], "long_name": f"{name} at the section"})
+            name: ("point", states[:, place], {**key_attributes[name], "long_name": f"{name} at the section"})
             for place, name in enumerate(STATE)
             if name != self.along
         }
-        multipliers = np.array([complexes(row["multipliers"]) for row in rows])
-        words = [row["stable"] if isinstance(row["stable"], str) else _WORDS[row["stable"]] for row in rows]
-        stability = np.array(words, dtype=object)
+        multipliers = np.array([complex_array(row["multipliers"]) for row in rows])
+        stability_names = [
+            row["stable"] if isinstance(row["stable"], str) else _STABILITY_NAMES[row["stable"]] for row in rows
+        ]
+        stability = np.array(stability_names, dtype=object)
         texts: dict[str, tuple[list[str], str]] = {
-            "stability": (words, "stable, unstable, neutral or superstable"),
+            "stability": (stability_names, "stable, unstable, neutral or superstable"),
             "symbol": ([" ".join(row["symbol"]) for row in rows], "the events in their order"),
             "why_not": (["; ".join(row["why_not"]) for row in rows], "why it is not a possible motion"),
         }
@@ -150,10 +152,10 @@ class Branch:
             for name, (values, meaning) in texts.items()
         }
         coords = {
-            self.along: ("point", column("value", np.float64), about[self.along]),
+            self.along: ("point", column("value", np.float64), key_attributes[self.along]),
             "arclength": ("point", column("arclength", np.float64), {"long_name": "length along the branch"}),
         }
-        title = {"title": "A branch of periodic orbits of a body on cables", **ABOUT}
+        title = {"title": "A branch of periodic orbits of a body on cables", **COMMON_ATTRIBUTES}
         return xarray.Dataset(variables, coords, title)
 
     @cached_property
@@ -177,7 +179,7 @@ class Branch:
         >>> events.to_pandas()[["kind", "value"]].round(6).values.tolist()
         [['fold', 1.304034]]
         """
-        return events_table(self._told["events"])
+        return events_table(self._data["events"])
 
     @property
     def origins(self) -> Table:
@@ -194,10 +196,10 @@ class Branch:
         >>> len(snapload.continuation(orbit, "f_o", (1.3, 1.5)).origins)
         0
         """
-        return events_table(self._told["from"])
+        return events_table(self._data["from"])
 
     def __len__(self) -> int:
-        return len(self._told["points"])
+        return len(self._data["points"])
 
     def orbit(self, point: int) -> Orbit:
         """Return the orbit at a point.
@@ -229,7 +231,7 @@ class Branch:
         >>> last.case.f_o == 1.4, 1.3 < last.case.f_o < 1.5
         (False, True)
         """
-        return self._orbit(self._followed.point(range(len(self))[point]))
+        return self._orbit(self._engine_branch.point(range(len(self))[point]))
 
     def event(self, event: int) -> Orbit:
         """Return the orbit at an event.
@@ -261,12 +263,12 @@ class Branch:
         >>> f"{abs(fold.multipliers[0] - 1):.0e}" < "1e-05"
         True
         """
-        return self._orbit(self._followed.event(range(len(self.events))[event]))
+        return self._orbit(self._engine_branch.event(range(len(self.events))[event]))
 
     def _orbit(self, engine: _engine.Orbit) -> Orbit:
         case = engine.case()
         assert case is not None
-        return Orbit(type(self.case)._of(case), engine)
+        return Orbit(type(self.case)._from_engine(case), engine)
 
     def switch(
         self,
@@ -326,20 +328,20 @@ class Branch:
             allowed = "'period_doubling', the one kind at which a branch of other orbits is followed"
             raise ValueError(f"kind = {kind!r} is not allowed; allowed: {allowed}")
         if number is not None:
-            number = whole("number", number)
-        known = self._options
-        options = options_of(
+            number = whole_number("number", number)
+        previous = self._options
+        options = branch_options(
             self.along,
-            known[0] if between is None else between,
-            known[1] if step is None else step,
-            known[2] if points is None else points,
+            previous[0] if between is None else between,
+            previous[1] if step is None else step,
+            previous[2] if points is None else points,
         )
-        with bar("points of the branch", 2 * options[2], progress) as tell:
-            engine = _born(*self._followed.doubled(number, *options, tell))
-        orbit, along, _ = self._begun
-        born = Branch(orbit, along, self._begun[2], engine, (*self._path, (number, options)))
-        born._options = options
-        return born
+        with progress_bar("points of the branch", 2 * options[2], progress) as report_progress:
+            engine = branch_or_error(*self._engine_branch.doubled(number, *options, report_progress))
+        orbit, along, _ = self._start
+        switched = Branch(orbit, along, self._start[2], engine, (*self._switches, (number, options)))
+        switched._options = options
+        return switched
 
     def plot(self, y: Ordinate = "y", ax: matplotlib.axes.Axes | None = None, **style: Any) -> matplotlib.axes.Axes:
         """Draw the branch into Matplotlib axes, and return the axes.
@@ -383,20 +385,20 @@ class Branch:
     def __eq__(self, other: object) -> bool:
         if not isinstance(other, Branch):
             return NotImplemented
-        return self.case == other.case and self._told == other._told
+        return self.case == other.case and self._data == other._data
 
     __hash__ = None  # type: ignore[assignment]
 
     def __reduce__(self) -> tuple[Any, ...]:
-        return _restore, (*self._begun, self._path, self._options, self._told)
+        return _restore, (*self._start, self._switches, self._options, self._data)
 
     def __str__(self) -> str:
-        words: str = self._told["words"]
-        return words
+        text: str = self._data["words"]
+        return text
 
     def __repr__(self) -> str:
-        values = [row["value"] for row in self._told["points"]]
-        count = len(self._told["events"])
+        values = [row["value"] for row in self._data["points"]]
+        count = len(self._data["events"])
         events = "1 event" if count == 1 else f"{count} events"
         return f"<Branch along {self.along} from {min(values):g} to {max(values):g}: {len(self)} points, {events}>"
 
@@ -404,14 +406,14 @@ class Branch:
         return f"<pre>{escape(str(self))}</pre>"
 
 
-_WORDS = {True: "stable", False: "unstable"}
+_STABILITY_NAMES = {True: "stable", False: "unstable"}
 
 
-def options_of(key: str, between: Any, step: float, points: int) -> Options:
-    return side(key, between), a_number("step", step), whole("points", points)
+def branch_options(key: str, between: Any, step: float, points: int) -> Options:
+    return range_ends(key, between), a_number("step", step), whole_number("points", points)
 
 
-def _born(branch: _engine.Branch | None, why: str) -> _engine.Branch:
+def branch_or_error(branch: _engine.Branch | None, why: str) -> _engine.Branch:
     if branch is None:
         raise NoOrbitError(f"no branch was found: {why}")
     return branch
@@ -421,10 +423,10 @@ def _restore(
     orbit: Orbit,
     along: str,
     options: Options,
-    path: tuple[tuple[int | None, Options], ...],
+    switches: tuple[tuple[int | None, Options], ...],
     last: Options,
-    told: dict[str, Any],
+    data: dict[str, Any],
 ) -> Branch:
-    branch = Branch(orbit, along, options, None, path, told)
+    branch = Branch(orbit, along, options, None, switches, data)
     branch._options = last
     return branch

@@ -7,8 +7,8 @@ from typing import Any
 
 import numpy as np
 
-from ._base_orbit import STATE, complexes
-from ._scales import MOTION
+from ._orbit_base import STATE, complex_array
+from ._scales import MOTION_SCALES
 from ._table import Table, numbers
 
 
@@ -16,18 +16,18 @@ def events_table(rows: list[dict[str, Any]]) -> Table:
     """One row for each event."""
     column = partial(numbers, rows)
 
-    largest = [np.abs(complexes(row["multipliers"])).max() for row in rows]
+    largest = [np.abs(complex_array(row["multipliers"])).max() for row in rows]
     states = np.array([row["state"] for row in rows], dtype=np.float64).reshape(-1, len(STATE))
     whole_numbers = {
         "cable": np.array([row["cable"] or 0 for row in rows], dtype=np.int64),
         "admissible": np.array([row["admissible"] for row in rows], dtype=np.int64),
     }
-    return Table._of(
+    return Table._from_columns(
         [
             ("kind", "", "kind of event", np.array([row["kind"] for row in rows], dtype=object)),
             ("value", "1", "value of the key", column("value")),
             ("arclength", "1", "length along the branch", column("arclength")),
-            *((name, MOTION[name], f"{name} at the section", states[:, k]) for k, name in enumerate(STATE)),
+            *((name, MOTION_SCALES[name], f"{name} at the section", states[:, k]) for k, name in enumerate(STATE)),
             ("cable", "", "number of the cable, 0 for none", whole_numbers["cable"]),
             ("t", "T", "time in the cycle", column("t")),
             (

@@ -10,14 +10,14 @@ from os import PathLike, fspath
 from typing import Any, Self, Unpack
 
 from . import _engine
-from ._check import Uncertainty, number, plain, whole
+from ._arguments import Uncertainty, number, uncertainty_for_engine, whole_number
 from ._keys import OPTIONAL, PARAMETERS, Keys, KeyValues
 from ._orbit import HasOrbits
 from ._run import Options, Run
 from ._signature import with_keys
 
 #: Keys in which the built-in cases differ.
-_SHOWN = ("r", "e", "a", "b", "f_o", "nu", "omega")
+_SHOWN_KEYS = ("r", "e", "a", "b", "f_o", "nu", "omega")
 
 
 class Case(KeyValues, HasOrbits):
@@ -73,7 +73,7 @@ class Case(KeyValues, HasOrbits):
             raise TypeError(f"code = {code!r} is not allowed; allowed: {allowed}")
 
     @classmethod
-    def _of(cls, engine: _engine.Case) -> Self:
+    def _from_engine(cls, engine: _engine.Case) -> Self:
         case = cls.__new__(cls)
         case._engine = engine
         return case
@@ -121,7 +121,7 @@ class Case(KeyValues, HasOrbits):
             except (tomllib.TOMLDecodeError, UnicodeDecodeError) as error:
                 raise ValueError(f"{fspath(path)}: {error}") from None
         try:
-            return cls._of(_engine.Case(fspath(path), keys))
+            return cls._from_engine(_engine.Case(fspath(path), keys))
         except ValueError as error:
             raise ValueError(f"{fspath(path)}: {error}") from None
 
@@ -191,8 +191,8 @@ class Case(KeyValues, HasOrbits):
         """
         given = _given(keys)
         if len(given) == len(keys):
-            return self._of(self._engine.replace(given))
-        return self._of(_engine.Case(self.name, _given({**self._engine.given(), **keys})))
+            return self._from_engine(self._engine.replace(given))
+        return self._from_engine(_engine.Case(self.name, _given({**self._engine.given(), **keys})))
 
     __replace__ = replace
 
@@ -235,7 +235,7 @@ class Case(KeyValues, HasOrbits):
     def __getitem__(self, key: str) -> Any:
         keys = self.keys()
         if key not in keys:
-            raise _Unknown(f"there is no key {key!r}; the keys are {', '.join(keys)}")
+            raise _UnknownKeyError(f"there is no key {key!r}; the keys are {', '.join(keys)}")
         return keys[key]
 
     def __iter__(self) -> Iterator[str]:
@@ -303,10 +303,10 @@ class Case(KeyValues, HasOrbits):
                 raise ValueError("trust=False runs no neighbours; leave out uncertainty and members, or trust=False")
             return Run(self, None, _engine.run_alone(self._engine))
         options: Options = (
-            plain(uncertainty),
+            uncertainty_for_engine(uncertainty),
             number("tolerance", tolerance),
-            members if members is None else whole("members", members),
-            whole("seed", seed),
+            members if members is None else whole_number("members", members),
+            whole_number("seed", seed),
         )
         return Run(self, options, _engine.run(self._engine, *options))
 
@@ -325,8 +325,8 @@ class Case(KeyValues, HasOrbits):
             base = cases[self.name]._engine.given()
             given = {key: value for key, value in given.items() if base.get(key) != value}
             name = [repr(self.name)]
-        words = [*name, *(f"{key}={value!r}" for key, value in given.items())]
-        return f"{type(self).__name__}({', '.join(words)})"
+        arguments = [*name, *(f"{key}={value!r}" for key, value in given.items())]
+        return f"{type(self).__name__}({', '.join(arguments)})"
 
     def _repr_html_(self) -> str:
         meanings = {key["name"]: key for key in _engine.keys()}
@@ -354,10 +354,10 @@ def _given(keys: Mapping[str, Any]) -> dict[str, Any]:
 
 
 def _restore(cls: type[Case], name: str, given: dict[str, Any]) -> Case:
-    return cls._of(_engine.Case(name, given))
+    return cls._from_engine(_engine.Case(name, given))
 
 
-class _Unknown(KeyError):
+class _UnknownKeyError(KeyError):
     """An unknown key or code; its message has no quotes, which a KeyError would add."""
 
     def __str__(self) -> str:
@@ -381,13 +381,13 @@ class Cases(Mapping[str, Case]):
     @staticmethod
     @cache
     def _all() -> dict[str, tuple[str, Case]]:
-        return {code: (about, Case._of(case)) for code, about, case in _engine.named_cases()}
+        return {code: (description, Case._from_engine(case)) for code, description, case in _engine.named_cases()}
 
     def __getitem__(self, code: str) -> Case:
         try:
-            return Case._of(_engine.named_case(code))
+            return Case._from_engine(_engine.named_case(code))
         except ValueError as error:
-            raise _Unknown(str(error)) from None
+            raise _UnknownKeyError(str(error)) from None
 
     def __contains__(self, code: object) -> bool:
         return code in self._all()
@@ -399,10 +399,10 @@ class Cases(Mapping[str, Case]):
         return len(self._all())
 
     def _table(self) -> list[list[str]]:
-        rows = [["code", *_SHOWN, "series"]]
-        for code, (about, case) in self._all().items():
+        rows = [["code", *_SHOWN_KEYS, "series"]]
+        for code, (description, case) in self._all().items():
             keys = case.keys()
-            rows.append([code, *(f"{keys[key]:g}" for key in _SHOWN), about])
+            rows.append([code, *(f"{keys[key]:g}" for key in _SHOWN_KEYS), description])
         return rows
 
     def __repr__(self) -> str:

@@ -69,7 +69,7 @@ class Certificate(Result):
     digits: NDArray[np.float64]
     departure: int | None
     text: str
-    _told: str
+    _summary: str
 
     def to_file(self, path: str | PathLike[str]) -> None:
         """Write the certificate.
@@ -92,7 +92,7 @@ class Certificate(Result):
         Path(path).write_text(self.text, encoding="utf-8", newline="\n")
 
     def __str__(self) -> str:
-        return self._told
+        return self._summary
 
     def __repr__(self) -> str:
         how = self.end or "undecided"
@@ -106,7 +106,7 @@ def certify(run: Run) -> Certificate:
     """The proof of a run."""
     found: dict[str, Any] = json.loads(_engine.certify(run._engine, None))
     row, departure = found["certificate"], found["certificate"]["departure"]
-    impacts = Table._of(
+    impacts = Table._from_columns(
         [
             ("cable", "", "number of the cable", np.array(found["cable"], dtype=np.int64)),
             ("t", "T", "time, the nearest double", np.array(found["t"], dtype=np.float64)),
@@ -125,5 +125,5 @@ def certify(run: Run) -> Certificate:
         digits=np.array([np.nan if digits is None else digits for digits in found["digits"]], dtype=np.float64),
         departure=None if departure is None else departure["impact"],
         text=found["text"],
-        _told=found["words"],
+        _summary=found["words"],
     )

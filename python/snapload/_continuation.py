@@ -5,9 +5,9 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from . import _engine
-from ._branch import Branch, options_of
+from ._branch import Branch, branch_options
 from ._orbit import Orbit
-from ._progress import bar
+from ._progress import progress_bar
 
 
 def continuation(
@@ -68,7 +68,7 @@ def continuation(
     if not isinstance(orbit, Orbit):
         allowed = "an orbit of a snapload.Case, such as snapload.Case(...).orbit()"
         raise TypeError(f"orbit = {orbit!r} is not allowed; allowed: {allowed}")
-    options = options_of(key, between, step, points)
-    with bar("points of the branch", 2 * options[2], progress) as tell:
-        engine = _engine.continuation(orbit._engine, key, *options, tell)
+    options = branch_options(key, between, step, points)
+    with progress_bar("points of the branch", 2 * options[2], progress) as report_progress:
+        engine = _engine.continuation(orbit._engine, key, *options, report_progress)
     return Branch(orbit, key, options, engine)

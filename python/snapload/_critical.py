@@ -11,18 +11,18 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from . import _engine
-from ._axes import listed
+from ._arguments import Uncertainty, engine_case, number, uncertainty_for_engine, whole_number
+from ._axes import axis_values
 from ._case import Case
-from ._check import Uncertainty, engine_of, number, plain, whole
-from ._later import Later
-from ._progress import bar
+from ._lazy_import import LazyModule
+from ._progress import progress_bar
 from ._result import Result
 
 if TYPE_CHECKING:
     import matplotlib.axes
     import xarray
 else:
-    matplotlib, xarray = Later("matplotlib"), Later("xarray")
+    matplotlib, xarray = LazyModule("matplotlib"), LazyModule("xarray")
 
 
 @dataclass(frozen=True, repr=False, eq=False)
@@ -67,7 +67,7 @@ class CriticalForce(Result):
     passes: dict[str, float | None]
     _step: float
     _largest: float
-    _shown = ("f_cr", "reason", "t", "exceeding")
+    _repr_fields = ("f_cr", "reason", "t", "exceeding")
 
     def plot(self, ax: matplotlib.axes.Axes | None = None) -> matplotlib.axes.Axes:
         """Draw which amplitudes exceed a limit, or with which probability.
@@ -222,48 +222,50 @@ def critical_force(
     >>> snapload.critical_force(snapload.Case(), over={"e": [0.8, 0.9]}, largest=0.5).f_cr.values.tolist()
     [0.4, 0.31]
     """
-    engine, step, largest = engine_of(case), number("step", step), number("largest", largest)
+    engine, step, largest = engine_case(case), number("step", step), number("largest", largest)
     if over is not None:
         if members or uncertainty is not None:
             raise ValueError("over runs no neighbours; leave out members and uncertainty, or over")
-        return _over(engine, over, step, largest, progress)
-    members, seed = whole("members", members), whole("seed", seed)
+        return _critical_over_keys(engine, over, step, largest, progress)
+    members, seed = whole_number("members", members), whole_number("seed", seed)
     if uncertainty is not None and members == 0:
         raise ValueError("uncertainty needs neighbours, but none are run; give members, such as members=200")
-    found = json.loads(_engine.critical_force(engine, step, largest))
-    exceeding = np.array(found.pop("exceeding"), dtype=np.float64).reshape(-1, 2)
-    curve, passes = None, {}
+    data = json.loads(_engine.critical_force(engine, step, largest))
+    exceeding = np.array(data.pop("exceeding"), dtype=np.float64).reshape(-1, 2)
+    probability, passes = None, {}
     if members > 0:
-        with bar("force amplitudes", round(largest / step), progress, 0) as tell:
-            size, tolerance = plain(uncertainty), number("tolerance", tolerance)
-            answer = _engine.probability(engine, step, largest, size, tolerance, members, seed, tell)
-        answered = json.loads(answer)
-        passes = answered["passes"]
+        with progress_bar("force amplitudes", round(largest / step), progress, 0) as report_progress:
+            size, tolerance = uncertainty_for_engine(uncertainty), number("tolerance", tolerance)
+            answer = _engine.probability(engine, step, largest, size, tolerance, members, seed, report_progress)
+        ensemble_data = json.loads(answer)
+        passes = ensemble_data["passes"]
         kinds = [("f_o", "f8"), ("certain", "?"), ("count", "i8"), ("part", "f8"), ("low", "f8"), ("high", "f8")]
-        points = [tuple(point[name] for name, _ in kinds) for point in answered["probability"]]
-        curve = np.array(points, dtype=kinds).view(np.recarray)
-    return CriticalForce(**found, exceeding=exceeding, probability=curve, passes=passes, _step=step, _largest=largest)
+        points = [tuple(point[name] for name, _ in kinds) for point in ensemble_data["probability"]]
+        probability = np.array(points, dtype=kinds).view(np.recarray)
+    return CriticalForce(
+        **data, exceeding=exceeding, probability=probability, passes=passes, _step=step, _largest=largest
+    )
 
 
-def _over(
+def _critical_over_keys(
     engine: _engine.Case, over: Mapping[str, ArrayLike], step: float, largest: float, progress: bool
 ) -> xarray.Dataset:
     """The result for every combination of some keys."""
-    from ._dataset import ABOUT, attributes, labels
+    from ._dataset import COMMON_ATTRIBUTES, attributes, grid_coordinates
 
     if "f_o" in over:
         raise ValueError("over = f_o is not allowed, as it is the key that is searched; allowed: other keys")
-    axes = [(key, listed(key, values)) for key, values in over.items()]
+    axes = [(key, axis_values(key, values)) for key, values in over.items()]
     study = _engine.Study.grid(engine, axes, False)
-    with bar("critical force", len(study), progress) as tell:
-        answer, amplitudes = _engine.critical_force_over(study, step, largest, tell)
+    with progress_bar("critical force", len(study), progress) as report_progress:
+        answer, amplitudes = _engine.critical_force_over(study, step, largest, report_progress)
     rows, forces = json.loads(answer), np.array(amplitudes)
-    coords = labels(axes)
+    coords = grid_coordinates(axes)
     dims, shape = tuple(coords), tuple(len(values) for _, values, _ in coords.values())
     exceeds = np.zeros((len(rows), len(forces)), dtype=bool)
-    for row, marks in zip(rows, exceeds, strict=True):
+    for row, in_interval in zip(rows, exceeds, strict=True):
         for first, last in row.get("exceeding", ()):
-            marks |= (first <= forces) & (forces <= last)
+            in_interval |= (first <= forces) & (forces <= last)
 
     def column(name: str, missing: Any) -> NDArray[Any]:
         values = [missing if row.get(name) is None else row[name] for row in rows]
@@ -283,5 +285,5 @@ def _over(
     }
     if any("error" in row for row in rows):
         variables["error"] = (dims, column("error", ""), about["error"])
-    title = {"title": "Critical force of a body on cables that go slack and snap taut", **ABOUT}
+    title = {"title": "Critical force of a body on cables that go slack and snap taut", **COMMON_ATTRIBUTES}
     return xarray.Dataset(variables, {**coords, "f_o": ("f_o", forces, about["f_o"])}, title)

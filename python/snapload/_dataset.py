@@ -14,20 +14,20 @@ from xarray.backends import BackendArray
 from xarray.core import indexing
 
 from . import _engine
-from ._axes import values_of
+from ._axes import all_values
 
-#: What every dataset says of itself.
-ABOUT = {
+#: Attributes that all datasets have.
+COMMON_ATTRIBUTES = {
     "Conventions": "CF-1.12",
     "scales": "L half the distance of the anchors, m the mass of the body, F its net buoyancy, T = sqrt(m L / F)",
 }
 
 #: The number of rows of a chunk, if its size is not given.
-_CHUNK = 1 << 18
+_CHUNK_ROWS = 1 << 18
 
 #: Pictures of xarray are labelled by long name and unit, in lines of so many letters. A second line lies outside the
 #: picture, so that a longer name gives way to that of the column.
-LABEL = 30
+_MAX_LABEL = 30
 
 
 @cache
@@ -37,16 +37,16 @@ def attributes() -> dict[str, dict[str, str]]:
     for entry in (*_engine.keys(), *_engine.columns()):
         name, title, meaning, unit = entry["name"], entry["title"], entry["meaning"], dict(entry["cf"])
         scale = f", in {unit['scale']}" if unit["scale"] else ""
-        long_name = title + scale if len(f"{title}{scale} [{unit['units']}]") <= LABEL else name + scale
-        words = {"long_name": long_name, **unit, "comment": "" if meaning == long_name else meaning}
-        described[name] = {key: word for key, word in words.items() if word}
+        long_name = title + scale if len(f"{title}{scale} [{unit['units']}]") <= _MAX_LABEL else name + scale
+        entry_attributes = {"long_name": long_name, **unit, "comment": "" if meaning == long_name else meaning}
+        described[name] = {key: word for key, word in entry_attributes.items() if word}
     described["error"] = {"long_name": "why there was no run"}
     return described
 
 
-def labels(axes: list[tuple[str, Any]]) -> dict[str, Any]:
+def grid_coordinates(axes: list[tuple[str, Any]]) -> dict[str, Any]:
     """The coordinates of a grid."""
-    return {key: (key, values_of(values), attributes()[key]) for key, values in axes}
+    return {key: (key, all_values(values), attributes()[key]) for key, values in axes}
 
 
 def dataset(
@@ -65,34 +65,34 @@ def dataset(
         coords: dict[str, Any] = {"row": ("row", np.arange(first, first + count))}
         sizes: tuple[int, ...] = (count,)
     else:
-        coords, shown = _along(path, axes), results
+        coords, shown = _axis_coordinates(path, axes), results
         sizes = tuple(len(values) for _, values, _ in coords.values())
     if not study.get("trust", True):
-        # Without trust there is nothing to say of it.
+        # Without trust these columns have no values.
         shown = [name for name in shown if name not in ("horizon_t", "horizon_impact", "certain")]
     ends: list[str] = next(entry["words"] for entry in _engine.columns() if entry["name"] == "end")
     columns = {name: _Column(path, name, sizes) for name in shown}
     variables = {name: (tuple(axes), column, attributes()[name]) for name, column in columns.items()}
-    variables["end_code"] = (tuple(axes), _Column(path, "end", sizes, ends), flags(ends))
-    _, places, words = _engine.read_column(path, "error", 0, count)
-    del places
-    if len(words) > 1:
+    variables["end_code"] = (tuple(axes), _Column(path, "end", sizes, ends), flag_attributes(ends))
+    _, codes, messages = _engine.read_column(path, "error", 0, count)
+    del codes
+    if len(messages) > 1:
         variables["error"] = (tuple(axes), _Column(path, "error", sizes), attributes()["error"])
     lazy = {
-        name: xarray.Variable(dims, indexing.LazilyIndexedArray(column), about)
-        for name, (dims, column, about) in variables.items()
+        name: xarray.Variable(dims, indexing.LazilyIndexedArray(column), column_attrs)
+        for name, (dims, column, column_attrs) in variables.items()
     }
-    title = {"title": "A study of a body on cables that go slack and snap taut", **ABOUT}
+    title = {"title": "A study of a body on cables that go slack and snap taut", **COMMON_ATTRIBUTES}
     opened = xarray.Dataset(lazy, coords, {**title, **attrs})
     if chunks is None:
         return opened.load()
     if chunks == "auto" and sizes:
         # Dask can not estimate the size of text. Whole rows along the first dimension are read at once.
-        chunks = {next(iter(axes)): max(1, _CHUNK // math.prod(sizes[1:]))}
+        chunks = {next(iter(axes)): max(1, _CHUNK_ROWS // math.prod(sizes[1:]))}
     return opened.chunk(chunks)
 
 
-def _along(path: str, axes: dict[str, Any]) -> dict[str, Any]:
+def _axis_coordinates(path: str, axes: dict[str, Any]) -> dict[str, Any]:
     """The values along each axis, read from the rows; the first axis varies slowest."""
     counts = [_count(values) for values in axes.values()]
     coords = {}
@@ -115,13 +115,13 @@ def _count(values: Any) -> int:
 
 def _rows(path: str, name: str, start: int, stop: int, codes: list[str] | None = None) -> NDArray[Any]:
     """Some rows of one column. Missing words are empty strings, which files can store."""
-    kind, data, words = _engine.read_column(path, name, start, stop)
+    kind, data, categories = _engine.read_column(path, name, start, stop)
     if kind != "words":
         return np.frombuffer(data, dtype=kind)
     places = np.frombuffer(data, dtype=np.int32)
     if codes is None:
-        return np.array(words, dtype=object)[places]
-    return np.array([codes.index(word) if word in codes else -1 for word in words], dtype=np.int8)[places]
+        return np.array(categories, dtype=object)[places]
+    return np.array([codes.index(word) if word in codes else -1 for word in categories], dtype=np.int8)[places]
 
 
 class _Column(BackendArray):
@@ -131,32 +131,32 @@ class _Column(BackendArray):
     """
 
     def __init__(self, path: str, name: str, shape: tuple[int, ...], codes: list[str] | None = None) -> None:
-        self._of = (path, name)
+        self._source = (path, name)
         self._codes = codes
         self.shape = shape
-        self.dtype = _rows(*self._of, 0, 1, codes).dtype
+        self.dtype = _rows(*self._source, 0, 1, codes).dtype
 
     def __getitem__(self, key: indexing.ExplicitIndexer) -> Any:
         return indexing.explicit_indexing_adapter(key, self.shape, indexing.IndexingSupport.BASIC, self._read)
 
     def _read(self, key: tuple[Any, ...]) -> NDArray[Any]:
         if not self.shape:
-            return _rows(*self._of, 0, 1, self._codes).reshape(())
+            return _rows(*self._source, 0, 1, self._codes).reshape(())
         inner = math.prod(self.shape[1:])
-        asked = range(self.shape[0])[key[0]]
-        some = range(asked, asked + 1) if isinstance(asked, int) else asked
-        if not some:
+        index = range(self.shape[0])[key[0]]
+        indices = range(index, index + 1) if isinstance(index, int) else index
+        if not indices:
             return np.empty((0, *self.shape[1:]), self.dtype)[(slice(None), *key[1:])]
-        low, high = min(some), max(some) + 1
-        rows = _rows(*self._of, low * inner, high * inner, self._codes).reshape(high - low, *self.shape[1:])
-        first = asked - low if isinstance(asked, int) else slice(None, None, some.step)
+        low, high = min(indices), max(indices) + 1
+        rows = _rows(*self._source, low * inner, high * inner, self._codes).reshape(high - low, *self.shape[1:])
+        first = index - low if isinstance(index, int) else slice(None, None, indices.step)
         return rows[(first, *key[1:])]
 
 
-def flags(words: list[str]) -> dict[str, Any]:
+def flag_attributes(names: list[str]) -> dict[str, Any]:
     """The meaning of the numbers of the ends after the CF conventions, for maps; -1 if there was no run."""
     return {
         "long_name": "why the run ended, as a number",
-        "flag_values": np.arange(-1, len(words), dtype=np.int8),
-        "flag_meanings": " ".join(["no_run", *words]),
+        "flag_values": np.arange(-1, len(names), dtype=np.int8),
+        "flag_meanings": " ".join(["no_run", *names]),
     }

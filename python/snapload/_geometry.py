@@ -14,7 +14,7 @@ if TYPE_CHECKING:
 Point: TypeAlias = tuple[float, float]
 
 #: Half the size in which a body without size is shown [L].
-_SEEN = 0.012
+_MIN_HALF_SIZE = 0.012
 
 
 @dataclass(frozen=True)
@@ -28,7 +28,7 @@ class Geometry:
     #: How far the body may turn, if that ends a run.
     rotation_limit: float | None
     #: Points that are shown even if the body does not reach them.
-    rest: tuple[Point, ...] = ()
+    shown_points: tuple[Point, ...] = ()
 
     @classmethod
     def of_case(cls, case: Case) -> Geometry:
@@ -46,12 +46,12 @@ class Geometry:
             a, b = self.body
             return np.array([[a, b], [-a, b], [-a, -b], [a, -b]])
         angles = np.linspace(0, 2 * np.pi, 60)
-        return max(self.body, _SEEN) * np.column_stack([np.cos(angles), np.sin(angles)])
+        return max(self.body, _MIN_HALF_SIZE) * np.column_stack([np.cos(angles), np.sin(angles)])
 
-    def size(self) -> float:
+    def half_extent(self) -> float:
         """The largest distance of the outline from the centre along either axis."""
-        return max(float(np.abs(self.outline()).max()), _SEEN)
+        return max(float(np.abs(self.outline()).max()), _MIN_HALF_SIZE)
 
-    def centres(self) -> list[Point]:
+    def circle_centres(self) -> list[Point]:
         """The point about which each taut cable guides the centre of a body that stays upright."""
         return [(anchor[0] - fairlead[0], anchor[1] - fairlead[1]) for anchor, fairlead, _ in self.cables]

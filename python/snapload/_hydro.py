@@ -15,20 +15,20 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from . import _engine
-from ._check import whole
-from ._later import Later
+from ._arguments import whole_number
+from ._lazy_import import LazyModule
 
 if TYPE_CHECKING:
     import xarray
 else:
-    xarray = Later("xarray")
+    xarray = LazyModule("xarray")
 
 _DOFS = ["Surge", "Heave", "Pitch"]
 # A variable of a dataset: name, dimensions, lengths, values.
 _Variable = tuple[str, list[str], list[int], list[float] | list[str]]
 
 
-class Asked(TypedDict, total=False):
+class HydroOptions(TypedDict, total=False):
     """Options of the analysis besides the coefficients; see :meth:`Hydro.from_file`."""
 
     mass: float | None
@@ -91,7 +91,7 @@ class Hydro:
     _summary: list[tuple[str, str]]
 
     @classmethod
-    def from_file(cls, path: str | PathLike[str], **asked: Unpack[Asked]) -> Hydro:
+    def from_file(cls, path: str | PathLike[str], **options: Unpack[HydroOptions]) -> Hydro:
         """
         Read the file of a panel code, fit the memory and compute all results.
 
@@ -100,7 +100,7 @@ class Hydro:
         path : str or os.PathLike
             Capytaine file (``.nc``), one of the WAMIT files ``.1``, ``.3`` and ``.hst`` with the others in the same
             folder, or Nemoh folder.
-        **asked
+        **options
             Options of the analysis. By default each has the value of the file, or is not used:
 
             - ``mass``, ``centre`` (x, z), ``inertia``: mass, centre of gravity and moment of inertia about it;
@@ -138,10 +138,10 @@ class Hydro:
         """
         name = fspath(path)
         Path(name).stat()
-        return cls._of(name, None, asked)
+        return cls._analyse(name, None, options)
 
     @classmethod
-    def from_dataset(cls, dataset: xarray.Dataset, **asked: Unpack[Asked]) -> Hydro:
+    def from_dataset(cls, dataset: xarray.Dataset, **options: Unpack[HydroOptions]) -> Hydro:
         """
         Read a dataset of Capytaine, fit the memory and compute all results.
 
@@ -150,7 +150,7 @@ class Hydro:
         dataset : xarray.Dataset
             The result of ``assemble_dataset`` or ``fill_dataset``, with complex values or with their real and
             imaginary parts apart.
-        **asked
+        **options
             As for :meth:`Hydro.from_file`.
 
         Returns
@@ -175,11 +175,11 @@ class Hydro:
         ...     snapload.Hydro.from_dataset(dataset).quality["states"]
         48
         """
-        return cls._of("dataset", _variables(dataset), asked)
+        return cls._analyse("dataset", _variables(dataset), options)
 
     @classmethod
-    def _of(cls, name: str, variables: list[_Variable] | None, asked: Asked) -> Hydro:
-        given = {key: _plain(key, value) for key, value in asked.items() if value is not None}
+    def _analyse(cls, name: str, variables: list[_Variable] | None, options: HydroOptions) -> Hydro:
+        given = {key: _json_value(key, value) for key, value in options.items() if value is not None}
         text, summary = _engine.hydro(name, variables, json.dumps(given))
         answer = json.loads(text)
         floating = answer["floating"] or {}
@@ -245,17 +245,17 @@ class Hydro:
         return np.asarray(kernel.real, dtype=float)
 
     def __repr__(self) -> str:
-        return "\n".join(f"{label:<10}{words}" for label, words in self._summary)
+        return "\n".join(f"{label:<10}{text}" for label, text in self._summary)
 
     def _repr_html_(self) -> str:
-        rows = (f"<tr><td>{escape(label)}</td><td>{escape(words)}</td></tr>" for label, words in self._summary)
+        rows = (f"<tr><td>{escape(label)}</td><td>{escape(text)}</td></tr>" for label, text in self._summary)
         return f"<table><tbody>{''.join(rows)}</tbody></table>"
 
 
-def _plain(key: str, value: Any) -> Any:
+def _json_value(key: str, value: Any) -> Any:
     """An option as JSON can represent it; JSON has only finite numbers."""
     if key == "pairs":
-        return whole(key, value)
+        return whole_number(key, value)
     if isinstance(value, str):
         return value
     try:
@@ -273,15 +273,15 @@ def _variables(dataset: xarray.Dataset) -> list[_Variable]:
     for name, variable in dataset.variables.items():
         values, dims = np.asarray(variable.values), [str(dim) for dim in variable.dims]
         if values.dtype.kind in "OUS":
-            held: list[float] | list[str] = [str(word) for word in values.ravel()]
+            flat: list[float] | list[str] = [str(word) for word in values.ravel()]
         elif values.dtype.kind == "c":
             values, dims = np.stack([values.real, values.imag]), ["complex", *dims]
-            held = values.ravel().tolist()
+            flat = values.ravel().tolist()
         elif values.dtype.kind in "fiub":
-            held = values.astype(float).ravel().tolist()
+            flat = values.astype(float).ravel().tolist()
         else:
             continue
-        variables.append((str(name), dims, list(values.shape), held))
+        variables.append((str(name), dims, list(values.shape), flat))
     if not any(name == "complex" for name, *_ in variables):
         variables.append(("complex", ["complex"], [2], ["re", "im"]))
     return variables

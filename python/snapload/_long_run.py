@@ -12,13 +12,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from . import _engine
-from ._axes import listed
-from ._base_orbit import STATE
+from ._arguments import engine_case, number, whole_number
+from ._axes import axis_values
 from ._case import Case
-from ._check import engine_of, number, whole
 from ._keys import Axes
-from ._later import Later
-from ._progress import bar
+from ._lazy_import import LazyModule
+from ._orbit_base import STATE
+from ._progress import progress_bar
 from ._result import Result
 from ._signature import with_keys
 from ._table import numbers, or_nan
@@ -26,7 +26,7 @@ from ._table import numbers, or_nan
 if TYPE_CHECKING:
     import xarray
 else:
-    xarray = Later("xarray")
+    xarray = LazyModule("xarray")
 
 
 def section(
@@ -94,40 +94,40 @@ def section(
     """
     if at not in ("periods", "impacts"):
         raise ValueError(f"at = {at!r} is not allowed; allowed: 'periods', 'impacts'")
-    told = _section(case, periods, keep, phase, at == "impacts", progress)
-    if told["stop"] is not None and not told["points"]:
+    data = _section(case, periods, keep, phase, at == "impacts", progress)
+    if data["stop"] is not None and not data["points"]:
         warnings.warn(
-            f"the motion from this start {_stopped(told)}, before the first point of the section, which comes after "
+            f"the motion from this start {_stop_text(data)}, before the first point of the section, which comes after "
             f"{periods - keep} periods of the forcing; use fewer periods, or another start",
             stacklevel=2,
         )
-    from ._dataset import ABOUT
+    from ._dataset import COMMON_ATTRIBUTES
 
     variables: dict[str, Any] = {}
     if at == "impacts":
-        coords: dict[str, Any] = {"impact": ("impact", np.arange(1, len(told["impacts"]) + 1))}
-        variables |= _impacts(told["impacts"])
+        coords: dict[str, Any] = {"impact": ("impact", np.arange(1, len(data["impacts"]) + 1))}
+        variables |= _impact_variables(data["impacts"])
     else:
-        states = np.array([point["state"] for point in told["points"]], dtype=np.float64).reshape(-1, len(STATE))
-        about = {"long_name": "number of the period of the forcing"}
-        coords = {"k": ("k", np.array([point["k"] for point in told["points"]], dtype=np.int64), about)}
-        variables |= {name: ("k", states[:, place], of_state(name)) for place, name in enumerate(STATE)}
-    spectrum = _spectrum(told["exponents"])
+        states = np.array([point["state"] for point in data["points"]], dtype=np.float64).reshape(-1, len(STATE))
+        k_attrs = {"long_name": "number of the period of the forcing"}
+        coords = {"k": ("k", np.array([point["k"] for point in data["points"]], dtype=np.int64), k_attrs)}
+        variables |= {name: ("k", states[:, place], state_attributes(name)) for place, name in enumerate(STATE)}
+    spectrum = _spectrum(data["exponents"])
     rate = {"units": "1", "scale": "1/T"}
     coords["direction"] = ("direction", np.arange(1, len(spectrum[0]) + 1), {"long_name": "direction"})
     variables["exponent"] = ("direction", spectrum[0], {"long_name": "Lyapunov exponent, in 1/T", **rate})
     variables["exponent_se"] = ("direction", spectrum[1], {"long_name": "standard error, in 1/T", **rate})
     attrs: dict[str, Any] = {
         "title": "A section of a long motion of a body on cables",
-        **ABOUT,
-        "phase": told["phase"],
-        "period": or_nan(told["period"]),
-        "snaps": or_nan(told["snaps"]),
-        "y_max": told["y_max"],
-        "theta_max": told["theta_max"],
+        **COMMON_ATTRIBUTES,
+        "phase": data["phase"],
+        "period": or_nan(data["period"]),
+        "snaps": or_nan(data["snaps"]),
+        "y_max": data["y_max"],
+        "theta_max": data["theta_max"],
     }
-    if told["stop"] is not None:
-        attrs |= {"stop": told["stop"]["reason"], "stop_t": told["stop"]["t"]}
+    if data["stop"] is not None:
+        attrs |= {"stop": data["stop"]["reason"], "stop_t": data["stop"]["t"]}
     return xarray.Dataset(variables, coords, attrs)
 
 
@@ -213,12 +213,12 @@ def lyapunov_spectrum(
     >>> math.isclose(spectrum.values.sum(), 2 * math.log(0.35) * 2 * 3.1 / math.tau, rel_tol=1e-9)
     True
     """
-    periods, transient = whole("spectrum.periods", periods), whole("spectrum.transient", transient)
+    periods, transient = whole_number("spectrum.periods", periods), whole_number("spectrum.transient", transient)
     # Growth is measured between sections, so that one more than periods is needed.
-    told = _section(case, transient + periods + 1, periods + 1, 0.0, False, progress)
-    if told["stop"] is not None:
-        raise ValueError(f"the motion from this start {_stopped(told)}; use another start, or fewer periods")
-    values, errors = _spectrum(told["exponents"])
+    data = _section(case, transient + periods + 1, periods + 1, 0.0, False, progress)
+    if data["stop"] is not None:
+        raise ValueError(f"the motion from this start {_stop_text(data)}; use another start, or fewer periods")
+    values, errors = _spectrum(data["exponents"])
     return LyapunovSpectrum(values, errors, periods, transient)
 
 
@@ -282,48 +282,50 @@ def orbit_diagram(
     >>> found.x.dims, found.period.values.tolist()
     (('f_o', 'k'), [1.0, 1.0, 1.0])
     """
-    from ._dataset import ABOUT, attributes
+    from ._dataset import COMMON_ATTRIBUTES, attributes
 
     if len(axis) != 1:
         given = ", ".join(axis) or "none"
         raise ValueError(f"keys = {given} is not allowed; allowed: one key with its values, such as f_o='0.6:1:41'")
-    engine = engine_of(case)
+    engine = engine_case(case)
     ((key, values),) = axis.items()
-    stretch = whole("periods", periods), whole("keep", keep), number("phase", phase)
-    side = key, listed(key, values)  # type: ignore[arg-type]
-    with bar("following the attractor", _count(side[1]), progress) as tell:
-        answer, counts, data = _engine.diagram(engine, side, bool(down), stretch, tell)
-    rows, states = json.loads(answer), np.frombuffer(data, dtype=np.float64).reshape(-1, len(STATE))
+    sampling = whole_number("periods", periods), whole_number("keep", keep), number("phase", phase)
+    varied = key, axis_values(key, values)  # type: ignore[arg-type]
+    with progress_bar("following the attractor", _count(varied[1]), progress) as report_progress:
+        answer, counts, state_data = _engine.diagram(engine, varied, bool(down), sampling, report_progress)
+    rows, states = json.loads(answer), np.frombuffer(state_data, dtype=np.float64).reshape(-1, len(STATE))
     points = np.full((len(rows), keep + 1, len(STATE)), np.nan)
-    at = 0
+    filled = 0
     for row, count in enumerate(counts):
-        points[row, :count] = states[at : at + count]
-        at += count
+        points[row, :count] = states[filled : filled + count]
+        filled += count
 
-    about = attributes()
+    schema = attributes()
     variables: dict[str, Any] = {
-        name: ((key, "k"), points[:, :, place], of_state(name)) for place, name in enumerate(STATE) if name != key
+        name: ((key, "k"), points[:, :, place], state_attributes(name))
+        for place, name in enumerate(STATE)
+        if name != key
     }
-    for name, meaning in _OF_VALUES.items():
+    for name, meaning in _VALUE_VARIABLES.items():
         variables[name] = (key, numbers(rows, name), {"long_name": meaning})
-    closed = [row["exponent"] is None and row["exponent_se"] is not None for row in rows]
-    variables["exponent"][1][closed] = -np.inf
+    all_removed = [row["exponent"] is None and row["exponent_se"] is not None for row in rows]
+    variables["exponent"][1][all_removed] = -np.inf
     stops = np.array([row["stop"] or "" for row in rows], dtype=object)
     variables["stop"] = (key, stops, {"long_name": "which limit stopped the motion"})
     restarted = np.array([row["restarted"] for row in rows], dtype=bool)
     variables["restarted"] = (key, restarted, {"long_name": "started again from the start of the case"})
     coords = {
-        key: (key, numbers(rows, "value"), about[key]),
+        key: (key, numbers(rows, "value"), schema[key]),
         "k": ("k", np.arange(keep + 1), {"long_name": "number of the period that is kept"}),
     }
-    title = {"title": "The attractor of a body on cables against a key", **ABOUT}
+    title = {"title": "The attractor of a body on cables against a key", **COMMON_ATTRIBUTES}
     return xarray.Dataset(variables, coords, title)
 
 
 with_keys(orbit_diagram, defaults=False)
 
-#: What is told of every value of a diagram, beside its points.
-_OF_VALUES = {
+#: The variables of a diagram over its key, and their long names.
+_VALUE_VARIABLES = {
     "period": "period, in periods of the forcing",
     "snaps": "snaps per period of the forcing",
     "exponent": "largest Lyapunov exponent, in 1/T",
@@ -332,24 +334,26 @@ _OF_VALUES = {
 }
 
 
-def of_state(name: str) -> dict[str, Any]:
+def state_attributes(name: str) -> dict[str, Any]:
     """The attributes of a value of the state at a section."""
     from ._dataset import attributes
 
-    about = attributes()[name]
-    scale: dict[str, Any] = {key: about[key] for key in ("units", "scale") if key in about}
+    schema = attributes()[name]
+    scale: dict[str, Any] = {key: schema[key] for key in ("units", "scale") if key in schema}
     return {"long_name": f"{name} at the section", **scale}
 
 
 def _section(case: Case, periods: int, keep: int, phase: float, impacts: bool, progress: bool) -> dict[str, Any]:
-    engine = engine_of(case)
-    periods, keep = whole("periods", periods), whole("keep", keep)
-    with bar("following the motion", periods, progress) as tell:
-        told: dict[str, Any] = json.loads(_engine.section(engine, periods, keep, number("phase", phase), impacts, tell))
-    return told
+    engine = engine_case(case)
+    periods, keep = whole_number("periods", periods), whole_number("keep", keep)
+    with progress_bar("following the motion", periods, progress) as report_progress:
+        data: dict[str, Any] = json.loads(
+            _engine.section(engine, periods, keep, number("phase", phase), impacts, report_progress)
+        )
+    return data
 
 
-def _impacts(rows: list[dict[str, Any]]) -> dict[str, Any]:
+def _impact_variables(rows: list[dict[str, Any]]) -> dict[str, Any]:
     """The impacts one by one, in the columns of the command's table."""
     variables: dict[str, Any] = {}
     meanings = {
@@ -379,8 +383,8 @@ def _spectrum(rows: list[dict[str, float | None]]) -> tuple[NDArray[np.float64],
     return np.array(values, dtype=np.float64), np.array([or_nan(row["se"]) for row in rows], dtype=np.float64)
 
 
-def _stopped(told: dict[str, Any]) -> str:
-    return f"stops at t = {told['stop']['t']:.4f}, {told['stop']['reason'].replace('_', ' ')}"
+def _stop_text(data: dict[str, Any]) -> str:
+    return f"stops at t = {data['stop']['t']:.4f}, {data['stop']['reason'].replace('_', ' ')}"
 
 
 def _count(values: str | NDArray[Any]) -> int:

@@ -7,14 +7,14 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from . import _engine
-from ._check import Uncertainty, engine_of, plain, whole
-from ._later import Later
-from ._progress import bar
+from ._arguments import Uncertainty, engine_case, uncertainty_for_engine, whole_number
+from ._lazy_import import LazyModule
+from ._progress import progress_bar
 
 if TYPE_CHECKING:
     from . import _case
 else:
-    _case = Later("snapload._case")
+    _case = LazyModule("snapload._case")
 
 
 @dataclass(frozen=True)
@@ -132,8 +132,10 @@ def ensemble(
     >>> snapload.ensemble(snapload.Case(f_o=0.31), 50).ends["rotation_limit"].count
     50
     """
-    members, seed = whole("ensemble.members", members), whole("seed", seed)
-    with bar("neighbours", members, progress) as tell:
-        rows = json.loads(_engine.ensemble(engine_of(case), plain(uncertainty), members, seed, tell))
+    members, seed = whole_number("ensemble.members", members), whole_number("seed", seed)
+    with progress_bar("neighbours", members, progress) as report_progress:
+        rows = json.loads(
+            _engine.ensemble(engine_case(case), uncertainty_for_engine(uncertainty), members, seed, report_progress)
+        )
     ends = {row.pop("reason"): Share(**row) for row in rows}
     return Ensemble(members, seed, ends)

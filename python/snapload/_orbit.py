@@ -6,17 +6,17 @@ from collections.abc import Iterable
 from typing import TYPE_CHECKING, Any
 
 from . import _engine
-from ._base_orbit import STATE, BaseOrbit, Start, orbit_or_error, start_of, wanted
-from ._check import engine_of, whole
-from ._later import Later
-from ._progress import bar
+from ._arguments import engine_case, whole_number
+from ._lazy_import import LazyModule
+from ._orbit_base import STATE, BaseOrbit, Start, orbit_options, orbit_or_error, start_values
+from ._progress import progress_bar
 from ._run import Run
 from ._system import System, SystemRun
 
 if TYPE_CHECKING:
     from . import _case
 else:
-    _case = Later("snapload._case")
+    _case = LazyModule("snapload._case")
 
 #: Accumulating snaps are followed down to this velocity, as in the orbit itself.
 _V_STICK = 1e-7
@@ -101,17 +101,17 @@ class Orbit(BaseOrbit):
         case: _case.Case,
         engine: _engine.Orbit | None,
         start_distance: float | None = None,
-        told: dict[str, Any] | None = None,
+        data: dict[str, Any] | None = None,
     ) -> None:
-        super().__init__(engine, told)
+        super().__init__(engine, data)
         self.case = case
         self.start_distance = start_distance
 
-    def _again(self) -> tuple[_engine.Orbit | None, str]:
+    def _recompute(self) -> tuple[_engine.Orbit | None, str]:
         start = dict(zip(STATE, self.state.tolist(), strict=True))
-        return _engine.orbit(self.case._engine, start, *self._wanted, None)
+        return _engine.orbit(self.case._engine, start, *self._options, None)
 
-    def _of(self) -> object:
+    def _case_or_system(self) -> object:
         return self.case
 
     def prove(self) -> Orbit:
@@ -179,7 +179,7 @@ class Orbit(BaseOrbit):
         start: Any = dict(zip(STATE, self._engine.begins(), strict=True))
         case = self.case.replace(
             **start,
-            t_end=whole("laps", laps) * self.period,
+            t_end=whole_number("laps", laps) * self.period,
             v_stick=min(_V_STICK, self.case.v_stick),
             stop_when_settled=False,
             stop_when_sliding=False,
@@ -187,7 +187,7 @@ class Orbit(BaseOrbit):
         return case.run(trust=trust, members=0 if trust else None)
 
     def __reduce__(self) -> tuple[Any, ...]:
-        return Orbit, (self.case, None, self.start_distance, self._told)
+        return Orbit, (self.case, None, self.start_distance, self._data)
 
 
 class SystemOrbit(BaseOrbit):
@@ -217,23 +217,23 @@ class SystemOrbit(BaseOrbit):
     (('1',), 1.396263)
     """
 
-    _in_scales = False
+    _nondimensional = False
 
     def __init__(
         self,
         system: System,
         engine: _engine.Orbit | None,
         start_distance: float | None = None,
-        told: dict[str, Any] | None = None,
+        data: dict[str, Any] | None = None,
     ) -> None:
-        super().__init__(engine, told)
+        super().__init__(engine, data)
         self.system = system
         self.start_distance = start_distance
 
-    def _again(self) -> tuple[_engine.Orbit | None, str]:
-        return _engine.orbit_of_system(self.system._begun, self.state.tolist(), *self._wanted)
+    def _recompute(self) -> tuple[_engine.Orbit | None, str]:
+        return _engine.orbit_of_system(self.system._engine_system, self.state.tolist(), *self._options)
 
-    def _of(self) -> object:
+    def _case_or_system(self) -> object:
         return self.system
 
     def run(self, laps: int = 1, *, trust: bool = True) -> SystemRun:
@@ -271,7 +271,7 @@ class SystemOrbit(BaseOrbit):
         start: Any = dict(zip(STATE, self._engine.begins(), strict=True))
         system = self.system.replace(
             **start,
-            t_end=whole("laps", laps) * self.period,
+            t_end=whole_number("laps", laps) * self.period,
             v_stick=min(_V_STICK, self.system.v_stick),
             settled_below=None,
             sliding_above=None,
@@ -279,7 +279,7 @@ class SystemOrbit(BaseOrbit):
         return system.run(trust=trust)
 
     def __reduce__(self) -> tuple[Any, ...]:
-        return SystemOrbit, (self.system, None, self.start_distance, self._told)
+        return SystemOrbit, (self.system, None, self.start_distance, self._data)
 
 
 class HasOrbits:
@@ -342,15 +342,17 @@ class HasOrbits:
         False
         """
         case: Any = self
-        given = None if start is None else start_of(start)
-        asked = wanted(periods, symbol, phase)
-        with bar("following the motion", _engine.ATTRACTOR_PERIODS, progress and given is None) as tell:
-            engine = orbit_or_error(*_engine.orbit(engine_of(case), given, *asked, tell))
-        far = None
+        given = None if start is None else start_values(start)
+        options = orbit_options(periods, symbol, phase)
+        with progress_bar(
+            "following the motion", _engine.ATTRACTOR_PERIODS, progress and given is None
+        ) as report_progress:
+            engine = orbit_or_error(*_engine.orbit(engine_case(case), given, *options, report_progress))
+        distance = None
         if given is not None:
-            begun = [float(given.get(name, case[name])) for name in STATE]
-            far = engine.distance(begun)
-        return Orbit(case, engine, far)
+            start_state = [float(given.get(name, case[name])) for name in STATE]
+            distance = engine.distance(start_state)
+        return Orbit(case, engine, distance)
 
 
 def find_orbits(
@@ -411,10 +413,10 @@ def find_orbits(
     >>> len(orbits) > 0, any(orbit.attracts for orbit in orbits)
     (True, False)
     """
-    engine, asked = engine_of(case), wanted(periods, symbol, phase)
-    starts, seed = whole("starts", starts), whole("seed", seed)
-    with bar("random starts", starts, progress) as tell:
-        found = _engine.find_orbits(engine, starts, seed, *asked, bool(prove), tell)
+    engine, options = engine_case(case), orbit_options(periods, symbol, phase)
+    starts, seed = whole_number("starts", starts), whole_number("seed", seed)
+    with progress_bar("random starts", starts, progress) as report_progress:
+        found = _engine.find_orbits(engine, starts, seed, *options, bool(prove), report_progress)
     return [Orbit(case, orbit) for orbit in found]
 
 
@@ -431,12 +433,12 @@ def orbit_of_system(
         if abs(parts - round(parts)) > 1e-12:
             allowed = f"whole multiples of the first frequency, {waves[0].omega}, as an orbit repeats itself with it"
             raise ValueError(f"omega = {wave.omega} is not allowed; allowed: {allowed}")
-    own = {name: getattr(system, name) for name in STATE}
-    given = start_of(start) if start is not None else {}
+    system_start = {name: getattr(system, name) for name in STATE}
+    given = start_values(start) if start is not None else {}
     for name in given:
-        if name not in own:
+        if name not in system_start:
             raise ValueError(f"start = {name} is not allowed; allowed: values of the state, {', '.join(STATE)}")
-    begun = [float((own | given)[name]) for name in STATE]
-    asked = wanted(periods, symbol, phase, len(system.cables))
-    engine = orbit_or_error(*_engine.orbit_of_system(system._begun, begun, *asked))
-    return SystemOrbit(system, engine, engine.distance(begun))
+    start_state = [float((system_start | given)[name]) for name in STATE]
+    options = orbit_options(periods, symbol, phase, len(system.cables))
+    engine = orbit_or_error(*_engine.orbit_of_system(system._engine_system, start_state, *options))
+    return SystemOrbit(system, engine, engine.distance(start_state))

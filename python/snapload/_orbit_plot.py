@@ -8,15 +8,15 @@ import numpy as np
 from matplotlib import pyplot
 from matplotlib.ticker import MaxNLocator
 
-from ._plot import _CABLES, _COLUMN, _MODES, GREY
+from ._plot import _CABLE_STYLES, _COLUMN_WIDTH, _MODE_STYLES, GREY
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
-    from ._base_orbit import BaseOrbit
+    from ._orbit_base import BaseOrbit
 
-#: Sign and scale of what may stand along an axis.
-_SIGNS = {
+#: Symbol and scale of the quantities that an axis may have.
+_AXIS_SYMBOLS = {
     "t": ("$t$", "T"),
     "x": ("$x$", "L"),
     "y": ("$y$", "L"),
@@ -27,16 +27,16 @@ _SIGNS = {
 }
 
 
-def label(name: str, in_scales: bool = True) -> str:
+def label(name: str, nondimensional: bool = True) -> str:
     """The name of an axis; the units of user-defined systems are unknown."""
-    sign, scale = _SIGNS[name]
-    return f"{sign} [{scale}]" if in_scales or scale == "rad" else sign
+    symbol, scale = _AXIS_SYMBOLS[name]
+    return f"{symbol} [{scale}]" if nondimensional or scale == "rad" else symbol
 
 
 def new_axes(ax: Axes | None, height: float = 0.8) -> Axes:
     """The axes to draw into, of the width of a column."""
     if ax is None:
-        _, ax = pyplot.subplots(figsize=(_COLUMN, height * _COLUMN), layout="constrained")
+        _, ax = pyplot.subplots(figsize=(_COLUMN_WIDTH, height * _COLUMN_WIDTH), layout="constrained")
     return ax
 
 
@@ -58,33 +58,35 @@ def legend_above(ax: Axes, columns: int = 3) -> None:
 def draw_orbit(orbit: BaseOrbit, x: str, y: str, ax: Axes | None, style: dict[str, Any]) -> Axes:
     """Draws one period of an orbit."""
     for name, quantity in (("x", x), ("y", y)):
-        if quantity not in _SIGNS:
-            raise ValueError(f"{name} = {quantity!r} is not allowed; allowed: {', '.join(map(repr, _SIGNS))}")
-    ax, lap = new_axes(ax), orbit.curve()
-    only, seen = style.pop("label", None), set()
-    real = bool(orbit.admissible)
-    before: Any = None
-    for number in range(int(lap.leg[-1]) + 1):
-        leg = lap[lap.leg == number]
+        if quantity not in _AXIS_SYMBOLS:
+            raise ValueError(f"{name} = {quantity!r} is not allowed; allowed: {', '.join(map(repr, _AXIS_SYMBOLS))}")
+    ax, cycle = new_axes(ax), orbit.curve()
+    given_label, labelled = style.pop("label", None), set()
+    admissible = bool(orbit.admissible)
+    previous_end: Any = None
+    for number in range(int(cycle.leg[-1]) + 1):
+        leg = cycle[cycle.leg == number]
         mode = ("slack", "sliding", "rocking")[min(int(leg.taut[0]), 2)]
-        colour, width = _MODES[mode]
-        look: dict[str, Any] = {"color": colour, "linewidth": width} if real else {"color": GREY, "linestyle": "--"}
-        name = only or (mode if real else "not a motion")
-        ax.plot(leg[x], leg[y], **{"label": None if name in seen else name, **look, **style})
-        seen.add(name)
-        if before is not None:
+        colour, width = _MODE_STYLES[mode]
+        line_style: dict[str, Any] = (
+            {"color": colour, "linewidth": width} if admissible else {"color": GREY, "linestyle": "--"}
+        )
+        name = given_label or (mode if admissible else "not a motion")
+        ax.plot(leg[x], leg[y], **{"label": None if name in labelled else name, **line_style, **style})
+        labelled.add(name)
+        if previous_end is not None:
             # Quantities that jump at a snap.
-            ax.plot(*([before[q], leg[q][0]] for q in (x, y)), color="black", linewidth=0.6, linestyle=":")
-        before = leg[-1]
+            ax.plot(*([previous_end[q], leg[q][0]] for q in (x, y)), color="black", linewidth=0.6, linestyle=":")
+        previous_end = leg[-1]
     snaps = [row for row in orbit.events if row["kind"] == "snap"]
     for cable in sorted({row["cable"] for row in snaps}):
-        colour, marker = _CABLES[(cable - 1) % len(_CABLES)]
-        places = lap[[int(np.argmin(np.abs(lap.t - row["t"]))) for row in snaps if row["cable"] == cable]]
-        look = {"color": colour, "marker": marker, "markersize": 5, "markerfacecolor": "none"}
-        ax.plot(places[x], places[y], label=f"cable {cable}", linestyle="none", **look)
-    ax.plot(lap[x][0], lap[y][0], "o", color="black", markersize=3.5, zorder=4)
-    ax.set_xlabel(label(x, orbit._in_scales))
-    ax.set_ylabel(label(y, orbit._in_scales))
+        colour, marker = _CABLE_STYLES[(cable - 1) % len(_CABLE_STYLES)]
+        snap_points = cycle[[int(np.argmin(np.abs(cycle.t - row["t"]))) for row in snaps if row["cable"] == cable]]
+        line_style = {"color": colour, "marker": marker, "markersize": 5, "markerfacecolor": "none"}
+        ax.plot(snap_points[x], snap_points[y], label=f"cable {cable}", linestyle="none", **line_style)
+    ax.plot(cycle[x][0], cycle[y][0], "o", color="black", markersize=3.5, zorder=4)
+    ax.set_xlabel(label(x, orbit._nondimensional))
+    ax.set_ylabel(label(y, orbit._nondimensional))
     ax.xaxis.set_major_locator(MaxNLocator(5))
     legend_above(ax, 4)
     return ax

@@ -15,7 +15,7 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
-    from ._base_run import BaseRun
+    from ._run_base import BaseRun
 
 BLUE, VERMILION, GREEN, ORANGE = "#0072B2", "#D55E00", "#009E73", "#E69F00"
 
@@ -26,17 +26,17 @@ GREY = "#999999"
 REFERENCE: dict[str, Any] = {"color": "black", "linewidth": 0.7, "linestyle": ":", "zorder": 1}
 
 #: The colours of the cables, in their order; they repeat if there are more cables.
-_CABLES = ((BLUE, "x"), (VERMILION, "o"), (GREEN, "^"), (ORANGE, "s"), ("#56B4E9", "d"), ("#CC79A7", "v"))
+_CABLE_STYLES = ((BLUE, "x"), (VERMILION, "o"), (GREEN, "^"), (ORANGE, "s"), ("#56B4E9", "d"), ("#CC79A7", "v"))
 
 #: Colour and width of the path in each mode.
-_MODES = {"slack": (BLUE, 0.9), "sliding": (ORANGE, 2.0), "rocking": (GREEN, 2.0)}
+_MODE_STYLES = {"slack": (BLUE, 0.9), "sliding": (ORANGE, 2.0), "rocking": (GREEN, 2.0)}
 
 #: The width of a column of a journal, and of a page [in].
-_COLUMN, _PAGE = 3.5, 7.2
+_COLUMN_WIDTH, _PAGE_WIDTH = 3.5, 7.2
 
 #: Samples of a whole curve, and of each flight in it. A parabola that is drawn in so many pieces is off by less than a
 #: thousandth of its height.
-_SAMPLES, _OF_FLIGHT = 2000, 32
+_SAMPLES, _FLIGHT_SAMPLES = 2000, 32
 #: A flight shorter than this part of the curve is less than a dot wide.
 _DOT = 1 / 4000
 
@@ -52,7 +52,7 @@ def draw(run: BaseRun, what: str, ax: Axes | None, style: dict[str, Any]) -> Axe
     if what not in pictures:
         raise ValueError(f"what = {what!r} is not allowed; allowed: {', '.join(map(repr, pictures))}")
     if ax is None:
-        _, ax = pyplot.subplots(figsize=(_COLUMN, 0.75 * _COLUMN), layout="constrained")
+        _, ax = pyplot.subplots(figsize=(_COLUMN_WIDTH, 0.75 * _COLUMN_WIDTH), layout="constrained")
     pictures[what](run, ax, style)
     return ax
 
@@ -60,24 +60,24 @@ def draw(run: BaseRun, what: str, ax: Axes | None, style: dict[str, Any]) -> Axe
 def overview(run: BaseRun, figure: Figure | None) -> Figure:
     """All four pictures."""
     if figure is None:
-        figure = pyplot.figure(figsize=(_PAGE, 0.72 * _PAGE), layout="constrained")
+        figure = pyplot.figure(figsize=(_PAGE_WIDTH, 0.72 * _PAGE_WIDTH), layout="constrained")
     axes = figure.subplots(2, 2)
     for what, ax in zip(("trajectory", "rotation", "velocities", "tensions"), axes.flat, strict=True):
         draw(run, what, ax, {})
     return figure
 
 
-def cables_of(run: BaseRun) -> dict[int, tuple[str, str]]:
+def cable_styles(run: BaseRun) -> dict[int, tuple[str, str]]:
     """Colour and marker of each cable, by number."""
-    return dict(enumerate(islice(cycle(_CABLES), len(run._geometry().cables)), 1))
+    return dict(enumerate(islice(cycle(_CABLE_STYLES), len(run._geometry().cables)), 1))
 
 
-def named(run: BaseRun, name: str, scale: str) -> str:
+def axis_label(run: BaseRun, name: str, scale: str) -> str:
     """The name of an axis with its scale; the units of user-defined systems are unknown."""
-    return f"{name} [{scale}]" if run._in_scales else name
+    return f"{name} [{scale}]" if run._nondimensional else name
 
 
-def times_of(run: BaseRun, start: float, stop: float, of_flight: int = _OF_FLIGHT) -> NDArray[np.float64]:
+def curve_times(run: BaseRun, start: float, stop: float, flight_samples: int = _FLIGHT_SAMPLES) -> NDArray[np.float64]:
     """Times at which a curve is drawn: at every event, where it may have a corner, and enough of them between."""
     modes = run.modes
     events = np.concatenate([run.impacts["t"], modes["t_start"], modes["t_end"]])
@@ -85,7 +85,7 @@ def times_of(run: BaseRun, start: float, stop: float, of_flight: int = _OF_FLIGH
     corners = np.unique(np.concatenate([[start, stop], inside]))
     spans = np.diff(corners)
     even = np.ceil(_SAMPLES * spans / max(run.end.t, 1e-300)).astype(int)
-    pieces = np.where(spans > _DOT * (stop - start), np.maximum(even, of_flight), 1)
+    pieces = np.where(spans > _DOT * (stop - start), np.maximum(even, flight_samples), 1)
     # Every flight is divided evenly into its number of pieces.
     first = np.repeat(np.cumsum(pieces) - pieces, pieces)
     parts = (np.arange(pieces.sum()) - first) / np.repeat(pieces, pieces)
@@ -93,30 +93,30 @@ def times_of(run: BaseRun, start: float, stop: float, of_flight: int = _OF_FLIGH
     return np.union1d(times, corners)
 
 
-def _stretches(run: BaseRun) -> list[tuple[str, float, float, bool]]:
+def _mode_segments(run: BaseRun) -> list[tuple[str, float, float, bool]]:
     """Mode intervals, divided where trust ends: mode, start, end, whether it is past the horizon."""
     horizon = run._horizon
-    stretches = []
+    segments = []
     for mode, start, stop in zip(run.modes["mode"], run.modes["t_start"], run.modes["t_end"], strict=True):
         cuts = [start, *([horizon] if start < horizon < stop else []), stop]
-        stretches += [(mode, a, b, a >= horizon) for a, b in pairwise(cuts)]
-    return stretches
+        segments += [(mode, a, b, a >= horizon) for a, b in pairwise(cuts)]
+    return segments
 
 
 def _trajectory(run: BaseRun, ax: Axes, style: dict[str, Any]) -> None:
     geometry = run._geometry()
     # A given label is for the whole path.
-    only = style.pop("label", None)
-    seen: set[str] = set()
+    given_label = style.pop("label", None)
+    labelled: set[str] = set()
     first, last = run.at(0.0), run.at(run.end.t)
-    xs, ys = ([float(first[name]), *(place[k] for place in geometry.rest)] for k, name in enumerate(("x", "y")))
-    for mode, start, stop, doubtful in _stretches(run):
-        motion = run.at(times_of(run, start, stop))
-        colour, width = _MODES[mode]
-        label = only or ("past the horizon" if doubtful else mode)
-        look = {"color": GREY if doubtful else colour, "linewidth": width, "zorder": 2 if doubtful else 3}
-        ax.plot(motion.x, motion.y, **{"label": None if label in seen else label, **look, **style})
-        seen.add(label)
+    xs, ys = ([float(first[name]), *(place[k] for place in geometry.shown_points)] for k, name in enumerate(("x", "y")))
+    for mode, start, stop, past_horizon in _mode_segments(run):
+        motion = run.at(curve_times(run, start, stop))
+        colour, width = _MODE_STYLES[mode]
+        label = given_label or ("past the horizon" if past_horizon else mode)
+        line_style = {"color": GREY if past_horizon else colour, "linewidth": width, "zorder": 2 if past_horizon else 3}
+        ax.plot(motion.x, motion.y, **{"label": None if label in labelled else label, **line_style, **style})
+        labelled.add(label)
         xs += [motion.x.min(), motion.x.max()]
         ys += [motion.y.min(), motion.y.max()]
     ax.plot(first.x, first.y, "o", color="black", markersize=4, zorder=4)
@@ -128,29 +128,29 @@ def _trajectory(run: BaseRun, ax: Axes, style: dict[str, Any]) -> None:
     # The positions at which a cable is taut with the body upright.
     middle = (max(xs) + min(xs)) / 2
     x = np.linspace(middle - 1.1 * half, middle + 1.1 * half, 400)
-    for (across, up), (_, _, r) in zip(geometry.centres(), geometry.cables, strict=True):
-        inside = r**2 - (x - across) ** 2
+    for (centre_x, centre_y), (_, _, r) in zip(geometry.circle_centres(), geometry.cables, strict=True):
+        inside = r**2 - (x - centre_x) ** 2
         reach = np.sqrt(np.where(inside >= 0, inside, np.nan))
-        ax.plot([*x, np.nan, *x], [*(up - reach), np.nan, *(up + reach)], **REFERENCE)
+        ax.plot([*x, np.nan, *x], [*(centre_y - reach), np.nan, *(centre_y + reach)], **REFERENCE)
     margin = 0.06 * half
     ax.set_xlim(min(xs) - 3 * margin, max(xs) + 3 * margin)
     ax.set_ylim(min(ys) - margin, max(ys) + 2 * margin)
-    ax.set_xlabel(named(run, "$x$", "L"))
-    ax.set_ylabel(named(run, "$y$", "L"))
+    ax.set_xlabel(axis_label(run, "$x$", "L"))
+    ax.set_ylabel(axis_label(run, "$y$", "L"))
     ax.xaxis.set_major_locator(MaxNLocator(5))
-    if len(seen) > 1:
+    if len(labelled) > 1:
         legend(ax)
 
 
-def _over_time(run: BaseRun, ax: Axes, of: str, label: str | None, look: dict[str, Any]) -> None:
+def _over_time(run: BaseRun, ax: Axes, quantity: str, label: str | None, line_style: dict[str, Any]) -> None:
     """A quantity over time, grey past the horizon. The curve is interrupted where a tension jumps."""
-    label = look.pop("label", label)
-    for place, (_, start, stop, doubtful) in enumerate(_stretches(run)):
-        times = times_of(run, start, stop)
-        # At its end instant a stretch already has the state of the next one.
+    label = line_style.pop("label", label)
+    for place, (_, start, stop, past_horizon) in enumerate(_mode_segments(run)):
+        times = curve_times(run, start, stop)
+        # At its end instant a segment already has the state of the next one.
         times[-1] = np.nextafter(stop, start) if stop < run.end.t else stop
-        colour = {"color": GREY} if doubtful else {}
-        ax.plot(times, run.at(times)[of], **{"label": label if place == 0 else None, **look, **colour})
+        colour = {"color": GREY} if past_horizon else {}
+        ax.plot(times, run.at(times)[quantity], **{"label": label if place == 0 else None, **line_style, **colour})
 
 
 def _rotation(run: BaseRun, ax: Axes, style: dict[str, Any]) -> None:
@@ -165,33 +165,33 @@ def _rotation(run: BaseRun, ax: Axes, style: dict[str, Any]) -> None:
 
 def _velocities(run: BaseRun, ax: Axes, style: dict[str, Any]) -> None:
     t, v, cable = (run.impacts[name] for name in ("t", "v_n", "cable"))
-    horizon, only = run._horizon, style.pop("label", None)
-    for number, (colour, marker) in cables_of(run).items():
+    horizon, given_label = run._horizon, style.pop("label", None)
+    for number, (colour, marker) in cable_styles(run).items():
         of_cable = (cable == number) & (v > 0)
-        look = {"linestyle": "none", "marker": marker, "markersize": 4, "markerfacecolor": "none", **style}
-        for doubtful in (True, False):
-            shown = of_cable & ((t >= horizon) == doubtful)
-            name = f"cable {number}" if only is None else only
-            label = name if not doubtful and of_cable.any() else None
-            ax.plot(t[shown], v[shown], **{"label": label, "color": GREY if doubtful else colour, **look})
+        line_style = {"linestyle": "none", "marker": marker, "markersize": 4, "markerfacecolor": "none", **style}
+        for past_horizon in (True, False):
+            shown = of_cable & ((t >= horizon) == past_horizon)
+            name = f"cable {number}" if given_label is None else given_label
+            label = name if not past_horizon and of_cable.any() else None
+            ax.plot(t[shown], v[shown], **{"label": label, "color": GREY if past_horizon else colour, **line_style})
     ax.set_ylim(bottom=0)
-    _label_time(run, ax, named(run, "$v_n$", "L/T"))
+    _label_time(run, ax, axis_label(run, "$v_n$", "L/T"))
     if (v > 0).any():
         legend(ax)
 
 
 def _tensions(run: BaseRun, ax: Axes, style: dict[str, Any]) -> None:
-    for number, (colour, _) in cables_of(run).items():
-        look = {"color": colour, "linewidth": 1.2, "linestyle": "-" if number % 2 else "--", **style}
-        _over_time(run, ax, f"T{number}", f"cable {number}", look)
+    for number, (colour, _) in cable_styles(run).items():
+        line_style = {"color": colour, "linewidth": 1.2, "linestyle": "-" if number % 2 else "--", **style}
+        _over_time(run, ax, f"T{number}", f"cable {number}", line_style)
     ax.set_ylim(bottom=0)
     if not any(run.modes["mode"] != "slack"):
         # Impulses are not drawn here, and without them the panel would be empty.
-        words = "no cable stays taut:\nonly impulses"
-        ax.text(0.5, 0.5, words, transform=ax.transAxes, ha="center", fontsize="small")
+        text = "no cable stays taut:\nonly impulses"
+        ax.text(0.5, 0.5, text, transform=ax.transAxes, ha="center", fontsize="small")
     else:
         legend(ax)
-    _label_time(run, ax, named(run, "tension", "F"))
+    _label_time(run, ax, axis_label(run, "tension", "F"))
 
 
 def legend(ax: Axes) -> None:
@@ -212,5 +212,5 @@ def legend(ax: Axes) -> None:
 
 def _label_time(run: BaseRun, ax: Axes, label: str) -> None:
     ax.set_xlim(0, run.end.t or 1.0)
-    ax.set_xlabel(named(run, "$t$", "T"))
+    ax.set_xlabel(axis_label(run, "$t$", "T"))
     ax.set_ylabel(label)

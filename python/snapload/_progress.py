@@ -8,9 +8,9 @@ from contextlib import contextmanager
 
 
 @contextmanager
-def bar(what: str, whole: int, shown: bool, begun: int = 0) -> Iterator[Callable[[int], object] | None]:
+def progress_bar(label: str, total: int, visible: bool, initial: int = 0) -> Iterator[Callable[[int], object] | None]:
     """A bar that appears after half a second; yields a function that is called with the number done."""
-    if not shown:
+    if not visible:
         yield None
         return
     with warnings.catch_warnings():
@@ -18,5 +18,5 @@ def bar(what: str, whole: int, shown: bool, begun: int = 0) -> Iterator[Callable
         warnings.simplefilter("ignore")
         from tqdm.auto import tqdm
     # Without `disable` there would be a bar in log files, too.
-    with tqdm(total=whole, initial=begun, desc=what, delay=0.5, leave=False, disable=None) as shown_bar:
-        yield lambda done: shown_bar.update(done - shown_bar.n)
+    with tqdm(total=total, initial=initial, desc=label, delay=0.5, leave=False, disable=None) as progress:
+        yield lambda done: progress.update(done - progress.n)

@@ -6,7 +6,7 @@ from os import PathLike, fspath
 from pathlib import Path
 
 from . import _engine
-from ._progress import bar
+from ._progress import progress_bar
 
 
 def reproduce(out: str | PathLike[str] = "reproduction", *, progress: bool = True) -> Path:
@@ -42,8 +42,8 @@ def reproduce(out: str | PathLike[str] = "reproduction", *, progress: bool = Tru
     """
     target = Path(fspath(out))
     (target / "figures").mkdir(parents=True, exist_ok=True)
-    with bar("report", 1000, progress) as tell:
-        files = _engine.reproduce(tell)
+    with progress_bar("report", 1000, progress) as report_progress:
+        files = _engine.reproduce(report_progress)
     for name, contents in files:
         (target / name).write_bytes(contents)
     return target / "report.html"

@@ -9,23 +9,23 @@ import numpy as np
 
 
 class Result:
-    """A result is equal to another if all its fields, including arrays, are; its repr has those in ``_shown``."""
+    """A result is equal to another if all its fields, including arrays, are; its repr has those in ``_repr_fields``."""
 
-    _shown: ClassVar[tuple[str, ...]] = ()
+    _repr_fields: ClassVar[tuple[str, ...]] = ()
     __hash__ = None  # type: ignore[assignment]
 
     def __eq__(self, other: object) -> bool:
         if type(self) is not type(other):
             return NotImplemented
-        return all(same(getattr(self, name), getattr(other, name)) for name in _names(self))
+        return all(equal_values(getattr(self, name), getattr(other, name)) for name in _names(self))
 
     def __repr__(self) -> str:
-        words = [f"{name}={_short(getattr(self, name))}" for name in self._shown or _names(self)]
-        more = ", ..." if self._shown else ""
-        return f"{type(self).__name__}({', '.join(words)}{more})"
+        texts = [f"{name}={_short_text(getattr(self, name))}" for name in self._repr_fields or _names(self)]
+        more = ", ..." if self._repr_fields else ""
+        return f"{type(self).__name__}({', '.join(texts)}{more})"
 
 
-def same(one: object, other: object) -> bool:
+def equal_values(one: object, other: object) -> bool:
     """Whether two values are equal; arrays are compared by their elements."""
     if isinstance(one, np.ndarray) or isinstance(other, np.ndarray):
         return np.asarray(one).dtype == np.asarray(other).dtype and np.array_equal(one, other)  # type: ignore[arg-type]
@@ -36,5 +36,5 @@ def _names(result: Any) -> list[str]:
     return [field.name for field in fields(result)]
 
 
-def _short(value: object) -> str:
+def _short_text(value: object) -> str:
     return np.array2string(value, threshold=6, separator=", ") if isinstance(value, np.ndarray) else repr(value)

@@ -6,14 +6,14 @@ from functools import cached_property
 from typing import TYPE_CHECKING, Any, TypeAlias
 
 from . import _engine
-from ._base_run import BaseRun
 from ._certify import Certificate, certify
 from ._geometry import Geometry
+from ._run_base import BaseRun
 
 if TYPE_CHECKING:
     from ._case import Case
 
-#: What a run was asked for: uncertainty, tolerance, members, seed.
+#: The options of a run: uncertainty, tolerance, members, seed.
 Options: TypeAlias = tuple[dict[str, float] | float | None, float, int | None, int]
 
 
@@ -46,9 +46,9 @@ class Run(BaseRun):
         self.case = case
         self._options = options
         self._trusted = options is not None
-        self._made = engine
+        self._engine_object = engine
 
-    def _again(self) -> _engine.Run:
+    def _rerun(self) -> _engine.Run:
         case, options = self.case._engine, self._options
         return _engine.run_alone(case) if options is None else _engine.run(case, *options)
 
@@ -126,11 +126,11 @@ class Run(BaseRun):
     __hash__ = None  # type: ignore[assignment]
 
     def __reduce__(self) -> tuple[Any, ...]:
-        told = {name: getattr(self, name) for name in ("_head", "_words", "impacts", "modes")}
-        return _restore, (self.case, self._options, told)
+        cached = {name: getattr(self, name) for name in ("_head", "_summary", "impacts", "modes")}
+        return _restore, (self.case, self._options, cached)
 
     @cached_property
-    def _words(self) -> tuple[str, list[tuple[str, str]]]:
+    def _summary(self) -> tuple[str, list[tuple[str, str]]]:
         """The summary that the command prints, and the same as pairs of label and text."""
         if self._options is None:
             lines = [("End", f"{self.end.reason.replace('_', ' ')} at t = {self.end.t:.4f}")]
@@ -138,11 +138,11 @@ class Run(BaseRun):
         return self._engine.summary().rstrip("\n"), self._engine.summary_lines()
 
     def __repr__(self) -> str:
-        return self._in_short(repr(self.case))
+        return self._short_repr(repr(self.case))
 
 
-def _restore(case: Case, options: Options | None, told: dict[str, Any]) -> Run:
+def _restore(case: Case, options: Options | None, cached: dict[str, Any]) -> Run:
     run = Run(case, options, None)
     # These are stored here once they are computed.
-    run.__dict__.update(told)
+    run.__dict__.update(cached)
     return run

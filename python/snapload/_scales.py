@@ -11,24 +11,33 @@ import numpy as np
 from . import _engine
 from ._case import Case
 from ._keys import Keys
-from ._later import Later
-from ._parts import put
+from ._lazy_import import LazyModule
 from ._signature import with_keys
+from ._system_parts import set_fields
 from ._table import Table
 
 if TYPE_CHECKING:
     import xarray
 else:
-    xarray = Later("xarray")
+    xarray = LazyModule("xarray")
 
-#: What can be brought to SI.
-Result = TypeVar("Result", Table, "xarray.Dataset", "xarray.DataArray", "np.recarray[Any, Any]")
+#: What can be converted to SI.
+Convertible = TypeVar("Convertible", Table, "xarray.Dataset", "xarray.DataArray", "np.recarray[Any, Any]")
 
-#: The scales that products are made of, and the unit of SI that each becomes.
+#: The scales of which products consist, and the SI unit of each.
 _UNITS = {"L": "m", "m": "kg", "F": "N", "T": "s", "rad": "rad"}
 
-#: What a motion holds beside tensions.
-MOTION = {"t": "T", "x": "L", "y": "L", "theta": "rad", "vx": "L/T", "vy": "L/T", "vtheta": "rad/T", "energy": "F L"}
+#: The scales of the fields of a motion, except tensions.
+MOTION_SCALES = {
+    "t": "T",
+    "x": "L",
+    "y": "L",
+    "theta": "rad",
+    "vx": "L/T",
+    "vy": "L/T",
+    "vtheta": "rad/T",
+    "energy": "F L",
+}
 
 
 @dataclass(frozen=True)
@@ -78,13 +87,13 @@ class Scales:
     force: float
 
     def __post_init__(self) -> None:
-        from ._check import number
+        from ._arguments import number
 
         for name in ("length", "mass", "force"):
             value = number(name, given := getattr(self, name))
             if not 0 < value < np.inf:
                 raise ValueError(f"{name} = {given!r} is not allowed; allowed: a number above 0")
-            put(self, **{name: value})
+            set_fields(self, **{name: value})
 
     @property
     def time(self) -> float:
@@ -168,14 +177,14 @@ class Scales:
         30.0
         """
         units = {key["name"]: key["unit"] for key in _engine.keys()}
-        plain: dict[str, Any] = {}
+        converted: dict[str, Any] = {}
         for key, value in keys.items():
             unit = units.get(key, "")
             has_unit = unit not in ("", "1", "rad") and value is not None
-            plain[key] = float(value) / self.factor(unit) if has_unit else value  # type: ignore[arg-type]
-        return (Case() if base is None else base).replace(**plain)
+            converted[key] = float(value) / self.factor(unit) if has_unit else value  # type: ignore[arg-type]
+        return (Case() if base is None else base).replace(**converted)
 
-    def si(self, result: Result) -> Result:
+    def si(self, result: Convertible) -> Convertible:
         """Convert a result from scales to SI units.
 
         Parameters
@@ -207,47 +216,47 @@ class Scales:
         >>> study.f_o.values.tolist(), study.rho1.attrs["units"]
         ([300.0, 310.0], 'm s-1')
         """
-        brought: Result = self._brought(result)
-        return brought
+        converted: Convertible = self._converted(result)
+        return converted
 
-    def _brought(self, result: Any) -> Any:
+    def _converted(self, result: Any) -> Any:
         if isinstance(result, Table):
             return self._table(result)
         if isinstance(result, np.recarray):
             return self._motion(result)
         if type(result).__module__.startswith("xarray."):
             if not hasattr(result, "data_vars"):
-                return result._from_temp_dataset(self._brought(result._to_temp_dataset()))
+                return result._from_temp_dataset(self._converted(result._to_temp_dataset()))
             return result.assign({name: self._variable(variable) for name, variable in result.variables.items()})
         allowed = "a Table, a Dataset or DataArray of xarray, or a motion"
         raise TypeError(f"result, a {type(result).__name__}, is not allowed; allowed: {allowed}")
 
     def _table(self, table: Table) -> Table:
         parts = []
-        for name, kind, words, values in table._table.parts():
-            if scale := words.get("scale"):
+        for name, kind, attrs, values in table._table.parts():
+            if scale := attrs.get("scale"):
                 factor = self.factor(scale)
                 values = bytearray((np.frombuffer(values) * factor).tobytes())
-                words = {key: word for key, word in words.items() if key != "scale"} | {"units": unit_of(scale)}
-            parts.append((name, kind, words, values))
+                attrs = {key: text for key, text in attrs.items() if key != "scale"} | {"units": unit_of(scale)}
+            parts.append((name, kind, attrs, values))
         return Table(_engine.Table.of(parts))
 
     def _motion(self, motion: np.recarray[Any, Any]) -> np.recarray[Any, Any]:
-        brought = motion.copy()
+        converted = motion.copy()
         for name in motion.dtype.names or ():
-            brought[name] *= self.factor(MOTION.get(name, "F"))
-        return brought
+            converted[name] *= self.factor(MOTION_SCALES.get(name, "F"))
+        return converted
 
     def _variable(self, variable: Any) -> Any:
         scale = variable.attrs.get("scale")
         if not scale:
             return variable
-        brought = variable.copy(data=variable.data * self.factor(scale))
-        brought.attrs = {key: word for key, word in variable.attrs.items() if key != "scale"}
+        converted = variable.copy(data=variable.data * self.factor(scale))
+        converted.attrs = {key: text for key, text in variable.attrs.items() if key != "scale"}
         # Long names end in the scale of the number.
-        name = str(brought.attrs.get("long_name", "")).removesuffix(f", in {scale}")
-        brought.attrs |= {"units": unit_of(scale), "long_name": name}
-        return brought
+        name = str(converted.attrs.get("long_name", "")).removesuffix(f", in {scale}")
+        converted.attrs |= {"units": unit_of(scale), "long_name": name}
+        return converted
 
 
 with_keys(Scales.case, defaults=False)
@@ -260,13 +269,13 @@ def unit_of(scale: str) -> str:
 
 def _powers(scale: str) -> list[tuple[str, int]]:
     """The scales in a product, each with its power."""
-    over, _, under = scale.partition("/")
+    numerator, _, denominator = scale.partition("/")
     powers = []
-    for words, sign in ((over, 1), (under, -1)):
-        for word in words.split():
-            known = re.fullmatch(r"(L|m|F|T|rad|1)(?:\^(\d+))?", word)
-            if known is None:
+    for factors, sign in ((numerator, 1), (denominator, -1)):
+        for factor in factors.split():
+            match = re.fullmatch(r"(L|m|F|T|rad|1)(?:\^(\d+))?", factor)
+            if match is None:
                 raise ValueError(f"scale = {scale!r} is not allowed; allowed: a product such as 'L/T' or 'm L^2'")
-            if known[1] != "1":
-                powers.append((known[1], sign * int(known[2] or 1)))
+            if match[1] != "1":
+                powers.append((match[1], sign * int(match[2] or 1)))
     return powers

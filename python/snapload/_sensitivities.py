@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from ._ask import ask
 from ._case import Case
+from ._question import ask
 from ._table import Table
 
 
@@ -48,11 +48,11 @@ def sensitivities(case: Case, impacts: int = 3) -> Table:
     >>> row["impact"], round(row["t"], 3)
     (1, -0.12)
     """
-    found, _ = ask("sensitivities", case, impacts=impacts)
+    data, _ = ask("sensitivities", case, impacts=impacts)
     names = ("impact", "key", "certain", "t", "v_n", "impulse")
-    numbers, keys, certain, *slopes = ([row[name] for row in found["derivatives"]] for name in names)
-    derivatives = zip(names[3:], ("T", "L/T", "m L/T"), slopes, strict=True)
-    return Table._of(
+    numbers, keys, certain, *columns = ([row[name] for row in data["derivatives"]] for name in names)
+    derivatives = zip(names[3:], ("T", "L/T", "m L/T"), columns, strict=True)
+    return Table._from_columns(
         [
             ("impact", "", "number of the impact", np.array(numbers, dtype=np.int64)),
             ("key", "", "key of the derivative", np.array(keys, dtype=str)),

@@ -11,13 +11,15 @@ from . import _engine
 
 def with_keys(function: Callable[..., Any], *, defaults: bool) -> None:
     """Replaces ``**keys`` by one optional keyword for each key, whose default is shown, or dots."""
-    old = inspect.signature(function)
+    signature = inspect.signature(function)
     keywords = [
-        inspect.Parameter(key["name"], inspect.Parameter.KEYWORD_ONLY, default=_Left(_default(key) if defaults else ""))
+        inspect.Parameter(
+            key["name"], inspect.Parameter.KEYWORD_ONLY, default=_ShownDefault(_default(key) if defaults else "")
+        )
         for key in _engine.keys()
     ]
-    kept = [p for p in old.parameters.values() if p.kind is not inspect.Parameter.VAR_KEYWORD]
-    function.__signature__ = old.replace(parameters=[*kept, *keywords])  # type: ignore[attr-defined]
+    kept = [p for p in signature.parameters.values() if p.kind is not inspect.Parameter.VAR_KEYWORD]
+    function.__signature__ = signature.replace(parameters=[*kept, *keywords])  # type: ignore[attr-defined]
 
 
 def _default(key: dict[str, Any]) -> str:
@@ -25,11 +27,11 @@ def _default(key: dict[str, Any]) -> str:
     return repr(key["standard"]) if key["kind"] == "bool" else str(key["default"])
 
 
-class _Left:
+class _ShownDefault:
     """The default of a key, as shown in a signature."""
 
-    def __init__(self, words: str) -> None:
-        self._words = words
+    def __init__(self, text: str) -> None:
+        self._text = text
 
     def __repr__(self) -> str:
-        return self._words if self._words and " " not in self._words else "..."
+        return self._text if self._text and " " not in self._text else "..."

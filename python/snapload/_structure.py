@@ -9,19 +9,19 @@ from pathlib import Path
 import numpy as np
 
 from . import _engine
-from ._assessed import Assessment, Elastic, Seas
-from ._check import number, whole
-from ._progress import bar
+from ._arguments import number, whole_number
+from ._progress import progress_bar
+from ._structure_results import Assessment, Elastic, Seas
 
 
-def _written(value: object) -> str:
+def _toml_value(value: object) -> str:
     """A value in the notation of a case file."""
     if isinstance(value, bool):
         return str(value).lower()
     if isinstance(value, str):
         return value
     if isinstance(value, Sequence) or isinstance(value, np.ndarray):
-        return f"[{', '.join(_written(one) for one in value)}]"
+        return f"[{', '.join(_toml_value(item) for item in value)}]"
     if isinstance(value, (int, np.integer)):
         return str(int(value))
     if isinstance(value, (float, np.floating)):
@@ -30,7 +30,7 @@ def _written(value: object) -> str:
 
 
 def _changes(changes: Mapping[str, object] | None) -> list[str]:
-    return [f"{key}={_written(value)}" for key, value in (changes or {}).items()]
+    return [f"{key}={_toml_value(value)}" for key, value in (changes or {}).items()]
 
 
 class Structure:
@@ -190,7 +190,7 @@ class Structure:
         >>> with tempfile.TemporaryDirectory() as folder:
         ...     snapload.Structure.example().to_moordyn(f"{folder}/lines.txt", segments=20)
         """
-        text = self._engine.to_moordyn(whole("segments", segments))
+        text = self._engine.to_moordyn(whole_number("segments", segments))
         Path(path).write_text(text, encoding="utf-8", newline="\n")
 
     def replace(self, changes: Mapping[str, object]) -> Structure:
@@ -300,9 +300,9 @@ class Structure:
         >>> answer
         <Assessment: holds>
         """
-        neighbours = whole("neighbours", neighbours)
-        with bar("assess", neighbours, progress) as shown:
-            return Assessment(self._engine.assess(neighbours, shown))
+        neighbours = whole_number("neighbours", neighbours)
+        with progress_bar("assess", neighbours, progress) as report_progress:
+            return Assessment(self._engine.assess(neighbours, report_progress))
 
     def seas(self, seeds: int = 20, elastic: bool = False, progress: bool = True) -> Seas:
         """Run the structure in many records of its irregular sea.
@@ -332,9 +332,9 @@ class Structure:
         >>> snapload.Structure.example().without("wave").replace(sea).seas(seeds=4)
         <Seas: 4 records>
         """
-        seeds = whole("seeds", seeds)
-        with bar("seas", seeds, progress) as shown:
-            return Seas(self._engine.seas(seeds, elastic, shown))
+        seeds = whole_number("seeds", seeds)
+        with progress_bar("seas", seeds, progress) as report_progress:
+            return Seas(self._engine.seas(seeds, elastic, report_progress))
 
     def elastic(self, stiffer: float = 1.0, every: float = 0.01, progress: bool = True) -> Elastic:
         """Run the structure with elastic lines and with inextensible lines.
@@ -364,8 +364,8 @@ class Structure:
         <Elastic: 2 pulls>
         """
         stiffer, every = number("stiffer", stiffer), number("every", every)
-        with bar("elastic", 100, progress) as shown:
-            return Elastic(self._engine.elastic(stiffer, every, shown))
+        with progress_bar("elastic", 100, progress) as report_progress:
+            return Elastic(self._engine.elastic(stiffer, every, report_progress))
 
     def __repr__(self) -> str:
         return f"<Structure {self._engine.name}>"

@@ -9,19 +9,19 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, Unpack
 
 from . import _engine
+from ._arguments import existing_file, threads_for
 from ._case import Case
-from ._check import there, threads_for
 from ._keys import Axes
-from ._later import Later
-from ._plan import plan
-from ._progress import bar
+from ._lazy_import import LazyModule
+from ._progress import progress_bar
 from ._signature import with_keys
+from ._sweep_plan import make_plan
 
 if TYPE_CHECKING:
     import distributed
     import xarray
 else:
-    distributed, xarray = Later("distributed"), Later("xarray")
+    distributed, xarray = LazyModule("distributed"), LazyModule("xarray")
 
 
 def sweep(
@@ -123,20 +123,20 @@ def sweep(
         raise ValueError("chunks opens the file lazily, and there is none; give out, such as out='study.parquet'")
     if threads is not None:
         threads = threads_for(threads, callers=1)
-    asked_for = plan(case, trust, axes, random, seed, cases)
-    study = asked_for.study
+    sweep_plan = make_plan(case, trust, axes, random, seed, cases)
+    study = sweep_plan.study
     with tempfile.TemporaryDirectory(prefix="snapload-", ignore_cleanup_errors=True) as scratch:
         path = Path(scratch) / "study.parquet" if out is None else Path(fspath(out))
         store = _engine.Store.open(study, path, resume)
         if store is not None:
             try:
-                with bar("sweep", len(study), progress, store.safe()) as tell:
+                with progress_bar("sweep", len(study), progress, store.safe()) as report_progress:
                     if client is None:
-                        study.sweep(store, threads, tell)
+                        study.sweep(store, threads, report_progress)
                     else:
                         from ._dask import sweep_on
 
-                        sweep_on(client, asked_for, store, tell)
+                        sweep_on(client, sweep_plan, store, report_progress)
             finally:
                 # A traceback must not keep the file open.
                 store.close()
@@ -187,7 +187,7 @@ def open_study(path: str | PathLike[str], *, chunks: Any = None) -> xarray.Datas
     """
     from ._dataset import dataset
 
-    identity = _engine.identity(there(fspath(path)))
+    identity = _engine.identity(existing_file(fspath(path)))
     if identity is None:
         raise ValueError(f"{fspath(path)}: not a file of snapload sweep")
     return dataset(fspath(path), *identity, chunks)
@@ -226,17 +226,18 @@ def merge(parts: Iterable[str | PathLike[str]], out: str | PathLike[str]) -> xar
 
     >>> import subprocess, sys, tempfile
     >>> import snapload
-    >>> room = tempfile.mkdtemp()
-    >>> half = f"sweep --vary e=0.5,0.9 --shard {{k}}/2 --out {room}/part-{{k}}.parquet"
+    >>> folder = tempfile.mkdtemp()
+    >>> half = f"sweep --vary e=0.5,0.9 --shard {{k}}/2 --out {folder}/part-{{k}}.parquet"
     >>> for k in (1, 2):
-    ...     words = [sys.executable, "-m", "snapload", *half.format(k=k).split()]
-    ...     _ = subprocess.run(words, check=True, capture_output=True)
-    >>> snapload.merge([f"{room}/part-1.parquet", f"{room}/part-2.parquet"], f"{room}/whole.parquet").e.values.tolist()
+    ...     command = [sys.executable, "-m", "snapload", *half.format(k=k).split()]
+    ...     _ = subprocess.run(command, check=True, capture_output=True)
+    >>> parts = [f"{folder}/part-1.parquet", f"{folder}/part-2.parquet"]
+    >>> snapload.merge(parts, f"{folder}/whole.parquet").e.values.tolist()
     [0.5, 0.9]
     """
     if isinstance(parts, (str, PathLike)):
         raise TypeError(f"parts = {fspath(parts)!r} is not allowed; allowed: a list of files")
-    files = [there(fspath(part)) for part in parts]
+    files = [existing_file(fspath(part)) for part in parts]
     target = Path(fspath(out))
     if target.exists():
         raise ValueError(f"{target} exists already; choose another out, or remove it")

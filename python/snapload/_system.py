@@ -11,28 +11,28 @@ from typing import TYPE_CHECKING, Any
 from numpy.typing import ArrayLike
 
 from . import _engine
-from ._base_orbit import Start
-from ._base_run import BaseRun
-from ._check import Uncertainty, number, whole
+from ._arguments import Uncertainty, number, whole_number
 from ._geometry import Geometry
 from ._keys import LIMIT_PARAMETERS, LIMITS, LimitBounds
-from ._later import Later
-from ._parts import Body, Cable, Forcing, put, several, within
-from ._system_keys import changed, in_order
+from ._lazy_import import LazyModule
+from ._orbit_base import Start
+from ._run_base import BaseRun
+from ._system_keys import in_order, with_key
+from ._system_parts import Body, Cable, Forcing, set_fields, tuple_of_parts, within
 
 if TYPE_CHECKING:
     import xarray
 
     from . import _orbit
 else:
-    xarray = Later("xarray")
-    _orbit = Later("snapload._orbit")
+    xarray = LazyModule("xarray")
+    _orbit = LazyModule("snapload._orbit")
 
 #: The start, in the order of the engine.
 START = ("x", "y", "theta", "vx", "vy", "vtheta")
 
 #: The rules that may be left out.
-_RULES = (*LIMITS, "settled_below", "sliding_above")
+_OPTIONAL_STOP_RULES = (*LIMITS, "settled_below", "sliding_above")
 
 
 @dataclass(frozen=True, repr=False)
@@ -121,26 +121,26 @@ class System(LimitBounds):
         for name, kind in (("body", Body), ("forcing", Forcing)):
             if not isinstance(part := getattr(self, name), kind):
                 raise TypeError(f"{name} = {part!r} is not allowed; allowed: a snapload.{kind.__name__}")
-        put(self, cables=several("cables", self.cables, Cable, _engine.MAX_CABLES))
-        put(self, restitution=within("restitution", self.restitution, 0.0, 1.0))
-        put(self, **{name: within(name, getattr(self, name)) for name in START})
-        put(self, t_end=within("t_end", self.t_end, 0.0, above=True))
-        for name in _RULES:
+        set_fields(self, cables=tuple_of_parts("cables", self.cables, Cable, _engine.MAX_CABLES))
+        set_fields(self, restitution=within("restitution", self.restitution, 0.0, 1.0))
+        set_fields(self, **{name: within(name, getattr(self, name)) for name in START})
+        set_fields(self, t_end=within("t_end", self.t_end, 0.0, above=True))
+        for name in _OPTIONAL_STOP_RULES:
             if getattr(self, name) is not None:
-                put(self, **{name: within(name, getattr(self, name))})
-        put(self, max_impacts=whole("max_impacts", self.max_impacts))
-        put(self, v_stick=within("v_stick", self.v_stick, 0.0))
+                set_fields(self, **{name: within(name, getattr(self, name))})
+        set_fields(self, max_impacts=whole_number("max_impacts", self.max_impacts))
+        set_fields(self, v_stick=within("v_stick", self.v_stick, 0.0))
         if self.body.inertia is None:
             self._check_point()
         # This checks whether the start is legal.
-        _ = self._begun
+        _ = self._engine_system
 
     def _check_point(self) -> None:
         """Checks that a point mass has no rotation and no fairlead away from its centre."""
-        for cable, tether in enumerate(self.cables, 1):
-            if tether.fairlead != (0.0, 0.0):
+        for index, cable in enumerate(self.cables, 1):
+            if cable.fairlead != (0.0, 0.0):
                 raise ValueError(
-                    f"fairlead = {tether.fairlead} of cable {cable} is not allowed; allowed: (0, 0) for a point mass; "
+                    f"fairlead = {cable.fairlead} of cable {index} is not allowed; allowed: (0, 0) for a point mass; "
                     "give the body an inertia"
                 )
         for name in ("theta", "vtheta"):
@@ -148,7 +148,7 @@ class System(LimitBounds):
                 raise ValueError(f"{name} = {getattr(self, name)} is not allowed; allowed: 0 for a point mass")
 
     @cached_property
-    def _begun(self) -> _engine.System:
+    def _engine_system(self) -> _engine.System:
         """The system at its start."""
         start = [getattr(self, name) for name in START]
         return _engine.System(self.body, list(self.cables), self.forcing, self.restitution, start, self)
@@ -193,7 +193,7 @@ class System(LimitBounds):
         system = self
         parts: dict[str, Any] = {}
         for key, value in keys.items():
-            parts |= changed(system, parts, key, value)
+            parts |= with_key(system, parts, key, value)
         return dataclasses.replace(system, **parts)
 
     def run(self, *, trust: bool = True, uncertainty: Uncertainty = None, tolerance: float = 1e-3) -> SystemRun:
@@ -238,9 +238,9 @@ class System(LimitBounds):
         if not trust:
             if uncertainty is not None:
                 raise ValueError("trust=False follows no deviations; leave out uncertainty, or trust=False")
-            return SystemRun(self, None, _engine.run_system(self._begun, None, 0.0))
-        options = self._doubts(uncertainty), number("tolerance", tolerance)
-        return SystemRun(self, options, _engine.run_system(self._begun, *options))
+            return SystemRun(self, None, _engine.run_system(self._engine_system, None, 0.0))
+        options = self._uncertainties(uncertainty), number("tolerance", tolerance)
+        return SystemRun(self, options, _engine.run_system(self._engine_system, *options))
 
     def orbit(
         self,
@@ -291,20 +291,20 @@ class System(LimitBounds):
 
         return orbit_of_system(self, start, periods, symbol, phase)
 
-    def _doubts(self, uncertainty: Uncertainty) -> list[float]:
+    def _uncertainties(self, uncertainty: Uncertainty) -> list[float]:
         """The uncertainty of each start value."""
-        rigid = self.body.inertia is not None
-        moves = [name for name in START if rigid or name not in ("theta", "vtheta")]
+        rotates = self.body.inertia is not None
+        coordinates = [name for name in START if rotates or name not in ("theta", "vtheta")]
         if uncertainty is None:
             sizes: Mapping[str, Any] = {}
         elif isinstance(uncertainty, Mapping):
             sizes = uncertainty
         else:
             size = within("uncertainty", uncertainty, 0.0)
-            sizes = dict.fromkeys(moves, size)
+            sizes = dict.fromkeys(coordinates, size)
         for key in sizes:
-            if key not in moves:
-                allowed = f"start values, {', '.join(moves)}"
+            if key not in coordinates:
+                allowed = f"start values, {', '.join(coordinates)}"
                 raise ValueError(f"uncertainty: {key} is not allowed; allowed: {allowed}")
         return [within(f"uncertainty: {name}", sizes.get(name, 0.0), 0.0) for name in START]
 
@@ -359,12 +359,12 @@ class System(LimitBounds):
         return sweep_systems(self, axes, trust, threads, progress)
 
     def __repr__(self) -> str:
-        told = ((field, getattr(self, field.name)) for field in in_order(self))
-        words = (f"{field.name}={value!r}" for field, value in told if value != field.default)
-        return f"System({', '.join(words)})"
+        values = ((field, getattr(self, field.name)) for field in in_order(self))
+        arguments = (f"{field.name}={value!r}" for field, value in values if value != field.default)
+        return f"System({', '.join(arguments)})"
 
     def __reduce__(self) -> tuple[Any, ...]:
-        return _system, ({field.name: getattr(self, field.name) for field in dataclasses.fields(self)},)
+        return _restore_system, ({field.name: getattr(self, field.name) for field in dataclasses.fields(self)},)
 
     def _geometry(self) -> Geometry:
         cables = tuple((cable.anchor, cable.fairlead, cable.length) for cable in self.cables)
@@ -398,30 +398,30 @@ class SystemRun(BaseRun):
     (['sliding'], 2.0)
     """
 
-    _in_scales = False
+    _nondimensional = False
 
     def __init__(self, system: System, options: tuple[list[float], float] | None, engine: _engine.Run | None) -> None:
         self.system = system
         self._options = options
         self._trusted = options is not None
-        self._made = engine
+        self._engine_object = engine
 
-    def _again(self) -> _engine.Run:
-        return _engine.run_system(self.system._begun, *(self._options or (None, 0.0)))
+    def _rerun(self) -> _engine.Run:
+        return _engine.run_system(self.system._engine_system, *(self._options or (None, 0.0)))
 
     def _geometry(self) -> Geometry:
         return self.system._geometry()
 
     @cached_property
-    def _words(self) -> tuple[str, list[tuple[str, str]]]:
+    def _summary(self) -> tuple[str, list[tuple[str, str]]]:
         lines = [("End", f"{self.end.reason.replace('_', ' ')} at t = {self.end.t:.4f}")]
         if self._trusted:
             lines += [("Trust", self._engine.trust_in_words())]
         counts = [f"{(self.impacts['cable'] == k + 1).sum()} of cable {k + 1}" for k in range(len(self.system.cables))]
         lines += [("Impacts", f"{len(self.impacts)}: {', '.join(counts)}")]
-        # As the command writes it: labels of ten letters, and what goes on below stands under it.
-        told = ["\n".join(f"{a if i == 0 else '':<10}{line}" for i, line in enumerate(b.split("\n"))) for a, b in lines]
-        return "\n".join(told), lines
+        # As the command prints it: labels of ten letters, and further lines are indented by as much.
+        rows = ["\n".join(f"{a if i == 0 else '':<10}{line}" for i, line in enumerate(b.split("\n"))) for a, b in lines]
+        return "\n".join(rows), lines
 
     def __eq__(self, other: object) -> bool:
         if not isinstance(other, SystemRun):
@@ -431,19 +431,19 @@ class SystemRun(BaseRun):
     __hash__ = None  # type: ignore[assignment]
 
     def __reduce__(self) -> tuple[Any, ...]:
-        told = {name: getattr(self, name) for name in ("_head", "_words", "impacts", "modes")}
-        return _restore, (self.system, self._options, told)
+        cached = {name: getattr(self, name) for name in ("_head", "_summary", "impacts", "modes")}
+        return _restore, (self.system, self._options, cached)
 
     def __repr__(self) -> str:
         cables = len(self.system.cables)
-        return self._in_short(f"a body on {cables} cable{'s' if cables > 1 else ''}")
+        return self._short_repr(f"a body on {cables} cable{'s' if cables > 1 else ''}")
 
 
-def _system(fields: dict[str, Any]) -> System:
+def _restore_system(fields: dict[str, Any]) -> System:
     return System(**fields)
 
 
-def _restore(system: System, options: tuple[list[float], float] | None, told: dict[str, Any]) -> SystemRun:
+def _restore(system: System, options: tuple[list[float], float] | None, cached: dict[str, Any]) -> SystemRun:
     run = SystemRun(system, options, None)
-    run.__dict__.update(told)
+    run.__dict__.update(cached)
     return run

@@ -11,10 +11,10 @@ from ._keys import LIMITS
 if TYPE_CHECKING:
     from ._system import System
 
-_OF_BODY = ("mass", "inertia", "radius")
-_OF_FORCES = {"force_x": "constant_x", "force_y": "constant_y"}
-_OF_CABLES = ("length", "anchor_x", "anchor_y", "fairlead_x", "fairlead_y")
-_OF_SINUSOIDS = ("amplitude_x", "amplitude_y", "omega", "phase_x", "phase_y")
+_BODY_KEYS = ("mass", "inertia", "radius")
+_FORCE_KEYS = {"force_x": "constant_x", "force_y": "constant_y"}
+_CABLE_KEYS = ("length", "anchor_x", "anchor_y", "fairlead_x", "fairlead_y")
+_SINUSOID_KEYS = ("amplitude_x", "amplitude_y", "omega", "phase_x", "phase_y")
 
 
 def in_order(system: System) -> list[dataclasses.Field[Any]]:
@@ -23,12 +23,12 @@ def in_order(system: System) -> list[dataclasses.Field[Any]]:
 
 
 def names(system: System) -> list[str]:
-    """Every name that `changed` accepts, except those with numbers."""
+    """Every name that `with_key` accepts, except those with numbers."""
     own = [field.name for field in in_order(system)]
-    return [*own, *_OF_BODY, *_OF_FORCES, *_OF_CABLES, *_OF_SINUSOIDS]
+    return [*own, *_BODY_KEYS, *_FORCE_KEYS, *_CABLE_KEYS, *_SINUSOID_KEYS]
 
 
-def changed(system: System, parts: dict[str, Any], key: str, value: Any) -> dict[str, Any]:
+def with_key(system: System, parts: dict[str, Any], key: str, value: Any) -> dict[str, Any]:
     """The part to which a key belongs, with the key changed; `parts` are those changed before."""
 
     def part(name: str) -> Any:
@@ -36,15 +36,15 @@ def changed(system: System, parts: dict[str, Any], key: str, value: Any) -> dict
 
     if key in {field.name for field in dataclasses.fields(system)}:
         return {key: value}
-    if key in _OF_BODY:
+    if key in _BODY_KEYS:
         return {"body": dataclasses.replace(part("body"), **{key: value})}
-    if key in _OF_FORCES:
-        return {"forcing": _with(part("forcing"), _OF_FORCES[key], value)}
-    known = re.fullmatch(r"(\w+?)(?:_([1-9][0-9]*))?", key)
-    name, place = (known[1], known[2]) if known else (key, None)
-    if name in _OF_CABLES:
+    if key in _FORCE_KEYS:
+        return {"forcing": _with_number(part("forcing"), _FORCE_KEYS[key], value)}
+    match = re.fullmatch(r"(\w+?)(?:_([1-9][0-9]*))?", key)
+    name, place = (match[1], match[2]) if match else (key, None)
+    if name in _CABLE_KEYS:
         return {"cables": _one_or_all(key, part("cables"), name, place, value)}
-    if name in _OF_SINUSOIDS:
+    if name in _SINUSOID_KEYS:
         forcing = part("forcing")
         sinusoids = _one_or_all(key, forcing.sinusoids, name, place, value)
         return {"forcing": dataclasses.replace(forcing, sinusoids=sinusoids)}
@@ -58,12 +58,12 @@ def _one_or_all(key: str, parts: tuple[Any, ...], name: str, place: str | None, 
     if place is not None and int(place) > len(parts):
         raise ValueError(f"there is no key {key!r}: there are {len(parts)} of them")
     return tuple(
-        _with(part, name, value) if place is None or int(place) == number else part
+        _with_number(part, name, value) if place is None or int(place) == number else part
         for number, part in enumerate(parts, 1)
     )
 
 
-def _with(part: Any, name: str, value: Any) -> Any:
+def _with_number(part: Any, name: str, value: Any) -> Any:
     """A part with one number changed; ``name_x`` is the first of the pair ``name``."""
     pair = {"x": 0, "y": 1}.get(name[-1]) if name[-2:] in ("_x", "_y") else None
     if pair is None:

@@ -10,15 +10,15 @@ import numpy as np
 from numpy.typing import NDArray
 
 from . import _engine
-from ._later import Later
+from ._lazy_import import LazyModule
 
 if TYPE_CHECKING:
     import pandas
 else:
-    pandas = Later("pandas")
+    pandas = LazyModule("pandas")
 
 #: The number of rows that are shown.
-_SHOWN = 10
+_SHOWN_ROWS = 10
 
 
 def or_nan(value: float | None) -> float:
@@ -66,15 +66,15 @@ class Table:
         self._array: NDArray[Any] | None = None
 
     @classmethod
-    def _of(cls, columns: Iterable[tuple[str, str, str, NDArray[Any]]]) -> Table:
+    def _from_columns(cls, columns: Iterable[tuple[str, str, str, NDArray[Any]]]) -> Table:
         """A table of columns: name, scale (empty, if it is no quantity), meaning, values."""
         kinds = {"f": ("float64", np.float64), "i": ("int64", np.int64)}
         parts = []
         for name, scale, meaning, values in columns:
             kind, dtype = kinds.get(values.dtype.kind, ("words", None))
-            words = {"long_name": meaning, "units": "1" if scale else "", "scale": "" if scale == "1" else scale}
-            plain = values.tolist() if dtype is None else bytearray(values.astype(dtype).tobytes())
-            parts.append((name, kind, {key: word for key, word in words.items() if word}, plain))
+            attrs = {"long_name": meaning, "units": "1" if scale else "", "scale": "" if scale == "1" else scale}
+            data = values.tolist() if dtype is None else bytearray(values.astype(dtype).tobytes())
+            parts.append((name, kind, {key: word for key, word in attrs.items() if word}, data))
         return cls(_engine.Table.of(parts))
 
     @property
@@ -205,24 +205,24 @@ class Table:
     def _rows(self) -> Iterator[list[str]]:
         """The rows that are shown: all of them, or the first and last ones with dots between."""
         count = len(self)
-        whole = count <= _SHOWN
-        head = count if whole else _SHOWN // 2
-        shown = [*range(head), *range(head if whole else count - _SHOWN // 2, count)]
+        complete = count <= _SHOWN_ROWS
+        head = count if complete else _SHOWN_ROWS // 2
+        shown = [*range(head), *range(head if complete else count - _SHOWN_ROWS // 2, count)]
         columns = [self[name] for name in self._names]
         for place, k in enumerate(shown):
-            if not whole and place == head:
+            if not complete and place == head:
                 yield ["..."] * len(columns)
-            yield [_word(column[k]) for column in columns]
+            yield [_cell_text(column[k]) for column in columns]
 
     def __repr__(self) -> str:
         rows = [list(self._names), *self._rows()]
         widths = [max(map(len, column)) for column in zip(*rows, strict=True)]
-        lines = ["  ".join(word.rjust(width) for word, width in zip(row, widths, strict=True)) for row in rows]
+        lines = ["  ".join(text.rjust(width) for text, width in zip(row, widths, strict=True)) for row in rows]
         return "\n".join([*lines, f"[{len(self)} rows]"])
 
     def _repr_html_(self) -> str:
-        def row(words: list[str], tag: str) -> str:
-            return "<tr>" + "".join(f"<{tag}>{escape(word)}</{tag}>" for word in words) + "</tr>"
+        def row(texts: list[str], tag: str) -> str:
+            return "<tr>" + "".join(f"<{tag}>{escape(text)}</{tag}>" for text in texts) + "</tr>"
 
         body = "".join(row(words, "td") for words in self._rows())
         head = row(list(self._names), "th")
@@ -236,7 +236,7 @@ def _restore(parts: list[tuple[str, str, dict[str, str], Any]]) -> Table:
     return Table(_engine.Table.of(parts))
 
 
-def _word(value: object) -> str:
+def _cell_text(value: object) -> str:
     if isinstance(value, (float, np.floating)):
         return f"{value:.6g}"
     if isinstance(value, tuple):

@@ -9,15 +9,15 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from ._ask import ask
 from ._case import Case
-from ._later import Later
+from ._lazy_import import LazyModule
+from ._question import ask
 from ._result import Result
 
 if TYPE_CHECKING:
     import matplotlib.axes
 else:
-    matplotlib = Later("matplotlib")
+    matplotlib = LazyModule("matplotlib")
 
 
 @dataclass(frozen=True, repr=False, eq=False)
@@ -73,7 +73,7 @@ class Verification(Result):
     differences: NDArray[np.float64]
     exact: tuple[dict[str, Any], ...]
     tolerance: float
-    _told: str
+    _summary: str
 
     def plot(self, ax: matplotlib.axes.Axes | None = None) -> matplotlib.axes.Axes:
         """Draw the difference at each impact.
@@ -118,7 +118,7 @@ class Verification(Result):
         return ax
 
     def __str__(self) -> str:
-        return self._told.rstrip("\n")
+        return self._summary.rstrip("\n")
 
     def __repr__(self) -> str:
         return f"<Verification with {self.digits} digits: first_wrong {self.first_wrong}, predicted {self.predicted}>"
@@ -163,12 +163,12 @@ def verify(case: Case, digits: int = 60, *, tolerance: float = 1e-3) -> Verifica
     >>> proof.first_wrong is None, proof.compared
     (True, 12)
     """
-    found, told = ask("verify", case, digits=digits, tolerance=tolerance)
+    data, summary = ask("verify", case, digits=digits, tolerance=tolerance)
     return Verification(
-        **{key: found[key] for key in ("digits", "digits_left", "first_wrong", "predicted", "compared")},
-        **{key: found[key] for key in ("end", "t", "impacts")},
-        differences=np.array(found["differences"], dtype=np.float64),
-        exact=tuple(found["exact"]),
+        **{key: data[key] for key in ("digits", "digits_left", "first_wrong", "predicted", "compared")},
+        **{key: data[key] for key in ("end", "t", "impacts")},
+        differences=np.array(data["differences"], dtype=np.float64),
+        exact=tuple(data["exact"]),
         tolerance=tolerance,
-        _told=told,
+        _summary=summary,
     )

@@ -1,4 +1,4 @@
-"""What several tests need."""
+"""Fixtures that several tests share."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ matplotlib.use("Agg")
 
 @pytest.fixture(scope="session")
 def command() -> Callable[..., str]:
-    """The command line, built by `cargo test`: takes arguments, gives standard output."""
+    """The command line, built by `cargo test`: takes arguments, returns standard output."""
     target = Path(os.environ.get("CARGO_TARGET_DIR", ROOT / "target"))
     program = target / "debug" / "snapload"
     assert program.is_file(), f"{program} is not there; run cargo build -p snapload-cli first"
@@ -37,13 +37,13 @@ def command() -> Callable[..., str]:
 
 @pytest.fixture(scope="session")
 def command_json(command: Callable[..., str]) -> Callable[..., Any]:
-    """The same with what it writes as JSON."""
+    """The same, with its JSON output."""
     return lambda *args: json.loads(command(*args, "--json", "-"))
 
 
 @pytest.fixture(autouse=True)
 def no_figures_left() -> Iterator[None]:
-    """Closes what a test drew."""
+    """Closes the figures of a test."""
     yield
     from matplotlib import pyplot
 

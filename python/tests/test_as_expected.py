@@ -38,7 +38,7 @@ if __name__ == "__main__":
 
 
 @pytest.mark.parametrize("method", ["fork", "forkserver", "spawn"])
-def test_a_pool_of_processes_goes_on_after_work(method, tmp_path: Path):
+def test_a_pool_of_processes_works_after_a_sweep(method, tmp_path: Path):
     script = tmp_path / "work.py"
     script.write_text(IN_A_POOL.replace("{method}", method))
     done = subprocess.run([sys.executable, script], capture_output=True, text=True, timeout=90)
@@ -85,7 +85,7 @@ def results():
 
 
 @pytest.mark.parametrize("result", list(results()), ids=lambda result: type(result).__name__)
-def test_results_compare_copy_and_travel(result):
+def test_results_compare_copy_and_pickle(result):
     for other in (pickle.loads(pickle.dumps(result)), copy.deepcopy(result), copy.copy(result)):
         assert other == result and not other != result
         assert repr(other) == repr(result) and str(other) == str(result)
@@ -101,17 +101,17 @@ def test_results_that_differ_are_not_equal():
     assert case.run().impacts != case.run(trust=False).impacts
 
 
-def test_a_run_that_travelled_still_moves():
+def test_a_pickled_run_has_its_motion():
     run = snapload.Case(f_o=0.31).run(uncertainty={"f_o": 1e-6})
     far = pickle.loads(pickle.dumps(run))
     assert far.at([0.1, 3.0]).tolist() == run.at([0.1, 3.0]).tolist() and far.to_json(0.5) == run.to_json(0.5)
 
 
-def test_without_trust_a_run_is_the_same_and_says_nothing_of_it():
-    whole, plain = CHAOTIC.run(members=20), CHAOTIC.run(trust=False)
-    assert plain.end == whole.end and plain.norms == whole.norms
+def test_without_trust_a_run_is_the_same():
+    full, plain = CHAOTIC.run(members=20), CHAOTIC.run(trust=False)
+    assert plain.end == full.end and plain.norms == full.norms
     for name in plain.impacts.columns:
-        assert plain.impacts[name].tolist() == whole.impacts[name].tolist()
+        assert plain.impacts[name].tolist() == full.impacts[name].tolist()
     assert "digits" not in plain.impacts and not hasattr(plain, "trust") and len(plain.exponents) == 0
     with pytest.raises(ValueError, match="trust=False"):
         plain.to_json()
@@ -165,9 +165,9 @@ def test_a_flight_is_drawn_smoothly():
     ax = run.plot()
     drawn = np.concatenate([line.get_xydata() for line in ax.lines if len(line.get_xydata()) > 400])
     path = drawn[np.isfinite(drawn).all(axis=1)]
-    from snapload._plot import times_of
+    from snapload._plot import curve_times
 
-    times = times_of(run, 0.0, run.end.t)
+    times = curve_times(run, 0.0, run.end.t)
     middle = (times[1:] + times[:-1]) / 2
     exact, ends = run.at(middle), run.at(times)
     off = np.abs((ends.y[1:] + ends.y[:-1]) / 2 - exact.y).max()
@@ -187,7 +187,7 @@ def test_a_case_is_a_mapping(tmp_path: Path):
 
 
 @pytest.mark.parametrize(
-    ("call", "kind", "words"),
+    ("call", "kind", "message"),
     [
         (lambda _: snapload.sweep("x"), TypeError, "case = 'x' is not allowed; allowed: a snapload.Case"),
         (lambda _: snapload.critical_force(None), TypeError, "case = None is not allowed"),
@@ -210,8 +210,8 @@ def test_a_case_is_a_mapping(tmp_path: Path):
         (lambda _: snapload.critical_force(snapload.Case(), over={"f_o": [1]}), ValueError, "the key that is searched"),
     ],
 )
-def test_slips_are_told_in_words(call, kind, words, tmp_path: Path):
-    with pytest.raises(kind, match=words):
+def test_mistakes_are_reported(call, kind, message, tmp_path: Path):
+    with pytest.raises(kind, match=message):
         call(tmp_path)
 
 
@@ -234,24 +234,24 @@ try:
 except KeyboardInterrupt:
     print("interrupted")
 """
-    begun = time.monotonic()
-    said = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, timeout=60)
-    assert said.stdout == "interrupted\n", said.stderr
-    assert time.monotonic() - begun < 5
+    began = time.monotonic()
+    result = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, timeout=60)
+    assert result.stdout == "interrupted\n", result.stderr
+    assert time.monotonic() - began < 5
 
 
 @pytest.mark.skipif(importlib.util.find_spec("dask") is None, reason="needs Dask")
 def test_a_study_opens_lazily(tmp_path: Path):
     out = tmp_path / "study.parquet"
-    whole = snapload.sweep(snapload.Case(t_end=1), out=out, trust=False, f_o="0.1:0.5:9", e="0.5:0.9:5")
+    full = snapload.sweep(snapload.Case(t_end=1), out=out, trust=False, f_o="0.1:0.5:9", e="0.5:0.9:5")
     lazy = snapload.open_study(out, chunks={"f_o": 2})
-    assert lazy.rho1.chunks == ((2, 2, 2, 2, 1), (5,)) and lazy.compute().identical(whole)
+    assert lazy.rho1.chunks == ((2, 2, 2, 2, 1), (5,)) and lazy.compute().identical(full)
     assert (
-        lazy.rho1.isel(f_o=slice(6, 1, -2), e=3).values.tolist() == whole.rho1.isel(f_o=[6, 4, 2], e=3).values.tolist()
+        lazy.rho1.isel(f_o=slice(6, 1, -2), e=3).values.tolist() == full.rho1.isel(f_o=[6, 4, 2], e=3).values.tolist()
     )
-    assert lazy.end.sel(f_o=0.3).values.tolist() == whole.end.sel(f_o=0.3).values.tolist()
+    assert lazy.end.sel(f_o=0.3).values.tolist() == full.end.sel(f_o=0.3).values.tolist()
     for chunks in ("auto", {}, 3):
-        assert snapload.open_study(out, chunks=chunks).compute().identical(whole)
+        assert snapload.open_study(out, chunks=chunks).compute().identical(full)
 
 
 def test_a_study_is_kept_once(tmp_path: Path):

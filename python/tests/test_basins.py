@@ -17,10 +17,10 @@ REFERENCE = json.loads((ROOT / "crates/snapload-orbits/tests/data/orbits.json").
 ENDS = {"s": "settled", "t": "end_time", "R": "rotation_limit", "U": "upper_bound"}
 STATE = ["x", "y", "theta", "vx", "vy", "vtheta"]
 WINDOW = dict(x="-0.2:0.2:9", y="0.04:0.6:8")
-TWO = dict(body="point", r=1.3, e=0.7, nu=1.2, omega=4, f_o=0.67)
+POINT_MASS = dict(body="point", r=1.3, e=0.7, nu=1.2, omega=4, f_o=0.67)
 
 
-def words(case: dict) -> list[str]:
+def set_options(case: dict) -> list[str]:
     return [f"--set={key}={value}" for key, value in case.items()]
 
 
@@ -50,13 +50,13 @@ def test_a_basin_is_that_of_the_reference_cell_by_cell(name):
 
 def test_the_cells_are_those_of_the_command(command_json, tmp_path):
     out = tmp_path / "basin.csv"
-    axes = [f"--vary={key}={values}" for key, values in WINDOW.items()]
-    told = command_json("basin", "--set", "t_end=30", *axes, "--out", str(out))
+    vary_options = [f"--vary={key}={values}" for key, values in WINDOW.items()]
+    data = command_json("basin", "--set", "t_end=30", *vary_options, "--out", str(out))
     basin = snapload.safe_basin(snapload.Case(t_end=30), **WINDOW)
     for key in ("legal", "safe", "fraction", "undecided", "past_horizon", "gim", "lim", "if"):
-        assert basin.attrs[key] == told[key], key
-    assert basin.attrs["interval95"].tolist() == told["interval95"] and math.isnan(basin.attrs["iim"])
-    assert basin.attrs["cell"].tolist() == list(told["cell"].values())
+        assert basin.attrs[key] == data[key], key
+    assert basin.attrs["interval95"].tolist() == data["interval95"] and math.isnan(basin.attrs["iim"])
+    assert basin.attrs["cell"].tolist() == list(data["cell"].values())
     frame = pandas.read_csv(out)
     assert np.repeat(basin.x.values, 8).tolist() == frame.x.tolist()
     assert basin.outcome.values.ravel().tolist() == frame.outcome.fillna("").tolist()
@@ -93,34 +93,34 @@ def test_erosion_is_that_of_the_reference_and_of_the_command(command_json):
         assert float(eroded.lim[place]) == pytest.approx(point["LIM"], abs=0.026)
         assert float(eroded["if"][place]) == pytest.approx(point["IF"], abs=0.026)
     axes = [f"--vary={key}={values}" for key, values in WINDOW.items()]
-    told = command_json("erosion", "--set", "t_end=20", *axes, "--over", "f_o=0:0.6:4")
+    data = command_json("erosion", "--set", "t_end=20", *axes, "--over", "f_o=0:0.6:4")
     eroded = snapload.erosion(snapload.Case(t_end=20), over={"f_o": "0:0.6:4"}, **WINDOW)
     for name in ("gim", "lim", "if", "legal", "safe", "undecided", "decided_fraction"):
-        assert eroded[name].values.tolist() == [point[name] for point in told["points"]], name
-    assert eroded.low.values.tolist() == [point["interval95"][0] for point in told["points"]]
-    assert eroded.f_o.values.tolist() == [0.0, 0.2, 0.4, 0.6] and eroded.attrs["knee"] == told["knee"]
+        assert eroded[name].values.tolist() == [point[name] for point in data["points"]], name
+    assert eroded.low.values.tolist() == [point["interval95"][0] for point in data["points"]]
+    assert eroded.f_o.values.tolist() == [0.0, 0.2, 0.4, 0.6] and eroded.attrs["knee"] == data["knee"]
     assert eroded.attrs["knee_between"] == pytest.approx(
-        [np.nan if knee is None else knee for knee in told["knee_between"]], nan_ok=True
+        [np.nan if knee is None else knee for knee in data["knee_between"]], nan_ok=True
     )
     assert np.isnan(eroded.iim).all()
 
 
 def test_attractors_are_those_of_the_command(command_json):
     window = dict(x="-0.2:0.2:7", y="0.1:0.5:5")
-    axes = [f"--vary={key}={values}" for key, values in window.items()]
-    told = command_json("basin", *words(TWO), *axes, "--kind", "attractor", "--transient", "100")
-    labels, attractors = snapload.basins_of_attraction(snapload.Case(**TWO), transient=100, **window)
+    vary_options = [f"--vary={key}={values}" for key, values in window.items()]
+    data = command_json("basin", *set_options(POINT_MASS), *vary_options, "--kind", "attractor", "--transient", "100")
+    labels, attractors = snapload.basins_of_attraction(snapload.Case(**POINT_MASS), transient=100, **window)
     # Rest in the corner, as f_o is below f_c, and an orbit of three snaps: section 4.5 of the reference.
     assert attractors[1].stable == "superstable" and attractors[1].symbol == ()
     assert [orbit.symbol for orbit in attractors.values() if len(orbit.symbol) == 3] == [("2", "1", "1")]
-    for row in told["attractors"]:
+    for row in data["attractors"]:
         number = row["attractor"]
         assert int((labels == number).sum()) == row["cells"] == labels.attrs["cells"][number - 1]
         assert attractors[number].state.tolist() == row["orbit"]["section"]["state"]
-    assert int((labels != -1).sum()) == told["legal"] == labels.attrs["legal"]
+    assert int((labels != -1).sum()) == data["legal"] == labels.attrs["legal"]
     # A start comes to the orbit of its label.
     row, column = np.argwhere(labels.values == 2)[0]
-    start = snapload.Case(**TWO).replace(x=float(labels.x[row]), y=float(labels.y[column]))
+    start = snapload.Case(**POINT_MASS).replace(x=float(labels.x[row]), y=float(labels.y[column]))
     last = snapload.section(start, periods=200, keep=1).isel(k=-1)
     np.testing.assert_allclose([float(last[name]) for name in STATE], attractors[2].state, atol=1e-6)
     assert labels.attrs["flag_meanings"].split()[-2:] == [
@@ -132,7 +132,7 @@ def test_attractors_are_those_of_the_command(command_json):
 
 
 @pytest.mark.parametrize(
-    ("window", "words"),
+    ("window", "message"),
     [
         (dict(x="0:1:3"), "keys = x is not allowed; allowed: two keys with their values"),
         (dict(x="0:1", y="0:1:3"), "three numbers"),
@@ -143,14 +143,14 @@ def test_attractors_are_those_of_the_command(command_json):
         (dict(x="0:1:2000000", y="0:1:3"), "x: at most 1000000 values"),
     ],
 )
-def test_windows_that_can_not_be_are_refused(window, words):
-    with pytest.raises(ValueError, match=words):
+def test_invalid_windows_are_refused(window, message):
+    with pytest.raises(ValueError, match=message):
         snapload.safe_basin(snapload.Case(), **window)
-    with pytest.raises(ValueError, match=words):
+    with pytest.raises(ValueError, match=message):
         snapload.basins_of_attraction(snapload.Case(), **window)
 
 
-def test_other_things_that_can_not_be_are_refused():
+def test_other_invalid_arguments_are_refused():
     with pytest.raises(ValueError, match='over = "x" is not allowed; allowed: a key not varied'):
         snapload.erosion(snapload.Case(), over={"x": [0.1]}, **WINDOW)
     with pytest.raises(ValueError, match="over = {} is not allowed; allowed: one key with its values"):

@@ -54,14 +54,14 @@ WHOLE: list[tuple[str, str, list[str], Callable[[Any], Any]]] = [
 
 @pytest.mark.parametrize("value", [-1, 10**30])
 @pytest.mark.parametrize(("name", "option", "verb", "call"), WHOLE, ids=[f"{row[2][0]}-{row[0]}" for row in WHOLE])
-def test_whole_numbers_have_the_bounds_and_words_of_the_command(command, name, option, verb, call, value):
-    told = command(*verb, option, str(value), fails=True)
+def test_whole_numbers_have_the_bounds_and_messages_of_the_command(command, name, option, verb, call, value):
+    message = command(*verb, option, str(value), fails=True)
     with pytest.raises(ValueError) as error:
         call(value)
     # Python calls some options otherwise.
-    words = told.replace(option, name).replace(f"= {option[2:]} <=", f"= {name} <=")
-    assert f"error: {error.value}\n" == words
-    assert f"{name} = {value} is not allowed; allowed: a whole number, " in words
+    expected = message.replace(option, name).replace(f"= {option[2:]} <=", f"= {name} <=")
+    assert f"error: {error.value}\n" == expected
+    assert f"{name} = {value} is not allowed; allowed: a whole number, " in expected
 
 
 @pytest.mark.parametrize(
@@ -71,25 +71,25 @@ def test_whole_numbers_have_the_bounds_and_words_of_the_command(command, name, o
         *(("every", "--every", value) for value in (0, -1, float("nan"), 1e9)),
     ],
 )
-def test_numbers_have_the_bounds_and_words_of_the_command(command, name, option, value):
-    told = command("elastic", CYLINDER, option, str(value), fails=True)
+def test_numbers_have_the_bounds_and_messages_of_the_command(command, name, option, value):
+    message = command("elastic", CYLINDER, option, str(value), fails=True)
     with pytest.raises(ValueError) as error:
         cylinder().elastic(**{name: value})
     allowed = "is not allowed; allowed: a number, 1e-6 <= "
-    assert allowed in told and allowed in str(error.value)
-    assert told.rpartition("allowed: ")[2].rstrip() == str(error.value).rpartition("allowed: ")[2]
+    assert allowed in message and allowed in str(error.value)
+    assert message.rpartition("allowed: ")[2].rstrip() == str(error.value).rpartition("allowed: ")[2]
     assert str(error.value).startswith(f"{name} = ")
 
 
 def test_the_states_that_are_kept_fit_into_memory(command, tmp_path: Path):
-    told = command("elastic", CYLINDER, "--every", "1e-6", "--out", str(tmp_path / "x.csv"), fails=True)
+    message = command("elastic", CYLINDER, "--every", "1e-6", "--out", str(tmp_path / "x.csv"), fails=True)
     with pytest.raises(ValueError) as error:
         cylinder().elastic(every=1e-6)
-    assert told == f"error: --{error.value}\n"
+    assert message == f"error: --{error.value}\n"
 
 
 @pytest.mark.parametrize(
-    ("words", "call"),
+    ("message", "call"),
     [
         ("seeds = 0 is not", lambda: sea().seas(seeds=0)),
         ("seeds = 10001 is not", lambda: sea().seas(seeds=10001)),
@@ -107,8 +107,8 @@ def test_the_states_that_are_kept_fit_into_memory(command, tmp_path: Path):
         ("first = 10+ is not", lambda: snapload.evenly(10**400, 1, 2)),
     ],
 )
-def test_what_the_command_can_not_be_asked_is_refused_as_well(words, call):
-    with pytest.raises(ValueError, match=words):
+def test_what_the_command_does_not_offer_is_refused_as_well(message, call):
+    with pytest.raises(ValueError, match=message):
         call()
 
 
@@ -120,7 +120,7 @@ def test_the_bounds_themselves_are_allowed():
     assert whole("symbol", 2, 2) == 2
 
 
-def test_a_list_of_cases_is_called_what_it_is(tmp_path: Path):
+def test_a_list_of_cases_is_named_in_errors(tmp_path: Path):
     with pytest.raises(ValueError, match=r'^the list of cases: there is no key "f_oo"; did you mean f_o\?'):
         snapload.sweep(CASE, cases=pandas.DataFrame({"f_oo": [0.1]}))
     with pytest.raises(ValueError, match="^can not read the list of cases: it contains no case"):
@@ -132,12 +132,12 @@ def test_a_list_of_cases_is_called_what_it_is(tmp_path: Path):
     assert str(error.value).startswith(f'{path}: there is no key "f_oo"')
 
 
-def test_random_points_without_a_range_say_how_to_give_one():
+def test_random_points_without_a_range_report_how_to_give_one():
     with pytest.raises(ValueError, match=r"1 to 16 keys, and none varies; vary one with .* such as e=\(0.5, 0.9\)$"):
         snapload.sweep(CASE, random=10)
 
 
-def test_a_file_that_is_no_study_is_called_so(tmp_path: Path):
+def test_a_file_that_is_no_study_is_refused(tmp_path: Path):
     for contents in (b"", b"f_o\n0.1\n"):
         path = tmp_path / "x.csv"
         path.write_bytes(contents)

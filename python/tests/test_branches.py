@@ -38,27 +38,27 @@ def test_a_branch_has_the_events_of_the_reference(name, between):
 
 
 def test_a_branch_is_that_of_the_command(command, command_json):
-    words = [f"--set={key}={value}" for key, value in VOLLEY.items()]
+    arguments = [f"--set={key}={value}" for key, value in VOLLEY.items()]
     start = "x=-0.2689,y=0.3829,vx=0.8083,vy=-0.4262"
-    words += ["--start", start, "--along", "f_o=1.2:2", "--step", "0.02"]
-    told = command_json("branch", *words)
+    arguments += ["--start", start, "--along", "f_o=1.2:2", "--step", "0.02"]
+    data = command_json("branch", *arguments)
     orbit = snapload.Case(**VOLLEY).orbit({k: float(v) for k, v in (part.split("=") for part in start.split(","))})
     branch = snapload.continuation(orbit, "f_o", "1.2:2", step=0.02)
-    assert branch.along == told["along"] and list(branch.ends) == told["ends"]
+    assert branch.along == data["along"] and list(branch.ends) == data["ends"]
     points = branch.points
-    assert points.f_o.values.tolist() == [point["value"] for point in told["points"]]
-    assert points.arclength.values.tolist() == [point["arclength"] for point in told["points"]]
+    assert points.f_o.values.tolist() == [point["value"] for point in data["points"]]
+    assert points.arclength.values.tolist() == [point["arclength"] for point in data["points"]]
     states = np.column_stack([points[name] for name in STATE])
-    assert states.tolist() == [point["section"] for point in told["points"]]
+    assert states.tolist() == [point["section"] for point in data["points"]]
     pairs = np.stack([points.multipliers.values.real, points.multipliers.values.imag], axis=-1)
-    assert pairs.tolist() == [point["multipliers"] for point in told["points"]]
-    assert points.stable.values.tolist() == [point["stable"] for point in told["points"]]
-    assert points.admissible.values.tolist() == [point["admissible"] for point in told["points"]]
-    assert [words.split() for words in points.symbol.values] == [point["symbol"] for point in told["points"]]
-    for row, event in zip(branch.events, told["events"], strict=True):
+    assert pairs.tolist() == [point["multipliers"] for point in data["points"]]
+    assert points.stable.values.tolist() == [point["stable"] for point in data["points"]]
+    assert points.admissible.values.tolist() == [point["admissible"] for point in data["points"]]
+    assert [arguments.split() for arguments in points.symbol.values] == [point["symbol"] for point in data["points"]]
+    for row, event in zip(branch.events, data["events"], strict=True):
         assert (row["kind"], row["value"], row["arclength"]) == (event["kind"], event["value"], event["arclength"])
         assert [row[name] for name in STATE] == event["state"] and row["cable"] == (event["cable"] or 0)
-    assert str(branch) in command("branch", *words)
+    assert str(branch) in command("branch", *arguments)
 
 
 def test_a_point_of_a_branch_is_an_orbit_of_its_case():
@@ -78,21 +78,21 @@ def test_a_point_of_a_branch_is_an_orbit_of_its_case():
 
 
 def test_the_branch_of_a_doubling_is_that_of_the_command(command_json):
-    words = [f"--set={key}={value}" for key, value in VOLLEY.items()]
-    told = command_json("branch", *words, "--along", "f_o=1.2:2", "--step", "0.002", "--switch", "period_doubling")
+    arguments = [f"--set={key}={value}" for key, value in VOLLEY.items()]
+    data = command_json("branch", *arguments, "--along", "f_o=1.2:2", "--step", "0.002", "--switch", "period_doubling")
     branch = volley(step=0.002)
-    born = branch.switch("period_doubling")
-    assert born.points.f_o.values == pytest.approx([point["value"] for point in told["points"]], abs=1e-9)
-    assert born.orbit(0).periods == 2 and born.origins["value"][0] == pytest.approx(1.680507876014799, abs=1e-9)
-    assert born.ends[0]["because"] == "the period doubling" and len(branch.origins) == 0
+    switched = branch.switch("period_doubling")
+    assert switched.points.f_o.values == pytest.approx([point["value"] for point in data["points"]], abs=1e-9)
+    assert switched.orbit(0).periods == 2 and switched.origins["value"][0] == pytest.approx(1.680507876014799, abs=1e-9)
+    assert switched.ends[0]["because"] == "the period doubling" and len(branch.origins) == 0
     # Born, one multiplier is 1; further on the two laps are apart.
-    assert abs(born.orbit(0).multipliers - 1).min() < 1e-6
-    later = born.orbit(4)
-    halfway = later.run(trust=False).at(later.period / 2)
-    assert abs(float(halfway.x) - later.state[0]) > 1e-3 and len(later.events) == 4
+    assert abs(switched.orbit(0).multipliers - 1).min() < 1e-6
+    doubled = switched.orbit(4)
+    halfway = doubled.run(trust=False).at(doubled.period / 2)
+    assert abs(float(halfway.x) - doubled.state[0]) > 1e-3 and len(doubled.events) == 4
 
 
-def test_switches_that_can_not_be_say_why():
+def test_impossible_switches_report_why():
     branch = volley()
     with pytest.raises(snapload.NoOrbitError, match=r"has 1 of the kind period doubling in its range, at 1\.680508"):
         branch.switch("period_doubling", 2)
@@ -102,7 +102,7 @@ def test_switches_that_can_not_be_say_why():
         snapload.continuation(snapload.Case(**VOLLEY).orbit(), "f_o", (1.3, 1.5)).switch()
 
 
-def test_branches_compare_and_travel():
+def test_branches_compare_and_pickle():
     branch = volley(step=0.02)
     for one in (branch, branch.switch()):
         other = pickle.loads(pickle.dumps(one))
@@ -113,7 +113,7 @@ def test_branches_compare_and_travel():
 
 
 @pytest.mark.parametrize(
-    ("key", "between", "options", "words"),
+    ("key", "between", "options", "message"),
     [
         ("f_q", (1, 2), {}, 'there is no key "f_q"'),
         ("f_o", (2, 3), {}, "f_o = 2:3 is not allowed; allowed: a range that holds the value of the case, f_o = 1.4"),
@@ -125,8 +125,8 @@ def test_branches_compare_and_travel():
         ("f_o", (1, 2), dict(points=0), "points = 0 is not allowed"),
     ],
 )
-def test_what_can_not_be_followed_is_refused(key, between, options, words):
-    with pytest.raises(ValueError, match=words):
+def test_impossible_continuations_are_refused(key, between, options, message):
+    with pytest.raises(ValueError, match=message):
         snapload.continuation(snapload.Case(**VOLLEY).orbit(), key, between, **options)
 
 

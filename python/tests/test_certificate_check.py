@@ -33,7 +33,7 @@ def next_digit(text: str) -> str:
     return str(number + Decimal(1).scaleb(number.as_tuple().exponent)).lower().replace("e+", "e")
 
 
-def test_a_true_one_is_proved() -> None:
+def test_a_true_certificate_is_proved() -> None:
     assert status(TRUE_ONE) == 0
 
 

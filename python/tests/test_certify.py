@@ -18,10 +18,10 @@ def proof():
 
 
 def test_the_proof_is_that_of_the_command(proof, command_json, command, tmp_path: Path):
-    told = command_json("run", "--certify", "--ensemble", "0")["certificate"]
-    assert (proof.proved, proof.end, proof.t) == (told["proved"], told["reason"], told["t"])
-    assert (proof.bits, proof.undecided) == (told["bits"], told["undecided"])
-    assert (len(proof.impacts), proof.departure) == (told["impacts"], told["departure"]["impact"])
+    data = command_json("run", "--certify", "--ensemble", "0")["certificate"]
+    assert (proof.proved, proof.end, proof.t) == (data["proved"], data["reason"], data["t"])
+    assert (proof.bits, proof.undecided) == (data["bits"], data["undecided"])
+    assert (len(proof.impacts), proof.departure) == (data["impacts"], data["departure"]["impact"])
     mine, theirs = tmp_path / "mine.cert", tmp_path / "theirs.cert"
     proof.to_file(mine)
     command("certify", "--out", str(theirs))
@@ -54,7 +54,7 @@ def test_digits_are_those_that_the_proof_confirms(proof):
     assert proof.digits[0] > 15 > proof.digits[count - 1]
 
 
-def test_what_is_not_proved_is_said():
+def test_an_unproved_run_reports_why():
     # Its own mirror image: both cables snap at one instant.
     proof = snapload.Case(f_o=0).run(members=0).certify()
     assert (proof.proved, proof.end, len(proof.impacts)) == (False, None, 0)
@@ -82,6 +82,6 @@ except KeyboardInterrupt:
 """
 
 
-def test_it_answers_to_an_interrupt():
-    said = subprocess.run([sys.executable, "-c", ENDLESS], capture_output=True, text=True, timeout=60)
-    assert said.stdout == "interrupted\n", said.stderr
+def test_a_proof_can_be_interrupted():
+    result = subprocess.run([sys.executable, "-c", ENDLESS], capture_output=True, text=True, timeout=60)
+    assert result.stdout == "interrupted\n", result.stderr

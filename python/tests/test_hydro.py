@@ -34,13 +34,13 @@ def test_file_and_dataset_are_the_same_body() -> None:
     assert units == {"omega": "rad s-1", "added_mass": "kg", "response": "m m-1"}
 
 
-def test_it_says_what_the_command_says(tmp_path: Path) -> None:
+def test_results_are_those_of_the_command(tmp_path: Path) -> None:
     line = [(6, -10, 2, -1.2, 9.666436778876), (-6, -10, -2, -1.2, 9.666436778876)]
     pontoon = snapload.Hydro.from_file(PONTOON, mass=80000, pairs=4, lines=line)
     out = tmp_path / "all.json"
-    words = ["--line=" + ",".join(str(number) for number in each) for each in line]
+    message = ["--line=" + ",".join(str(number) for number in each) for each in line]
     status = _engine.command(
-        ["snapload", "hydro", str(PONTOON), "--mass", "80000", "--pairs", "4", *words, "--json", str(out)]
+        ["snapload", "hydro", str(PONTOON), "--mass", "80000", "--pairs", "4", *message, "--json", str(out)]
     )
     assert status == 0
     command = json.loads(out.read_text())
@@ -68,13 +68,13 @@ def test_bad_datasets_are_refused() -> None:
         snapload.Hydro.from_dataset(pontoon.assign(radiation_damping=-pontoon["radiation_damping"]))
     with pytest.raises(ValueError, match="1025 in the file and 1000"):
         snapload.Hydro.from_file(PONTOON, density=1000)
-    for asked, words in (
+    for options, message in (
         ({"centre": (1,)}, r"centre = \[1.0\] is not allowed; allowed: an array of length 2"),
         ({"damping": (1, 2, 3, 4)}, "damping = .* is not allowed; allowed: fewer numbers"),
         ({"mass": "heavy"}, 'mass = "heavy" is not allowed; allowed: a number'),
     ):
-        with pytest.raises(ValueError, match=words):
-            snapload.Hydro.from_file(PONTOON, **asked)  # type: ignore[arg-type]
+        with pytest.raises(ValueError, match=message):
+            snapload.Hydro.from_file(PONTOON, **options)  # type: ignore[arg-type]
     with pytest.raises(FileNotFoundError):
         snapload.Hydro.from_file("nowhere.nc")
     with pytest.raises(ValueError, match="first_column"):

@@ -20,20 +20,20 @@ TORUS = dict(body="point", r=1.976, e=0.71, nu=0.87, omega=4.847, f_o=1.6, x=0, 
 VOLLEY = dict(body="point", r=1.7, e=0.35, f_o=1.4, nu=0.8, omega=3.1)
 
 
-def words(case: dict) -> list[str]:
+def set_options(case: dict) -> list[str]:
     return [f"--set={key}={value}" for key, value in case.items()]
 
 
 def test_a_section_is_that_of_the_command(command_json, tmp_path):
-    told = command_json("section", *words(TORUS), "--periods", "300", "--keep", "60", "--phase", "0.25")
+    data = command_json("section", *set_options(TORUS), "--periods", "300", "--keep", "60", "--phase", "0.25")
     found = snapload.section(snapload.Case(**TORUS), periods=300, keep=60, phase=0.25)
-    assert found.k.values.tolist() == [point["k"] for point in told["points"]] and found.sizes["k"] == 61
-    assert np.column_stack([found[name] for name in STATE]).tolist() == [point["state"] for point in told["points"]]
-    assert found.exponent.values.tolist() == [row["value"] for row in told["exponents"]]
-    assert found.exponent_se.values.tolist() == [row["se"] for row in told["exponents"]]
-    assert math.isnan(found.attrs["period"]) and told["period"] is None
+    assert found.k.values.tolist() == [point["k"] for point in data["points"]] and found.sizes["k"] == 61
+    assert np.column_stack([found[name] for name in STATE]).tolist() == [point["state"] for point in data["points"]]
+    assert found.exponent.values.tolist() == [row["value"] for row in data["exponents"]]
+    assert found.exponent_se.values.tolist() == [row["se"] for row in data["exponents"]]
+    assert math.isnan(found.attrs["period"]) and data["period"] is None
     for key in ("snaps", "phase", "y_max", "theta_max"):
-        assert found.attrs[key] == told[key]
+        assert found.attrs[key] == data[key]
     found.to_netcdf(tmp_path / "section.nc")
     with xarray.open_dataset(tmp_path / "section.nc") as read:
         assert (read.x.values == found.x.values).all()
@@ -41,7 +41,7 @@ def test_a_section_is_that_of_the_command(command_json, tmp_path):
 
 def test_impacts_are_those_of_the_command(command, tmp_path):
     out = tmp_path / "impacts.csv"
-    command("section", *words(TORUS), "--periods", "50", "--keep", "20", "--at", "impacts", "--out", str(out))
+    command("section", *set_options(TORUS), "--periods", "50", "--keep", "20", "--at", "impacts", "--out", str(out))
     found = snapload.section(snapload.Case(**TORUS), periods=50, keep=20, at="impacts")
     frame = pandas.read_csv(out)
     for name in frame.columns:
@@ -65,17 +65,17 @@ def test_a_section_of_an_orbit_has_its_multipliers():
     assert stopped.attrs["stop"] == "rotation_limit" and stopped.attrs["stop_t"] == pytest.approx(10.0247, abs=1e-4)
 
 
-def test_directions_that_taut_cables_close_have_no_exponent():
+def test_directions_that_taut_cables_remove_have_no_exponent():
     rest, rocking = snapload.Case(body="point", f_o=0.2), snapload.Case(f_o=0.1)
     assert np.isneginf(snapload.section(rest).exponent).all()
     assert np.isneginf(snapload.lyapunov_spectrum(rest).values).tolist() == [True] * 4
     assert np.isneginf(snapload.lyapunov_spectrum(rocking, periods=100).values).tolist() == [False] * 2 + [True] * 4
     assert np.isneginf(snapload.orbit_diagram(rest, f_o=[0.2, 0.3], periods=50, keep=20).exponent).all()
-    few = snapload.lyapunov_spectrum(rocking, periods=3, transient=100)
-    assert np.isnan(few.standard_errors[:2]).all() and np.isfinite(few.values[:2]).all()
+    short = snapload.lyapunov_spectrum(rocking, periods=3, transient=100)
+    assert np.isnan(short.standard_errors[:2]).all() and np.isfinite(short.values[:2]).all()
 
 
-def test_exponents_of_a_motion_sum_up_to_what_its_snaps_take():
+def test_exponents_add_up_to_the_contraction_of_the_snaps():
     """Their sum is 2 ln e times the snaps in unit time, whatever the motion does."""
     spectrum = snapload.lyapunov_spectrum(snapload.Case(**TORUS), periods=400, transient=100)
     period = math.tau / TORUS["omega"]
@@ -111,17 +111,17 @@ def test_a_diagram_is_that_of_the_reference():
 
 def test_a_diagram_is_that_of_the_command(command_json, tmp_path):
     out = tmp_path / "diagram.csv"
-    base = [word for word in words(TORUS) if "f_o" not in word]
+    base = [word for word in set_options(TORUS) if "f_o" not in word]
     options = ["--vary", "f_o=1.8:2.4:4", "--periods", "60", "--keep", "20", "--out", str(out)]
     for down in (False, True):
-        told = command_json("diagram", *base, *options, *(["--down"] if down else []))["rows"]
+        data = command_json("diagram", *base, *options, *(["--down"] if down else []))["rows"]
         found = snapload.orbit_diagram(snapload.Case(**TORUS), f_o="1.8:2.4:4", periods=60, keep=20, down=down)
-        assert found.f_o.values.tolist() == [row["value"] for row in told] and found.sizes["k"] == 21
-        assert found.stop.values.tolist() == [row["stop"] or "" for row in told] and "upper_bound" in found.stop.values
-        assert found.restarted.values.tolist() == [row["restarted"] for row in told]
+        assert found.f_o.values.tolist() == [row["value"] for row in data] and found.sizes["k"] == 21
+        assert found.stop.values.tolist() == [row["stop"] or "" for row in data] and "upper_bound" in found.stop.values
+        assert found.restarted.values.tolist() == [row["restarted"] for row in data]
         for name in ("period", "snaps", "exponent", "exponent_se", "y_max"):
-            theirs = [np.nan if row[name] is None else row[name] for row in told]
-            np.testing.assert_array_equal(found[name], theirs)
+            expected = [np.nan if row[name] is None else row[name] for row in data]
+            np.testing.assert_array_equal(found[name], expected)
         frame = pandas.read_csv(out)
         for name in STATE:
             points = found[name].values.ravel()
@@ -139,7 +139,7 @@ def test_a_diagram_is_that_of_the_command(command_json, tmp_path):
         ("orbit", {"seed": "seed", "phase": "phase"}),
     ],
 )
-def test_what_is_left_out_is_what_the_command_takes(command, verb, options):
+def test_defaults_are_those_of_the_command(command, verb, options):
     functions = {
         "section": snapload.section,
         "diagram": snapload.orbit_diagram,
@@ -147,14 +147,14 @@ def test_what_is_left_out_is_what_the_command_takes(command, verb, options):
         "basin": snapload.basins_of_attraction,
         "orbit": snapload.find_orbits,
     }
-    told = command(verb, "--help")
+    help_text = command(verb, "--help")
     for option, parameter in options.items():
-        (default,) = re.findall(rf"--{option} <.*?\[default:\s+(\S+)\]", told, re.DOTALL)[:1]
+        (default,) = re.findall(rf"--{option} <.*?\[default:\s+(\S+)\]", help_text, re.DOTALL)[:1]
         assert str(inspect.signature(functions[verb]).parameters[parameter].default) in (default, f"{default}.0")
 
 
 @pytest.mark.parametrize(
-    ("options", "words"),
+    ("options", "message"),
     [
         (dict(periods=5, keep=9), "keep = 9 is not allowed; allowed: at most periods = 5"),
         (dict(phase=1.0), "phase = 1 is not allowed; allowed: a part of the period"),
@@ -162,12 +162,12 @@ def test_what_is_left_out_is_what_the_command_takes(command, verb, options):
         (dict(at="snaps"), "at = 'snaps' is not allowed; allowed: 'periods', 'impacts'"),
     ],
 )
-def test_options_are_checked(options, words):
-    with pytest.raises(ValueError, match=words):
+def test_options_are_checked(options, message):
+    with pytest.raises(ValueError, match=message):
         snapload.section(snapload.Case(), **options)
 
 
-def test_other_things_that_can_not_be_are_refused():
+def test_other_invalid_arguments_are_refused():
     with pytest.raises(ValueError, match="keys = none is not allowed; allowed: one key with its values"):
         snapload.orbit_diagram(snapload.Case())
     with pytest.raises(ValueError, match="keys = f_o, e is not allowed"):

@@ -23,7 +23,7 @@ def case_of(keys: dict) -> snapload.Case:
     return snapload.Case(**{key: value if key == "body" else float(value) for key, value in keys.items()})
 
 
-def found(name: str, off: float = 1e-4, **options) -> snapload.Orbit:
+def orbit_near(name: str, off: float = 1e-4, **options) -> snapload.Orbit:
     """The orbit of the reference from a start beside it."""
     orbit = ORBITS[name]
     rigid = orbit["case"].get("body") != "point"
@@ -38,7 +38,7 @@ def found(name: str, off: float = 1e-4, **options) -> snapload.Orbit:
 def test_an_orbit_is_that_of_the_reference(name):
     # One of a cable that would have to push has another one beside it, of many snaps of that cable.
     symbol = [1] if "partner" in name else None
-    reference, orbit = ORBITS[name], found(name, symbol=symbol)
+    reference, orbit = ORBITS[name], orbit_near(name, symbol=symbol)
     exact = np.array([complex(float(re), float(im)) for re, im in reference["multipliers"]])
     if reference["admissible"]:
         largest = max(1.0, np.abs(exact).max())
@@ -61,7 +61,7 @@ def test_an_orbit_is_that_of_the_reference(name):
 
 
 def test_an_orbit_that_rests_in_the_corner_is_superstable():
-    orbit = found("corner_rest_e0", 0.0)
+    orbit = orbit_near("corner_rest_e0", 0.0)
     assert orbit.stable == "superstable" and orbit.attracts and orbit.admissible
     assert np.abs(orbit.multipliers).max() < 1e-9 and np.isneginf(orbit.exponents).all()
     # cos(Ωt − δ) = f_c/f_o, δ = atan2(ν, h).
@@ -69,8 +69,8 @@ def test_an_orbit_that_rests_in_the_corner_is_superstable():
     assert release[0] == pytest.approx(0.4148466702691638, abs=1e-12)
 
 
-def test_what_no_body_can_have_says_why():
-    orbit = found("slide_partner_inadmissible", symbol=[1])
+def test_an_inadmissible_orbit_reports_why():
+    orbit = orbit_near("slide_partner_inadmissible", symbol=[1])
     assert not orbit.admissible and orbit.admissible.least_tension < 0
     assert any("tension" in why or "push" in why for why in orbit.admissible.why_not), orbit.admissible.why_not
     assert orbit.stable is True and "not admissible" in repr(orbit)
@@ -78,31 +78,31 @@ def test_what_no_body_can_have_says_why():
 
 @pytest.mark.parametrize("start", ["", "x=-0.2689,y=0.3829,vx=0.8083,vy=-0.4262"])
 def test_an_orbit_is_that_of_the_command(command, command_json, start):
-    words = [f"--set={key}={value}" for key, value in VOLLEY.items()] + (["--start", start] if start else [])
-    told = command_json("orbit", *words)
+    arguments = [f"--set={key}={value}" for key, value in VOLLEY.items()] + (["--start", start] if start else [])
+    data = command_json("orbit", *arguments)
     case = snapload.Case(**VOLLEY)
     orbit = case.orbit({key: float(value) for key, value in (part.split("=") for part in start.split(",") if part)})
     if not start:
         orbit = case.orbit()
-    assert orbit.state.tolist() == told["section"]["state"] and orbit.phase == told["section"]["phase"]
-    assert [[m.real, m.imag] for m in orbit.multipliers] == told["multipliers"]
-    assert list(orbit.symbol) == told["symbol"] and list(orbit.modes) == told["modes"]
-    assert [dict(row) for row in orbit.events] == told["events"]
-    assert orbit.exponents.tolist() == told["exponents"] and orbit.stable == told["stable"]
-    assert (orbit.periods, orbit.period) == (told["period"]["forcing_periods"], told["period"]["t"])
-    assert (orbit.product, orbit.product_rule) == (told["product"]["value"], told["product"]["rule"])
-    assert orbit.zeros_from_contact == told["zeros_from_contact"] and orbit.return_error == told["return_error"]
-    admissible = {**told["admissible"], "why_not": tuple(told["admissible"]["why_not"])}
+    assert orbit.state.tolist() == data["section"]["state"] and orbit.phase == data["section"]["phase"]
+    assert [[m.real, m.imag] for m in orbit.multipliers] == data["multipliers"]
+    assert list(orbit.symbol) == data["symbol"] and list(orbit.modes) == data["modes"]
+    assert [dict(row) for row in orbit.events] == data["events"]
+    assert orbit.exponents.tolist() == data["exponents"] and orbit.stable == data["stable"]
+    assert (orbit.periods, orbit.period) == (data["period"]["forcing_periods"], data["period"]["t"])
+    assert (orbit.product, orbit.product_rule) == (data["product"]["value"], data["product"]["rule"])
+    assert orbit.zeros_from_contact == data["zeros_from_contact"] and orbit.return_error == data["return_error"]
+    admissible = {**data["admissible"], "why_not": tuple(data["admissible"]["why_not"])}
     assert orbit.admissible == snapload.Admissible(**admissible)
-    assert orbit.start_distance == told["start_distance"]
-    shown = command("orbit", *words)
+    assert orbit.start_distance == data["start_distance"]
+    shown = command("orbit", *arguments)
     assert str(orbit) in shown and str(orbit).startswith("Orbit     stable, of one period of the forcing")
 
 
 def test_random_starts_lead_to_those_of_the_command(command_json):
-    told = command_json("orbit", "--set", "omega=3", "--find", "600", "--seed", "2")["orbits"]
+    data = command_json("orbit", "--set", "omega=3", "--find", "600", "--seed", "2")["orbits"]
     orbits = snapload.find_orbits(snapload.Case(omega=3), 600, seed=2)
-    assert len(orbits) > 0 and [orbit.state.tolist() for orbit in orbits] == [row["section"]["state"] for row in told]
+    assert len(orbits) > 0 and [orbit.state.tolist() for orbit in orbits] == [row["section"]["state"] for row in data]
     assert all(orbit.admissible and not orbit.attracts for orbit in orbits)
     # det M = e^(2N) for N snaps in slack flight.
     for orbit in orbits:
@@ -134,7 +134,7 @@ def test_a_lap_is_traced():
     assert np.bincount(lap.leg).tolist()[0] >= 9 and lap.taut.max() == 0
 
 
-def test_orbits_compare_copy_and_travel():
+def test_orbits_compare_copy_and_pickle():
     orbit = snapload.Case(**VOLLEY).orbit()
     for other in (pickle.loads(pickle.dumps(orbit)), copy.deepcopy(orbit)):
         assert other == orbit and repr(other) == repr(orbit) == "<Orbit: stable, 1 period, 2, 1>"
@@ -164,14 +164,14 @@ def test_a_ball_on_a_table_is_that_of_holmes():
         snapload.System(snapload.Body(), [rope], twice, 0.5).orbit({"y": 0.2})
 
 
-def test_where_there_is_no_orbit_it_is_said_why(command):
-    with pytest.raises(snapload.NoOrbitError) as told:
+def test_a_missing_orbit_is_explained(command):
+    with pytest.raises(snapload.NoOrbitError) as error:
         snapload.Case(f_o=0.5).orbit()
-    words = str(told.value)
-    assert words.startswith("no orbit was found: the motion of this start stops at t = 10.02")
-    assert "start={...}" in words and "snapload.find_orbits" in words and "--" not in words
-    theirs = command("orbit", "--set", "f_o=0.5", fails=True)
-    assert re.sub(r";.*", "", words) in theirs
+    message = str(error.value)
+    assert message.startswith("no orbit was found: the motion of this start stops at t = 10.02")
+    assert "start={...}" in message and "snapload.find_orbits" in message and "--" not in message
+    by_command = command("orbit", "--set", "f_o=0.5", fails=True)
+    assert re.sub(r";.*", "", message) in by_command
     with pytest.raises(snapload.NoOrbitError, match="but an orbit of 3 periods was requested"):
         snapload.Case(**VOLLEY).orbit(periods=3)
     assert issubclass(snapload.NoOrbitError, ValueError)
@@ -185,15 +185,15 @@ def test_orbits_are_proved():
     # 50 digits by an independent program, of which 30.
     assert proved.proof["state"][1] == "0.383046644264561321217849045988"
     assert pickle.loads(pickle.dumps(proved)).proof == proved.proof
-    found = snapload.find_orbits(snapload.Case(a=0.3, b=0.3, f_o=0.5, omega=2.5), 150, seed=1, prove=True)
-    assert found and all(one.proved for one in found)
+    orbit_near = snapload.find_orbits(snapload.Case(a=0.3, b=0.3, f_o=0.5, omega=2.5), 150, seed=1, prove=True)
+    assert orbit_near and all(one.proved for one in orbit_near)
     slides = snapload.Case(body="point", r=1.4, e=0.9, f_o=0.3, nu=0, omega=3)
     taut = slides.orbit({"x": 0.1529, "y": 0.1855, "vx": 0.3589, "vy": 0.521}).prove()
     assert not taut.proved and taut.error_bound is None and "taut" in taut.proof["why_not"]
 
 
 @pytest.mark.parametrize(
-    ("options", "words"),
+    ("options", "message"),
     [
         (dict(start={"z": 1}), 'there is no key "z"'),
         (dict(start={"e": 0.5}), "start = e is not allowed; allowed: values of the state, x, y, theta"),
@@ -206,12 +206,12 @@ def test_orbits_are_proved():
         (dict(periods=0), "periods = 0 is not allowed; allowed: a whole number, 1 <= periods <= 1024"),
     ],
 )
-def test_what_can_not_be_is_refused(options, words):
-    with pytest.raises(ValueError, match=words):
+def test_invalid_options_are_refused(options, message):
+    with pytest.raises(ValueError, match=message):
         snapload.Case(**VOLLEY).orbit(**options)
 
 
-def test_other_things_that_can_not_be_are_refused():
+def test_other_invalid_arguments_are_refused():
     with pytest.raises(ValueError, match="omega = 0 is not allowed; allowed: a frequency above 0"):
         snapload.Case(omega=0).orbit()
     with pytest.raises(ValueError, match="starts = 0 is not allowed"):

@@ -47,7 +47,7 @@ def test_types_hold():
     assert status == 0, out + errors
 
 
-def test_slips_of_types_are_seen(tmp_path):
+def test_wrong_types_are_found(tmp_path):
     (tmp_path / "wrong.py").write_text('import snapload\nsnapload.Case(e="x")\nsnapload.Case(omgea=1.0)\n')
     out, _, _ = api.run(["--strict", "--config-file", str(ROOT / "pyproject.toml"), str(tmp_path / "wrong.py")])
     assert 'wrong.py:2: error: Argument "e"' in out and 'wrong.py:3: error: Unexpected keyword argument "omgea"' in out
@@ -75,11 +75,11 @@ def test_examples_of_properties_that_are_kept_are_true(kind):
 
 #: Of numpydoc's checks those of style: on which line the text begins, and that there is more than a summary.
 STYLE = {"GL01", "GL02", "GL03", "ES01"}
-#: Functions make these, so that what they hold is told as attributes. Their constructors are not called.
+#: Functions make these, so that their contents are documented as attributes. Their constructors are not called.
 RESULTS = {"Certificate", "CriticalForce", "End", "Ensemble", "Norms", "Outcome", "Run", "Share", "SystemRun", "Table"}
 RESULTS |= {"Admissible", "Branch", "LyapunovSpectrum", "Orbit", "SystemOrbit"}
 RESULTS |= {"Hydro", "Trust", "Verification", "_animate.Animation", "Assessment", "Elastic", "Seas", "Structure"}
-#: Their ``**keys`` are told as such, while the signature names every key.
+#: Their ``**keys`` are documented as such, while the signature names every key.
 WITH_KEYS = {"Case.replace", "Scales.case", "sweep", "Hydro.from_file", "Hydro.from_dataset"}
 WITH_KEYS |= {"orbit_diagram", "safe_basin", "basins_of_attraction", "erosion"}
 
@@ -94,8 +94,8 @@ def public():
             if issubclass(thing, Exception):
                 continue
             for member, value in inspect.getmembers(thing):
-                told = inspect.isroutine(value) or isinstance(value, (property, functools.cached_property))
-                if told and not member.startswith("_") and member not in keys:
+                is_public_kind = inspect.isroutine(value) or isinstance(value, (property, functools.cached_property))
+                if is_public_kind and not member.startswith("_") and member not in keys:
                     yield f"{name}.{member}"
         elif inspect.isfunction(thing):
             yield name
@@ -103,7 +103,7 @@ def public():
 
 
 @pytest.mark.parametrize("name", list(public()))
-def test_what_is_public_is_documented_as_numpydoc_has_it(name):
+def test_public_names_are_documented_in_numpydoc_style(name):
     """Summary, Parameters, Returns, See Also and Examples, among others."""
     left = STYLE | ({"PR01"} if name in RESULTS else set()) | ({"PR01", "PR02"} if name in WITH_KEYS else set())
     wrong = [error for error in validate(f"snapload.{name}")["errors"] if error[0] not in left]
@@ -131,7 +131,7 @@ def test_signatures_name_the_keys():
     assert list(inspect.signature(snapload.Case.replace).parameters) == ["self", *names]
 
 
-def test_cases_compare_copy_and_travel():
+def test_cases_compare_copy_and_pickle():
     case = snapload.Case("1920001000-359", e=0.7)
     assert repr(case) == "Case('1920001000-359', e=0.7)" and case.inertia == 0.2 * 0.2
     for other in (copy.deepcopy(case), pickle.loads(pickle.dumps(case)), eval(repr(case), vars(snapload).copy())):
@@ -160,7 +160,7 @@ def test_notebooks_get_tables():
 
 
 @pytest.mark.parametrize(
-    ("options", "words"),
+    ("options", "message"),
     [
         (dict(uncertainty=-1), "uncertainty: x = -1 is not allowed"),
         (dict(uncertainty={"foo": 1}), 'uncertainty: there is no key "foo"'),
@@ -170,8 +170,8 @@ def test_notebooks_get_tables():
         (dict(seed=1.5), "seed = 1.5 is not allowed"),
     ],
 )
-def test_options_are_checked(options, words):
-    with pytest.raises(ValueError, match=words):
+def test_options_are_checked(options, message):
+    with pytest.raises(ValueError, match=message):
         snapload.Case().run(**options)
 
 

@@ -40,13 +40,13 @@ def test_a_picture_shows_the_run(run):
 
 
 @pytest.mark.parametrize("what", PICTURES)
-def test_a_label_stands_once(run, what):
+def test_a_label_is_shown_once(run, what):
     ax = run.plot(what, label="a run")
     labels = ax.get_legend_handles_labels()[1]
     assert 0 < labels.count("a run") <= (1 if what in ("trajectory", "rotation") else 2)
 
 
-def test_start_and_end_stand_over_each_other_nowhere(run):
+def test_labels_of_start_and_end_do_not_overlap(run):
     def names(of):
         axes = of.plot("trajectory")
         return [text.get_text() for text in axes.texts if text.get_text() in ("start", "end", "start, end")]
@@ -61,7 +61,7 @@ def test_an_overview_has_all_four(run):
         run.plot("energy")
 
 
-def test_answers_draw_themselves():
+def test_results_are_plotted():
     critical = snapload.critical_force(snapload.Case(), step=0.1, members=10)
     assert critical.plot().get_xlabel() == "$f_o$ [F]"
     proof = snapload.verify(snapload.Case(f_o=0.31))
@@ -73,7 +73,7 @@ def test_a_notebook_gets_html5(run):
     assert "<canvas" in html and "requestAnimationFrame" in html and "{" + "data}" not in html
 
 
-def test_files_move(run, tmp_path: Path):
+def test_animations_are_written_to_files(run, tmp_path: Path):
     moving = run.animate(stop=3.0, seconds=0.4, fps=10)
     with Image.open(moving.save(tmp_path / "run.gif")) as picture:
         assert picture.n_frames == 4
@@ -86,7 +86,7 @@ def test_files_move(run, tmp_path: Path):
 
 
 @pytest.mark.parametrize(
-    ("options", "words"),
+    ("options", "message"),
     [
         (dict(start=5, stop=4), "0 <= start < stop"),
         (dict(fps=0), "fps = 0 is not allowed"),
@@ -94,8 +94,8 @@ def test_files_move(run, tmp_path: Path):
         (dict(seconds=1e9), "seconds = .* is not allowed"),
     ],
 )
-def test_slips_are_refused_in_words(run, options, words):
-    with pytest.raises(ValueError, match=words):
+def test_mistakes_are_refused_with_a_message(run, options, message):
+    with pytest.raises(ValueError, match=message):
         run.animate(**options)
     with pytest.raises(ValueError, match="ends in .gif, .mp4 or .html"):
         run.animate().save("run.avi")

@@ -35,7 +35,7 @@ def test_a_workflow_is_one(file: Path):
                 assert key in matrix or all(key in row for row in matrix["include"]), (name, key)
 
 
-def test_workflows_run_what_there_is():
+def test_workflows_run_existing_files():
     profiles = tomllib.loads((ROOT / "Cargo.toml").read_text(encoding="utf-8"))["profile"]
     crates = {path.parent.name for path in ROOT.glob("crates/*/Cargo.toml")} | {"snapload-python"}
     for file in WORKFLOWS:
@@ -51,9 +51,9 @@ def test_workflows_run_what_there_is():
 def test_recipe_and_site_are_read():
     recipe = yaml.safe_load((ROOT / "conda" / "recipe.yaml").read_text(encoding="utf-8"))
     project = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))["project"]
-    asked = {
+    required = {
         re.split(r"[ >=<]", line)[0].replace("matplotlib-base", "matplotlib") for line in recipe["requirements"]["run"]
     }
-    assert asked - {"python"} == {re.split(r"[ >=<]", line)[0] for line in project["dependencies"]}
+    assert required - {"python"} == {re.split(r"[ >=<]", line)[0] for line in project["dependencies"]}
     site = yaml.safe_load((ROOT / ".readthedocs.yaml").read_text(encoding="utf-8"))
     assert (ROOT / site["sphinx"]["configuration"]).is_file()

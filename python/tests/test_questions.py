@@ -16,7 +16,7 @@ DOCS = Path(__file__).parents[2] / "docs"
 VALUES = {"f_o": 0.31, "t_end": 2}
 
 
-def asked(url: str, name: str, **request) -> bytes:
+def post(url: str, name: str, **request) -> bytes:
     """The answer of the page's server."""
     body = json.dumps(request).encode()
     headers = {"Content-Type": "application/json"}
@@ -26,7 +26,7 @@ def asked(url: str, name: str, **request) -> bytes:
 
 def refused(url: str, name: str, **request) -> dict:
     with pytest.raises(urllib.error.HTTPError) as error:
-        asked(url, name, **request)
+        post(url, name, **request)
     return json.loads(error.value.read())
 
 
@@ -46,11 +46,11 @@ def test_every_question_has_the_same_answer_everywhere(questions, url, command):
         line = command(name, *settings, "--json", "-").rstrip("\n")
         # Not only equal: the same text of every number.
         assert python.endswith(f'"answer":{line}}}')
-        page = asked(url, name, values=VALUES).decode()
+        page = post(url, name, values=VALUES).decode()
         assert page.endswith(f'"answer":{line}}}')
-        words = command(name, *settings)
-        assert json.loads(python)["words"] == words
-        assert words == f"Case      {words.splitlines()[0][10:]}\n{json.loads(page)['words']}"
+        text = command(name, *settings)
+        assert json.loads(python)["words"] == text
+        assert text == f"Case      {text.splitlines()[0][10:]}\n{json.loads(page)['words']}"
 
 
 def test_every_question_is_a_verb_with_its_options(questions, url, command):
@@ -67,8 +67,8 @@ def test_every_question_is_a_verb_with_its_options(questions, url, command):
             written = "--" + option["name"].replace("_", "-")
             assert f"  {written} " in help
             if option["kind"]["type"] in ("number", "count"):
-                said = command(name, written, "x", fails=True)
-                assert said.startswith(f"error: {written} = x is not allowed; allowed: a ")
+                message = command(name, written, "x", fails=True)
+                assert message.startswith(f"error: {written} = x is not allowed; allowed: a ")
                 page = refused(url, name, options={option["name"]: "x"})
                 assert page["key"] == option["name"]
                 assert page["message"] == f'{option["name"]} = "x" is not allowed; allowed: {option["allowed"]}'
@@ -77,15 +77,15 @@ def test_every_question_is_a_verb_with_its_options(questions, url, command):
 
 
 def test_every_question_is_a_function_that_the_manual_knows(questions):
-    told = {file: (DOCS / file).read_text(encoding="utf-8") for file in ("api.md", "python.md", "cases.md")}
+    pages = {file: (DOCS / file).read_text(encoding="utf-8") for file in ("api.md", "python.md", "cases.md")}
     for question in questions:
         name = question["name"]
         assert name in snapload.__all__ and callable(getattr(snapload, name))
-        assert f"\n.. autofunction:: {name}\n" in told["api.md"] and f"`snapload.{name}(" in told["python.md"]
-        assert f"`snapload {name}`" in told["cases.md"]
+        assert f"\n.. autofunction:: {name}\n" in pages["api.md"] and f"`snapload.{name}(" in pages["python.md"]
+        assert f"`snapload {name}`" in pages["cases.md"]
 
 
-def test_what_is_no_question_or_option_is_refused(url):
+def test_unknown_questions_and_options_are_refused(url):
     assert refused(url, "verify", options={"digit": 60})["key"] == "digit"
     assert "did you mean digits?" in refused(url, "verify", options={"digit": 60})["message"]
     assert refused(url, "verify", values={"e": 2})["key"] == "e"
@@ -102,18 +102,18 @@ def test_the_page_asks_every_question(questions, open_page, command):
         expect(page.locator("#question-words")).to_be_hidden()
         page.locator("#question-ask").click()
         expect(page.locator("#question-words")).to_be_visible(timeout=20_000)
-        told = command(question["name"], "--set", "f_o=0.31").split("\n", 1)[1].rstrip()
-        assert page.locator("#question-words").inner_text() == told
+        text = command(question["name"], "--set", "f_o=0.31").split("\n", 1)[1].rstrip()
+        assert page.locator("#question-words").inner_text() == text
     page.locator("#question").select_option("verify")
     page.locator("#question-tolerance").fill("1e-30")
     page.locator("#question-ask").click()
     expect(page.locator("#question-words")).to_contain_text("wrong by more than 1e-30 from impact 1 on")
 
 
-def test_the_page_says_what_is_wrong_with_an_option(open_page):
+def test_the_page_reports_a_wrong_option(open_page):
     page = open_page("f_o=0.31&t=0", refused=1)
     page.locator("#question-box summary").click()
     page.locator("#question-digits").fill("many")
     page.locator("#question-ask").click()
-    words = 'digits = "many" is not allowed; allowed: a whole number, 1 <= digits <= 307'
-    expect(page.locator("#question-said")).to_have_text(words)
+    message = 'digits = "many" is not allowed; allowed: a whole number, 1 <= digits <= 307'
+    expect(page.locator("#question-said")).to_have_text(message)

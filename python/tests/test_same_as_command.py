@@ -29,37 +29,37 @@ def in_json(ensemble):
 
 @pytest.mark.parametrize("code", CODES)
 def test_a_run_is_the_same(command_json, code):
-    told = command_json("run", "--case", code, "--sample", "0.25", "--ensemble", "30")
+    data = command_json("run", "--case", code, "--sample", "0.25", "--ensemble", "30")
     run = snapload.cases[code].run(members=30)
 
-    assert (run.end.reason, run.end.t, run.end.t_limit) == tuple(told["end"][k] for k in ("reason", "t", "t_limit"))
-    assert {k: getattr(run.norms, k) for k in told["norms"]} == told["norms"]
+    assert (run.end.reason, run.end.t, run.end.t_limit) == tuple(data["end"][k] for k in ("reason", "t", "t_limit"))
+    assert {k: getattr(run.norms, k) for k in data["norms"]} == data["norms"]
     assert (run.trust.t, run.trust.impact, run.trust.because) == tuple(
-        told["trust"][k] for k in ("t", "impact", "because")
+        data["trust"][k] for k in ("t", "impact", "because")
     )
-    assert list(run.trust.exponents) == told["trust"]["exponents"]
-    assert in_json(run.outcome.ensemble) == told["outcome"]["ensemble"]
-    assert run.case.keys() == told["case"]
+    assert list(run.trust.exponents) == data["trust"]["exponents"]
+    assert in_json(run.outcome.ensemble) == data["outcome"]["ensemble"]
+    assert run.case.keys() == data["case"]
 
     impacts = run.impacts
     for column in ("t", "cable", "v_n", "impulse", "energy_lost", "digits"):
-        assert impacts[column].tolist() == [row[column] for row in told["impacts"]]
+        assert impacts[column].tolist() == [row[column] for row in data["impacts"]]
     for side in ("before", "after"):
         states = np.column_stack([impacts[f"{side}_{name}"] for name in STATE])
-        assert states.tolist() == [row[side] for row in told["impacts"]]
+        assert states.tolist() == [row[side] for row in data["impacts"]]
     modes = run.modes
-    assert [list(taut) for taut in modes["taut"]] == [row["taut"] for row in told["modes"]]
+    assert [list(taut) for taut in modes["taut"]] == [row["taut"] for row in data["modes"]]
     for column in ("mode", "t_start", "t_end"):
-        assert modes[column].tolist() == [row[column] for row in told["modes"]]
+        assert modes[column].tolist() == [row[column] for row in data["modes"]]
 
     motion = run.motion(0.25)
     for name in motion.dtype.names:
-        assert motion[name].tolist() == [row[name] for row in told["motion"]]
+        assert motion[name].tolist() == [row[name] for row in data["motion"]]
     assert run.at(motion.t).tolist() == motion.tolist()
     assert tuple(run.at(run.end.t).item())[1:7] == run.end.state
 
 
-def test_the_words_and_the_json_are_the_same(command):
+def test_the_text_and_the_json_are_the_same(command):
     run = snapload.cases["sliding-example"].run(members=20)
     line = command("run", "--case", "sliding-example", "--ensemble", "20", "--sample", "1", "--json", "-")
     assert run.to_json(1.0) == line.rstrip("\n")
@@ -67,48 +67,48 @@ def test_the_words_and_the_json_are_the_same(command):
     assert repr(snapload.cases["1910001000-359"].run(members=0)).startswith("<Run of Case('1910001000-359'): settled")
 
 
-def test_doubt_is_the_same(command_json):
-    told = command_json("run", "--uncertainty", "1e-3", "--uncertainty", "f_o=0.01", "--seed", "7", "--ensemble", "40")
+def test_uncertainty_is_the_same(command_json):
+    data = command_json("run", "--uncertainty", "1e-3", "--uncertainty", "f_o=0.01", "--seed", "7", "--ensemble", "40")
     sizes = dict.fromkeys(STATE, 1e-3) | {"f_o": 0.01}
     run = snapload.Case().run(uncertainty=sizes, seed=7, members=40)
-    assert in_json(run.outcome.ensemble) == told["outcome"]["ensemble"]
-    assert run.trust.uncertainty == told["trust"]["uncertainty"]
-    assert run.trust.impact == told["trust"]["impact"]
+    assert in_json(run.outcome.ensemble) == data["outcome"]["ensemble"]
+    assert run.trust.uncertainty == data["trust"]["uncertainty"]
+    assert run.trust.impact == data["trust"]["impact"]
     counted = snapload.ensemble(snapload.Case(), 40, uncertainty=sizes, seed=7)
     assert {end: share.count for end, share in counted.ends.items()} == {
-        row["reason"]: row["count"] for row in told["outcome"]["ensemble"]["ends"]
+        row["reason"]: row["count"] for row in data["outcome"]["ensemble"]["ends"]
     }
 
 
 def test_the_critical_force_is_the_same(command_json):
-    told = command_json("critical", "--max", "0.5", "--ensemble", "10")
+    data = command_json("critical", "--max", "0.5", "--ensemble", "10")
     found = snapload.critical_force(snapload.Case(), largest=0.5, members=10)
-    assert (found.f_cr, found.reason, found.t) == (told["f_cr"], told["reason"], told["t"])
-    assert found.exceeding.tolist() == told["exceeding"]
-    assert found.passes == told["passes"]
+    assert (found.f_cr, found.reason, found.t) == (data["f_cr"], data["reason"], data["t"])
+    assert found.exceeding.tolist() == data["exceeding"]
+    assert found.passes == data["passes"]
     for name in ("f_o", "certain", "count", "part", "low", "high"):
-        assert found.probability[name].tolist() == [point[name] for point in told["probability"]]
+        assert found.probability[name].tolist() == [point[name] for point in data["probability"]]
 
 
 def test_the_proof_is_the_same(command_json, command):
     args = ["verify", "--case", "1710001000-359", "--tolerance", "1e-15"]
-    told = command_json(*args)
+    data = command_json(*args)
     proof = snapload.verify(snapload.cases["1710001000-359"], tolerance=1e-15)
     assert proof.first_wrong is not None
     for name in ("digits", "digits_left", "first_wrong", "predicted", "compared", "end", "t", "impacts"):
-        assert getattr(proof, name) == told[name]
-    assert proof.differences.tolist() == told["differences"]
+        assert getattr(proof, name) == data[name]
+    assert proof.differences.tolist() == data["differences"]
     assert str(proof) == command(*args).rstrip("\n")
 
 
 def test_the_file_of_a_study_is_the_same_to_the_byte(command, tmp_path: Path):
-    ours, theirs = tmp_path / "ours.parquet", tmp_path / "theirs.parquet"
+    by_package, by_command = tmp_path / "ours.parquet", tmp_path / "theirs.parquet"
     axes = ["--vary", "f_o=0.2:0.5:4", "--vary", "e=0.5,0.9,1.0", "--vary", "body=rigid,point"]
-    command("sweep", "--set", "t_end=5", *axes, "--out", str(theirs))
+    command("sweep", "--set", "t_end=5", *axes, "--out", str(by_command))
     case = snapload.Case(t_end=5)
-    there = snapload.sweep(case, out=ours, f_o="0.2:0.5:4", e=[0.5, 0.9, 1.0], body=["rigid", "point"])
-    assert ours.read_bytes() == theirs.read_bytes()
-    assert snapload.open_study(theirs).identical(there)
+    there = snapload.sweep(case, out=by_package, f_o="0.2:0.5:4", e=[0.5, 0.9, 1.0], body=["rigid", "point"])
+    assert by_package.read_bytes() == by_command.read_bytes()
+    assert snapload.open_study(by_command).identical(there)
     # A row is the run of its case.
     run = case.replace(f_o=0.4, e=0.9).run(members=0)
     row = there.sel(f_o=0.4, e=0.9, body="rigid")
@@ -133,20 +133,20 @@ def test_parts_lists_and_random_points_open(command, tmp_path: Path):
 
 
 def test_random_points_tables_and_parts_are_the_same(command, tmp_path: Path):
-    theirs, ours = tmp_path / "theirs.parquet", tmp_path / "ours.parquet"
+    by_command, by_package = tmp_path / "theirs.parquet", tmp_path / "ours.parquet"
     case = snapload.Case(t_end=5)
-    command("sweep", "--set=t_end=5", "--vary=e=0.5:0.9", "--random=9", "--seed=3", "--out", str(theirs))
-    box = snapload.sweep(case, out=ours, random=9, seed=3, e=(0.5, 0.9))
-    assert ours.read_bytes() == theirs.read_bytes() and box.sizes == {"row": 9}
+    command("sweep", "--set=t_end=5", "--vary=e=0.5:0.9", "--random=9", "--seed=3", "--out", str(by_command))
+    box = snapload.sweep(case, out=by_package, random=9, seed=3, e=(0.5, 0.9))
+    assert by_package.read_bytes() == by_command.read_bytes() and box.sizes == {"row": 9}
 
     table = tmp_path / "cases.csv"
     table.write_text("e,stop_when_settled,max_impacts\n0.5,true,\n0.75,false,7\n,true,100\n")
-    theirs.unlink(), ours.unlink()
-    command("sweep", "--set=t_end=5", "--set=a=0.2", "--list", str(table), "--out", str(theirs))
+    by_command.unlink(), by_package.unlink()
+    command("sweep", "--set=t_end=5", "--set=a=0.2", "--list", str(table), "--out", str(by_command))
     frame = pandas.DataFrame({"e": [0.5, 0.75, None], "stop_when_settled": [True, False, True]})
     frame["max_impacts"] = [None, 7, 100]
-    listed = snapload.sweep(case.replace(a=0.2), out=ours, cases=frame)
-    assert ours.read_bytes() == theirs.read_bytes()
+    listed = snapload.sweep(case.replace(a=0.2), out=by_package, cases=frame)
+    assert by_package.read_bytes() == by_command.read_bytes()
     assert listed.e.values.tolist() == [0.5, 0.75, 0.9]
     for same in (polars.from_pandas(frame), pyarrow.Table.from_pandas(frame), dict(frame), table):
         assert snapload.sweep(case.replace(a=0.2), cases=same).identical(listed)
@@ -161,10 +161,10 @@ def test_random_points_tables_and_parts_are_the_same(command, tmp_path: Path):
 
 
 def test_the_critical_force_over_keys_is_the_same(command_json):
-    told = command_json("critical", "--max=0.6", "--step=0.02", "--over", "e=0.7:0.9:3")
+    data = command_json("critical", "--max=0.6", "--step=0.02", "--over", "e=0.7:0.9:3")
     found = snapload.critical_force(snapload.Case(), over={"e": "0.7:0.9:3"}, largest=0.6, step=0.02)
-    assert found.e.values.tolist() == [point["value"] for point in told["points"]]
-    for point in told["points"]:
+    assert found.e.values.tolist() == [point["value"] for point in data["points"]]
+    for point in data["points"]:
         here = found.sel(e=point["value"])
         assert (None if np.isnan(here.f_cr) else float(here.f_cr)) == point["f_cr"]
         exceeds = here.f_o.values[here.exceeds.values]
@@ -174,14 +174,14 @@ def test_the_critical_force_over_keys_is_the_same(command_json):
     assert grid.f_cr.dims == ("r", "e") and "r > |1 - a|" in grid.error.sel(r=0.5).item()
 
 
-def test_derivatives_are_those_that_the_command_tells(command_json):
-    told = command_json("run", "--set=f_o=0.31")["trust"]
+def test_derivatives_are_those_of_the_command(command_json):
+    data = command_json("run", "--set=f_o=0.31")["trust"]
     rows = {(row["impact"], row["key"]): row for row in snapload.sensitivities(snapload.Case(f_o=0.31))}
-    for impact in told["sensitivity"]:
+    for impact in data["sensitivity"]:
         for name in ("t", "v_n", "impulse"):
             for key, value in impact[name].items():
                 assert rows[impact["impact"], key][name] == value
-    assert snapload.Case(f_o=0.31).run().exponents["exponent"].tolist() == told["exponents"]
+    assert snapload.Case(f_o=0.31).run().exponents["exponent"].tolist() == data["exponents"]
 
 
 @pytest.mark.parametrize(
@@ -199,16 +199,16 @@ def test_derivatives_are_those_that_the_command_tells(command_json):
         {"stop_when_settled": 3},
     ],
 )
-def test_errors_have_the_same_words(command, keys):
+def test_errors_have_the_same_messages(command, keys):
     sets = [f"--set={key}={json.dumps(value)}" for key, value in keys.items()]
-    told = command("run", *sets, fails=True)
+    data = command("run", *sets, fails=True)
     with pytest.raises(ValueError) as error:
         snapload.Case(**keys)
-    words = str(error.value)
-    assert words in told.replace("--set ", ""), (words, told)
+    message = str(error.value)
+    assert message in data.replace("--set ", ""), (message, data)
     with pytest.raises(ValueError) as again:
         snapload.Case(f_o=0.2).replace(**keys)
-    assert str(again.value) == words
+    assert str(again.value) == message
 
 
 def test_a_file_is_read_as_the_command_reads_it(command_json, tmp_path: Path):
@@ -226,8 +226,8 @@ def test_a_file_is_read_as_the_command_reads_it(command_json, tmp_path: Path):
 
 def test_the_command_of_the_package_is_the_command(command, tmp_path: Path):
     def run(*args: str, folder: Path = tmp_path) -> subprocess.CompletedProcess[str]:
-        words = [sys.executable, "-m", "snapload", *args]
-        return subprocess.run(words, capture_output=True, text=True, cwd=folder, timeout=60)
+        message = [sys.executable, "-m", "snapload", *args]
+        return subprocess.run(message, capture_output=True, text=True, cwd=folder, timeout=60)
 
     for line in (["run", "--json", "-"], ["--version"], ["keys"], ["run", "--help"]):
         assert run(*line).stdout == command(*line)
@@ -237,7 +237,7 @@ def test_the_command_of_the_package_is_the_command(command, tmp_path: Path):
     assert swept.returncode == 0 and snapload.open_study(tmp_path / "e.parquet").sizes == {"e": 2}
 
 
-def test_the_report_is_written_where_it_is_asked_for(monkeypatch, tmp_path: Path):
+def test_the_report_is_written_to_the_given_directory(monkeypatch, tmp_path: Path):
     files = [("report.html", b"page"), ("figures/6-1.svg", b"figure")]
     monkeypatch.setattr(snapload._engine, "reproduce", lambda tell: files)
     page = snapload.reproduce(tmp_path / "chapter" / "6")

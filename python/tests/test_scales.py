@@ -51,7 +51,7 @@ def test_results_come_back_in_si():
 
 
 @pytest.mark.parametrize(
-    ("call", "kind", "words"),
+    ("call", "kind", "message"),
     [
         (lambda: snapload.Scales(0, 1, 1), ValueError, "length = 0 is not allowed; allowed: a number above 0"),
         (lambda: snapload.Scales(1, "x", 1), ValueError, "mass = 'x' is not allowed; allowed: a number"),
@@ -61,6 +61,6 @@ def test_results_come_back_in_si():
         (lambda: SCALES.case(omgea=1), ValueError, "omgea"),
     ],
 )
-def test_slips_are_told_in_words(call, kind, words):
-    with pytest.raises(kind, match=words):
+def test_mistakes_are_reported(call, kind, message):
+    with pytest.raises(kind, match=message):
         call()

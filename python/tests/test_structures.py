@@ -14,23 +14,23 @@ CYLINDER = ROOT / "docs" / "examples" / "cylinder.toml"
 
 def test_answers_are_those_of_the_command(command_json: Callable[..., Any]) -> None:
     changes = {"run.duration": 90, "line.2.length": 6.05, "wave.direction": "-x", "run.start": [0.1, -3.9]}
-    sets = [f"--set={key}={snapload._structure._written(value)}" for key, value in changes.items()]
+    sets = [f"--set={key}={snapload._structure._toml_value(value)}" for key, value in changes.items()]
     structure = snapload.Structure.from_toml(CYLINDER, changes)
-    said = command_json("assess", str(CYLINDER), *sets, "--neighbours", "2")
-    assert structure.assess(neighbours=2).data == said
-    said = command_json("elastic", str(CYLINDER), *sets)
-    found = structure.elastic().data
-    for data in (said, found):
-        del data["took_s"], data["inextensible"]["took_s"]
-    assert found == said
+    expected = command_json("assess", str(CYLINDER), *sets, "--neighbours", "2")
+    assert structure.assess(neighbours=2).data == expected
+    expected = command_json("elastic", str(CYLINDER), *sets)
+    data = structure.elastic().data
+    for each in (expected, data):
+        del each["took_s"], each["inextensible"]["took_s"]
+    assert data == expected
 
 
 def test_seas_are_those_of_the_command(command_json: Callable[..., Any]) -> None:
     sea = ROOT / "docs" / "examples" / "cylinder-sea.toml"
-    said = command_json("seas", str(sea), "--set", "run.duration=330", "--seeds", "3", "--elastic")
-    found = snapload.Structure.from_toml(sea, {"run.duration": 330}).seas(seeds=3, elastic=True)
-    assert found.data == said
-    assert found.largest_tensions_n.values.tolist() == said["largest_tensions_n"]
+    expected = command_json("seas", str(sea), "--set", "run.duration=330", "--seeds", "3", "--elastic")
+    data = snapload.Structure.from_toml(sea, {"run.duration": 330}).seas(seeds=3, elastic=True)
+    assert data.data == expected
+    assert data.largest_tensions_n.values.tolist() == expected["largest_tensions_n"]
 
 
 def test_motion_and_snaps_have_units() -> None:
@@ -71,8 +71,8 @@ def test_errors_name_the_key() -> None:
         structure.replace({"wave.heigth": 2})
     with pytest.raises(TypeError, match="a number, a text"):
         structure.replace({"body.mass": object()})
-    words = "table = 'body' is not allowed; allowed: one of wave, sea, design, project"
-    with pytest.raises(ValueError, match=words):
+    message = "table = 'body' is not allowed; allowed: one of wave, sea, design, project"
+    with pytest.raises(ValueError, match=message):
         structure.without("body")
     with pytest.raises(FileNotFoundError):
         snapload.Structure.from_toml("nothing.toml")

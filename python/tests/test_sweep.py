@@ -49,13 +49,13 @@ def test_values_are_the_decimals_that_one_would_write():
         snapload.evenly("a", 1, 3)
 
 
-def test_without_trust_nothing_is_said_of_it():
+def test_without_trust_its_columns_are_absent():
     plain = snapload.sweep(snapload.Case(), trust=False, e=[0.5])
     assert "certain" not in plain and "horizon_t" not in plain and plain.sizes == {"e": 1}
     assert snapload.sweep(snapload.Case(t_end=1)).sizes == {}
 
 
-def test_what_is_no_case_is_told():
+def test_illegal_cases_are_reported():
     study = snapload.sweep(snapload.Case(), a=[0.1, 0.2], r=[0.5, 1.5])
     assert np.isnan(study.t.sel(r=0.5)).all() and np.isfinite(study.t.sel(r=1.5)).all()
     assert "r > |1 - a| = 0.9" in study.error.sel(a=0.1, r=0.5).item()
@@ -63,7 +63,7 @@ def test_what_is_no_case_is_told():
 
 
 @pytest.mark.parametrize(
-    ("axes", "words"),
+    ("axes", "message"),
     [
         ({"e": [0.5, 1.5]}, "e = 1.5 is not allowed; allowed: a number, 0 <= e <= 1"),
         ({"omgea": [1]}, "did you mean omega"),
@@ -71,12 +71,12 @@ def test_what_is_no_case_is_told():
         ({"e": []}, "give at least one value"),
     ],
 )
-def test_slips_are_refused_in_words(axes, words):
-    with pytest.raises(ValueError, match=words):
+def test_mistakes_are_refused_with_a_message(axes, message):
+    with pytest.raises(ValueError, match=message):
         snapload.sweep(snapload.Case(), **axes)
 
 
-def test_only_resume_goes_on(tmp_path: Path):
+def test_only_resume_continues(tmp_path: Path):
     out = tmp_path / "e.parquet"
     first = snapload.sweep(snapload.Case(), out=out, e=[0.5, 0.6])
     assert snapload.sweep(snapload.Case(), out=out, resume=True, e=[0.5, 0.6]).identical(first)
@@ -99,9 +99,9 @@ except KeyboardInterrupt:
 
 
 def interrupt(call: str, after: str = "", at_work: Callable[[], bool] | None = None) -> tuple[float, str]:
-    """Sends Ctrl-C to a Python at work; gives how long it took to answer, and what it says after that.
+    """Sends Ctrl-C to a Python at work; returns the time until it answered, and what it printed after that.
 
-    It is sent as soon as `at_work` holds, or else after 0.7 s to calls that go on for minutes."""
+    It is sent as soon as `at_work` holds, or else after 0.7 s to calls that take minutes."""
     code = INTERRUPTED.format(call=call, after=after)
     with subprocess.Popen([sys.executable, "-c", code], stdout=subprocess.PIPE, text=True) as process:
         assert process.stdout is not None and process.stdout.readline() == "ready\n"
@@ -109,7 +109,7 @@ def interrupt(call: str, after: str = "", at_work: Callable[[], bool] | None = N
             time.sleep(0.7)
         else:
             while not at_work():
-                assert process.poll() is None, "it ended before it was told to"
+                assert process.poll() is None, "it ended before the signal was sent"
                 time.sleep(0.001)
         sent = time.monotonic()
         process.send_signal(signal.SIGINT)
@@ -134,7 +134,7 @@ def test_ctrl_c_is_answered_within_a_second(call):
     assert took < 1.0
 
 
-def test_after_ctrl_c_the_same_process_goes_on(tmp_path: Path):
+def test_after_ctrl_c_the_same_process_continues(tmp_path: Path):
     out = tmp_path / "map.parquet"
     call = f"snapload.sweep(snapload.Case(t_end=1), out={str(out)!r}, trust=False, f_o='0.1:0.6:400', e='0.5:0.9:400')"
     # What was being brought to the disk holds the file until it is there; the error says so.
@@ -147,13 +147,13 @@ def test_after_ctrl_c_the_same_process_goes_on(tmp_path: Path):
             assert "another snapload process is writing" in str(error)
             time.sleep(0.05)
     print('whole')"""
-    took, said = interrupt(call, again, lambda: any(tmp_path.glob("map.parquet.parts/rows-*")))
+    took, printed = interrupt(call, again, lambda: any(tmp_path.glob("map.parquet.parts/rows-*")))
     assert took < 1.0
-    assert said == "whole\n"
+    assert printed == "whole\n"
     assert snapload.open_study(out).sizes == {"f_o": 400, "e": 400}
 
 
-def test_more_threads_than_help_are_capped_with_a_word():
+def test_more_threads_than_help_are_capped_with_a_warning():
     with pytest.warns(UserWarning, match=r"^threads=60000: this machine runs \d+ at a time.* are used$"):
         study = snapload.sweep(snapload.Case(), f_o=[0.3, 0.31], threads=60_000)
     assert study.sizes["f_o"] == 2
@@ -161,13 +161,13 @@ def test_more_threads_than_help_are_capped_with_a_word():
 
 def test_other_threads_run_meanwhile():
     work = threading.Thread(target=snapload.sweep, args=[snapload.Case()], kwargs=dict(e="0.5:0.9:3000"))
-    begun = time.monotonic()
+    began = time.monotonic()
     work.start()
     turns = 0
     while work.is_alive():
         time.sleep(0.002)
         turns += 1
-    took = time.monotonic() - begun
+    took = time.monotonic() - began
     # With the lock held there would be none while it computes.
     assert took > 0.05 and turns > 0.1 * took / 0.002
 

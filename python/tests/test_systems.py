@@ -87,7 +87,7 @@ def test_no_cable_of_many_is_ever_longer_than_it_is():
     assert set(run.impacts["cable"]) == {1, 2, 3, 4, 5} and motion.dtype.names[-2:] == ("T5", "energy")
 
 
-def test_systems_and_their_runs_compare_copy_and_travel():
+def test_systems_and_their_runs_compare_copy_and_pickle():
     system = many_cables()
     run, plain = system.run(uncertainty=1e-9), system.run(trust=False)
     for one in (system, run, plain):
@@ -103,7 +103,7 @@ def test_systems_and_their_runs_compare_copy_and_travel():
     assert changed.body.inertia == 0.03 and changed.cables[1] == system.cables[1]
 
 
-def test_trust_ends_where_neighbours_part():
+def test_trust_ends_where_neighbours_diverge():
     system = many_cables().replace(t_end=30)
     run = system.run(uncertainty={"x": 1e-8})
     assert run.trust.because is not None and run.trust.uncertainty == {"x": 1e-8} and not run.outcome.certain
@@ -135,7 +135,7 @@ def test_a_study_is_its_runs():
     assert capped.equals(study)
 
 
-def test_what_is_no_system_is_a_cell_without_a_run():
+def test_an_illegal_system_is_a_cell_without_a_run():
     study = many_cables().sweep(length_3=[1.0, 1.32], progress=False)
     assert study.error.values.tolist()[1] == "" and "cable 3 would have to be" in study.error.values[0]
     assert np.isnan(study.rho1[0]) and not study.certain[0] and study.end_code.values.tolist() == [-1, 4]
@@ -154,7 +154,7 @@ def test_runs_of_systems_are_drawn(what):
 
 
 @pytest.mark.parametrize(
-    ("call", "kind", "words"),
+    ("call", "kind", "message"),
     [
         (lambda: snapload.Cable((0, 0), -1), ValueError, "length = -1 is not allowed; allowed: a number, 0 < length"),
         (lambda: snapload.Cable((0, 0, 0), 1), ValueError, r"anchor = \(0, 0, 0\) is not allowed; allowed: its x and"),
@@ -193,6 +193,6 @@ def test_runs_of_systems_are_drawn(what):
         ),
     ],
 )
-def test_slips_are_told_in_words(call, kind, words):
-    with pytest.raises(kind, match=words):
+def test_mistakes_are_reported(call, kind, message):
+    with pytest.raises(kind, match=message):
         call()

@@ -15,7 +15,7 @@ def run():
     return snapload.Case(f_o=0.31).run()
 
 
-def test_pyarrow_polars_and_pandas_read_the_very_memory(run):
+def test_pyarrow_polars_and_pandas_share_the_memory(run):
     table = run.impacts
     column = pyarrow.table(table).column("v_n").chunk(0)
     place = column.buffers()[1].address + 8 * column.offset
@@ -27,7 +27,7 @@ def test_pyarrow_polars_and_pandas_read_the_very_memory(run):
     assert np.asarray(pyarrow.table(table).column("v_n").chunk(0)).ctypes.data == place
 
 
-def test_fields_say_their_units(run):
+def test_fields_have_units(run):
     schema = pyarrow.schema(run.impacts)
     assert schema.field("impulse").metadata == {
         b"units": b"1",

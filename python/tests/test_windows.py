@@ -17,9 +17,9 @@ LEFT_BEHIND = """() => ({
 
 
 def test_a_window_that_was_used_is_as_a_new_one(browser, url):
-    used, new = Window(browser, has_touch=False), Window(browser, has_touch=False)
+    reused, new = Window(browser, has_touch=False), Window(browser, has_touch=False)
     wrong = []
-    page = used.load(url, "f_o=0.31&t=1", wrong, refused=0, viewport=PHONE, color_scheme="dark")
+    page = reused.load(url, "f_o=0.31&t=1", wrong, refused=0, viewport=PHONE, color_scheme="dark")
     settled(page)
     page.emulate_media(media="print")
     page.emulate_media(media="screen", forced_colors="active")
@@ -31,15 +31,15 @@ def test_a_window_that_was_used_is_as_a_new_one(browser, url):
     page.mouse.wheel(0, 200)
     page.context.new_page()
     after_use = page.evaluate(LEFT_BEHIND)
-    used.leave()
-    told = []
-    for window in [used, new]:
+    reused.reset()
+    states = []
+    for window in [reused, new]:
         page = window.load(url, "t=1", wrong, refused=0, viewport=DESKTOP)
         settled(page)
         pictures = drawn(page)
-        told.append((page.evaluate(LEFT_BEHIND), pictures))
+        states.append((page.evaluate(LEFT_BEHIND), pictures))
         window.context.close()
-    assert told[0] == told[1]
-    assert told[0][0]["size"][:2] == [DESKTOP["width"], DESKTOP["height"]]
-    assert all(after_use[what] != told[1][0][what] for what in after_use if what != "steps"), after_use
+    assert states[0] == states[1]
+    assert states[0][0]["size"][:2] == [DESKTOP["width"], DESKTOP["height"]]
+    assert all(after_use[what] != states[1][0][what] for what in after_use if what != "steps"), after_use
     assert wrong == []

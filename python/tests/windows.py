@@ -6,14 +6,14 @@ from urllib.parse import urljoin
 
 from playwright.sync_api import Browser, Page
 
-# What a window of Playwright's shows when nothing else is asked for.
+# The default media of a window of Playwright.
 MEDIA = {"media": "null", "color_scheme": "light", "reduced_motion": "no-preference", "forced_colors": "none"}
 # Nothing moves or computes in it, and it is of the page's own address: what the browser keeps for that can be emptied.
 STILL = "icon.svg"
 
 
 class Window:
-    """A window with a profile of its own, and what went wrong in it since it was opened at an address."""
+    """A window with a profile of its own, and the errors since it was opened at an address."""
 
     def __init__(self, browser: Browser, has_touch: bool) -> None:
         self.has_touch = has_touch
@@ -24,25 +24,25 @@ class Window:
         self.url = ""
         self.refused = 0
         self.wrong: list[str] | None = None
-        self.page.on("pageerror", lambda error: self.note(f"error in the page: {error}"))
-        self.page.on("request", lambda request: self.asked(request.url))
+        self.page.on("pageerror", lambda error: self.record_error(f"error in the page: {error}"))
+        self.page.on("request", lambda request: self.check_request(request.url))
         # The browser itself logs an answer that refuses; what a test expects to be refused is not wrong.
         self.page.on(
-            "console", lambda line: self.refused or self.note(f"console: {line.text} ({line.location['url']})")
+            "console", lambda line: self.refused or self.record_error(f"console: {line.text} ({line.location['url']})")
         )
 
-    def note(self, what: str) -> None:
+    def record_error(self, what: str) -> None:
         if self.wrong is not None:
             self.wrong.append(what)
 
-    def asked(self, address: str) -> None:
+    def check_request(self, address: str) -> None:
         if not address.startswith((self.url, "blob:" + self.url, "data:")):
-            self.note(f"asked {address}")
+            self.record_error(f"asked {address}")
 
     def load(
         self, url: str, fragment: str, wrong: list[str], refused: int, viewport: dict[str, int], **media: str
     ) -> Page:
-        """Loads a page as a window does that was never used; what goes wrong from now on is noted."""
+        """Loads a page as a new window does; errors are recorded from now on."""
         if url not in self.allowed:
             self.context.grant_permissions(["clipboard-read", "clipboard-write"], origin=url.rstrip("/"))
             self.allowed.add(url)
@@ -52,12 +52,12 @@ class Window:
         self.page.set_default_timeout(15_000)
         self.url, self.wrong, self.refused = url, wrong, refused
         self.page.goto(url + (f"#{fragment}" if fragment else ""))
-        # A window that was used need not have told its page where the pointer is.
+        # A used window may not have reported the position of the pointer to its page.
         self.page.mouse.move(0, 0)
         return self.page
 
-    def leave(self) -> None:
-        """Leaves the page, and nothing of it behind."""
+    def reset(self) -> None:
+        """Leaves the page, and removes everything that it stored."""
         self.wrong = None
         for other in self.context.pages:
             if other is not self.page:
@@ -69,7 +69,7 @@ class Window:
 
 
 class Windows:
-    """The windows that are free, by whether they are touched, which can not be changed of one that is open."""
+    """The free windows, by whether they have touch, which can not be changed in an open window."""
 
     def __init__(self, browser: Browser) -> None:
         self.browser = browser
@@ -81,7 +81,7 @@ class Windows:
 
     def give_back(self, window: Window, usable: bool) -> None:
         if usable:
-            window.leave()
+            window.reset()
             self.free[window.has_touch].append(window)
         else:
             window.context.close()

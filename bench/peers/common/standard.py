@@ -36,7 +36,7 @@ class Run:
 
 
 @dataclass(frozen=True)
-class Closing:
+class Contact:
     """A cable at its full length: its normal, lever arm and normal velocity."""
 
     n: tuple[float, float]
@@ -56,41 +56,41 @@ def gap(q: State, cable: int) -> float:
     return dx * dx + dy * dy - R * R
 
 
-def closing(state: State, cable: int) -> Closing:
+def contact_at(state: State, cable: int) -> Contact:
     x, y, theta, vx, vy, spin = state
     side = SIDES[cable]
     lever = (side * A * math.cos(theta), side * A * math.sin(theta))
     n = ((x + lever[0] - side) / R, (y + lever[1] - HEIGHT) / R)
     arm = lever[0] * n[1] - lever[1] * n[0]
-    return Closing(n, arm, n[0] * vx + n[1] * vy + arm * spin)
+    return Contact(n, arm, n[0] * vx + n[1] * vy + arm * spin)
 
 
-def reflect(state: State, at: Closing) -> State:
+def reflect(state: State, contact: Contact) -> State:
     """Newton's law of impact in the mass metric: v_n becomes -e v_n."""
-    impulse = (1.0 + E) * at.v_n / at.inverse_mass
+    impulse = (1.0 + E) * contact.v_n / contact.inverse_mass
     x, y, theta, vx, vy, spin = state
-    vx -= impulse * at.n[0]
-    vy -= impulse * at.n[1]
-    return (x, y, theta, vx, vy, spin - impulse * at.arm / INERTIA)
+    vx -= impulse * contact.n[0]
+    vy -= impulse * contact.n[1]
+    return (x, y, theta, vx, vy, spin - impulse * contact.arm / INERTIA)
 
 
 def place_inside(state: State, cable: int, inside: float) -> State:
     """Moves the body along the cable until its gap is -inside: a restart on the slack side for certain."""
-    at = closing(state, cable)
-    back = (gap(state, cable) + inside) / (2.0 * R)
-    return (state[0] - back * at.n[0], state[1] - back * at.n[1], *state[2:])
+    contact = contact_at(state, cable)
+    distance = (gap(state, cable) + inside) / (2.0 * R)
+    return (state[0] - distance * contact.n[0], state[1] - distance * contact.n[1], *state[2:])
 
 
 def carries_tension(t: float, state: State, cable: int) -> bool:
     """Whether the cable would be pulled if it stayed taut."""
-    at = closing(state, cable)
+    contact = contact_at(state, cable)
     _, _, theta, vx, vy, spin = state
     side = SIDES[cable]
     lever = (side * A * math.cos(theta), side * A * math.sin(theta))
     ax = F_O * math.cos(OMEGA * t) - spin**2 * lever[0]
     ay = NU * F_O * math.sin(OMEGA * t) - 1.0 - spin**2 * lever[1]
     px, py = vx - spin * lever[1], vy + spin * lever[0]
-    return (px * px + py * py) / R + at.n[0] * ax + at.n[1] * ay > 0.0
+    return (px * px + py * py) / R + contact.n[0] * ax + contact.n[1] * ay > 0.0
 
 
 def end_at_sticking(t: float, state: State, cable: int, v_n: float) -> str | None:

@@ -17,7 +17,7 @@ from standard import (
     A,
     R,
     Run,
-    closing,
+    contact_at,
     end_at_sticking,
     reflect,
     report,
@@ -36,11 +36,11 @@ class Impact:
 
     def __call__(self, integrator: hy.taylor_adaptive, _sign: int) -> bool:
         t, state = integrator.time, tuple(integrator.state.tolist())
-        at = closing(state, self.cable)
-        self.run.impacts.append((t, self.cable + 1, at.v_n))
-        state = reflect(state, at)
+        contact = contact_at(state, self.cable)
+        self.run.impacts.append((t, self.cable + 1, contact.v_n))
+        state = reflect(state, contact)
         integrator.state[:] = state
-        if kind := end_at_sticking(t, state, self.cable, at.v_n):
+        if kind := end_at_sticking(t, state, self.cable, contact.v_n):
             self.run.kind, self.run.t = kind, t
             return False
         if len(self.run.impacts) >= MAX_IMPACTS:

@@ -27,7 +27,7 @@ from standard import (
 )
 
 # A cable that has been closed for this many contact times sticks.
-STUCK = 10
+STICKING_CONTACTS = 10
 
 
 def damping_ratio() -> float:
@@ -78,7 +78,7 @@ def solve(compiled: mujoco.MjModel, steps_a_contact: float) -> Run:
     data.qpos[1] = 0.1
     step = compiled.opt.timestep
     force, length, velocity, place = data.qfrc_applied, data.ten_length, data.ten_velocity, data.qpos
-    patience = STUCK * steps_a_contact * step
+    sticking_time = STICKING_CONTACTS * steps_a_contact * step
     closed_since: list[float | None] = [None, None]
     run = Run()
     while (t := data.time) < T_END:
@@ -93,7 +93,7 @@ def solve(compiled: mujoco.MjModel, steps_a_contact: float) -> Run:
                 v_n = float(velocity[cable])
                 run.impacts.append((t - float(over) / v_n, cable + 1, v_n))
                 closed_since[cable] = t
-            elif t - since > patience:
+            elif t - since > sticking_time:
                 run.kind = "settled" if place[1] < SETTLING_HEIGHT else "sliding_start"
                 run.t = t
                 return run

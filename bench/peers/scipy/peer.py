@@ -18,7 +18,7 @@ from standard import (
     A,
     Run,
     State,
-    closing,
+    contact_at,
     end_at_sticking,
     gap,
     place_inside,
@@ -68,15 +68,15 @@ def solve(method: str, tolerance: float, inside: float) -> Run:
         if event > 1:
             run.kind, run.t = ("rotation_limit", "upper_bound")[event - 2], t
             return run
-        at = closing(u, event)
-        if at.v_n <= 0.0:
+        contact = contact_at(u, event)
+        if contact.v_n <= 0.0:
             # The root that is found is the restart itself, and would be for ever: the step went past the
             # whole bounce, and the search began where the gap is zero, too.
             run.kind, run.t = "stuck", t
             return run
-        run.impacts.append((t, event + 1, at.v_n))
-        u = reflect(u, at)
-        if kind := end_at_sticking(t, u, event, at.v_n):
+        run.impacts.append((t, event + 1, contact.v_n))
+        u = reflect(u, contact)
+        if kind := end_at_sticking(t, u, event, contact.v_n):
             run.kind, run.t = kind, t
             return run
         if inside > 0.0:

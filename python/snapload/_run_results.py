@@ -149,7 +149,7 @@ class Trust(Result):
     grazes: tuple[dict[str, Any], ...]
     sensitivity: tuple[dict[str, Any], ...]
 
-    _shown = ("t", "impact", "because", "tolerance", "uncertainty", "end_error")
+    _repr_fields = ("t", "impact", "because", "tolerance", "uncertainty", "end_error")
 
 
 @dataclass(frozen=True)

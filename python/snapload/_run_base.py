@@ -11,11 +11,11 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from . import _engine
-from ._check import number
-from ._later import Later
+from ._arguments import number
+from ._lazy_import import LazyModule
 from ._neighbours import Ensemble, Share
+from ._run_results import End, Norms, Outcome, Trust
 from ._table import Table
-from ._told import End, Norms, Outcome, Trust
 
 if TYPE_CHECKING:
     import matplotlib.axes
@@ -24,9 +24,9 @@ if TYPE_CHECKING:
     from . import _animate
     from ._geometry import Geometry
 else:
-    matplotlib = Later("matplotlib")
-    _animate = Later("snapload._animate")
-    _geometry = Later("snapload._geometry")
+    matplotlib = LazyModule("matplotlib")
+    _animate = LazyModule("snapload._animate")
+    _geometry = LazyModule("snapload._geometry")
 
 #: What can be drawn of a run.
 Picture = Literal["trajectory", "rotation", "velocities", "tensions"]
@@ -38,12 +38,12 @@ class BaseRun:
     A derived class repeats the run if necessary, which gives the same bits, and describes the geometry.
     """
 
-    _made: _engine.Run | None
+    _engine_object: _engine.Run | None
     _trusted: bool
-    #: Whether it is told in the scales L, m, F and T, and not in units of one's own.
-    _in_scales = True
+    #: Whether quantities are in the scales L, m, F and T, and not in units of the user.
+    _nondimensional = True
 
-    def _again(self) -> _engine.Run:
+    def _rerun(self) -> _engine.Run:
         """Repeats the run."""
         raise NotImplementedError
 
@@ -54,12 +54,12 @@ class BaseRun:
     @property
     def _engine(self) -> _engine.Run:
         """The run of the engine. It does not travel to other processes, where the run is repeated."""
-        if self._made is None:
-            again = self._again()
-            if json.loads(again.head()) != self._head:
+        if self._engine_object is None:
+            rerun = self._rerun()
+            if json.loads(rerun.head()) != self._head:
                 raise ValueError(f"another version of snapload made this run; {_engine.__version__} gives another")
-            self._made = again
-        return self._made
+            self._engine_object = rerun
+        return self._engine_object
 
     @cached_property
     def _head(self) -> dict[str, Any]:
@@ -111,14 +111,15 @@ class BaseRun:
         >>> snapload.Case(f_o=0.31).run().outcome.certain
         True
         """
-        told = self._of_trust("outcome")
-        about = told["ensemble"]
-        if about is not None:
+        data = self._trust_entry("outcome")
+        ensemble = data["ensemble"]
+        if ensemble is not None:
             ends = {
-                end["reason"]: Share(*(end[key] for key in ("count", "part", "low", "high"))) for end in about["ends"]
+                end["reason"]: Share(*(end[key] for key in ("count", "part", "low", "high")))
+                for end in ensemble["ends"]
             }
-            about = Ensemble(about["members"], about["seed"], ends)
-        return Outcome(told["certain"], about)
+            ensemble = Ensemble(ensemble["members"], ensemble["seed"], ends)
+        return Outcome(data["certain"], ensemble)
 
     @cached_property
     def trust(self) -> Trust:
@@ -134,12 +135,12 @@ class BaseRun:
         >>> print(snapload.Case(f_o=0.31).run().trust.t, snapload.Case().run().trust.impact)
         None 191
         """
-        told: dict[str, Any] = {
-            key: tuple(value) if isinstance(value, list) else value for key, value in self._of_trust("trust").items()
+        values: dict[str, Any] = {
+            key: tuple(value) if isinstance(value, list) else value for key, value in self._trust_entry("trust").items()
         }
-        return Trust(**told)
+        return Trust(**values)
 
-    def _of_trust(self, name: str) -> dict[str, Any]:
+    def _trust_entry(self, name: str) -> dict[str, Any]:
         if not self._trusted:
             raise AttributeError(f"this run has no {name}: it was made with trust=False; run the case without it")
         return cast(dict[str, Any], self._head[name])
@@ -206,10 +207,10 @@ class BaseRun:
         >>> snapload.Case(f_o=0.31).run().exponents["direction"].tolist()
         [1, 2, 3, 4, 5, 6]
         """
-        told = self.trust.exponents if self._trusted else ()
-        values = np.array([-np.inf if exponent is None else exponent for exponent in told], dtype=np.float64)
+        exponents = self.trust.exponents if self._trusted else ()
+        values = np.array([-np.inf if exponent is None else exponent for exponent in exponents], dtype=np.float64)
         directions = np.arange(1, len(values) + 1)
-        return Table._of(
+        return Table._from_columns(
             [
                 ("direction", "", "number of the direction, the one that grows most first", directions),
                 ("exponent", "1/T", "finite-time Lyapunov exponent", values),
@@ -402,19 +403,19 @@ class BaseRun:
         return Animation(self, start=start, stop=stop, seconds=seconds, fps=fps)
 
     def __str__(self) -> str:
-        return self._words[0]
+        return self._summary[0]
 
     @property
-    def _words(self) -> tuple[str, list[tuple[str, str]]]:
+    def _summary(self) -> tuple[str, list[tuple[str, str]]]:
         """The summary as one text, and as pairs of label and text."""
         raise NotImplementedError
 
-    def _in_short(self, of: str) -> str:
+    def _short_repr(self, of: str) -> str:
         return f"<Run of {of}: {self.end.reason} at t = {self.end.t:.4f}, {len(self.impacts)} impacts>"
 
     def _repr_html_(self) -> str:
         rows = []
-        for label, text in self._words[1]:
+        for label, text in self._summary[1]:
             lines = escape(text).replace("\n", "<br>")
             rows.append(
                 f"<tr><th style='text-align:left;vertical-align:top'>{label}</th>"

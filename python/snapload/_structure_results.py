@@ -12,31 +12,31 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from . import _engine
-from ._later import Later
-from ._si import about, motion_of, rows_of
+from ._lazy_import import LazyModule
+from ._structure_datasets import attributes_of, motion_dataset, rows_dataset
 
 if TYPE_CHECKING:
     import xarray
 else:
-    xarray = Later("xarray")
+    xarray = LazyModule("xarray")
 
 
-class _Answer:
+class _StructureResult:
     """The common part of all results."""
 
-    def __init__(self, data: dict[str, Any], told: str) -> None:
+    def __init__(self, data: dict[str, Any], summary: str) -> None:
         #: Everything that the command writes as JSON. Each key ends in the SI unit of its value.
         self.data = data
-        self._told = told
+        self._summary = summary
 
     def __str__(self) -> str:
-        return self._told
+        return self._summary
 
     def _repr_html_(self) -> str:
-        return f"<pre>{escape(self._told)}</pre>"
+        return f"<pre>{escape(self._summary)}</pre>"
 
 
-class Assessment(_Answer):
+class Assessment(_StructureResult):
     """The response of a structure to one regular wave or one record of a sea.
 
     Attributes
@@ -112,7 +112,7 @@ class Assessment(_Answer):
         >>> lines["held_tension_n"].attrs["units"], lines["line"].values.tolist()
         ('N', [1, 2])
         """
-        return rows_of(self.data["lines"], "line", "line")
+        return rows_dataset(self.data["lines"], "line", "line")
 
     @property
     def snaps(self) -> xarray.Dataset:
@@ -129,7 +129,7 @@ class Assessment(_Answer):
         >>> snaps["impulse_n_s"].attrs["units"]
         'N s'
         """
-        return rows_of(self.data["snaps"], "snap")
+        return rows_dataset(self.data["snaps"], "snap")
 
     @property
     def checks(self) -> xarray.Dataset:
@@ -146,7 +146,7 @@ class Assessment(_Answer):
         >>> structure.assess(neighbours=0).checks["answer"].values.tolist()
         ['fails', 'fails']
         """
-        return rows_of(self.data["checks"], "check")
+        return rows_dataset(self.data["checks"], "check")
 
     def motion(self, times: ArrayLike) -> xarray.Dataset:
         """Return position, rotation and tensions at given times.
@@ -176,7 +176,7 @@ class Assessment(_Answer):
         values = np.asarray(times, dtype=np.float64)
         if values.ndim != 1 or not np.isfinite(values).all():
             raise ValueError("times is not allowed; allowed: one row of finite numbers")
-        return motion_of(self._engine.motion(values.tolist()))
+        return motion_dataset(self._engine.motion(values.tolist()))
 
     def to_html(self, path: str | PathLike[str]) -> None:
         """Write the results as an HTML page for a design note.
@@ -203,7 +203,7 @@ class Assessment(_Answer):
         return f"<Assessment: {self.standing}>"
 
 
-class Seas(_Answer):
+class Seas(_StructureResult):
     """The response of a structure to many records of a sea.
 
     Attributes
@@ -224,9 +224,9 @@ class Seas(_Answer):
     4
     """
 
-    def __init__(self, found: tuple[str, str, str]) -> None:
-        text, told, self._page = found
-        super().__init__(json.loads(text), told)
+    def __init__(self, engine_results: tuple[str, str, str]) -> None:
+        text, summary, self._page = engine_results
+        super().__init__(json.loads(text), summary)
 
     @property
     def words(self) -> str:
@@ -262,7 +262,7 @@ class Seas(_Answer):
         >>> seas.checks["passing"].values.tolist()
         [0, 0]
         """
-        return rows_of(self.data["checks"], "check")
+        return rows_dataset(self.data["checks"], "check")
 
     @property
     def largest_tensions_n(self) -> xarray.DataArray:
@@ -281,7 +281,9 @@ class Seas(_Answer):
         'N'
         """
         values = np.array(self.data["largest_tensions_n"] or [], dtype=np.float64)
-        return xarray.DataArray(values, dims="record", name="largest_tensions_n", attrs=about("largest_tensions_n"))
+        return xarray.DataArray(
+            values, dims="record", name="largest_tensions_n", attrs=attributes_of("largest_tensions_n")
+        )
 
     def to_html(self, path: str | PathLike[str]) -> None:
         """Write the results as an HTML page.
@@ -309,7 +311,7 @@ class Seas(_Answer):
         return f"<Seas: {self.data['records']} records>"
 
 
-class Elastic(_Answer):
+class Elastic(_StructureResult):
     """A structure with elastic lines, compared with the same structure with inextensible lines.
 
     Attributes
@@ -380,7 +382,7 @@ class Elastic(_Answer):
         >>> structure.elastic().checks["answer"].values.tolist()
         ['fails', 'fails']
         """
-        return rows_of(self.data["checks"], "check")
+        return rows_dataset(self.data["checks"], "check")
 
     @property
     def lines(self) -> xarray.Dataset:
@@ -397,7 +399,7 @@ class Elastic(_Answer):
         >>> both.lines["line"].values.tolist()
         [1, 2]
         """
-        return rows_of(self.data["lines"], "line", "line")
+        return rows_dataset(self.data["lines"], "line", "line")
 
     @property
     def pulls(self) -> xarray.Dataset:
@@ -414,7 +416,7 @@ class Elastic(_Answer):
         >>> both.pulls["peak_n"].dims
         ('pull',)
         """
-        return rows_of(self.data["pulls"], "pull")
+        return rows_dataset(self.data["pulls"], "pull")
 
     @property
     def motion(self) -> xarray.Dataset:
@@ -431,7 +433,7 @@ class Elastic(_Answer):
         >>> sorted(both.motion.data_vars)
         ['tension_n', 'theta_rad', 'x_m', 'z_m']
         """
-        return motion_of(self._engine.motion())
+        return motion_dataset(self._engine.motion())
 
     def __repr__(self) -> str:
         return f"<Elastic: {len(self.data['pulls'])} pulls>"

@@ -6,7 +6,7 @@ from collections.abc import Iterable
 from dataclasses import dataclass
 from typing import Any, SupportsFloat, TypeAlias
 
-from ._check import number
+from ._arguments import number
 
 #: A point or vector of the plane.
 Pair: TypeAlias = tuple[float, float]
@@ -34,7 +34,7 @@ def pair(name: str, value: Any) -> Pair:
     return within(f"{name}: x", x), within(f"{name}: y", y)
 
 
-def several(name: str, values: Any, kind: type, most: int | None = None) -> tuple[Any, ...]:
+def tuple_of_parts(name: str, values: Any, kind: type, most: int | None = None) -> tuple[Any, ...]:
     """A tuple of parts of one kind."""
     one = f"snapload.{kind.__name__}"
     given = tuple(values) if isinstance(values, Iterable) else (values,)
@@ -93,17 +93,17 @@ class Body:
     half_size: Pair | None = None
 
     def __post_init__(self) -> None:
-        put(self, mass=within("mass", self.mass, 0.0, above=True))
+        set_fields(self, mass=within("mass", self.mass, 0.0, above=True))
         if self.inertia is not None:
-            put(self, inertia=within("inertia", self.inertia, 0.0, above=True))
+            set_fields(self, inertia=within("inertia", self.inertia, 0.0, above=True))
         if self.radius is not None:
-            put(self, radius=within("radius", self.radius, 0.0))
+            set_fields(self, radius=within("radius", self.radius, 0.0))
         if self.half_size is not None:
             half_size = pair("half_size", self.half_size)
             if min(half_size) <= 0 or self.radius is not None:
                 allowed = "two numbers above 0, and no radius beside them"
                 raise ValueError(f"half_size = {self.half_size!r} is not allowed; allowed: {allowed}")
-            put(self, half_size=half_size)
+            set_fields(self, half_size=half_size)
         if self.inertia is None and (self.radius or self.half_size):
             raise ValueError(
                 "inertia = None is not allowed for a body with a size: None is a point mass; give its moment of inertia"
@@ -145,7 +145,7 @@ class Cable:
 
     def __post_init__(self) -> None:
         length = within("length", self.length, 0.0, above=True)
-        put(self, anchor=pair("anchor", self.anchor), length=length, fairlead=pair("fairlead", self.fairlead))
+        set_fields(self, anchor=pair("anchor", self.anchor), length=length, fairlead=pair("fairlead", self.fairlead))
 
 
 @dataclass(frozen=True)
@@ -185,8 +185,8 @@ class Sinusoid:
 
     def __post_init__(self) -> None:
         phase = self.phase if isinstance(self.phase, Iterable) else (self.phase, self.phase)
-        put(self, amplitude=pair("amplitude", self.amplitude), omega=within("omega", self.omega))
-        put(self, phase=pair("phase", phase))
+        set_fields(self, amplitude=pair("amplitude", self.amplitude), omega=within("omega", self.omega))
+        set_fields(self, phase=pair("phase", phase))
 
 
 @dataclass(frozen=True)
@@ -220,11 +220,11 @@ class Forcing:
     sinusoids: tuple[Sinusoid, ...] | list[Sinusoid] = ()
 
     def __post_init__(self) -> None:
-        put(self, constant=pair("constant", self.constant))
-        put(self, sinusoids=several("sinusoids", self.sinusoids, Sinusoid))
+        set_fields(self, constant=pair("constant", self.constant))
+        set_fields(self, sinusoids=tuple_of_parts("sinusoids", self.sinusoids, Sinusoid))
 
 
-def put(part: object, **values: object) -> None:
+def set_fields(part: object, **values: object) -> None:
     """Sets checked values of a part, which can not be changed later."""
     for name, value in values.items():
         object.__setattr__(part, name, value)

@@ -15,7 +15,7 @@ if TYPE_CHECKING:
 Uncertainty: TypeAlias = float | Mapping[str, float] | None
 
 
-def engine_of(case: Case) -> _engine.Case:
+def engine_case(case: Case) -> _engine.Case:
     """The engine's case of an argument that has to be a case."""
     from ._case import Case
 
@@ -28,17 +28,17 @@ def engine_of(case: Case) -> _engine.Case:
     raise TypeError(f"case = {case!r} is not allowed; allowed: a snapload.Case, such as snapload.Case(f_o=0.31)")
 
 
-def whole(option: str, value: SupportsIndex, most: int | None = None) -> int:
+def whole_number(option: str, value: SupportsIndex, most: int | None = None) -> int:
     """A whole number that is allowed for an option, which the engine identifies by name."""
     return _engine.whole(option, value, most)
 
 
-def threads_for(asked: SupportsIndex, callers: int) -> int:
+def threads_for(requested: SupportsIndex, callers: int) -> int:
     """The requested number of threads, limited to a few for each thread that the machine runs at a time.
 
     If it is reduced, there is a warning at the code that called the package through `callers` functions.
     """
-    threads, fewer = _engine.threads_for(number := whole("threads", asked))
+    threads, fewer = _engine.threads_for(number := whole_number("threads", requested))
     if fewer:
         warnings.warn(f"threads={number}: {fewer}", stacklevel=2 + callers)
     return threads
@@ -54,7 +54,7 @@ def number(name: str, value: SupportsFloat) -> float:
     raise ValueError(f"{name} = {value!r} is not allowed; allowed: a number")
 
 
-def plain(uncertainty: Uncertainty) -> dict[str, float] | float | None:
+def uncertainty_for_engine(uncertainty: Uncertainty) -> dict[str, float] | float | None:
     """An uncertainty in the form that the engine expects."""
     if uncertainty is None:
         return None
@@ -67,7 +67,7 @@ def plain(uncertainty: Uncertainty) -> dict[str, float] | float | None:
         raise ValueError(f"uncertainty = {uncertainty!r} is not allowed; allowed: {allowed}") from None
 
 
-def there(path: str) -> str:
+def existing_file(path: str) -> str:
     """A file that can be opened; otherwise Python's own error is raised, such as ``FileNotFoundError``."""
     with open(path, "rb"):
         return path

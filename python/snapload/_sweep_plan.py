@@ -13,22 +13,22 @@ from typing import Any
 from weakref import finalize
 
 from . import _engine
-from ._axes import listed, side, table_of
+from ._arguments import engine_case, existing_file, whole_number
+from ._axes import axis_values, cases_csv, range_ends
 from ._case import Case
-from ._check import engine_of, there, whole
 
 
 @dataclass(frozen=True)
-class Plan:
+class SweepPlan:
     """A case, and a grid, a box with random points in it, or a table of cases."""
 
     case: Case
     trust: bool
     #: Sides of a box or axes of a grid.
     axes: list[tuple[str, Any]] = field(default_factory=list)
-    #: How many points in the box, and which.
+    #: Number of random points in the box, and their seed.
     random: tuple[int, int] | None = None
-    #: Name and contents of the file with a row a case, and what errors call it.
+    #: Name and contents of the file with one case per row, and its name in errors.
     table: tuple[str, bytes, str] | None = None
 
     @cached_property
@@ -37,12 +37,12 @@ class Plan:
         case = self.case._engine
         if self.table is not None:
             # The file is read while the study runs.
-            room = tempfile.mkdtemp(prefix="snapload-")
-            finalize(self, rmtree, room, ignore_errors=True)
-            name, contents, called = self.table
-            path = Path(room) / name
-            path.write_bytes(contents)
-            return _engine.Study.listed(case, path, called, self.trust)
+            folder = tempfile.mkdtemp(prefix="snapload-")
+            finalize(self, rmtree, folder, ignore_errors=True)
+            name, contents, display_name = self.table
+            file = Path(folder) / name
+            file.write_bytes(contents)
+            return _engine.Study.listed(case, file, display_name, self.trust)
         if self.random is not None:
             return _engine.Study.random(case, self.axes, *self.random, self.trust)
         return _engine.Study.grid(case, self.axes, self.trust)
@@ -51,19 +51,21 @@ class Plan:
         return {name: value for name, value in self.__dict__.items() if name != "study"}
 
 
-def plan(case: Case, trust: bool, axes: Mapping[str, Any], random: int | None, seed: int | None, cases: Any) -> Plan:
+def make_plan(
+    case: Case, trust: bool, axes: Mapping[str, Any], random: int | None, seed: int | None, cases: Any
+) -> SweepPlan:
     """The plan of a call of ``sweep``, after checks."""
-    engine_of(case)
+    engine_case(case)
     if cases is not None:
         if axes or random is not None:
             raise ValueError("cases determines what varies; leave out random, seed and the values of keys, or cases")
         if isinstance(cases, (str, PathLike)):
-            path = Path(there(fspath(cases)))
-            return Plan(case, trust, table=(path.name, path.read_bytes(), str(path)))
-        return Plan(case, trust, table=("cases.csv", table_of(cases), "the list of cases"))
+            path = Path(existing_file(fspath(cases)))
+            return SweepPlan(case, trust, table=(path.name, path.read_bytes(), str(path)))
+        return SweepPlan(case, trust, table=("cases.csv", cases_csv(cases), "the list of cases"))
     if random is None:
         if seed is not None:
             raise ValueError(f"seed = {seed!r} selects random points, and there are none; add random, or leave it out")
-        return Plan(case, trust, [(key, listed(key, values)) for key, values in axes.items()])
-    points = whole("random", random), whole("seed", 0 if seed is None else seed)
-    return Plan(case, trust, [(key, side(key, ends)) for key, ends in axes.items()], random=points)
+        return SweepPlan(case, trust, [(key, axis_values(key, values)) for key, values in axes.items()])
+    points = whole_number("random", random), whole_number("seed", 0 if seed is None else seed)
+    return SweepPlan(case, trust, [(key, range_ends(key, ends)) for key, ends in axes.items()], random=points)

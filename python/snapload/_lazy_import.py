@@ -6,7 +6,7 @@ from importlib import import_module
 from typing import Any
 
 
-class Later:
+class LazyModule:
     """A placeholder for a module.
 
     Annotations name types of libraries that the package does not load by itself. With this placeholder

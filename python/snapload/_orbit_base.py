@@ -12,26 +12,26 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from . import _engine
-from ._check import number, whole
-from ._later import Later
+from ._arguments import number, whole_number
+from ._lazy_import import LazyModule
 from ._table import Table
 
 if TYPE_CHECKING:
     import matplotlib.axes
 else:
-    matplotlib = Later("matplotlib")
+    matplotlib = LazyModule("matplotlib")
 
 #: The values of the state, in the order of the engine.
 STATE = ("x", "y", "theta", "vx", "vy", "vtheta")
 
-#: What multipliers say: true, false, or a word.
+#: Stability by the multipliers: true, false, or a word.
 Stability: TypeAlias = bool | Literal["neutral", "superstable"]
 
 #: Some values of the state, or all six of them.
 Start: TypeAlias = Mapping[str, float] | ArrayLike
 
-#: What an orbit was asked for: periods, cables, time of the section.
-Wanted: TypeAlias = tuple[int | None, list[int] | None, float]
+#: The options of a search for an orbit: periods, cables, time of the section.
+OrbitOptions: TypeAlias = tuple[int | None, list[int] | None, float]
 
 
 #: The number of events of an orbit that are shown in a line.
@@ -112,51 +112,51 @@ class BaseOrbit:
     A derived class has the case or system of the orbit, and computes the orbit again if necessary.
     """
 
-    #: Whether it is told in the scales L, m, F and T, and not in units of one's own.
-    _in_scales = True
+    #: Whether quantities are in the scales L, m, F and T, and not in units of the user.
+    _nondimensional = True
 
-    def __init__(self, engine: _engine.Orbit | None, told: dict[str, Any] | None = None) -> None:
-        self._made = engine
-        if told is None:
+    def __init__(self, engine: _engine.Orbit | None, data: dict[str, Any] | None = None) -> None:
+        self._engine_object = engine
+        if data is None:
             assert engine is not None
-            told = json.loads(engine.json()) | {"attracts": engine.attracts(), "words": engine.summary().rstrip("\n")}
-        self._told: dict[str, Any] = told
-        self.state: NDArray[np.float64] = np.array(told["section"]["state"])
-        self.phase: float = told["section"]["phase"]
-        self.periods: int = told["period"]["forcing_periods"]
-        self.smallest_periods: int = told["period"]["smallest"]
-        self.period: float = told["period"]["t"]
-        self.symbol: tuple[str, ...] = tuple(told["symbol"])
-        self.multipliers: NDArray[np.complex128] = complexes(told["multipliers"])
-        self.zeros_from_contact: int = told["zeros_from_contact"]
-        self.exponents: NDArray[np.float64] = np.array([-np.inf if e is None else e for e in told["exponents"]])
-        self.stable: Stability = told["stable"]
-        self.attracts: bool = told["attracts"]
-        self.product: float = told["product"]["value"]
-        self.product_rule: float | None = told["product"]["rule"]
-        about = told["admissible"]
-        self.admissible = Admissible(**{**about, "why_not": tuple(about["why_not"])})
-        self.return_error: float | None = told["return_error"]
-        self.error_bound: float | None = told["error_bound"]
-        self.proved: bool = told["proved"]
-        self.proof: dict[str, Any] | None = told.get("proof")
-        self.modes: tuple[dict[str, Any], ...] = tuple(told["modes"])
-        self.events = _events(told["events"])
+            data = json.loads(engine.json()) | {"attracts": engine.attracts(), "words": engine.summary().rstrip("\n")}
+        self._data: dict[str, Any] = data
+        self.state: NDArray[np.float64] = np.array(data["section"]["state"])
+        self.phase: float = data["section"]["phase"]
+        self.periods: int = data["period"]["forcing_periods"]
+        self.smallest_periods: int = data["period"]["smallest"]
+        self.period: float = data["period"]["t"]
+        self.symbol: tuple[str, ...] = tuple(data["symbol"])
+        self.multipliers: NDArray[np.complex128] = complex_array(data["multipliers"])
+        self.zeros_from_contact: int = data["zeros_from_contact"]
+        self.exponents: NDArray[np.float64] = np.array([-np.inf if e is None else e for e in data["exponents"]])
+        self.stable: Stability = data["stable"]
+        self.attracts: bool = data["attracts"]
+        self.product: float = data["product"]["value"]
+        self.product_rule: float | None = data["product"]["rule"]
+        admissible = data["admissible"]
+        self.admissible = Admissible(**{**admissible, "why_not": tuple(admissible["why_not"])})
+        self.return_error: float | None = data["return_error"]
+        self.error_bound: float | None = data["error_bound"]
+        self.proved: bool = data["proved"]
+        self.proof: dict[str, Any] | None = data.get("proof")
+        self.modes: tuple[dict[str, Any], ...] = tuple(data["modes"])
+        self.events = _events(data["events"])
 
-    def _again(self) -> tuple[_engine.Orbit | None, str]:
+    def _recompute(self) -> tuple[_engine.Orbit | None, str]:
         """Computes the orbit again from its own state."""
         raise NotImplementedError
 
     @property
-    def _wanted(self) -> Wanted:
-        return self.periods, [row["cable"] for row in self._told["events"] if row["kind"] == "snap"], self.phase
+    def _options(self) -> OrbitOptions:
+        return self.periods, [row["cable"] for row in self._data["events"] if row["kind"] == "snap"], self.phase
 
     @property
     def _engine(self) -> _engine.Orbit:
         """The orbit of the engine. It does not travel to other processes, where it is computed again."""
-        if self._made is None:
-            self._made = orbit_or_error(*self._again())
-        return self._made
+        if self._engine_object is None:
+            self._engine_object = orbit_or_error(*self._recompute())
+        return self._engine_object
 
     def curve(self, pieces: int = 400) -> np.recarray[Any, Any]:
         """Compute one period of the orbit from its sequence of events, admissible or not.
@@ -184,7 +184,7 @@ class BaseOrbit:
         >>> int(lap.leg[-1]), bool(abs(lap.x[-1] - lap.x[0]) < 1e-12)
         (2, True)
         """
-        data = self._engine.curve(whole("pieces", pieces))
+        data = self._engine.curve(whole_number("pieces", pieces))
         names = ("leg", "taut", "t", *STATE)
         rows = np.frombuffer(data, dtype=np.float64).reshape(-1, len(names))
         kinds = [(name, "i8" if name in ("leg", "taut") else "f8") for name in names]
@@ -236,31 +236,31 @@ class BaseOrbit:
     def __eq__(self, other: object) -> bool:
         if type(self) is not type(other) or not isinstance(other, BaseOrbit):
             return NotImplemented
-        return self._of() == other._of() and self._told == other._told
+        return self._case_or_system() == other._case_or_system() and self._data == other._data
 
     __hash__ = None  # type: ignore[assignment]
 
-    def _of(self) -> object:
+    def _case_or_system(self) -> object:
         """The case or system of the orbit."""
         raise NotImplementedError
 
     def __str__(self) -> str:
-        words: str = self._told["words"]
-        return words
+        text: str = self._data["words"]
+        return text
 
     def __repr__(self) -> str:
-        words = self.stable if isinstance(self.stable, str) else "stable" if self.stable else "unstable"
-        laps = "1 period" if self.periods == 1 else f"{self.periods} periods"
+        stability = self.stable if isinstance(self.stable, str) else "stable" if self.stable else "unstable"
+        duration = "1 period" if self.periods == 1 else f"{self.periods} periods"
         symbol = ", ".join(self.symbol[:_SHOWN]) or "no events"
         if len(self.symbol) > _SHOWN:
             symbol += f", ... ({len(self.symbol)} events)"
-        return f"<Orbit: {words}{'' if self.admissible else ', not admissible'}, {laps}, {symbol}>"
+        return f"<Orbit: {stability}{'' if self.admissible else ', not admissible'}, {duration}, {symbol}>"
 
     def _repr_html_(self) -> str:
         return f"<pre>{escape(str(self))}</pre>"
 
 
-def complexes(pairs: Iterable[tuple[float, float]]) -> NDArray[np.complex128]:
+def complex_array(pairs: Iterable[tuple[float, float]]) -> NDArray[np.complex128]:
     """Pairs of real and imaginary parts as complex numbers."""
     return np.array([complex(*pair) for pair in pairs], dtype=np.complex128)
 
@@ -272,7 +272,7 @@ def orbit_or_error(orbit: _engine.Orbit | None, why: str) -> _engine.Orbit:
     return orbit
 
 
-def start_of(start: Start) -> dict[str, Any]:
+def start_values(start: Start) -> dict[str, Any]:
     """A start as a dict of its keys."""
     if isinstance(start, Mapping):
         return {str(key): value for key, value in start.items()}
@@ -283,28 +283,30 @@ def start_of(start: Start) -> dict[str, Any]:
     return dict(zip(STATE, values.tolist(), strict=True))
 
 
-def wanted(periods: int | None, symbol: Iterable[int | str] | None, phase: float, cables: int = 2) -> Wanted:
+def orbit_options(
+    periods: int | None, symbol: Iterable[int | str] | None, phase: float, cables: int = 2
+) -> OrbitOptions:
     """The options of a search, with those checks that the engine does not make."""
     if periods is not None:
-        periods = whole("orbit.periods", periods)
+        periods = whole_number("orbit.periods", periods)
     if symbol is None:
         return periods, None, number("phase", phase)
-    struck = []
-    words = symbol.split(",") if isinstance(symbol, str) else symbol
-    for word in words:
+    snapping = []
+    entries = symbol.split(",") if isinstance(symbol, str) else symbol
+    for entry in entries:
         # In the form of an orbit's own symbol: which cables stick and release follows from the snaps.
-        if isinstance(word, str) and word.strip().split(" ")[0] in ("stick", "release", "none", ""):
+        if isinstance(entry, str) and entry.strip().split(" ")[0] in ("stick", "release", "none", ""):
             continue
-        cable = int(word) if isinstance(word, str) and word.strip().isdigit() else word
-        struck.append(whole("symbol", cable, cables))  # type: ignore[arg-type]
-    return periods, struck, number("phase", phase)
+        cable = int(entry) if isinstance(entry, str) and entry.strip().isdigit() else entry
+        snapping.append(whole_number("symbol", cable, cables))  # type: ignore[arg-type]
+    return periods, snapping, number("phase", phase)
 
 
 def _events(rows: list[dict[str, Any]]) -> Table:
     def column(name: str, dtype: Any = np.float64) -> NDArray[Any]:
         return np.array([row[name] for row in rows], dtype=dtype)
 
-    return Table._of(
+    return Table._from_columns(
         [
             ("t", "T", "time", column("t")),
             ("kind", "", "snap, stick or release", column("kind", object)),
