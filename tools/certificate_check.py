@@ -279,7 +279,7 @@ def check(source):
         text = source.read_text(encoding="utf-8") if isinstance(source, Path) else source
         certificate = json.loads(text, object_pairs_hook=lambda pairs: dict(pairs) if len(dict(pairs)) == len(pairs) else None)
         if not well_formed(certificate):
-            raise CheckFailure(3, "not of format 1 (format 2, of taut motion, is not supported here)")
+            raise CheckFailure(3, "not a well-formed certificate of format 1 (format 2, of taut motion, is not supported)")
         bits = ctx.prec = certificate["bits"]
         while True:
             try:

@@ -138,14 +138,14 @@ class Branch:
         texts: dict[str, tuple[list[str], str]] = {
             "stability": (stability_names, "stable, unstable, neutral or superstable"),
             "symbol": ([" ".join(row["symbol"]) for row in rows], "the events in their order"),
-            "why_not": (["; ".join(row["why_not"]) for row in rows], "why it is not a possible motion"),
+            "why_not": (["; ".join(row["why_not"]) for row in rows], "why the orbit is not admissible"),
         }
         variables |= {
             "multipliers": (("point", "multiplier"), multipliers, {"long_name": "Floquet multipliers"}),
             "largest_multiplier": ("point", np.abs(multipliers).max(axis=1), {"long_name": "largest |multiplier|"}),
             "stable": ("point", np.isin(stability, ("stable", "superstable")), {"long_name": "neighbours converge"}),
-            "admissible": ("point", column("admissible", bool), {"long_name": "possible motion of the body"}),
-            "return_error": ("point", column("return_error", np.float64), {"long_name": "error of a simulated cycle"}),
+            "admissible": ("point", column("admissible", bool), {"long_name": "whether the orbit is admissible"}),
+            "return_error": ("point", column("return_error", np.float64), {"long_name": "error of a simulated lap"}),
         }
         variables |= {
             name: ("point", np.array(values, dtype=object), {"long_name": meaning})

@@ -29,7 +29,7 @@ def events_table(rows: list[dict[str, Any]]) -> Table:
             ("arclength", "1", "length along the branch", column("arclength")),
             *((name, MOTION_SCALES[name], f"{name} at the section", states[:, k]) for k, name in enumerate(STATE)),
             ("cable", "", "number of the cable, 0 for none", whole_numbers["cable"]),
-            ("t", "T", "time in the cycle", column("t")),
+            ("t", "T", "time in the lap", column("t")),
             (
                 "normal_acceleration",
                 "L/T^2",
@@ -43,6 +43,6 @@ def events_table(rows: list[dict[str, Any]]) -> Table:
                 column("sqrt_coefficient"),
             ),
             ("largest_multiplier", "1", "largest |multiplier|", np.array(largest, dtype=np.float64)),
-            ("admissible", "", "whether it is a possible motion of the body", whole_numbers["admissible"]),
+            ("admissible", "", "whether the orbit is admissible", whole_numbers["admissible"]),
         ]
     )

@@ -52,7 +52,7 @@ class NoOrbitError(ValueError):
     ...     snapload.Case(f_o=0.5).orbit()
     ... except snapload.NoOrbitError as error:
     ...     print(str(error)[:55])
-    no orbit was found: the motion of this start stops at t
+    no orbit was found: the motion from this start stops at t
     """
 
 

@@ -175,7 +175,7 @@ class Assessment(_StructureResult):
         """
         values = np.asarray(times, dtype=np.float64)
         if values.ndim != 1 or not np.isfinite(values).all():
-            raise ValueError("times is not allowed; allowed: one row of finite numbers")
+            raise ValueError("these times are not allowed; allowed: one row of finite numbers")
         return motion_dataset(self._engine.motion(values.tolist()))
 
     def to_html(self, path: str | PathLike[str]) -> None:

@@ -168,7 +168,7 @@ def test_a_missing_orbit_is_explained(command):
     with pytest.raises(snapload.NoOrbitError) as error:
         snapload.Case(f_o=0.5).orbit()
     message = str(error.value)
-    assert message.startswith("no orbit was found: the motion of this start stops at t = 10.02")
+    assert message.startswith("no orbit was found: the motion from this start stops at t = 10.02")
     assert "start={...}" in message and "snapload.find_orbits" in message and "--" not in message
     by_command = command("orbit", "--set", "f_o=0.5", fails=True)
     assert re.sub(r";.*", "", message) in by_command

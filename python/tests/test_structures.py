@@ -50,7 +50,7 @@ def test_motion_and_snaps_have_units() -> None:
 
 def test_what_is_not_judged_has_no_numbers() -> None:
     answer = snapload.Structure.example().replace({"wave.height": 12}).assess(neighbours=0)
-    assert answer.standing == "exceeds" and "before 60 s, when judging begins" in answer.verdict
+    assert answer.standing == "exceeds" and "before 60 s, the start of the judged time" in answer.verdict
     for name in ("snaps", "fastest_snap_m_s", "held_tension_n", "slack_fraction", "utilisation"):
         assert np.isnan(answer.lines[name].values.astype(float)).all(), name
 

@@ -107,7 +107,7 @@ fn shape(certificate: &Written) -> Result<ExactCase, String> {
         (None, None) if end.reason == UNDECIDED => {}
         _ => {
             return Err(format!(
-                "an end with the reason {:?} is not allowed, or its t and state are not",
+                "an end with the reason {:?} is not allowed, or it has t and state where it must not, or lacks them",
                 end.reason
             ));
         }

@@ -74,9 +74,11 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
     let fit = &report.fit;
     let from = args.from;
     if from == [0.0; 3] || from.iter().any(|q| !q.is_finite()) {
-        return Err(Failure::bad_input(
-            "--from: release the body from a finite displacement that is not 0,0,0",
-        ));
+        let [surge, heave, pitch] = from;
+        return Err(Failure::bad_input(format!(
+            "--from = {surge},{heave},{pitch} is not allowed; allowed: three finite numbers, not all of them 0, such \
+             as 0,1,0"
+        )));
     }
     let motion = decay(
         &floating.body,

@@ -214,7 +214,7 @@ fn in_words(args: &Args, found: &Found, start: Option<Point>) -> String {
     if let Some(left) = orbits.len().checked_sub(TOLD).filter(|left| *left > 0) {
         let _ = writeln!(
             text,
-            "More      {left} orbits, which --json FILE or --out FILE writes"
+            "More      {left}, which --json FILE or --out FILE writes"
         );
     }
     if let Some(far) = start.and_then(|start| orbits.first()?.far_from(&start)) {

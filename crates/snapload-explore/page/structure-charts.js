@@ -101,7 +101,7 @@ function drawTensions(context, frame, run, { colours }) {
 /** Everything there is to say of a snap, in a line. */
 export function snapWords(run, i) {
   const { t, line: lines, speed, peak, utilisation, jolt } = run.snaps;
-  const what = jolt[i] ? "impact on taut" : "snap of";
+  const what = jolt[i] ? "impact while taut of" : "snap of";
   const pulls = peak[i] === null ? "" : ` · about ${round(peak[i])} kN`;
   const part = utilisation[i] === null ? "" : `, ${fixed(utilisation[i], 2)} of the breaking load`;
   return `${what} line ${lines[i]}${pulls}${part} · ${number(speed[i], 3)} m/s · t ${fixed(t[i], 2)} s`;

@@ -142,7 +142,8 @@ export class StructureRun {
 
   /** How many snaps of 1 cm/s or more there are, and whether impacts of taut lines are among them. */
   get snapsInWords() {
-    return `${this.snaps.all} ${this.snaps.jolt.includes(true) ? "snaps and impacts while taut" : "snaps"}`;
+    if (this.snaps.jolt.includes(true)) return `${this.snaps.all} snaps and impacts while taut`;
+    return `${this.snaps.all} ${this.snaps.all === 1 ? "snap" : "snaps"}`;
   }
 
   /** What keys come to that the case leaves out, as far as the answer tells. */

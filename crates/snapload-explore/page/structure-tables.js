@@ -59,8 +59,8 @@ export function showLines(run) {
   const nothing = run.lines.every(({ snaps }) => snaps === null) ? ", so that nothing is judged" : "";
   $("lines-words").textContent =
     `${named}The run ${end.reason}, ${round(end.t_s)} s; judged from ${round(run.transient_s)} s on${nothing}. While taut: the ` +
-    "largest tension as long as a line stays taut; snap peak: estimated; slack: part of the time. Utilisation: the larger of the two " +
-    "over the breaking load; the safety factor is its inverse, and includes no factor of any rule." +
+    "largest tension as long as a line stays taut; snap peak: estimated; slack: part of the time. Utilisation: the larger of " +
+    "these two tensions over the breaking load; the safety factor is its inverse, and includes no factor of any rule." +
     (elastic ? " Elastic: the same with elastic lines, as computed by snapload elastic." : "");
 }
 

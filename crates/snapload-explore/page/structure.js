@@ -270,7 +270,7 @@ class Page {
       return `<span style="color:${lineColour(paints, line)}">${mark} line ${line}</span>`;
     });
     const loads = breakingLoads(this.run).map((load) => `<span class="breaking">breaks at ${round(load, 4)} kN</span>`);
-    const stretch = this.run.elasticAt ? [`<span class="ghost-edge edge">on elastic lines</span>`] : [];
+    const stretch = this.run.elasticAt ? [`<span class="ghost-edge edge">with elastic lines</span>`] : [];
     $("legend").innerHTML = [...lines, ...loads, ...stretch].join(" ");
   }
 

@@ -15,7 +15,7 @@ use std::time::Duration;
 /// The time budget of a run's neighbours.
 const BUDGET: Duration = Duration::from_secs(20);
 /// What is said where that is used up.
-const TOO_SLOW: &str = "its neighbours take longer than the page waits";
+const TOO_SLOW: &str = "the neighbours of this run take longer than the page waits";
 /// The most impacts in a table; larger tables are left to the command line.
 const MOST_WRITTEN: usize = 100_000;
 /// The same for a picture: a path that covers the whole plane takes minutes to draw.

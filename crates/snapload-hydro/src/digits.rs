@@ -50,9 +50,20 @@ pub fn tenths(value: &f64) -> String {
     ((unit * value).round() / unit).to_string()
 }
 
+/// A number of things, such as `1 snap` or `2 snaps`.
+pub fn count(number: u64, noun: &str) -> String {
+    let plural = if number == 1 { "" } else { "s" };
+    format!("{number} {noun}{plural}")
+}
+
 #[cfg(test)]
 mod tests {
-    use super::{decimals, digits, kilo, tenths};
+    use super::{count, decimals, digits, kilo, tenths};
+
+    #[test]
+    fn one_thing_has_no_plural() {
+        assert_eq!([0, 1, 2].map(|n| count(n, "snap")), ["0 snaps", "1 snap", "2 snaps"]);
+    }
 
     #[test]
     fn rounding_leaves_no_sign_and_no_endless_digits() {

@@ -36,7 +36,7 @@ pub fn of_attractor(
     if let Some(stop) = section.stop {
         let t = section.end.1;
         return Ok(Err(NoOrbit(format!(
-            "the motion of this start stops at t = {t:.4}: {}; give a state near an orbit with \
+            "the motion from this start stops at t = {t:.4}: {}; give a state near an orbit with \
              --start, or search for unstable orbits with --find N",
             stop.meaning()
         ))));
@@ -45,7 +45,7 @@ pub fn of_attractor(
         let largest = section.exponents.first().copied();
         let exponent = exponent_in_words(largest.unwrap_or([f64::NAN; 2]));
         return Ok(Err(NoOrbit(format!(
-            "the motion of this start repeats itself after no number of periods of the forcing up to \
+            "the motion from this start repeats itself after no number of periods of the forcing up to \
              {LONGEST_PERIOD}, judged by {ATTRACTOR_PERIODS} of them (largest Lyapunov exponent \
              {exponent}); search for unstable orbits with --find N, or look at snapload section"
         ))));
@@ -55,7 +55,7 @@ pub fn of_attractor(
         .is_some_and(|periods| period as u32 != periods)
     {
         return Ok(Err(NoOrbit(format!(
-            "the motion of this start repeats itself after {} of the forcing, but an orbit of {} was \
+            "the motion from this start repeats itself after {} of the forcing, but an orbit of {} was \
              requested; leave the periods out, or give a state near it",
             periods(period),
             periods(wanted.periods.unwrap_or(1) as usize)

@@ -128,7 +128,7 @@ pub fn without_points_in_words(section: &Section) -> Option<String> {
 pub fn section_in_words(section: &Section) -> String {
     let mut text = String::new();
     if let Some(why) = without_points_in_words(section) {
-        return format!("Stopped   the motion of this start {why}\n");
+        return format!("Stopped   the motion from this start {why}\n");
     }
     if let Some(stop) = section.stop {
         let _ = writeln!(

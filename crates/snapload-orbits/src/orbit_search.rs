@@ -53,7 +53,7 @@ impl Orbit {
             return Ok(orbit);
         }
         Err(NoOrbit(format!(
-            "the motion of this start repeats itself, but Newton's method converged to another orbit, which \
+            "the motion from this start repeats itself, but Newton's method converged to another orbit, which \
              differs by {far:.1e} in one coordinate; look at the motion with snapload section, or search for \
              orbits with --find N"
         )))

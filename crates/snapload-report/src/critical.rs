@@ -105,7 +105,7 @@ impl Probability {
         };
         let _ = writeln!(
             text,
-            "Ensemble  {} at each f_o; a limit is exceeded by 5 % {}, by 50 % {}, by 95 % {}",
+            "Ensemble  {} at each f_o; 5 % of them exceed a limit {}, 50 % {}, 95 % {}",
             neighbours(self.members as usize),
             from(p05),
             from(p50),

@@ -119,7 +119,7 @@ const DESIGN: &[Key] = &[
     Key::new("least_share", "1", Kind::number(0.0, 1.0), Derived("no check"),
         "the least tension of a line must be above this share of its tension at rest; 0: no line goes slack"),
     Key::new("rest_factor", "1", FACTOR, Derived("no check"),
-        "factor on the tension at rest; their product must exceed dynamic_factor times (tension at rest minus least tension)"),
+        "factor on the tension at rest; this factor times that tension must exceed dynamic_factor times (tension at rest minus least tension)"),
     Key::new("dynamic_factor", "1", FACTOR, Derived("no check"), "factor on the tension at rest minus the least tension; goes with rest_factor"),
     Key::new("force_share", "1", FACTOR, Derived("no check"),
         "the vertical force of the waves must be at most this share of the net buoyancy; not for a floating body"),

@@ -323,8 +323,8 @@ impl Structure {
         let source = self.added_mass_source()?;
         let tonnes = |kilograms: f64| kilo(&kilograms, 1);
         Some(format!(
-            "{} t, added mass {} t in x and {} t in z; moment of inertia {} t m^2, of the added mass \
-             {} t m^2: {source}",
+            "{} t, added mass {} t in x and {} t in z; moment of inertia {} t m^2 of the body and \
+             {} t m^2 of the added mass: {source}",
             tonnes(body.mass_kg),
             tonnes(added.surge_kg),
             tonnes(added.heave_kg),

@@ -1,7 +1,7 @@
 //! Templates as text: paragraphs, and labels with their texts. The texts are in `templates/`.
 
 use askama::Template;
-pub(crate) use snapload_hydro::digits::{decimals, decimals_for, digits, kilo, tenths};
+pub(crate) use snapload_hydro::digits::{count, decimals, decimals_for, digits, kilo, tenths};
 
 /// Columns of the text beside a label.
 const WIDTH: usize = 98;

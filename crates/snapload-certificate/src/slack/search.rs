@@ -240,13 +240,13 @@ fn beginning(path: &impl Path, begin: &Ball, zeros: &Zeros) -> Result<Vec<Watche
     for (which, watched) in first.iter().enumerate() {
         let zero = zeros.iter().find(|(zero, _)| *zero == which);
         let (holds, what) = match zero {
-            Some((_, Zero::Opening)) => (watched.rate.is_negative(), "is left"),
-            Some((_, Zero::Lifting | Zero::Released)) => (true, "is left"),
-            None => (watched.value.is_negative(), "is not yet reached"),
+            Some((_, Zero::Opening)) => (watched.rate.is_negative(), "the motion leaves"),
+            Some((_, Zero::Lifting | Zero::Released)) => (true, "the motion leaves"),
+            None => (watched.value.is_negative(), "the motion is still short of"),
         };
         if !holds {
             let what = format!(
-                "whether {} {what} at the beginning of a stretch",
+                "whether {what} {} at the beginning of a stretch",
                 path.words(which)
             );
             return Err(ProofFailure::undecided(what));

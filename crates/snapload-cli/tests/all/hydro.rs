@@ -193,7 +193,7 @@ fn hydro_refuses_with_reasons() {
         (&["hydro", "pontoon.nc", "--hs", "1"], "--tp"),
         (
             &["decay", "pontoon.nc", "--from", "0,0,0"],
-            "release the body from",
+            "three finite numbers, not all of them 0",
         ),
         (
             &["decay", "pontoon.nc", "--step", "0"],

@@ -312,7 +312,7 @@ fn where_there_is_no_orbit_it_is_said_why() {
         .assert()
         .code(1)
         .stderr(contains(
-            "no orbit was found: the motion of this start stops at t = 10.02",
+            "no orbit was found: the motion from this start stops at t = 10.02",
         ));
 }
 

@@ -201,7 +201,7 @@ pub(super) fn state_matrix(
     let mass = reduced(&body.with_added_mass(added_mass_inf)?, basis);
     let inverse = mass.try_inverse().ok_or_else(|| {
         HydroError::Impossible(
-            "the mass matrix is singular in the motions that taut lines permit".to_owned(),
+            "the mass matrix is singular in the motions that are possible".to_owned(),
         )
     })?;
     let real = |term: &Term| term.pole.im == 0.0;

@@ -102,8 +102,8 @@ fn of_block(block: &BlockQuality, entries: &[EntryQuality], warnings: &mut Vec<W
     }
     if block.damped {
         let words = format!(
-            "making the memory of {names} passive would worsen its fit by more than {:.0} %; it is \
-             kept unchanged, and linear damping of {:.2} % of the largest value is added",
+            "the memory of {names} could not be made passive, or only with an error larger by more than \
+             {:.0} percentage points; it is kept unchanged, and linear damping of {:.2} % of the largest value is added",
             100.0 * PRICE,
             -100.0 * block.least
         );

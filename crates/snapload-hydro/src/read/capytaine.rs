@@ -394,7 +394,7 @@ fn hydrostatics(
             return Err(HydroError::layout(
                 name,
                 found,
-                "one for each pair of freedoms is expected",
+                "one for each pair of degrees of freedom is expected",
             ));
         }
         let matrix = picked(&values, width, rows, columns, plane);

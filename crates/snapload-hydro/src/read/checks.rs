@@ -29,7 +29,7 @@ fn symmetry(hydro: &Hydrodynamics, warnings: &mut Vec<Warning>) -> Result<(), Hy
     if hydro.asymmetry > wrong {
         let words = format!(
             "A_ij and A_ji differ by {percent:.0} % of sqrt(A_ii A_jj); added mass is symmetric. \
-             Are the freedoms mixed up, or do they refer to different points?"
+             Are the degrees of freedom mixed up, or do they refer to different points?"
         );
         return Err(HydroError::convention("symmetry", words));
     }

@@ -63,7 +63,7 @@ impl Dataset {
                 return Err(HydroError::layout(
                     name,
                     found,
-                    "there must be as many values as the product of the lengths",
+                    "there must be as many values as the product of the lengths of its dimensions",
                 ));
             }
             for (dim, length) in variable.dims.iter().zip(&variable.shape) {

@@ -328,7 +328,7 @@ impl Floating {
             if rest.q[2].abs() > 0.05 || (draft > 0.0 && rest.q[1].abs() > 0.1 * draft) {
                 let words = format!(
                     "the body rests {:.3} m {} its position in the file and at {:.1}° of pitch from it; \
-                     compute the file again at the position of rest",
+                     compute the file again at the place of rest",
                     rest.q[1].abs(),
                     if rest.q[1] < 0.0 { "below" } else { "above" },
                     plain(rest.q[2].to_degrees(), 0.1)

@@ -69,7 +69,7 @@ impl Report {
         let damped = fit.blocks.iter().any(|block| block.damped);
         format!(
             "{how}, {} states; differs from the file by at most {:.2} % (root mean square; {furthest}), from K(t) \
-             by at most {:.2} %, at one instant {:.1} %; {}",
+             by at most {:.2} % (root mean square) and at no instant by more than {:.1} % of its largest value; {}",
             fit.memory.states(),
             worst(|entry| entry.rms),
             worst(|entry| entry.kernel_rms),

@@ -98,7 +98,8 @@ pub(super) fn body<'a>(sections: &'a Sections<'a>) -> Result<Option<Body<'a>>, C
         9,
         "CG",
         "0: one centre of mass, buoyancy and added mass",
-        "if one centre is accurate enough, put the body's origin there, and subtract CG from the z of its points",
+        "if one centre is accurate enough, move the body's origin there: add CG to Z0, and subtract CG from the z of its \
+         points",
     )?;
     Ok(Some(Body { row, place_m }))
 }

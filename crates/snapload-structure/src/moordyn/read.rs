@@ -125,12 +125,14 @@ impl Reader {
                 "wtrdpth" | "depth" | "waterdepth" => "depth",
                 "rho" | "rhow" | "wtrdnsty" | "wtrdens" => "water_density",
                 "g" | "gravity" => "gravity",
-                "wavekin" | "currents" | "seafloorfile" | "waterkin" => {
+                left_out @ ("wavekin" | "currents" | "seafloorfile" | "waterkin") => {
                     if number(word) != Some(0.0) {
-                        self.note(format!(
-                            "{option} = {word} was left out: give [wave] or [sea], and site.current; \
-                             the floor is flat."
-                        ));
+                        let instead = match left_out {
+                            "currents" => "give a current as site.current",
+                            "seafloorfile" => "the floor is flat",
+                            _ => "give waves as [wave] or [sea]",
+                        };
+                        self.note(format!("{option} = {word} was left out: {instead}."));
                     }
                     continue;
                 }

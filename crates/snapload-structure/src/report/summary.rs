@@ -16,7 +16,7 @@ use crate::runs::outcome::Outcome;
 use crate::runs::quantile::{quantile, slack_part};
 use crate::runs::seas::{Lines, Seas};
 use crate::structure::{Structure, Water};
-use crate::words::{decimals, kilo, laid_out, tenths};
+use crate::words::{count, decimals, kilo, laid_out, tenths};
 use askama::Template;
 
 /// The number of pulls and snaps that are listed; JSON has them all.

@@ -95,6 +95,8 @@ struct VerdictWords<'a> {
 struct TrustWords<'a> {
     trust: &'a Trust,
     horizon_s: Option<f64>,
+    /// The unit of length, L.
+    length_m: f64,
     spread_kn: Option<[f64; 3]>,
     /// Whether no line snaps in any of the neighbours.
     snapless: bool,
@@ -320,6 +322,7 @@ impl Assessment {
             trust: &self.trust,
             snapless: spread.is_some() && self.neighbours.iter().all(|n| n.peak_n().is_none()),
             horizon_s: self.horizon_s(),
+            length_m: self.prepared.scales.length_m,
             spread_kn: spread.map(|spread| spread.map(|newtons| newtons / 1e3)),
             count: self.neighbours.len(),
             failing: self.neighbours.iter().filter(|n| n.stop.exceeds()).count(),

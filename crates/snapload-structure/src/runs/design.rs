@@ -227,7 +227,7 @@ pub(crate) fn line_checks(prepared: &Prepared, outcome: &Outcome, open: bool) ->
 pub(crate) fn force_check(prepared: &Prepared) -> Option<Check> {
     let share = prepared.structure.design.force_share?;
     let value = wave_force_part(prepared);
-    // On elastic lines considerably the body rests higher, where the waves are larger.
+    // On lines that stretch considerably the body rests higher, where the waves are larger.
     let open = prepared.rest.shared.is_some();
     Some(Check::new(Criterion::WaveForce, None, value, share, open))
 }

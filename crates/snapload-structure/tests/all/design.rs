@@ -297,7 +297,7 @@ fn springs_and_records_are_checked_by_the_same_rule() {
         );
         let page = snapload_structure::note::seas_page(source("case"), &found).expect("a page");
         assert!(
-            page.contains("Checks by the design rule")
+            page.contains("Design checks")
                 && found.summary("case").contains("of 5 records")
         );
     }

@@ -29,7 +29,7 @@ fn where_nothing_is_judged_no_numbers_are_told() {
         "rebound nothing is judged",
         "4 turn over or touch the floor",
         "The mooring fails",
-        "ended before 60 s, when judging begins",
+        "ended before 60 s, the start of the judged time",
     ] {
         assert!(told.contains(words), "{words} in {told}");
     }
