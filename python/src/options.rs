@@ -2,7 +2,7 @@
 
 use crate::errors::{of_case, of_program};
 use pyo3::prelude::*;
-use snapload::analysis::{MEMBERS, SEED, SOME_MEMBERS};
+use snapload::analysis::{MEMBERS, NONZERO_MEMBERS, SEED};
 use snapload::{Key, Kind, key_named};
 use snapload_orbits::{BASIN_TRANSIENT, KEEP, ORBIT_PERIODS, PERIODS, POINTS, STARTS};
 use snapload_structure::{NEIGHBOURS, PAIRS, SEEDS, SEGMENTS};
@@ -13,7 +13,7 @@ use snapload_study::{RANDOM, THREADS};
 fn row(option: &str) -> Option<Key> {
     Some(match option {
         "members" => MEMBERS,
-        "ensemble.members" => SOME_MEMBERS,
+        "ensemble.members" => NONZERO_MEMBERS,
         "seed" => SEED,
         "max_impacts" => return key_named(option).ok().copied(),
         "periods" => PERIODS,

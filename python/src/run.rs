@@ -13,7 +13,9 @@ use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use pyo3::types::{PyByteArray, PyDict};
 use serde::Serialize;
-use snapload::analysis::{Cancelled, Counter, Ensemble, Progress, Uncertainty, record, unwatched};
+use snapload::analysis::{
+    Cancelled, Counter, Ensemble, Progress, Uncertainty, no_progress, record,
+};
 use snapload::{ModeInterval, Playback, Sampling, Trajectory};
 use snapload_report::tables::{IMPACTS, ImpactRow, impact_rows};
 use snapload_report::{
@@ -110,7 +112,7 @@ impl Run {
     fn to_json(&self, dt: Option<f64>) -> PyResult<String> {
         let sampling = dt.map(|dt| self.sampling(dt)).transpose()?;
         let trusted = self.with_trust()?;
-        let report = Report::new(self.case()?.parameters(), trusted, sampling, &unwatched);
+        let report = Report::new(self.case()?.parameters(), trusted, sampling, &no_progress);
         to_json(&report)
     }
 

@@ -56,7 +56,7 @@ pub(crate) fn keys(py: Python<'_>) -> PyResult<Vec<Bound<'_, PyDict>>> {
 /// Why a run may end; of a limit of the motion also what is told of its bound.
 #[pyfunction]
 pub(crate) fn stops() -> Vec<(&'static str, Option<&'static str>)> {
-    let told = |stop: Stop| (stop.name(), stop.limit().map(Limit::meaning));
+    let told = |stop: Stop| (stop.name(), stop.limit().map(Limit::bound_text));
     Stop::ALL.map(told).to_vec()
 }
 

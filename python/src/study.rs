@@ -362,7 +362,7 @@ pub(crate) fn evenly<'py>(
         let mut bytes = Vec::new();
         for k in 0..count {
             if k % VALUES == 0 {
-                Progress::new("values", k as f64, count as f64).tell(on_progress)?;
+                Progress::new("values", k as f64, count as f64).report(on_progress)?;
             }
             bytes.extend(grid.value(k).to_ne_bytes());
         }

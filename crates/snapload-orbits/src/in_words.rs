@@ -119,7 +119,7 @@ pub fn without_points_in_words(section: &Section) -> Option<String> {
     Some(format!(
         "stops at t = {:.4}: {}. That is before the first point of the section, which comes after {}",
         section.end.1,
-        stop.meaning(),
+        stop.reason_text(),
         of_the_forcing(section.first as usize)
     ))
 }
@@ -135,7 +135,7 @@ pub fn section_in_words(section: &Section) -> String {
             text,
             "Stopped   at t = {:.4}: {}",
             section.end.1,
-            stop.meaning()
+            stop.reason_text()
         );
         return text;
     }

@@ -228,7 +228,9 @@ impl Serialize for MotionRows<'_> {
         for (k, t) in self.sampling.times().enumerate() {
             if k.is_multiple_of(ROWS) {
                 let progress = Progress::new("writing the motion", t, end);
-                progress.tell(self.on_progress).map_err(S::Error::custom)?;
+                progress
+                    .report(self.on_progress)
+                    .map_err(S::Error::custom)?;
             }
             rows.serialize_element(&MotionRow::new(&playback.at(t)))?;
         }

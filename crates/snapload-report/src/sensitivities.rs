@@ -150,12 +150,12 @@ fn in_words(found: &[Sensitivity], looked: &Looked) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use snapload::analysis::unwatched;
+    use snapload::analysis::no_progress;
     use snapload::{Parameters, Value};
 
     fn asked(parameters: Parameters, impacts: i64) -> Result<Answer, Unfinished> {
         let case = Case::new(parameters)?;
-        SENSITIVITIES.ask(&case, [("impacts", Value::from(impacts))], &unwatched)
+        SENSITIVITIES.ask(&case, [("impacts", Value::from(impacts))], &no_progress)
     }
 
     /// The standard case is certain before impact 191, where a near miss ends trust.

@@ -207,7 +207,7 @@ pub fn end_in_words(trajectory: &Trajectory, parameters: &Parameters) -> String 
         }
         limit => {
             let here = LIMITS_HERE.iter().find(|(stop, _)| *stop == limit);
-            let what = here.map_or(limit.meaning(), |(_, what)| what);
+            let what = here.map_or(limit.reason_text(), |(_, what)| what);
             format!("{} at t = {t}: {what}", limit.words())
         }
     }

@@ -5,7 +5,7 @@ use crate::proved::Proved;
 pub(crate) use crate::reading::{Both, Reading};
 use crate::reading::{first_exceeding, standard, up_to_exceeding};
 use snapload::analysis::{
-    ForceScan, OnProgress, Progress, Uncertainty, Unfinished, in_parallel, trusted_run, unwatched,
+    ForceScan, OnProgress, Progress, Uncertainty, Unfinished, in_parallel, no_progress, trusted_run,
 };
 use snapload::{Case, CaseError, Outcome, Parameters, Trajectory, Value, named_case, table_6_1};
 use snapload_verify::Run;
@@ -35,7 +35,7 @@ pub(crate) struct Known {
 impl Known {
     pub(crate) fn new(parameters: Parameters) -> Result<Self, Unfinished> {
         let case = Case::new(parameters)?;
-        let (run, trust) = trusted_run(&case, &Uncertainty::default(), &unwatched)?;
+        let (run, trust) = trusted_run(&case, &Uncertainty::default(), &no_progress)?;
         Ok(Self {
             run,
             horizon: trust.horizon.map(|horizon| horizon.t),
@@ -102,7 +102,7 @@ impl Study {
     /// # Errors
     /// [`Unfinished::Cancelled`]; a case that is not legal would be an error of the program.
     pub fn compute(on_progress: OnProgress) -> Result<Self, Unfinished> {
-        let tell = |doing: &str, part: f64| Progress::new(doing, part, 1.0).tell(on_progress);
+        let tell = |doing: &str, part: f64| Progress::new(doing, part, 1.0).report(on_progress);
         tell("the cases of Table 6.1", 0.0)?;
         let cases = cases()?;
         tell("Table 6.2", 0.1)?;

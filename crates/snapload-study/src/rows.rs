@@ -2,7 +2,7 @@
 
 use crate::{Drawn, NoCase};
 use snapload::analysis::{
-    Cancelled, Certainty, Counter, Made, on_all_threads_until, outcomes_on_one_thread,
+    Cancelled, Certainty, Counter, ThreadResults, on_all_threads_until, outcomes_on_one_thread,
 };
 use snapload::{Lanes, Outcome, Parameters};
 
@@ -30,7 +30,7 @@ pub fn rows(
     drawn: &Drawn,
     counter: &Counter,
     no_more: &(dyn Fn() -> bool + Sync),
-) -> Result<Made<Row>, Cancelled> {
+) -> Result<ThreadResults<Row>, Cancelled> {
     on_all_threads_until(no_more, drawn.count(), |numbers| {
         side_by_side(drawn, numbers, counter)
     })

@@ -10,7 +10,7 @@
 use crate::seal::{flaw, flaw_of};
 use crate::whole::{identity_of, join, to_bytes};
 use crate::{Identity, Occupied, Row, Study, StudyError, rows};
-use snapload::analysis::{Counter, Made, OnProgress};
+use snapload::analysis::{Counter, OnProgress, ThreadResults};
 use std::collections::BTreeMap;
 use std::ffi::{OsStr, OsString};
 use std::fs::{self, File, OpenOptions, TryLockError};
@@ -139,7 +139,7 @@ impl Store {
     ///
     /// # Errors
     /// [`StudyError::Failed`], for example if the disk is full.
-    pub fn save(&mut self, range: Range<u64>, rows: &Made<Row>) -> Result<(), StudyError> {
+    pub fn save(&mut self, range: Range<u64>, rows: &ThreadResults<Row>) -> Result<(), StudyError> {
         let bytes = encode(&self.identity, range.clone(), rows);
         let bytes = bytes.map_err(|error| StudyError::write(&self.directory, error))?;
         self.put(&chunk_name(&range), &bytes)?;
@@ -287,7 +287,7 @@ pub fn chunk(
     bytes.map_err(|error| StudyError::Failed(error.to_string()))
 }
 
-fn encode(whole: &Identity, rows: Range<u64>, made: &Made<Row>) -> io::Result<Vec<u8>> {
+fn encode(whole: &Identity, rows: Range<u64>, made: &ThreadResults<Row>) -> io::Result<Vec<u8>> {
     let identity = Identity {
         rows,
         shard: None,

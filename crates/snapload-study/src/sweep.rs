@@ -2,7 +2,7 @@
 
 use crate::whole::GROUP;
 use crate::{Row, Store, Study, StudyError, rows};
-use snapload::analysis::{Cancelled, Counter, Made, OnProgress, Progress};
+use snapload::analysis::{Cancelled, Counter, OnProgress, Progress, ThreadResults};
 use std::ops::{ControlFlow, Range};
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::{Duration, Instant};
@@ -17,7 +17,7 @@ const MOST: u64 = GROUP as u64;
 const TRIES: u32 = 3;
 
 /// A chunk that is computed but not saved yet.
-type Chunk = (Range<u64>, Made<Row>);
+type Chunk = (Range<u64>, ThreadResults<Row>);
 
 /// Runs the cases that are missing in the store, on all threads, and completes the file. While a
 /// chunk is run the one before it is written. Rows that are found damaged when the file is joined

@@ -110,7 +110,7 @@ fn with_words<const WORDS: usize>(
             impacts.push(ExactImpact::new(&exact, left));
         }
         let t = simulation.time().to_f64();
-        Progress::new("computing with many digits", t, t_end).tell(on_progress)?;
+        Progress::new("computing with many digits", t, t_end).report(on_progress)?;
         if stuck {
             break;
         }
@@ -218,7 +218,7 @@ fn relative<T: Real>(ours: f64, exact: T) -> f64 {
 mod tests {
     use super::*;
     use snapload::Parameters;
-    use snapload::analysis::unwatched;
+    use snapload::analysis::no_progress;
     use std::ops::ControlFlow::{Break, Continue};
     use std::sync::Mutex;
 
@@ -226,8 +226,8 @@ mod tests {
     #[test]
     fn decimals_that_are_told_are_right() -> Result<(), Unfinished> {
         let case = Case::new(Parameters::STANDARD)?;
-        let few = verify(&case, 60, 1e-3, &unwatched)?;
-        let many = verify(&case, 150, 1e-3, &unwatched)?;
+        let few = verify(&case, 60, 1e-3, &no_progress)?;
+        let many = verify(&case, 150, 1e-3, &no_progress)?;
         assert_eq!(few.impacts.len(), many.impacts.len());
         let units = |text: &str, decimals: usize| {
             let (whole, fraction) = text.split_once('.').expect("decimals");

@@ -13,7 +13,7 @@ use crate::critical_row::CriticalRow;
 use crate::proved::Proved;
 use crate::study::{CaseRuns, Study, exact};
 use example::Example;
-use snapload::analysis::{ForceScan, Unfinished, in_parallel, outcomes, unwatched};
+use snapload::analysis::{ForceScan, Unfinished, in_parallel, no_progress, outcomes};
 use snapload::{Case, CaseError, Parameters, Stop, named_case};
 
 /// Checks the claims of the section.
@@ -124,7 +124,7 @@ impl Shape {
         let cases = starts
             .iter()
             .flat_map(|start| forces.iter().map(|f_o| with(start, *f_o)));
-        let ends = outcomes(&cases.collect::<Result<Vec<_>, CaseError>>()?, &unwatched)?;
+        let ends = outcomes(&cases.collect::<Result<Vec<_>, CaseError>>()?, &no_progress)?;
         let slides: Vec<bool> = ends.iter().map(|of| ends_sliding(of.end.reason)).collect();
         let of_starts: Vec<&[bool]> = slides.chunks(forces.len()).collect();
         Ok(Self {

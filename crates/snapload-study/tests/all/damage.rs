@@ -1,6 +1,6 @@
 //! A single flipped bit on the disk is detected wherever it is.
 use crate::store::{chunk_name, complete, open, save, study, work};
-use snapload::analysis::unwatched;
+use snapload::analysis::no_progress;
 use snapload_study::{Identity, Opened, Shard, Store, StudyError, checked_identity, merge, sweep};
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -69,7 +69,7 @@ fn a_chunk_that_is_damaged_meanwhile_is_computed_again() {
             Some(damaged) => fs::write(&path, damaged).unwrap(),
             None => fs::remove_file(&path).unwrap(),
         }
-        sweep(&study, store, &unwatched).unwrap();
+        sweep(&study, store, &no_progress).unwrap();
         assert!(fs::read(&target).unwrap() == wanted);
         fs::remove_file(&target).unwrap();
     }
@@ -81,7 +81,7 @@ fn part(directory: &Path, text: &str) -> PathBuf {
     let Opened::Work(store) = Store::open(&target, identity, false).unwrap() else {
         panic!("complete");
     };
-    sweep(&study, store, &unwatched).unwrap();
+    sweep(&study, store, &no_progress).unwrap();
     target
 }
 

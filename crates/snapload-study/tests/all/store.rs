@@ -1,5 +1,5 @@
 //! Saved rows stay saved, and the file depends on the rows alone.
-use snapload::analysis::{Cancelled, Counter, Progress, unwatched};
+use snapload::analysis::{Cancelled, Counter, Progress, no_progress};
 use snapload_study::{
     Axis, Grid, Identity, Opened, Plan, Shard, Store, Study, StudyError, chunk, merge, rows, sweep,
 };
@@ -38,29 +38,29 @@ fn rows_come_from_elsewhere() {
     let mut store = work(&here, &study);
     assert!(
         store
-            .keep(0..2, &chunk(&other, 0..2, &unwatched).unwrap())
+            .keep(0..2, &chunk(&other, 0..2, &no_progress).unwrap())
             .is_err()
     );
     for range in [3..5, 0..3] {
         store
-            .keep(range.clone(), &chunk(&study, range, &unwatched).unwrap())
+            .keep(range.clone(), &chunk(&study, range, &no_progress).unwrap())
             .unwrap();
     }
     assert_eq!(store.gap(), None);
     store.finish().unwrap();
-    sweep(&study, work(&there, &study), &unwatched).unwrap();
+    sweep(&study, work(&there, &study), &no_progress).unwrap();
     assert_eq!(fs::read(here).unwrap(), fs::read(there).unwrap());
 }
 
 pub(crate) fn save(store: &mut Store, study: &Study, range: Range<u64>) {
     let drawn = study.draw(range.clone()).unwrap();
-    let counter = Counter::new("running", 0, 0, &unwatched);
+    let counter = Counter::new("running", 0, 0, &no_progress);
     let rows = rows(&drawn, &counter, &|| false).unwrap();
     store.save(range, &rows).unwrap();
 }
 
 pub(crate) fn complete(target: &Path, study: &Study) -> Vec<u8> {
-    sweep(study, work(target, study), &unwatched).unwrap();
+    sweep(study, work(target, study), &no_progress).unwrap();
     fs::read(target).unwrap()
 }
 
@@ -108,7 +108,7 @@ fn groups_that_are_taken_have_the_bytes_of_those_written_anew() {
         let Opened::Work(store) = Store::open(&target, identity, false).unwrap() else {
             panic!("complete");
         };
-        sweep(&study, store, &unwatched).unwrap();
+        sweep(&study, store, &no_progress).unwrap();
         target
     });
     let merged = directory.path().join("merged");

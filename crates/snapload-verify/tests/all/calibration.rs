@@ -7,7 +7,7 @@
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::{Rng, SeedableRng};
 use rayon::prelude::*;
-use snapload::analysis::{NormErrors, Trust, Uncertainty, Unfinished, trusted_run, unwatched};
+use snapload::analysis::{NormErrors, Trust, Uncertainty, Unfinished, no_progress, trusted_run};
 use snapload::{Case, CaseError, Impact, Parameters, Precise, Real, Simulation, Trajectory, Value};
 use std::fmt::Write;
 
@@ -134,7 +134,7 @@ impl Judged {
                 tolerance,
                 ..Uncertainty::default()
             };
-            trusted_run(&case, &uncertainty, &unwatched).expect("legal")
+            trusted_run(&case, &uncertainty, &no_progress).expect("legal")
         });
         let exact = case.simulation_over(|_, number| Digits::from_decimal(number));
         let (differences, parted) = compared(&run, exact.expect("a legal start"), MOST_EXPANSIONS);
@@ -367,7 +367,7 @@ fn extremes_with_many_digits_are_within_the_errors() -> Result<(), Unfinished> {
         let Ok(case) = Case::new(parameters) else {
             continue;
         };
-        let (run, trust) = trusted_run(&case, &Uncertainty::default(), &unwatched)?;
+        let (run, trust) = trusted_run(&case, &Uncertainty::default(), &no_progress)?;
         let slack = run.modes().iter().all(|mode| mode.taut.is_empty());
         let exact = case.simulation_over(|_, number| Digits::from_decimal(number));
         let (true, true, Ok(mut exact)) = (trust.decides_the_end(), slack, exact) else {

@@ -39,7 +39,7 @@ pub const DEFAULT_MEMBERS: u32 = 1000;
 pub const MEMBERS: Key = Key::option("members", Kind::Count(0, MOST_MEMBERS));
 
 /// The same where there has to be one.
-pub const SOME_MEMBERS: Key = Key::option("members", Kind::Count(1, MOST_MEMBERS));
+pub const NONZERO_MEMBERS: Key = Key::option("members", Kind::Count(1, MOST_MEMBERS));
 
 /// Which members may be asked for.
 pub const SEED: Key = Key::option("seed", Kind::Count(0, u64::MAX));

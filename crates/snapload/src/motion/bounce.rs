@@ -134,8 +134,11 @@ pub(crate) fn bounce<L: Lane>(two_cables: &TwoCableSystem<L>, from: &AfterImpact
 
         let end = start.arrival(second, &trial, from);
         let FlightEnd { s, state, jets, .. } = &end;
-        let blurs = [start.attachments[0].blur(*s), start.attachments[1].blur(*s)];
-        let alone = closes_alone(from.t, *s, second, jets, blurs);
+        let start_noises = [
+            start.attachments[0].start_noise(*s),
+            start.attachments[1].start_noise(*s),
+        ];
+        let alone = closes_alone(from.t, *s, second, jets, start_noises);
         let end_value = [
             L::select(second, jets[0].value, L::ZERO),
             L::select(second, L::ZERO, jets[1].value),
@@ -162,12 +165,12 @@ fn closes_alone<L: Lane>(
     s: L,
     second: L::Mask,
     jets: &[GapJet<L>; 2],
-    blurs: [L; 2],
+    start_noises: [L; 2],
 ) -> L::Mask {
     let struck = GapJet::select(second, &jets[1], &jets[0]);
     let other = GapJet::select(second, &jets[0], &jets[1]);
-    let struck_blur = L::select(second, blurs[1], blurs[0]);
-    let other_blur = L::select(second, blurs[0], blurs[1]);
+    let struck_blur = L::select(second, start_noises[1], start_noises[0]);
+    let other_blur = L::select(second, start_noises[0], start_noises[1]);
     // The errors of the times; both sides are multiplied by the rate.
     let spread =
         ((t.abs() + s) * L::EPSILON * 4.0).mul_add(struck.rate, struck.noise + struck_blur);

@@ -394,7 +394,7 @@ impl<T: Real> Series<T> {
 
     /// Whether a cable that was at rest at the start, such as one that has just lost its tension,
     /// opens throughout up to a time `s`: ġ never increases.
-    pub(crate) fn opens_from_rest(&self, cable: usize, s: T) -> bool {
+    pub(crate) fn gap_opens_from_rest(&self, cable: usize, s: T) -> bool {
         let gap = &self.lines[cable].gap;
         let rate = |s: T| {
             let [_, rate, accel] = gap.jet(s, ORDER);

@@ -313,7 +313,7 @@ fn every_file_of_tests_is_one_of_the_program() {
             let module = name.trim_end_matches(".rs");
             if module != "main" && !module.contains('/') {
                 let line = format!("mod {module};");
-                let named = main.lines().any(|told| told.trim() == line);
+                let named = main.lines().any(|declared| declared.trim() == line);
                 assert!(named, "{} has no line {line}", folder.display());
             }
         }

@@ -248,10 +248,10 @@ impl Trust {
 /// Runs a case and says how far it can be trusted.
 ///
 /// ```
-/// use snapload::analysis::{Uncertainty, trusted_run, unwatched};
+/// use snapload::analysis::{Uncertainty, trusted_run, no_progress};
 /// use snapload::{Case, Parameters};
 /// let case = Case::new(Parameters { f_o: 0.31, ..Parameters::STANDARD })?;
-/// let (run, trust) = trusted_run(&case, &Uncertainty::default(), &unwatched)?;
+/// let (run, trust) = trusted_run(&case, &Uncertainty::default(), &no_progress)?;
 /// assert_eq!(run.impacts().len(), 12);
 /// assert!(trust.decides_the_end() && trust.errors[11] < 1e-12);
 /// # Ok::<(), snapload::analysis::Unfinished>(())

@@ -11,7 +11,7 @@ use crate::motion::simulation::{Simulation, Step};
 use crate::motion::step_map::StepMap;
 
 /// An impact that magnifies deviations by more than this is reported as a graze.
-const MAGNIFIES: f64 = 100.0;
+const GRAZE_MAGNIFICATION: f64 = 100.0;
 
 /// Follows a run, step by step, and says in the end how far it can be trusted.
 #[derive(Clone, Debug)]
@@ -155,7 +155,7 @@ impl Records<'_> {
     fn note(&mut self, map: &LinearMap) {
         let square = map.magnification_squared();
         let (simulation, step) = self.latest;
-        if square > MAGNIFIES * MAGNIFIES
+        if square > GRAZE_MAGNIFICATION * GRAZE_MAGNIFICATION
             && !map.surely_quickens()
             && let Some(closing) = map.closing(simulation, step)
             && closing.alpha < 0.0

@@ -13,7 +13,7 @@ use crate::motion::projection::project_velocity;
 use crate::motion::simulation::{CONVERGING, Event, LastImpacts, Simulation};
 
 /// A tension below this is negative by more than rounding: the cable would have to push \[F\].
-const PUSHES: f64 = -1e-7;
+const NEGATIVE_TENSION: f64 = -1e-7;
 /// After a tension is lost the motion is first evaluated 2^−LATER of a step later, then at each
 /// doubling of that, up to half a step.
 const LATER: i32 = 28;
@@ -198,7 +198,7 @@ impl<T: Real> Simulation<T> {
                 let tension = |cable| series.tension(cable, since + later);
                 released
                     .iter()
-                    .any(|cable| tension(cable) < T::from_decimal(PUSHES))
+                    .any(|cable| tension(cable) < T::from_decimal(NEGATIVE_TENSION))
             };
             let steps = (0..LATER).map(|k| series.step() * 0.5_f64.powi(LATER - k));
             let last = series.step() * 0.5;

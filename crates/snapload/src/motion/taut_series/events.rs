@@ -11,7 +11,7 @@ use crate::motion::taut_series::Series;
 const NOTHING: f64 = 1e-7;
 /// The tolerance for the length of a taut cable without tension, as a multiple of that of a resting
 /// one.
-const HELD: f64 = 64.0;
+const TAUT_TOLERANCE: f64 = 64.0;
 
 impl<T: Real> Series<T> {
     /// Whether a taut cable stays taut within the step: it carries, or its gap is zero up to
@@ -20,7 +20,7 @@ impl<T: Real> Series<T> {
     pub(super) fn holds(&self, cable: usize) -> bool {
         let gap = &self.lines[cable].gap;
         self.active.carrying.contains(cable)
-            || gap.derivative_bound(0, self.step, ORDER) <= self.touch[cable] * HELD
+            || gap.derivative_bound(0, self.step, ORDER) <= self.touch[cable] * TAUT_TOLERANCE
     }
 
     /// Chooses the event functions of the step; those that provably are not reached are left out.
@@ -87,7 +87,7 @@ impl<T: Real> Series<T> {
         }
         Jet {
             noise: contact.error,
-            blur: self.touch[cable],
+            start_noise: self.touch[cable],
             resting: contact.resting,
             jerk: gap[3] * 6.0,
             fourth: if contact.resting {

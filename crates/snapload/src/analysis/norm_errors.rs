@@ -118,9 +118,9 @@ fn extreme_errors(run: &Trajectory, trust: &Trust) -> [Option<f64>; 2] {
     });
     let (mut from, mut before, _) = rows[0];
     for &(to, after, late) in &rows[1..] {
-        let (span, told) = ([from, to], after.max(before));
+        let (span, error) = ([from, to], after.max(before));
         let along = Along::of(&mut playback, span);
-        let off = |k: usize| along.growth(run, k, span) * told + along.speeds[k] * late;
+        let off = |k: usize| along.growth(run, k, span) * error + along.speeds[k] * late;
         let offs = [off(0), off(1)];
         let floor = |k: usize| largest[k] - offs[k] - PLAYED_BACK * largest[k].abs().max(1.0);
         let floors = [floor(0), floor(1)];
