@@ -37,11 +37,11 @@ pub(crate) fn critical_force_over(
     let scan = ForceScan::new(step, max).map_err(of_scan)?;
     let study = Arc::clone(&study.study);
     let rows = interruptible(py, progress, move |watch| {
-        let drawn = study.draw(0..study.count())?;
-        let all = drawn.count() as f64;
-        let rows = (0..drawn.count()).map(|k| {
+        let cases = study.cases(0..study.count())?;
+        let all = cases.count() as f64;
+        let rows = (0..cases.count()).map(|k| {
             let progress = Progress::new("critical force", k as f64, all);
-            match drawn.case(k) {
+            match cases.case(k) {
                 Ok(case) => {
                     let parameters = case.parameters();
                     let found = CriticalForce::scan(parameters, scan, &|_| watch.go_on(progress))?;

@@ -4,7 +4,7 @@ use pyo3::PyErr;
 use pyo3::exceptions::{PyKeyboardInterrupt, PyOSError, PyRuntimeError, PyValueError};
 use snapload::CaseError;
 use snapload::analysis::Unfinished;
-use snapload_study::{StudyError, no_side};
+use snapload_study::{StudyError, no_random_range};
 use std::fmt::Display;
 
 /// A value that is not allowed.
@@ -26,8 +26,8 @@ pub(crate) fn of_study(error: StudyError) -> PyErr {
         StudyError::Failed(message) => PyOSError::new_err(message),
         StudyError::Damaged { .. } => PyOSError::new_err(error.to_string()),
         StudyError::Occupied(there) => PyValueError::new_err(there.in_words("resume=True", "out")),
-        StudyError::NoSide(most) => {
-            PyValueError::new_err(no_side(most, "its two ends, such as e=(0.5, 0.9)"))
+        StudyError::NoRandomRange(most) => {
+            PyValueError::new_err(no_random_range(most, "its two ends, such as e=(0.5, 0.9)"))
         }
         StudyError::Cancelled(cancelled) => of_work(cancelled.into()),
         other => PyValueError::new_err(other.to_string()),

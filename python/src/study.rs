@@ -9,7 +9,7 @@ use pyo3::types::{PyByteArray, PyBytes};
 use snapload::Value;
 use snapload::analysis::{Cancelled, Progress};
 use snapload_study::{
-    Axis, Grid, Identity, List, Opened, Plan, Side, StudyError, Values, check_name,
+    Axis, Grid, Identity, List, Opened, Plan, RandomRange, StudyError, Values, check_name,
     checked_identity, read_rows,
 };
 use std::collections::HashMap;
@@ -42,9 +42,9 @@ impl Study {
         seed: u64,
         trust: bool,
     ) -> PyResult<Self> {
-        let sides = sides.iter().map(|(key, ends)| side(key, ends));
-        let sides = sides.collect::<PyResult<_>>()?;
-        let plan = Plan::random(sides, count, seed).map_err(of_study)?;
+        let ranges = sides.iter().map(|(key, ends)| side(key, ends));
+        let ranges = ranges.collect::<PyResult<_>>()?;
+        let plan = Plan::random(ranges, count, seed).map_err(of_study)?;
         Self::of(case, plan, trust)
     }
 
@@ -59,7 +59,7 @@ impl Study {
         trust: bool,
     ) -> PyResult<Self> {
         let list = py
-            .detach(|| List::open_called(&path, &called))
+            .detach(|| List::open_named(&path, &called))
             .map_err(of_study)?;
         Self::of(case, Plan::List(list), trust)
     }
@@ -145,7 +145,7 @@ impl Store {
 
     /// How many rows are safe.
     fn safe(&self) -> PyResult<u64> {
-        self.with(|store| Ok(store.safe()))
+        self.with(|store| Ok(store.saved()))
     }
 
     /// The stretches of rows that are missing.
@@ -155,7 +155,7 @@ impl Store {
 
     /// Keeps rows that `Study.chunk` made.
     fn keep(&self, py: Python<'_>, start: u64, stop: u64, bytes: &[u8]) -> PyResult<()> {
-        py.detach(|| self.with(|store| store.keep(start..stop, bytes)))
+        py.detach(|| self.with(|store| store.save_chunk(start..stop, bytes)))
     }
 
     /// Joins all rows into the file.
@@ -200,15 +200,15 @@ pub(crate) fn axis(key: &str, values: &Bound<'_, PyAny>) -> PyResult<Axis> {
 }
 
 /// The ends of one side of a box, a pair or the text `low:high`.
-pub(crate) fn side(key: &str, ends: &Bound<'_, PyAny>) -> PyResult<Side> {
+pub(crate) fn side(key: &str, ends: &Bound<'_, PyAny>) -> PyResult<RandomRange> {
     if let Ok(text) = ends.extract::<String>() {
-        return Side::written(key, &text).map_err(of_study);
+        return RandomRange::written(key, &text).map_err(of_study);
     }
     let (low, high) = ends.extract().map_err(|_| {
         let allowed = "the ends of its range, such as (0.1, 0.6) or \"0.1:0.6\"";
         PyValueError::new_err(format!("{key} = {ends} is not allowed; allowed: {allowed}"))
     })?;
-    Side::new(key, low, high).map_err(of_study)
+    RandomRange::new(key, low, high).map_err(of_study)
 }
 
 /// As many threads as asked for, up to what helps; and where these are fewer, why.

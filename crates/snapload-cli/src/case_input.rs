@@ -58,7 +58,7 @@ impl CaseArgs {
             (Some(path), _) => (path.display().to_string(), read_file(schema, path)?),
             (None, Some(code)) => {
                 let mut entries = Entries::new(schema);
-                begin_with(&mut entries, code).map_err(|error| error.at("--case"))?;
+                add_case_defaults(&mut entries, code).map_err(|error| error.at("--case"))?;
                 (code.clone(), entries)
             }
             (None, None) => ("standard case".to_owned(), Entries::new(schema)),
@@ -95,7 +95,7 @@ impl CaseArgs {
 }
 
 /// Adds the keys of a built-in case that are not given yet.
-pub(crate) fn begin_with(entries: &mut Entries, code: &str) -> Result<(), CaseError> {
+pub(crate) fn add_case_defaults(entries: &mut Entries, code: &str) -> Result<(), CaseError> {
     let case = named_case(code);
     let case = case.map_err(|error| error.with_hint("snapload cases lists them all"))?;
     for (key, value) in case.entries() {

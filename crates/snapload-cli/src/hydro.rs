@@ -86,7 +86,7 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
         report: report.to_json(),
         sea,
     };
-    outputs.finish_told(&answer, text)
+    outputs.finish_with_text(&answer, text)
 }
 
 impl Args {

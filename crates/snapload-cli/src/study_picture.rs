@@ -1,6 +1,6 @@
 //! `--plot` and `--show`: which picture of a study, and where it goes.
 use crate::failure::Failure;
-use crate::stage::Stage;
+use crate::pending_outputs::PendingOutputs;
 use crate::study_input::axes_of;
 use snapload_figures::PNG_SCALE;
 use snapload_study::{StudyError, StudyPicture, folder_of, identity_of};
@@ -68,10 +68,10 @@ impl PictureArgs {
                 _ => Err(occupied(path)),
             };
         }
-        let mut stage = Stage::default();
-        let room = stage.open(folder_of(path)?)?;
-        stage.write(room, path.to_owned(), |out| out.write_all(&bytes))?;
-        stage.commit()?;
+        let mut pending = PendingOutputs::default();
+        let folder = pending.open(folder_of(path)?)?;
+        pending.write(folder, path.to_owned(), |out| out.write_all(&bytes))?;
+        pending.commit()?;
         Ok(Some(path.to_owned()))
     }
 }

@@ -34,7 +34,7 @@ fn a_damaged_chunk_is_computed_again() {
     }
     drop(store);
     let bytes = fs::read(&path).unwrap();
-    assert_eq!(work(&target, &study).safe(), 9);
+    assert_eq!(work(&target, &study).saved(), 9);
     for damaged in damaged(&bytes) {
         fs::write(&path, damaged).unwrap();
         let mut store = work(&target, &study);
@@ -49,7 +49,7 @@ fn a_damaged_chunk_is_computed_again() {
 fn a_chunk_that_is_damaged_meanwhile_is_computed_again() {
     let directory = tempfile::tempdir().unwrap();
     let (study, target) = (study(9), directory.path().join("file"));
-    let wanted = complete(&directory.path().join("whole"), &study);
+    let expected = complete(&directory.path().join("whole"), &study);
     let path = directory
         .path()
         .join("file.parts")
@@ -70,7 +70,7 @@ fn a_chunk_that_is_damaged_meanwhile_is_computed_again() {
             None => fs::remove_file(&path).unwrap(),
         }
         sweep(&study, store, &no_progress).unwrap();
-        assert!(fs::read(&target).unwrap() == wanted);
+        assert!(fs::read(&target).unwrap() == expected);
         fs::remove_file(&target).unwrap();
     }
 }
