@@ -205,6 +205,6 @@ fn short(kind: Kind) -> &'static str {
         Kind::Graze => "graze",
         Kind::Corner => "corner",
         Kind::TensionLost => "slack",
-        Kind::Limit(limit) => limit.stop().words(),
+        Kind::Limit(limit) => limit.stop().label(),
     }
 }

@@ -12,7 +12,7 @@ use snapload::analysis::{MEMBERS, Progress};
 use snapload::{Case, Sampling};
 use snapload_certificate::Cancelled;
 use snapload_report::{
-    Certified, Report, Trusted, case_in_words, prove, summary, tables, write_json,
+    Certified, Report, RunWithTrust, case_in_words, prove, summary, tables, write_json,
 };
 use std::path::{Path, PathBuf};
 
@@ -110,16 +110,20 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
 }
 
 /// The run, and its neighbours if needed, with a progress bar.
-fn trusted(args: &Args, case: &Case) -> Result<Trusted, Failure> {
+fn trusted(args: &Args, case: &Case) -> Result<RunWithTrust, Failure> {
     let uncertainty = args.uncertainty.read(case)?;
     let (bar, seed) = (Bar::new(), args.uncertainty.seed());
     let on_progress = |progress: Progress| bar.show(progress);
-    Trusted::run(case, uncertainty, args.ensemble, seed, &on_progress)
+    RunWithTrust::run(case, uncertainty, args.ensemble, seed, &on_progress)
         .map_err(|error| Failure::from(error).with_prefix("--uncertainty"))
 }
 
 /// The proof of the run, if it is asked for.
-fn certified(args: &Args, input: &Input, trusted: &Trusted) -> Result<Option<Certified>, Failure> {
+fn certified(
+    args: &Args,
+    input: &Input,
+    trusted: &RunWithTrust,
+) -> Result<Option<Certified>, Failure> {
     if !args.certify {
         return Ok(None);
     }
@@ -197,7 +201,7 @@ fn write_directory(
     folder: TargetFolder,
     directory: &Path,
     input: &Input,
-    trusted: &Trusted,
+    trusted: &RunWithTrust,
     sampling: Option<Sampling>,
 ) -> Result<(), Failure> {
     let trajectory = &trusted.run;

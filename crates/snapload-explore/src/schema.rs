@@ -71,7 +71,7 @@ fn what_happens((outcome, certainty): &(Outcome, Certainty)) -> String {
         Stop::EndTime if outcome.sliding > 0.0 => format!("slides on one cable at times{past}"),
         Stop::EndTime => format!("continues to snap, {about}{snaps} times by t = {t:.0}"),
         Stop::ImpactLimit => format!("snaps more than {snaps} times by t = {about}{t:.1}"),
-        limit => format!("reaches the {} at t = {about}{t:.1}", limit.words()),
+        limit => format!("reaches the {} at t = {about}{t:.1}", limit.label()),
     }
 }
 

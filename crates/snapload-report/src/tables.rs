@@ -148,7 +148,7 @@ mod tests {
 
     #[test]
     fn numbers_have_no_row_of_zeros_and_are_read_back() {
-        let told = [
+        let examples = [
             (5.810_268_896_183_074e-20, "5.810268896183074e-20"),
             (-9.9e-6, "-9.9e-6"),
             (1e-5, "0.00001"),
@@ -159,7 +159,7 @@ mod tests {
             (1e16, "1e16"),
             (f64::NAN, "NaN"),
         ];
-        for (number, words) in told {
+        for (number, words) in examples {
             assert_eq!(in_digits(number), words);
             let read: f64 = words.parse().expect("a number");
             assert_eq!(read.to_bits(), number.to_bits());

@@ -69,7 +69,11 @@ impl CriticalRow {
                 1,
                 &no_progress,
             )?,
-            proved: proved::amplitudes(&parameters, |case| Proved::kept(case).cloned(), published),
+            proved: proved::amplitudes(
+                &parameters,
+                |case| Proved::stored(case).cloned(),
+                published,
+            ),
         })
     }
 

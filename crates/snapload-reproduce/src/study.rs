@@ -8,7 +8,7 @@ use snapload::analysis::{
     ForceScan, OnProgress, Progress, Uncertainty, Unfinished, in_parallel, no_progress, trusted_run,
 };
 use snapload::{Case, CaseError, Outcome, Parameters, Trajectory, Value, named_case, table_6_1};
-use snapload_verify::Run;
+use snapload_verify::RoundedRun;
 
 /// A built-in case, its runs, and their proofs.
 #[derive(Clone, Debug)]
@@ -19,7 +19,7 @@ pub(crate) struct CaseRuns {
     /// The proved ends of its runs, if no cable stays taut before a stop rule ends them.
     pub(crate) proved: Both<Option<&'static Proved>>,
     /// The run with many digits, in the chapter's reading.
-    pub(crate) exact: Run,
+    pub(crate) exact: RoundedRun,
 }
 
 /// A run in doubles.
@@ -157,8 +157,8 @@ impl CaseRuns {
     fn new(code: &'static str) -> Result<Self, Unfinished> {
         let parameters = named_case(code)?.parameters;
         let proved = Both {
-            chapter: Proved::kept(&Reading::Chapter.apply(parameters)),
-            sliding_on: Proved::kept(&Reading::SlidingOn.apply(parameters)),
+            chapter: Proved::stored(&Reading::Chapter.apply(parameters)),
+            sliding_on: Proved::stored(&Reading::SlidingOn.apply(parameters)),
         };
         Ok(Self {
             code,
@@ -171,12 +171,15 @@ impl CaseRuns {
 }
 
 /// The run with enough digits that its end agrees with the proved one, if there is a proof.
-pub(crate) fn exact(parameters: &Parameters, proved: Option<&Proved>) -> Result<Run, CaseError> {
-    let run = Run::of_76_digits(parameters)?;
+pub(crate) fn exact(
+    parameters: &Parameters,
+    proved: Option<&Proved>,
+) -> Result<RoundedRun, CaseError> {
+    let run = RoundedRun::of_76_digits(parameters)?;
     let Some(proved) = proved else {
         return Ok(run);
     };
-    let is_proved = |run: &Run| {
+    let is_proved = |run: &RoundedRun| {
         run.end().reason == proved.reason
             && run.snaps() == proved.impacts
             && (run.end().t - proved.time()).abs() < 1e-12
@@ -184,7 +187,7 @@ pub(crate) fn exact(parameters: &Parameters, proved: Option<&Proved>) -> Result<
     if is_proved(&run) {
         return Ok(run);
     }
-    let run = Run::of_153_digits(parameters)?;
+    let run = RoundedRun::of_153_digits(parameters)?;
     if is_proved(&run) {
         return Ok(run);
     }

@@ -17,5 +17,5 @@
 mod many_digits;
 mod verify;
 
-pub use many_digits::Run;
+pub use many_digits::RoundedRun;
 pub use verify::{ExactImpact, MOST_DIGITS, Verification, verify};

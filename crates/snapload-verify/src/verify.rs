@@ -260,17 +260,18 @@ mod tests {
     #[test]
     fn a_proof_can_be_watched_and_cancelled() -> Result<(), Unfinished> {
         let case = Case::new(Parameters::STANDARD)?;
-        let told = Mutex::new(Vec::new());
+        let reports = Mutex::new(Vec::new());
         verify(&case, 60, 1e-3, &|progress| {
             assert!((0.0..=progress.of).contains(&progress.done));
-            let mut told = told.lock().expect("no panic");
-            told.push((progress.doing.to_owned(), progress.done));
+            let mut reports = reports.lock().expect("no panic");
+            reports.push((progress.doing.to_owned(), progress.done));
             Continue(())
         })?;
-        let told = told.into_inner().expect("no panic");
-        assert!(!told.is_empty());
+        let reports = reports.into_inner().expect("no panic");
+        assert!(!reports.is_empty());
         assert!(
-            told.windows(2)
+            reports
+                .windows(2)
                 .all(|pair| pair[0].0 != pair[1].0 || pair[0].1 <= pair[1].1)
         );
         let cancelled = verify(&case, 60, 1e-3, &|_| Break(()));

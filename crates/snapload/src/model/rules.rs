@@ -106,7 +106,7 @@ impl Stop {
     }
 
     /// The same for people to read.
-    pub const fn words(self) -> &'static str {
+    pub const fn label(self) -> &'static str {
         self.texts()[1]
     }
 
@@ -266,7 +266,7 @@ mod tests {
         // Where only the name is known, as in files, people read it with blanks instead of
         // underscores.
         for stop in Stop::ALL {
-            assert_eq!(stop.words(), stop.name().replace('_', " "));
+            assert_eq!(stop.label(), stop.name().replace('_', " "));
         }
         let limit = |limit| match limit {
             Limit::Rotation => 0,

@@ -6,10 +6,10 @@ use crate::ReportError;
 use crate::claims::motions::CLEAR;
 use crate::claims::numbers::{max, mean, min, spearman};
 use crate::claims::runs::case;
-use crate::claims::verdict::{Finding, Judged, Judges};
+use crate::claims::verdict::{Checked, Checks, Finding};
 use snapload::{Impact, Motion, State, System};
 
-pub(super) const JUDGES: &Judges<fn(&Material) -> Judged> = &[
+pub(super) const CHECKS: &Checks<fn(&Material) -> Checked> = &[
     ("6.5.2.2-05", |of| {
         let low = |of: &Rocking| of.motion.iter().all(|now| now.state.y < LOW);
         let widest = |of: &Rocking| {
@@ -56,7 +56,7 @@ pub(super) const JUDGES: &Judges<fn(&Material) -> Judged> = &[
         let ratio = |of: &Forces| of.weight / of.horizontal;
         Ok(Finding::robust(&forces, |of| of.horizontal_controls())
             .list("ratio", forces.iter().map(ratio))
-            .found("weight_counts", forces.iter().all(|of| ratio(of) >= 1.0)))
+            .condition("weight_counts", forces.iter().all(|of| ratio(of) >= 1.0)))
     }),
     ("6.5.2.2-09", |of| {
         let members = bouncing(of)?;
