@@ -1,5 +1,5 @@
 //! The case that a command line asks for: built-in or from a file, then changed by `--set`.
-use crate::failure::{Failure, plain};
+use crate::failure::{Failure, without_number};
 use snapload::{CASE, Case, CaseError, Entries, Parameters, Schema, Value, named_case};
 use std::fs::File;
 use std::io::{ErrorKind, Read};
@@ -162,7 +162,7 @@ pub(crate) fn read_up_to(path: &Path, largest: u64, too_large: &str) -> Result<S
         Err(error) if error.kind() == ErrorKind::IsADirectory => {
             Err(bad("a directory, not a case file"))
         }
-        Err(error) => Err(bad(&format!("can not be read: {}", plain(&error)))),
+        Err(error) => Err(bad(&format!("can not be read: {}", without_number(&error)))),
     }
 }
 

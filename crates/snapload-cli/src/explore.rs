@@ -1,6 +1,6 @@
 //! `snapload explore`: a run on a page in the browser, which this program serves itself.
 use crate::case_input::{CaseArgs, read_text};
-use crate::failure::{Failure, plain, print};
+use crate::failure::{Failure, print, without_number};
 use crate::interrupt::{Graceful, end_gracefully, print_error_line};
 use crate::option_values::whole_number;
 use crate::structure_input::{entries_of, structure_of};
@@ -74,8 +74,12 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
         print_error_line("no browser could be opened; open the address above by hand");
     }
     let served = server.serve();
-    served
-        .map_err(|error| Failure::Failed(format!("the page can not be served: {}", plain(&error))))
+    served.map_err(|error| {
+        Failure::Failed(format!(
+            "the page can not be served: {}",
+            without_number(&error)
+        ))
+    })
 }
 
 /// The first case of the thesis's model.
@@ -124,6 +128,6 @@ fn bind(port: Option<u16>, start: &Start) -> Result<Server, Failure> {
 fn no_port(port: u16, error: &io::Error) -> Failure {
     Failure::BadInput(format!(
         "--port {port}: {}\nhint: choose another port, or leave --port out for any free one",
-        plain(error)
+        without_number(error)
     ))
 }

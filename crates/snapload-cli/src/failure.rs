@@ -3,7 +3,7 @@ use crate::standard_output::standard_output;
 use snapload::CaseError;
 use snapload::analysis::{Cancelled, Unfinished};
 use snapload_study::StudyError;
-pub(crate) use snapload_study::without_number as plain;
+pub(crate) use snapload_study::without_number;
 use std::fmt::Display;
 use std::io::{self, ErrorKind, StdoutLock, Write};
 use std::path::Path;
@@ -45,16 +45,16 @@ impl Failure {
     pub(crate) fn write(place: impl Display, error: &io::Error) -> Self {
         match error.kind() {
             ErrorKind::BrokenPipe => Self::OutputClosed,
-            _ => Self::Failed(format!("can not write {place}: {}", plain(error))),
+            _ => Self::Failed(format!("can not write {place}: {}", without_number(error))),
         }
     }
 
     /// A path for output to which nothing can be written.
-    pub(crate) fn no_place(path: &Path, error: &io::Error) -> Self {
+    pub(crate) fn cannot_write_to(path: &Path, error: &io::Error) -> Self {
         Self::BadInput(format!(
             "can not write to {}: {}",
             path.display(),
-            plain(error)
+            without_number(error)
         ))
     }
 }

@@ -26,7 +26,7 @@ impl PendingOutputs {
         let scratch = tempfile::Builder::new()
             .prefix(".snapload-")
             .tempdir_in(directory)
-            .map_err(|error| Failure::no_place(directory, &error))?
+            .map_err(|error| Failure::cannot_write_to(directory, &error))?
             .keep();
         temporary_paths.scratch.push(scratch.clone());
         self.scratch.push(scratch);
@@ -41,7 +41,7 @@ impl PendingOutputs {
                 Ok(()) => temporary_paths.new.push(ancestor),
                 // `results/../other` creates the same directory twice.
                 Err(error) if error.kind() == ErrorKind::AlreadyExists => {}
-                Err(error) => return Err(Failure::no_place(directory, &error)),
+                Err(error) => return Err(Failure::cannot_write_to(directory, &error)),
             }
         }
         if !directory.is_dir() {
@@ -58,7 +58,7 @@ impl PendingOutputs {
         target: PathBuf,
         fill: impl FnOnce(&mut dyn Write) -> io::Result<()>,
     ) -> Result<(), Failure> {
-        self.refuse_twice(&target)?;
+        self.refuse_duplicate(&target)?;
         let scratch = self.scratch[folder.0].join(self.files.len().to_string());
         let written = File::create_new(&scratch).and_then(|file| {
             let mut file = BufWriter::new(file);
@@ -71,7 +71,7 @@ impl PendingOutputs {
     }
 
     /// An error if another output has the same path.
-    fn refuse_twice(&self, target: &Path) -> Result<(), Failure> {
+    fn refuse_duplicate(&self, target: &Path) -> Result<(), Failure> {
         if self
             .files
             .iter()
@@ -102,7 +102,8 @@ impl PendingOutputs {
         let mut temporary_paths = temporary_paths();
         let mut placed = Vec::new();
         for (scratch, target) in std::mem::take(&mut self.files) {
-            put(&scratch, &target).map_err(|error| Failure::write(target.display(), &error))?;
+            move_into_place(&scratch, &target)
+                .map_err(|error| Failure::write(target.display(), &error))?;
             placed.push(target);
         }
         temporary_paths.new.clear();
@@ -121,7 +122,7 @@ impl Drop for PendingOutputs {
 /// Moves a file to its place. A link is followed, so that its target is replaced and not the link;
 /// the contents are copied into a device or a pipe, and into a file on another disk, to which
 /// nothing can be renamed.
-fn put(scratch: &Path, target: &Path) -> io::Result<()> {
+fn move_into_place(scratch: &Path, target: &Path) -> io::Result<()> {
     let target = match target.is_symlink() {
         // A link whose target does not exist yet.
         true => target.canonicalize().or_else(|_| {

@@ -72,7 +72,7 @@ impl StudyArgs {
             let place = entries.place("case").unwrap_or_default().to_owned();
             add_case_defaults(&mut entries, &code).map_err(|error| error.at(place))?;
         }
-        let options = StudyOptions::of_file(self.case.file(), &entries)?.changed_by(self)?;
+        let options = StudyOptions::of_file(self.case.file(), &entries)?.overridden_by(self)?;
         let trust = options.trust;
         let base = entries
             .values("case")
@@ -126,7 +126,7 @@ impl StudyOptions {
     }
 
     /// Options of the command line replace those of the file.
-    fn changed_by(mut self, args: &StudyArgs) -> Result<Self, Failure> {
+    fn overridden_by(mut self, args: &StudyArgs) -> Result<Self, Failure> {
         for text in &args.vary {
             let (key, varied) = of_text(text)?;
             match self.vary.iter_mut().find(|(known, _)| *known == key) {

@@ -22,13 +22,13 @@ impl PictureArgs {
     /// Refuses what can not be drawn, before anything is computed. Whoever resumes may have drawn
     /// the picture already, so then it may be there.
     pub(crate) fn check(&self, study: &str, resume: bool) -> Result<(), Failure> {
-        match self.wanted(study)? {
+        match self.requested(study)? {
             Some((path, _)) if !resume && is_there(path) => Err(occupied(path)),
             _ => Ok(()),
         }
     }
 
-    fn wanted(&self, study: &str) -> Result<Option<(&Path, StudyPicture)>, Failure> {
+    fn requested(&self, study: &str) -> Result<Option<(&Path, StudyPicture)>, Failure> {
         let Some(path) = &self.plot else {
             return Ok(None);
         };
@@ -52,7 +52,7 @@ impl PictureArgs {
         let Some(identity) = identity_of(file) else {
             return Ok(None);
         };
-        let Some((path, picture)) = self.wanted(&identity.study)? else {
+        let Some((path, picture)) = self.requested(&identity.study)? else {
             return Ok(None);
         };
         let picture = picture.draw(file)?;

@@ -186,9 +186,10 @@ impl List {
         let (mut rows, mut first) = (Vec::new(), 0);
         for (group, length) in reader.groups().enumerate() {
             let end = first + length;
-            let wanted = range.start.clamp(first, end) - first..range.end.clamp(first, end) - first;
-            if !wanted.is_empty() {
-                let columns = reader.read(group, &places, wanted)?;
+            let in_group =
+                range.start.clamp(first, end) - first..range.end.clamp(first, end) - first;
+            if !in_group.is_empty() {
+                let columns = reader.read(group, &places, in_group)?;
                 rows.extend(self.rows_of(&columns));
             }
             first = end;

@@ -374,7 +374,7 @@ pub fn folder_of(file: &Path) -> Result<&Path, StudyError> {
     )))
 }
 
-fn other_study(directory: &Path, known: &str, wanted: &str) -> StudyError {
+fn other_study(directory: &Path, known: &str, expected: &str) -> StudyError {
     let only = |one: &str, other: &str| {
         let mut lines = one
             .lines()
@@ -383,8 +383,8 @@ fn other_study(directory: &Path, known: &str, wanted: &str) -> StudyError {
     };
     StudyError::Occupied(Occupied::OtherStudy {
         directory: directory.to_owned(),
-        there: only(known, wanted),
-        here: only(wanted, known),
+        there: only(known, expected),
+        here: only(expected, known),
     })
 }
 

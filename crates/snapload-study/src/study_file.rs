@@ -370,9 +370,9 @@ pub fn read_rows(
     let columns = Columns::named(path, &[name])?;
     let mut begin = 0;
     for (group, count) in columns.reader.groups().enumerate() {
-        let wanted = rows.start.max(begin)..rows.end.min(begin + count);
-        if wanted.start < wanted.end {
-            let here = wanted.start - begin..wanted.end - begin;
+        let overlap = rows.start.max(begin)..rows.end.min(begin + count);
+        if overlap.start < overlap.end {
+            let here = overlap.start - begin..overlap.end - begin;
             columns.read(group, here)?.into_iter().for_each(&mut visit);
         }
         begin += count;

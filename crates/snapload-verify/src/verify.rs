@@ -224,7 +224,7 @@ mod tests {
 
     /// With twice the digits each decimal is the same, up to a rounding of the last one.
     #[test]
-    fn decimals_that_are_told_are_right() -> Result<(), Unfinished> {
+    fn printed_decimals_are_right() -> Result<(), Unfinished> {
         let case = Case::new(Parameters::STANDARD)?;
         let few = verify(&case, 60, 1e-3, &no_progress)?;
         let many = verify(&case, 150, 1e-3, &no_progress)?;

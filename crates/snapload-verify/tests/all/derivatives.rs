@@ -71,16 +71,16 @@ fn by_the_linearised_motion(
     while all.len() < count {
         let step = simulation.step().expect("it goes on");
         let map = tangent.of_step(&simulation, &step);
-        let told = columns.each_mut().map(|column| {
+        let quantities = columns.each_mut().map(|column| {
             let met = map.meet(&map.along(column));
             *column = map.through(&met);
-            let mut told = [0.0; QUANTITIES];
-            told[..7].copy_from_slice(&met);
-            told[8..].copy_from_slice(&column[..6]);
-            told
+            let mut quantities = [0.0; QUANTITIES];
+            quantities[..7].copy_from_slice(&met);
+            quantities[8..].copy_from_slice(&column[..6]);
+            quantities
         });
         if map.has_impact() {
-            all.push(told);
+            all.push(quantities);
         }
     }
     all

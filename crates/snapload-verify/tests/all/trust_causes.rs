@@ -161,17 +161,20 @@ fn nothing_is_certain_that_is_wrong() {
         ("t_end", 60.0),
     ]);
     let found = verify(&case, 60, 1e-3, &no_progress).expect("legal");
-    let (wrong, told) = (
+    let (wrong, predicted) = (
         found.first_wrong,
         found.trust.horizon.map(|horizon| horizon.impact),
     );
-    assert!(told.is_some() && told <= wrong, "{told:?} {wrong:?}");
+    assert!(
+        predicted.is_some() && predicted <= wrong,
+        "{predicted:?} {wrong:?}"
+    );
 }
 
 /// A point on cables that are hardly longer than necessary: the height of the anchors above it has
 /// lost digits.
 #[test]
-fn digits_that_short_cables_lose_are_not_told() {
+fn digits_that_short_cables_lose_are_not_claimed() {
     for e in [0.0, 0.3, 0.5] {
         let numbers = [
             ("r", 1.0000001),
@@ -190,10 +193,10 @@ fn digits_that_short_cables_lose_are_not_told() {
             trusted_run(&case, &Uncertainty::default(), &no_progress).expect("legal");
         let exact = case.simulation_over(|_, number| Digits::from_decimal(number));
         let (differences, _) = compared(&run, exact.expect("legal"), 2000);
-        let told: Vec<(f64, f64)> = differences.into_iter().zip(trust.errors).collect();
-        println!("e = {e}: {told:?}");
-        assert!(told.len() > 1 && told[0].1 < 1e-10);
-        for (difference, error) in told {
+        let pairs: Vec<(f64, f64)> = differences.into_iter().zip(trust.errors).collect();
+        println!("e = {e}: {pairs:?}");
+        assert!(pairs.len() > 1 && pairs[0].1 < 1e-10);
+        for (difference, error) in pairs {
             assert!(difference < 3.0 * error, "{difference:e} {error:e}");
         }
     }

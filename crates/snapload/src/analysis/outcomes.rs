@@ -205,15 +205,15 @@ mod tests {
 
     #[test]
     fn the_first_numbers_are_done_where_there_are_to_be_no_more() {
-        for wanted in [0, 1, 2, 300] {
-            let asked = AtomicUsize::new(0);
-            let no_more = || asked.fetch_add(1, Ordering::Relaxed) >= wanted;
+        for limit in [0, 1, 2, 300] {
+            let calls = AtomicUsize::new(0);
+            let no_more = || calls.fetch_add(1, Ordering::Relaxed) >= limit;
             let done = super::on_all_threads_until(&no_more, 5000, |numbers| {
                 Ok::<_, Infallible>(numbers.collect())
             });
             assert_eq!(
                 done.map(super::ThreadResults::into_vec),
-                Ok((0..wanted).collect())
+                Ok((0..limit).collect())
             );
         }
     }

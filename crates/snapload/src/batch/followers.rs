@@ -15,7 +15,7 @@ pub(crate) trait Follower: Sized {
     /// Takes in a step that the run made outside the lanes.
     fn take(&mut self, simulation: &Simulation, step: &Step);
     /// Whether it follows the run any further.
-    fn goes_on(&self) -> bool;
+    fn is_active(&self) -> bool;
     /// Whether it can follow the run in a lane now.
     fn fits_a_lane(&self) -> bool;
     /// Its result, as far as it has come.
@@ -51,7 +51,7 @@ impl Follower for NoFollower {
     #[inline(always)]
     fn take(&mut self, _: &Simulation, _: &Step) {}
     #[inline(always)]
-    fn goes_on(&self) -> bool {
+    fn is_active(&self) -> bool {
         true
     }
     #[inline(always)]

@@ -185,7 +185,7 @@ impl<'a, L: Doubles, C: Follower> LaneScheduler<'a, L, C> {
     /// whether the lane is taken.
     fn fill(&mut self, lane: usize, mut slot: Box<Slot<C>>, entry: LaneEntry) -> bool {
         loop {
-            if slot.simulation.stop().is_some() || !slot.follower.goes_on() {
+            if slot.simulation.stop().is_some() || !slot.follower.is_active() {
                 (self.take_result)(slot);
                 return false;
             }
@@ -261,7 +261,7 @@ impl<C: Follower> Slot<C> {
     pub(super) fn new(index: usize, simulation: Box<Simulation>, follower: C) -> Box<Self> {
         Box::new(Self {
             index,
-            outcome: Outcome::begun(&simulation),
+            outcome: Outcome::at_start(&simulation),
             simulation,
             follower,
         })

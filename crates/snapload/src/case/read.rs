@@ -78,7 +78,7 @@ impl Entries {
         let (path, value) = text.split_once('=').ok_or_else(|| self.no_setting(text))?;
         let (path, value) = (path.trim(), value.trim());
         let mut change = || -> Result<(), CaseError> {
-            let (table, mut indices, key) = self.meant(path)?;
+            let (table, mut indices, key) = self.resolve_path(path)?;
             let written = DeValue::parse(value).ok();
             let written = written.and_then(|value| digits_of(value.get_ref()));
             let value = parse_value(value).map_err(|shown| refuse(table, path, key, &shown))?;
@@ -95,7 +95,7 @@ impl Entries {
 
     /// Which key of which tables a path refers to; all tables of the name if the path has no
     /// number.
-    fn meant<'a>(
+    fn resolve_path<'a>(
         &self,
         path: &'a str,
     ) -> Result<(&'static Table, std::ops::Range<usize>, &'a str), CaseError> {

@@ -149,11 +149,11 @@ pub(crate) fn bounce<L: Lane>(two_cables: &TwoCableSystem<L>, from: &AfterImpact
         ];
         let open = openness[0].open & openness[1].open;
         let arrived =
-            found & s.below(horizon) & alone & open & stops_nowhere(two_cables, from, *s, state);
+            found & s.below(horizon) & alone & open & reaches_no_limit(two_cables, from, *s, state);
         let top_known = !rises_above(two_cables, from, *s, state);
         let forces = [start.force_at_start, end.force];
         let known = [arrived, top_known];
-        land(two_cables, from, second, &end, known, (forces, openness))
+        impact_after_flight(two_cables, from, second, &end, known, (forces, openness))
     })
 }
 
@@ -169,15 +169,15 @@ fn closes_alone<L: Lane>(
 ) -> L::Mask {
     let struck = GapJet::select(second, &jets[1], &jets[0]);
     let other = GapJet::select(second, &jets[0], &jets[1]);
-    let struck_blur = L::select(second, start_noises[1], start_noises[0]);
-    let other_blur = L::select(second, start_noises[0], start_noises[1]);
+    let struck_noise = L::select(second, start_noises[1], start_noises[0]);
+    let other_noise = L::select(second, start_noises[0], start_noises[1]);
     // The errors of the times; both sides are multiplied by the rate.
     let spread =
-        ((t.abs() + s) * L::EPSILON * 4.0).mul_add(struck.rate, struck.noise + struck_blur);
+        ((t.abs() + s) * L::EPSILON * 4.0).mul_add(struck.rate, struck.noise + struck_noise);
     let margin = other
         .rate
         .positive()
-        .mul_add(spread, (other.noise + other_blur) * struck.rate);
+        .mul_add(spread, (other.noise + other_noise) * struck.rate);
     L::ZERO.below(struck.rate) & (other.value * struck.rate).below(-(margin * 2.0))
 }
 
@@ -198,7 +198,7 @@ fn height_bound<L: Lane>(
 /// Whether no limit is near: the rotation is largest at an end, as it is linear in time, and the
 /// height exceeds its values at the ends by at most |ÿ|s²/8.
 #[inline(always)]
-fn stops_nowhere<L: Lane>(
+fn reaches_no_limit<L: Lane>(
     two_cables: &TwoCableSystem<L>,
     from: &AfterImpact<L>,
     s: L,
@@ -250,7 +250,7 @@ fn put_back<L: Lane>(
 
 /// The impact at the end of a flight, docs/model.md section 5: p = (1 + e) v_n/w.
 #[inline(always)]
-fn land<L: Lane>(
+fn impact_after_flight<L: Lane>(
     two_cables: &TwoCableSystem<L>,
     from: &AfterImpact<L>,
     second: L::Mask,

@@ -73,7 +73,7 @@ pub(crate) trait Along<T> {
 /// A bound on how much a quantity whose second derivative is at most `bend` exceeds its values at
 /// the ends of [`EVALUATIONS`] parts of a step.
 #[inline(always)]
-fn between_looks<T: Real>(step: &impl Along<T>, bend: T) -> T {
+fn between_evaluations<T: Real>(step: &impl Along<T>, bend: T) -> T {
     let width = step.duration() / EVALUATIONS as f64;
     bend * width * width * 0.125
 }
@@ -92,7 +92,8 @@ fn farthest_turned<T: Real>(step: &impl Along<T>, floor: T) -> T {
     if rough < floor {
         return rough;
     }
-    ends.max(step.largest_seen(EVALUATIONS, |state| state.theta.abs())) + between_looks(step, bend)
+    ends.max(step.largest_seen(EVALUATIONS, |state| state.theta.abs()))
+        + between_evaluations(step, bend)
 }
 
 /// A bound on y of the highest point of the body.
@@ -111,7 +112,7 @@ fn highest<T: Real>(system: &System<T>, step: &impl Along<T>, floor: T) -> T {
     start
         .y
         .max(step.largest_seen(EVALUATIONS, |state| system.top(state)))
-        + between_looks(step, bend)
+        + between_evaluations(step, bend)
 }
 
 /// The bounds with which flights side by side compare.

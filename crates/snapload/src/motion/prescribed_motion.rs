@@ -72,7 +72,7 @@ impl<T: Real> PrescribedTaut<T> {
 
     /// Slack flight in closed form (docs/model.md section 4).
     #[inline(always)]
-    fn flown(&self, t: T, state: &State<T>, s: T) -> State<T> {
+    fn slack_flight(&self, t: T, state: &State<T>, s: T) -> State<T> {
         let forcing = &self.system.forcing;
         let mut flight = Instant::at(s, forcing.constant, state.vtheta);
         for harmonic in &forcing.harmonics {
@@ -83,7 +83,7 @@ impl<T: Real> PrescribedTaut<T> {
 
     /// A chain of Taylor series, which are kept if that is asked for.
     #[inline(always)]
-    fn driven(
+    fn by_series(
         &self,
         taut: TautSet,
         (begun, state): (T, &State<T>),
@@ -182,10 +182,10 @@ impl<T: Real> Kernel for Carrying<'_, T> {
     fn run(self) -> State<T> {
         let (t, state) = self.from;
         if self.prescribed.system.has_closed_form(self.taut) {
-            self.prescribed.flown(t, state, self.s)
+            self.prescribed.slack_flight(t, state, self.s)
         } else {
             self.prescribed
-                .driven(self.taut, (t, state), self.s, self.kept)
+                .by_series(self.taut, (t, state), self.s, self.kept)
         }
     }
 }
@@ -209,14 +209,14 @@ pub struct Path<'a, T: Real = f64> {
 impl<T: Real> Path<'_, T> {
     /// The state a time `s` after the beginning.
     pub fn state(&self, s: T) -> State<T> {
-        dispatch_over::<T, _>(Asking(self, s))
+        dispatch_over::<T, _>(StateOnPath(self, s))
     }
 }
 
 /// A state that is asked for, by the best instructions for it.
-struct Asking<'a, T: Real>(&'a Path<'a, T>, T);
+struct StateOnPath<'a, T: Real>(&'a Path<'a, T>, T);
 
-impl<T: Real> Kernel for Asking<'_, T> {
+impl<T: Real> Kernel for StateOnPath<'_, T> {
     type Output = State<T>;
     #[inline(always)]
     fn run(self) -> State<T> {
@@ -229,7 +229,7 @@ impl<T: Real> Kernel for Asking<'_, T> {
             Some(Piece { from, motion }) => {
                 state_at([&motion[0], &motion[1], &motion[2]], s - *from)
             }
-            None => path.prescribed.flown(*t, state, s),
+            None => path.prescribed.slack_flight(*t, state, s),
         }
     }
 }

@@ -86,7 +86,7 @@ impl<L: Lane> Followed<L> {
         let within_tolerance = known.below(self.tolerance * self.tolerance)
             & reach.meets_all(bounced)
             & reach.leaves_the_other_open(bounced)
-            & reach.stops_nowhere(bounced);
+            & reach.reaches_no_limit(bounced);
         self.parts.rotate();
         Through {
             met,
@@ -402,7 +402,7 @@ impl<L: Lane> Reach<L> {
 
     /// Whether no neighbour reaches a limit.
     #[inline(always)]
-    fn stops_nowhere(&self, bounced: &Bounced<L>) -> L::Mask {
+    fn reaches_no_limit(&self, bounced: &Bounced<L>) -> L::Mask {
         const SQUARE: f64 = SIGMA_REACH * SIGMA_REACH * SAFE;
         let two_cables = bounced.two_cables;
         let (start, end) = (&bounced.from.state, bounced.before);

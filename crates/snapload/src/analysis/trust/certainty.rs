@@ -34,7 +34,7 @@ impl Follower for SpreadMonitor {
         dispatch(Following(self, simulation, step));
     }
 
-    fn goes_on(&self) -> bool {
+    fn is_active(&self) -> bool {
         self.horizon.is_none()
     }
 

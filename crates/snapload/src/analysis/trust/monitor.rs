@@ -125,20 +125,20 @@ struct Records<'a> {
 
 impl Observer for Records<'_> {
     #[inline(always)]
-    fn see_bounce(&mut self, map: &BounceMap<f64>) {
+    fn observe_bounce(&mut self, map: &BounceMap<f64>) {
         self.note(&LinearMap::Bounce(map));
         self.frame.follow_bounce(map);
     }
 
-    fn see_step(&mut self, map: &StepMap) {
-        dispatch(SeeingStep(self, map));
+    fn observe_step(&mut self, map: &StepMap) {
+        dispatch(ObservingStep(self, map));
     }
 }
 
 /// What a step does, to be taken in by the best instructions for it.
-struct SeeingStep<'a, 'r>(&'a mut Records<'r>, &'a StepMap);
+struct ObservingStep<'a, 'r>(&'a mut Records<'r>, &'a StepMap);
 
-impl Kernel for SeeingStep<'_, '_> {
+impl Kernel for ObservingStep<'_, '_> {
     type Output = ();
     #[inline(always)]
     fn run(self) {
@@ -156,7 +156,7 @@ impl Records<'_> {
         let square = map.magnification_squared();
         let (simulation, step) = self.latest;
         if square > GRAZE_MAGNIFICATION * GRAZE_MAGNIFICATION
-            && !map.surely_quickens()
+            && !map.certainly_accelerates()
             && let Some(closing) = map.closing(simulation, step)
             && closing.alpha < 0.0
         {

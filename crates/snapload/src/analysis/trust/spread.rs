@@ -68,9 +68,9 @@ impl LinearMap<'_> {
     /// Whether it is certain, from these numbers alone, that the closing of the gap does not slow
     /// down.
     #[inline(always)]
-    pub(super) fn surely_quickens(&self) -> bool {
+    pub(super) fn certainly_accelerates(&self) -> bool {
         match self {
-            Self::Bounce(map) => map.surely_quickens(),
+            Self::Bounce(map) => map.certainly_accelerates(),
             Self::Step(_) => false,
         }
     }
@@ -100,18 +100,18 @@ impl LinearMap<'_> {
 /// compiled without the processor's own instructions.
 pub(super) trait Observer {
     /// Receives the effect of a bounce.
-    fn see_bounce(&mut self, map: &BounceMap<f64>)
+    fn observe_bounce(&mut self, map: &BounceMap<f64>)
     where
         Self: Sized;
     /// Receives the effect of any step. The observer is called through a pointer, so that the
     /// following of a step is compiled once for all observers.
-    fn see_step(&mut self, map: &StepMap);
+    fn observe_step(&mut self, map: &StepMap);
 }
 
 impl Observer for () {
     #[inline(always)]
-    fn see_bounce(&mut self, _: &BounceMap<f64>) {}
-    fn see_step(&mut self, _: &StepMap) {}
+    fn observe_bounce(&mut self, _: &BounceMap<f64>) {}
+    fn observe_step(&mut self, _: &StepMap) {}
 }
 
 /// Any step to be carried through, by the best instructions for it.
@@ -243,7 +243,7 @@ impl SpreadMonitor {
         let error = match bounced {
             Some(bounced) if unknown || self.adds_by_signs() => {
                 let map = BounceMap::of(&bounced);
-                observer.see_bounce(&map);
+                observer.observe_bounce(&map);
                 match unknown {
                     true => f64::INFINITY,
                     false => self.carry_bounce(simulation, step, &bounced, &map),
@@ -351,7 +351,7 @@ impl SpreadMonitor {
     #[inline(always)]
     fn carry(&mut self, simulation: &Simulation, step: &Step, observer: &mut dyn Observer) -> f64 {
         let map = self.tangent(simulation).of_step(simulation, step);
-        observer.see_step(&map);
+        observer.observe_step(&map);
         if self.error_is_unknown() {
             return f64::INFINITY;
         }

@@ -8,7 +8,7 @@ use crate::motion::limits::{TautMotion, Watched};
 use crate::motion::taut_series::Series;
 
 /// A tension that stays below this along a whole step counts as zero \[F\].
-const NOTHING: f64 = 1e-7;
+const ZERO_TENSION: f64 = 1e-7;
 /// The tolerance for the length of a taut cable without tension, as a multiple of that of a resting
 /// one.
 const TAUT_TOLERANCE: f64 = 64.0;
@@ -50,7 +50,8 @@ impl<T: Real> Series<T> {
             // If not all taut cables carry, one whose tension is zero throughout has no event.
             let nothing = taut != carrying
                 && carrying.contains(cable)
-                && event.series.derivative_bound(0, step, event.order) <= T::from_decimal(NOTHING);
+                && event.series.derivative_bound(0, step, event.order)
+                    <= T::from_decimal(ZERO_TENSION);
             if !nothing && !event.stays_negative(step) {
                 self.watched.push(event);
             }
