@@ -111,7 +111,7 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
             "no section: the motion from this start {why}; use fewer --periods, or another start"
         )));
     }
-    let impacts = kept(&section)?;
+    let impacts = kept_impacts(&section)?;
     match impacts {
         Some(impacts) => outputs.table(table, &impact_columns(impacts))?,
         None => outputs.table(table, &columns(&section))?,
@@ -140,7 +140,7 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
 }
 
 /// The impacts, if they were asked for.
-fn kept(section: &Section) -> Result<Option<&[ImpactPoint]>, Failure> {
+fn kept_impacts(section: &Section) -> Result<Option<&[ImpactPoint]>, Failure> {
     match &section.impacts {
         Some(kept) if kept.left_out > 0 => Err(Failure::BadInput(format!(
             "--at impacts: {} impacts, and at most {MOST_KEPT} are kept; write a smaller --keep",

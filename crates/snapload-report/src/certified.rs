@@ -48,7 +48,7 @@ pub enum Differs {
 }
 
 impl Differs {
-    fn words(self) -> &'static str {
+    fn label(self) -> &'static str {
         match self {
             Self::Cable => "is in the other cable",
             Self::Time => "differs in the first five digits of its time",
@@ -181,7 +181,7 @@ impl Certified {
             ),
             Some(Departure { impact, differs }) => format!(
                 "the run departs from the proof at impact {impact}, which {}",
-                differs.words()
+                differs.label()
             ),
         })
     }

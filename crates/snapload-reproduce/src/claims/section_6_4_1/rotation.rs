@@ -252,14 +252,14 @@ fn close_to_rocking(table_runs: &TableRuns) -> Checked {
         };
         format!("{}, rocks {known} T later{never}", ending(own[k].end()))
     });
-    Ok(Finding::new(soon(&waits, CLOSE))
+    Ok(Finding::new(rocks_within(&waits, CLOSE))
         .value("runs", words.join("; "))
         .value("close", CLOSE))
 }
 
 /// Whether some cases all begin to rock within a time, by their waiting times from each start;
 /// mixed if only some do.
-fn soon(waits: &[Vec<Option<f64>>], close: f64) -> Verdict {
+fn rocks_within(waits: &[Vec<Option<f64>>], close: f64) -> Verdict {
     let near = |wait: &Option<f64>| wait.is_some_and(|wait| wait <= close);
     Verdict::families(
         waits
@@ -288,9 +288,15 @@ mod tests {
     #[test]
     fn rocking_long_after_the_end_is_not_close_to_it() {
         let waits = |all: [f64; 2]| all.map(|wait| vec![Some(wait); 2]).to_vec();
-        assert_eq!(soon(&waits([0.1, 0.9]), 1.0), Verdict::Reproduced);
-        assert_eq!(soon(&waits([0.1, 8.0]), 1.0), Verdict::Mixed);
-        assert_eq!(soon(&waits([3.0, 8.0]), 1.0), Verdict::NotReproduced);
-        assert_eq!(soon(&[vec![None, None]], 1.0), Verdict::NotReproduced);
+        assert_eq!(rocks_within(&waits([0.1, 0.9]), 1.0), Verdict::Reproduced);
+        assert_eq!(rocks_within(&waits([0.1, 8.0]), 1.0), Verdict::Mixed);
+        assert_eq!(
+            rocks_within(&waits([3.0, 8.0]), 1.0),
+            Verdict::NotReproduced
+        );
+        assert_eq!(
+            rocks_within(&[vec![None, None]], 1.0),
+            Verdict::NotReproduced
+        );
     }
 }

@@ -113,7 +113,7 @@ fn trend(study: &Study, key: &str, r: f64, sign: f64) -> Checked {
             .iter()
             .zip(&all)
             .filter(|(_, points)| !has_values(points))
-            .map(|(reading, _)| format!(", no curve where {}", reading.words()))
+            .map(|(reading, _)| format!(", no curve where {}", reading.heading()))
             .collect::<String>();
         all.extend(neighbours(curve, &coarse)?);
         all.retain(has_values);

@@ -80,7 +80,7 @@ pub(super) const CHECKS: &Checks<fn(&Example) -> Checked> = &[
             .condition("small_ones", members.iter().all(|hits| is_many(hits.len()))))
     }),
     ("6.5.1.2-11", |of| {
-        let turning = |s: &RunEvents| s.seen().filter(|slide| turns_back(slide)).count();
+        let turning = |s: &RunEvents| s.visible_slides().filter(|slide| turns_back(slide)).count();
         let moves: Vec<[f64; 2]> = of
             .sliding_runs
             .iter()
@@ -92,7 +92,9 @@ pub(super) const CHECKS: &Checks<fn(&Example) -> Checked> = &[
             .list("turning", of.sliding_runs.iter().map(|s| turning(s) as f64))
             .list(
                 "slides",
-                of.sliding_runs.iter().map(|s| s.seen().count() as f64),
+                of.sliding_runs
+                    .iter()
+                    .map(|s| s.visible_slides().count() as f64),
             )
             .value(
                 "proved",
@@ -277,14 +279,14 @@ impl<'a> RunEvents<'a> {
     }
 
     /// Its visible slides.
-    fn seen(&self) -> impl Iterator<Item = &[Motion]> {
+    fn visible_slides(&self) -> impl Iterator<Item = &[Motion]> {
         let long = self.slides.iter().filter(|slide| slide.lasts > SHORTEST);
         long.map(|slide| slide.motion.as_slice())
     }
 
     /// All times of these.
     fn sliding(&self) -> impl Iterator<Item = &Motion> {
-        self.seen().flatten()
+        self.visible_slides().flatten()
     }
 
     /// Whether it goes up (1) or down (-1) in a slide, however short.
