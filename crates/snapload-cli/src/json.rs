@@ -89,8 +89,8 @@ impl Json {
     }
 }
 
-/// The directory in which a file is written first: that of the file, so that it can be renamed; another
-/// one for a device or a pipe, into which the contents are copied.
+/// The directory in which a file is written first: that of the file, so that it can be renamed;
+/// another one for a device or a pipe, into which the contents are copied.
 pub(crate) fn folder_for(path: &Path) -> PathBuf {
     match path.exists() && !path.is_file() {
         true => std::env::temp_dir(),

@@ -20,8 +20,8 @@ extern "C" fn check_standard_output() {
 }
 
 // SAFETY: a function in this section is called once, on one thread, before `main`, as a C function
-// without arguments that it needs or a result; `check_standard_output` is such a function, and uses nothing that
-// Rust initialises later: one system call and one atomic.
+// without arguments that it needs or a result; `check_standard_output` is such a function, and uses
+// nothing that Rust initialises later: one system call and one atomic.
 #[cfg(target_os = "linux")]
 #[used]
 #[unsafe(link_section = ".init_array")]

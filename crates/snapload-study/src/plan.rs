@@ -246,8 +246,8 @@ impl Plan {
     /// Random points.
     ///
     /// # Errors
-    /// [`StudyError::NoRandomRange`] for a box without any, and [`StudyError::Input`] for a key with two
-    /// ranges, and for no points or too many.
+    /// [`StudyError::NoRandomRange`] if there is no range, and [`StudyError::Input`] for a key with
+    /// two ranges, and for no points or too many.
     pub fn random(ranges: Vec<RandomRange>, count: u64, seed: u64) -> Result<Self, StudyError> {
         check_distinct(ranges.iter().map(RandomRange::key))?;
         let points = Sobol::new(ranges.len(), seed)

@@ -1,4 +1,5 @@
-//! A case: parameters that were checked once, when they were read, and the system that they describe.
+//! A case: parameters that were checked once, when they were read, and the system that they
+//! describe.
 
 pub(crate) mod entries;
 pub(crate) mod error;

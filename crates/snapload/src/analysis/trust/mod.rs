@@ -2,7 +2,7 @@
 //!
 //! An uncertainty of the start or of a key, and in any case the rounding of the arithmetic, is
 //! carried along the run by the linearised motion ([`crate::motion::tangent::Tangent`]) as the
-//! spread of (w, τ), the deviation of state and time given at the events. An *error* is two standard
+//! spread of (w, τ), the deviation of state and time at the events. An *error* is two standard
 //! deviations of that: one neighbour in twenty is further off. The *horizon* is the first event
 //! where the error passes a tolerance, or where neighbours within three standard deviations may
 //! have another event than the run: there the linearisation ends, and with it the knowledge of what
