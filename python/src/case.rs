@@ -1,6 +1,6 @@
 //! A case, from keys and values of Python.
 
-use crate::errors::of_case;
+use crate::errors::error_of_case;
 use pyo3::prelude::*;
 use pyo3::types::{PyBool, PyDict, PyInt, PyString};
 use pyo3::{IntoPyObjectExt, intern};
@@ -58,13 +58,13 @@ impl Case {
     /// A case of keys and values, under the name that is shown for it.
     #[new]
     fn of(name: String, entries: &Bound<'_, PyDict>) -> PyResult<Self> {
-        Self::new(name, read_entries(entries)?).map_err(of_case)
+        Self::new(name, read_entries(entries)?).map_err(error_of_case)
     }
 
     /// The same case with some keys changed.
     fn replace(&self, entries: &Bound<'_, PyDict>) -> PyResult<Self> {
         let given = self.given.iter().cloned().chain(read_entries(entries)?);
-        Self::new(self.name.clone(), given).map_err(of_case)
+        Self::new(self.name.clone(), given).map_err(error_of_case)
     }
 
     #[getter]
@@ -107,10 +107,14 @@ pub(crate) fn checked(
         let key = key_named(&name);
         let value = match plain_value(&value)? {
             Ok(value) => value,
-            Err(shown) => return Err(of_case(key.map_err(of_case)?.refuse(&name, shown))),
+            Err(shown) => {
+                return Err(error_of_case(
+                    key.map_err(error_of_case)?.refuse(&name, shown),
+                ));
+            }
         };
-        let key = key.map_err(|error| of_case(error.given(&value)))?;
-        key.check(key.name, &value).map_err(of_case)?;
+        let key = key.map_err(|error| error_of_case(error.given(&value)))?;
+        key.check(key.name, &value).map_err(error_of_case)?;
         Ok((key.name, value))
     });
     read.collect()
@@ -122,8 +126,8 @@ pub(crate) fn to_value(name: &str, value: &Bound<'_, PyAny>) -> PyResult<Value> 
     match plain_value(value)? {
         Ok(value) => Ok(value),
         Err(shown) => {
-            let key = key_named(name).map_err(of_case)?;
-            Err(of_case(key.refuse(name, shown)))
+            let key = key_named(name).map_err(error_of_case)?;
+            Err(error_of_case(key.refuse(name, shown)))
         }
     }
 }

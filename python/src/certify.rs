@@ -1,6 +1,6 @@
 //! Proofs of runs, and runs compared with their proofs.
 
-use crate::errors::of_work;
+use crate::errors::error_of_work;
 use crate::interrupt::interruptible;
 use crate::run::{Run, to_json};
 use pyo3::exceptions::PyValueError;
@@ -50,10 +50,10 @@ pub(crate) fn certify(
 ) -> PyResult<String> {
     let parameters = *run.case()?.parameters();
     let case = ExactCase::of(&parameters, |_| None).map_err(PyValueError::new_err)?;
-    let proof = interruptible(py, progress, move |watch| {
-        prove(&case, parameters.t_end, &|progress| watch.go_on(progress))
+    let proof = interruptible(py, progress, move |shared| {
+        prove(&case, parameters.t_end, &|progress| shared.report(progress))
     })?;
-    let proof = proof.map_err(|_| of_work(Cancelled { done: 0.0 }.into()))?;
+    let proof = proof.map_err(|_| error_of_work(Cancelled { done: 0.0 }.into()))?;
     let proof = proof.map_err(PyValueError::new_err)?;
     to_json(&Answer::new(&Certified::new(proof, run.trajectory())))
 }

@@ -1,6 +1,6 @@
 //! The command `snapload`, and the chapter reproduced.
 
-use crate::errors::of_program;
+use crate::errors::internal_error;
 use crate::interrupt::interruptible;
 use pyo3::prelude::*;
 use pyo3::types::PyBytes;
@@ -17,16 +17,16 @@ pub(crate) fn command(py: Python<'_>, line: Vec<OsString>) -> u8 {
 /// A file: its place below the directory of the report, and what it holds.
 type Place<'py> = (String, Bound<'py, PyBytes>);
 
-/// The files of the report on the chapter. The progress is told in thousandths.
+/// The files of the report on the chapter. The progress is reported in thousandths.
 #[pyfunction]
 pub(crate) fn reproduce<'py>(
     py: Python<'py>,
     progress: Option<&Bound<'py, PyAny>>,
 ) -> PyResult<Vec<Place<'py>>> {
-    let report = interruptible(py, progress, |watch| {
+    let report = interruptible(py, progress, |shared| {
         let study = Study::compute(&|progress| {
             let thousandths = (1000.0 * progress.done / progress.of).floor();
-            watch.go_on(snapload::analysis::Progress::new(
+            shared.report(snapload::analysis::Progress::new(
                 progress.doing,
                 thousandths,
                 1000.0,
@@ -35,7 +35,7 @@ pub(crate) fn reproduce<'py>(
         let study = study.map_err(|error| error.to_string())?;
         Report::new(&study).map_err(|error| error.to_string())
     })?;
-    let files = report.map_err(of_program)?.files.into_iter();
+    let files = report.map_err(internal_error)?.files.into_iter();
     let files = files.map(|(place, bytes)| (place, PyBytes::new(py, &bytes)));
     Ok(files.collect())
 }

@@ -1,7 +1,7 @@
 //! The critical force, and the probability of exceeding the limits.
 
 use crate::case::Case;
-use crate::errors::{of_study, of_work};
+use crate::errors::{error_of_study, error_of_work};
 use crate::interrupt::interruptible;
 use crate::run::{read_uncertainty, to_json};
 use crate::study::Study;
@@ -18,10 +18,10 @@ use std::sync::Arc;
 pub(crate) fn critical_force(py: Python<'_>, case: &Case, step: f64, max: f64) -> PyResult<String> {
     let scan = ForceScan::new(step, max).map_err(of_scan)?;
     let parameters = *case.parameters();
-    let found = interruptible(py, None, move |watch| {
-        CriticalForce::scan(&parameters, scan, &|progress| watch.go_on(progress))
+    let found = interruptible(py, None, move |shared| {
+        CriticalForce::scan(&parameters, scan, &|progress| shared.report(progress))
     })?;
-    to_json(&CriticalRow::new(found.map_err(of_work)?))
+    to_json(&CriticalRow::new(found.map_err(error_of_work)?))
 }
 
 /// The critical force at every case of a grid, as JSON: a row a case, the last axis the quickest,
@@ -36,15 +36,16 @@ pub(crate) fn critical_force_over(
 ) -> PyResult<(String, Vec<f64>)> {
     let scan = ForceScan::new(step, max).map_err(of_scan)?;
     let study = Arc::clone(&study.study);
-    let rows = interruptible(py, progress, move |watch| {
-        let drawn = study.draw(0..study.count())?;
-        let all = drawn.count() as f64;
-        let rows = (0..drawn.count()).map(|k| {
+    let rows = interruptible(py, progress, move |shared| {
+        let cases = study.cases(0..study.count())?;
+        let all = cases.count() as f64;
+        let rows = (0..cases.count()).map(|k| {
             let progress = Progress::new("critical force", k as f64, all);
-            match drawn.case(k) {
+            match cases.case(k) {
                 Ok(case) => {
                     let parameters = case.parameters();
-                    let found = CriticalForce::scan(parameters, scan, &|_| watch.go_on(progress))?;
+                    let found =
+                        CriticalForce::scan(parameters, scan, &|_| shared.report(progress))?;
                     Ok(Row::Found(CriticalRow::new(found)))
                 }
                 Err(no_case) => Ok(Row::NoCase {
@@ -54,8 +55,8 @@ pub(crate) fn critical_force_over(
         });
         Ok(rows.collect::<Result<Vec<_>, Unfinished>>())
     })?;
-    let rows = rows.map_err(of_study)?;
-    let rows = to_json(&rows.map_err(of_work)?)?;
+    let rows = rows.map_err(error_of_study)?;
+    let rows = to_json(&rows.map_err(error_of_work)?)?;
     Ok((rows, scan.amplitudes().collect()))
 }
 
@@ -96,16 +97,16 @@ pub(crate) fn probability(
     let scan = ForceScan::new(step, max).map_err(of_scan)?;
     let uncertainty = read_uncertainty(&case.case, uncertainty, tolerance)?;
     let parameters = *case.parameters();
-    let curve = interruptible(py, progress, move |watch| {
+    let curve = interruptible(py, progress, move |shared| {
         ExceedanceCurve::scan(
             &parameters,
             scan,
             &uncertainty,
             members,
             seed,
-            &|progress| watch.go_on(progress),
+            &|progress| shared.report(progress),
         )
     })?;
-    let curve = curve.map_err(of_work)?;
+    let curve = curve.map_err(error_of_work)?;
     to_json(&Probability::new(&curve, members, seed))
 }

@@ -1,7 +1,7 @@
 //! Coefficients of floating bodies: from an xarray dataset or a file to the results of `snapload
 //! hydro`.
 
-use crate::errors::{of_case, of_program};
+use crate::errors::{error_of_case, internal_error};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use serde::Deserialize;
@@ -15,18 +15,18 @@ use std::path::Path;
 
 /// What a variable of a dataset holds.
 #[derive(FromPyObject)]
-pub(crate) enum Held {
+pub(crate) enum VariableValues {
     Numbers(Vec<f64>),
     Words(Vec<String>),
 }
 
 /// A variable of a dataset: its name, the names of its dimensions, their lengths, its values.
-type Told = (String, Vec<String>, Vec<usize>, Held);
+type DatasetVariable = (String, Vec<String>, Vec<usize>, VariableValues);
 
 /// What is asked, beside the coefficients.
 #[derive(Default, Deserialize)]
 #[serde(deny_unknown_fields)]
-struct Asked {
+struct HydroOptions {
     density: Option<f64>,
     gravity: Option<f64>,
     depth: Option<f64>,
@@ -60,11 +60,11 @@ fn first_column(word: Option<&str>) -> PyResult<FirstColumn> {
 }
 
 /// The options, or an error that names the one that is of another form.
-fn read_asked(text: &str) -> PyResult<Asked> {
-    let options: Map<String, Value> = serde_json::from_str(text).map_err(of_program)?;
+fn read_options(text: &str) -> PyResult<HydroOptions> {
+    let options: Map<String, Value> = serde_json::from_str(text).map_err(internal_error)?;
     for (key, value) in &options {
         let alone = Map::from_iter([(key.clone(), value.clone())]);
-        if let Err(error) = Asked::deserialize(Value::Object(alone)) {
+        if let Err(error) = HydroOptions::deserialize(Value::Object(alone)) {
             let words = error.to_string();
             let allowed = match words.split_once("expected ") {
                 Some((_, "f64")) => "a number",
@@ -72,10 +72,14 @@ fn read_asked(text: &str) -> PyResult<Asked> {
                 Some((_, allowed)) => allowed,
                 None => words.as_str(),
             };
-            return Err(of_case(CaseError::value(key, value.to_string(), allowed)));
+            return Err(error_of_case(CaseError::value(
+                key,
+                value.to_string(),
+                allowed,
+            )));
         }
     }
-    Asked::deserialize(Value::Object(options)).map_err(of_program)
+    HydroOptions::deserialize(Value::Object(options)).map_err(internal_error)
 }
 
 fn refused(error: HydroError) -> PyErr {
@@ -89,20 +93,20 @@ fn refused(error: HydroError) -> PyErr {
 pub(crate) fn hydro(
     py: Python<'_>,
     name: &str,
-    variables: Option<Vec<Told>>,
+    variables: Option<Vec<DatasetVariable>>,
     asked: &str,
 ) -> PyResult<(String, Vec<(String, String)>)> {
-    let asked = read_asked(asked)?;
+    let options = read_options(asked)?;
     let given = Given {
-        density_kg_m3: asked.density,
-        gravity_m_s2: asked.gravity,
-        depth_m: asked.depth,
-        reference_m: asked.reference,
-        centre_of_gravity_m: asked.file_centre,
-        displaced_mass_kg: asked.displaced_mass,
-        unit_length_m: asked.unit_length,
-        first_column: first_column(asked.first_column.as_deref())?,
-        body: asked.body,
+        density_kg_m3: options.density,
+        gravity_m_s2: options.gravity,
+        depth_m: options.depth,
+        reference_m: options.reference,
+        centre_of_gravity_m: options.file_centre,
+        displaced_mass_kg: options.displaced_mass,
+        unit_length_m: options.unit_length,
+        first_column: first_column(options.first_column.as_deref())?,
+        body: options.body,
     };
     let line = |[ax, az, fx, fz, length_m]: [f64; 5]| Line {
         anchor_m: [ax, az],
@@ -111,19 +115,21 @@ pub(crate) fn hydro(
     };
     let request = Request {
         weight: Weight {
-            mass_kg: asked.mass,
-            centre_m: asked.centre,
-            inertia_kg_m2: asked.inertia,
+            mass_kg: options.mass,
+            centre_m: options.centre,
+            inertia_kg_m2: options.inertia,
         },
-        damping: asked.damping.unwrap_or_default(),
-        force: asked.force.unwrap_or_default(),
-        lines: asked
+        damping: options.damping.unwrap_or_default(),
+        force: options.force.unwrap_or_default(),
+        lines: options
             .lines
             .unwrap_or_default()
             .into_iter()
             .map(line)
             .collect(),
-        fit: FitOptions { pairs: asked.pairs },
+        fit: FitOptions {
+            pairs: options.pairs,
+        },
         memory: None,
     };
     let report = py.detach(|| {
@@ -134,15 +140,15 @@ pub(crate) fn hydro(
         Report::new(name, reading, &request)
     });
     let report = report.map_err(refused)?;
-    let json = serde_json::to_string(&report.to_json()).map_err(of_program)?;
+    let json = serde_json::to_string(&report.to_json()).map_err(internal_error)?;
     Ok((json, report.summary()))
 }
 
-fn of_variables(variables: Vec<Told>, given: &Given) -> Result<Reading, HydroError> {
-    let variable = |(name, dims, shape, held): Told| {
-        let values = match held {
-            Held::Numbers(numbers) => Values::Numbers(numbers),
-            Held::Words(words) => Values::Words(words),
+fn of_variables(variables: Vec<DatasetVariable>, given: &Given) -> Result<Reading, HydroError> {
+    let variable = |(name, dims, shape, values): DatasetVariable| {
+        let values = match values {
+            VariableValues::Numbers(numbers) => Values::Numbers(numbers),
+            VariableValues::Words(words) => Values::Words(words),
         };
         let variable = Variable {
             dims,

@@ -1,7 +1,7 @@
 //! Runs long work without Python's lock, so that Ctrl-C can end it.
 
-use crate::errors::of_program;
-use crate::pool::{leave, pool};
+use crate::errors::internal_error;
+use crate::pool::{abandon_pool, pool};
 use pyo3::prelude::*;
 use snapload::analysis::{OnProgress, Progress};
 use std::ops::ControlFlow;
@@ -11,20 +11,20 @@ use std::sync::{Arc, Mutex, PoisonError};
 use std::time::{Duration, Instant};
 
 /// The interval at which signals are checked and progress is reported.
-const LOOK_EVERY: Duration = Duration::from_millis(50);
+const CHECK_INTERVAL: Duration = Duration::from_millis(50);
 /// The time that cancelled work may take to end; after that it is left to end by itself.
-const GRACE: Duration = Duration::from_millis(500);
+const INTERRUPT_WAIT: Duration = Duration::from_millis(500);
 
 /// The messages between the thread of some work and that of Python.
 #[derive(Default)]
-pub(crate) struct Watch {
+pub(crate) struct SharedProgress {
     done: AtomicU64,
     stop: AtomicBool,
 }
 
-impl Watch {
+impl SharedProgress {
     /// Long work calls this to report its progress, and to learn whether to continue.
-    pub(crate) fn go_on(&self, progress: Progress) -> ControlFlow<()> {
+    pub(crate) fn report(&self, progress: Progress) -> ControlFlow<()> {
         self.done.fetch_max(progress.done as u64, Ordering::Relaxed);
         match self.stop.load(Ordering::Relaxed) {
             true => ControlFlow::Break(()),
@@ -38,20 +38,20 @@ impl Watch {
 pub(crate) fn interruptible<T: Send + 'static>(
     py: Python<'_>,
     progress: Option<&Bound<'_, PyAny>>,
-    work: impl FnOnce(&Watch) -> T + Send + 'static,
+    work: impl FnOnce(&SharedProgress) -> T + Send + 'static,
 ) -> PyResult<T> {
-    let watch = Arc::new(Watch::default());
-    let (theirs, (send, results)) = (Arc::clone(&watch), channel());
+    let shared = Arc::new(SharedProgress::default());
+    let (theirs, (send, results)) = (Arc::clone(&shared), channel());
     pool(py)?.spawn(move || {
         // The receiver may be gone.
         let _ = send.send(work(&theirs));
     });
     let results = Mutex::new(results);
-    let outcome = wait(py, progress, &watch, &results);
+    let outcome = wait(py, progress, &shared, &results);
     if outcome.is_err() {
-        watch.stop.store(true, Ordering::Relaxed);
-        if receive(py, &results, GRACE).is_err() {
-            leave(py);
+        shared.stop.store(true, Ordering::Relaxed);
+        if receive(py, &results, INTERRUPT_WAIT).is_err() {
+            abandon_pool(py);
         }
     }
     outcome
@@ -64,13 +64,13 @@ pub(crate) fn on_this_thread<T: Send>(
     work: impl FnOnce(OnProgress) -> T + Send,
 ) -> PyResult<T> {
     let signal = Mutex::new(None);
-    let looked = Mutex::new(Instant::now());
-    let go_on = |_: Progress| {
-        let mut looked = looked.lock().unwrap_or_else(PoisonError::into_inner);
-        if looked.elapsed() < LOOK_EVERY {
+    let last_check = Mutex::new(Instant::now());
+    let on_progress = |_: Progress| {
+        let mut last_check = last_check.lock().unwrap_or_else(PoisonError::into_inner);
+        if last_check.elapsed() < CHECK_INTERVAL {
             return ControlFlow::Continue(());
         }
-        *looked = Instant::now();
+        *last_check = Instant::now();
         match Python::attach(|py| py.check_signals()) {
             Ok(()) => ControlFlow::Continue(()),
             Err(error) => {
@@ -79,7 +79,7 @@ pub(crate) fn on_this_thread<T: Send>(
             }
         }
     };
-    let result = py.detach(|| work(&go_on));
+    let result = py.detach(|| work(&on_progress));
     match signal.into_inner().unwrap_or_else(PoisonError::into_inner) {
         Some(error) => Err(error),
         None => Ok(result),
@@ -101,34 +101,36 @@ fn receive<T: Send>(
 fn wait<T: Send>(
     py: Python<'_>,
     progress: Option<&Bound<'_, PyAny>>,
-    watch: &Watch,
+    shared: &SharedProgress,
     results: &Mutex<Receiver<T>>,
 ) -> PyResult<T> {
-    let mut told = 0;
-    let mut tell = || match progress {
+    let mut reported = 0;
+    let mut report = || match progress {
         Some(progress) => {
-            let done = watch.done.load(Ordering::Relaxed);
-            if done > told {
+            let done = shared.done.load(Ordering::Relaxed);
+            if done > reported {
                 progress.call1((done,))?;
             }
-            told = done;
+            reported = done;
             Ok(())
         }
         None => PyResult::Ok(()),
     };
     loop {
-        match receive(py, results, LOOK_EVERY) {
+        match receive(py, results, CHECK_INTERVAL) {
             Err(RecvTimeoutError::Timeout) => {
                 py.check_signals()?;
-                tell()?;
+                report()?;
             }
             Ok(result) => {
-                tell()?;
+                report()?;
                 return Ok(result);
             }
             // The work panicked.
             Err(RecvTimeoutError::Disconnected) => {
-                return Err(of_program("the engine failed; standard error says where"));
+                return Err(internal_error(
+                    "the engine failed; standard error says where",
+                ));
             }
         }
     }

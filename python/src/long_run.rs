@@ -1,8 +1,8 @@
 //! Sections and diagrams of long motions, safe basins, basins of attraction, erosion.
 
 use crate::case::Case;
-use crate::errors::{of_case, of_work};
-use crate::interrupt::{Watch, interruptible};
+use crate::errors::{error_of_case, error_of_work};
+use crate::interrupt::{SharedProgress, interruptible};
 use crate::orbit::Orbit;
 use crate::run::to_json;
 use crate::study::{Plain, axis};
@@ -36,7 +36,7 @@ fn values_of((key, values): &Side<'_>) -> PyResult<(&'static str, Vec<f64>)> {
 }
 
 fn stretch(periods: u64, keep: u64, phase: f64) -> PyResult<Stretch> {
-    snapload_orbits::stretch(periods, keep, phase).map_err(of_case)
+    snapload_orbits::stretch(periods, keep, phase).map_err(error_of_case)
 }
 
 /// A long motion once a period of the forcing, as JSON; with its impacts one by one if asked for.
@@ -55,15 +55,15 @@ pub(crate) fn section(
         ..stretch(periods, keep, phase)?
     };
     let parameters = *case.parameters();
-    let found = interruptible(py, progress, move |watch| {
-        Section::of(&parameters, &stretch, &|progress| watch.go_on(progress))
+    let found = interruptible(py, progress, move |shared| {
+        Section::of(&parameters, &stretch, &|progress| shared.report(progress))
     })?;
-    let found = found.map_err(of_work)?;
+    let found = found.map_err(error_of_work)?;
     if let Some(kept) = found.impacts.as_ref().filter(|kept| kept.left_out > 0) {
         let count = kept.points.len() as u64 + kept.left_out;
         let allowed =
             format!("few enough periods for at most {MOST_KEPT} impacts; here there are {count}");
-        return Err(of_case(CaseError::value("keep", keep, allowed)));
+        return Err(error_of_case(CaseError::value("keep", keep, allowed)));
     }
     to_json(&SectionRow::new(&found, phase))
 }
@@ -86,11 +86,11 @@ pub(crate) fn diagram<'py>(
         values.reverse();
     }
     let parameters = *case.parameters();
-    let found = interruptible(py, progress, move |watch| {
-        let on_progress = |progress: Progress| watch.go_on(progress);
+    let found = interruptible(py, progress, move |shared| {
+        let on_progress = |progress: Progress| shared.report(progress);
         snapload_orbits::diagram(&parameters, key, &values, &stretch, &on_progress)
     })?;
-    let found = found.map_err(of_work)?;
+    let found = found.map_err(error_of_work)?;
     let rows: Vec<DiagramRow> = found.iter().map(DiagramRow::new).collect();
     let counts = found.iter().map(|at| at.section.points.len()).collect();
     let states = found
@@ -124,14 +124,14 @@ fn of_window(error: CaseError) -> PyErr {
 fn of_unfinished(error: Unfinished) -> PyErr {
     match error {
         Unfinished::Case(error) => of_window(error),
-        Unfinished::Cancelled(_) => of_work(error),
+        Unfinished::Cancelled(_) => error_of_work(error),
     }
 }
 
-/// Tells of it in thousandths.
-fn in_thousandths(watch: &Watch, progress: Progress) -> ControlFlow<()> {
+/// Reports it in thousandths.
+fn in_thousandths(shared: &SharedProgress, progress: Progress) -> ControlFlow<()> {
     let done = (1000.0 * progress.done / progress.of).floor();
-    watch.go_on(Progress::new(progress.doing, done, 1000.0))
+    shared.report(Progress::new(progress.doing, done, 1000.0))
 }
 
 /// Name of a column, its type, its bytes, and its words.
@@ -163,8 +163,8 @@ pub(crate) fn safe_basin<'py>(
     progress: Option<&Bound<'py, PyAny>>,
 ) -> PyResult<(String, Vec<Filled<'py>>)> {
     let window = window(case, &sides)?;
-    let basin = interruptible(py, progress, move |watch| {
-        Basin::of(window, trust, &|progress| in_thousandths(watch, progress))
+    let basin = interruptible(py, progress, move |shared| {
+        Basin::of(window, trust, &|progress| in_thousandths(shared, progress))
     })?;
     let basin = basin.map_err(of_unfinished)?;
     let cells = || basin.cells.iter();
@@ -199,9 +199,9 @@ pub(crate) fn basins_of_attraction<'py>(
     progress: Option<&Bound<'py, PyAny>>,
 ) -> PyResult<(String, Vec<Filled<'py>>, Vec<Option<Orbit>>)> {
     let window = window(case, &sides)?;
-    let found = interruptible(py, progress, move |watch| {
+    let found = interruptible(py, progress, move |shared| {
         Attraction::of(window, transient, &|progress| {
-            in_thousandths(watch, progress)
+            in_thousandths(shared, progress)
         })
     })?;
     let found = found.map_err(of_unfinished)?;
@@ -244,8 +244,8 @@ pub(crate) fn erosion<'py>(
 ) -> PyResult<String> {
     let window = window(case, &sides)?;
     let (key, values) = values_of(&over)?;
-    let found = interruptible(py, progress, move |watch| {
-        let on_progress = |progress: Progress| in_thousandths(watch, progress);
+    let found = interruptible(py, progress, move |shared| {
+        let on_progress = |progress: Progress| in_thousandths(shared, progress);
         Erosion::of(&window, key, &values, trust, &on_progress)
     })?;
     to_json(&ErosionRow::new(&found.map_err(of_unfinished)?))

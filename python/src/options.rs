@@ -1,19 +1,19 @@
-//! Whole numbers that options take. Those that the command has, too, are said where it has them from.
+//! Whole numbers that options take. Those that the command has, too, are imported from where it has them.
 
-use crate::errors::{of_case, of_program};
+use crate::errors::{error_of_case, internal_error};
 use pyo3::prelude::*;
-use snapload::analysis::{MEMBERS, SEED, SOME_MEMBERS};
+use snapload::analysis::{MEMBERS, NONZERO_MEMBERS, SEED};
 use snapload::{Key, Kind, key_named};
 use snapload_orbits::{BASIN_TRANSIENT, KEEP, ORBIT_PERIODS, PERIODS, POINTS, STARTS};
 use snapload_structure::{NEIGHBOURS, PAIRS, SEEDS, SEGMENTS};
 use snapload_study::{RANDOM, THREADS};
 
-/// The row of an option. Where several functions have one of the same name, it is told apart by what
+/// The row of an option. Where several functions have one of the same name, it is distinguished by what
 /// stands before a dot.
 fn row(option: &str) -> Option<Key> {
     Some(match option {
         "members" => MEMBERS,
-        "ensemble.members" => SOME_MEMBERS,
+        "ensemble.members" => NONZERO_MEMBERS,
         "seed" => SEED,
         "max_impacts" => return key_named(option).ok().copied(),
         "periods" => PERIODS,
@@ -29,7 +29,7 @@ fn row(option: &str) -> Option<Key> {
         "segments" => SEGMENTS,
         "pairs" => PAIRS,
         // The command has none of these. One section more is kept than there are periods.
-        "spectrum.periods" => Key::option("periods", fewer_by_one(KEEP.kind)),
+        "spectrum.periods" => Key::option("periods", at_most_one_less(KEEP.kind)),
         "spectrum.transient" => Key::option("transient", Kind::Count(0, 100_000_000)),
         "laps" => Key::option("laps", Kind::Count(1, 1_000_000)),
         "pieces" => Key::option("pieces", Kind::Count(1, 10_000_000)),
@@ -42,7 +42,7 @@ fn row(option: &str) -> Option<Key> {
 }
 
 /// Whole numbers up to one less.
-fn fewer_by_one(kind: Kind) -> Kind {
+fn at_most_one_less(kind: Kind) -> Kind {
     match kind {
         Kind::Count(low, high) => Kind::Count(low, high - 1),
         other => other,
@@ -53,7 +53,7 @@ fn fewer_by_one(kind: Kind) -> Kind {
 #[pyfunction]
 #[pyo3(signature = (option, value, most=None, /))]
 pub(crate) fn whole(option: &str, value: &Bound<'_, PyAny>, most: Option<u64>) -> PyResult<u64> {
-    let no_option = || of_program(format!("there is no option {option:?}"));
+    let no_option = || internal_error(format!("there is no option {option:?}"));
     let mut key = row(option).ok_or_else(no_option)?;
     if let (Kind::Count(low, _), Some(most)) = (key.kind, most) {
         key.kind = Kind::Count(low, most);
@@ -62,6 +62,6 @@ pub(crate) fn whole(option: &str, value: &Bound<'_, PyAny>, most: Option<u64>) -
     let number = number.filter(|number| key.takes_count(*number));
     match number {
         Some(number) => Ok(number),
-        None => Err(of_case(key.refuse(key.name, value.repr()?))),
+        None => Err(error_of_case(key.refuse(key.name, value.repr()?))),
     }
 }

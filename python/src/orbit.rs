@@ -1,7 +1,7 @@
 //! Periodic orbits, and branches of them.
 
 use crate::case::{Case, read_entries};
-use crate::errors::{of_case, of_work};
+use crate::errors::{error_of_case, error_of_work};
 use crate::interrupt::interruptible;
 use crate::run::to_json;
 use crate::study::side;
@@ -44,7 +44,7 @@ impl Orbit {
 
 #[pymethods]
 impl Orbit {
-    /// What is told of it, as JSON.
+    /// Its results, as JSON.
     fn json(&self) -> PyResult<String> {
         to_json(&OrbitRow::new(&self.orbit))
     }
@@ -126,11 +126,11 @@ fn start_with(case: &Case, start: &Bound<'_, PyDict>) -> PyResult<Point> {
     let other = entries.iter().find(|(key, _)| !START_KEYS.contains(key));
     if let Some((key, _)) = other {
         let allowed = format!("values of the state, {}", START_KEYS.join(", "));
-        return Err(of_case(CaseError::value("start", key, allowed)));
+        return Err(error_of_case(CaseError::value("start", key, allowed)));
     }
-    let parameters = case.parameters_with(entries).map_err(of_case)?;
+    let parameters = case.parameters_with(entries).map_err(error_of_case)?;
     let start = start_of(&parameters);
-    check_start(case.parameters(), &start).map_err(of_case)?;
+    check_start(case.parameters(), &start).map_err(error_of_case)?;
     Ok(start)
 }
 
@@ -163,18 +163,18 @@ pub(crate) fn orbit(
     phase: f64,
     progress: Option<&Bound<'_, PyAny>>,
 ) -> PyResult<Found> {
-    let wanted = wanted(periods, symbol, phase).map_err(of_case)?;
-    period_of(case.parameters()).map_err(of_case)?;
+    let wanted = wanted(periods, symbol, phase).map_err(error_of_case)?;
+    period_of(case.parameters()).map_err(error_of_case)?;
     let start = start.map(|start| start_with(case, start)).transpose()?;
     let parameters = *case.parameters();
-    let orbit = interruptible(py, progress, move |watch| match start {
+    let orbit = interruptible(py, progress, move |shared| match start {
         Some(start) => {
             let family = Moored::case(parameters, [None; 2]);
             Ok(family.orbit([0.0; 2], &start, &wanted))
         }
-        None => of_attractor(&parameters, &wanted, &|progress| watch.go_on(progress)),
+        None => of_attractor(&parameters, &wanted, &|progress| shared.report(progress)),
     })?;
-    Ok(found(case, orbit.map_err(of_work)?))
+    Ok(found(case, orbit.map_err(error_of_work)?))
 }
 
 /// The orbit of a system of one's own near a start.
@@ -187,7 +187,7 @@ pub(crate) fn orbit_of_system(
     symbol: Option<Vec<usize>>,
     phase: f64,
 ) -> PyResult<Found> {
-    let wanted = wanted(periods, symbol, phase).map_err(of_case)?;
+    let wanted = wanted(periods, symbol, phase).map_err(error_of_case)?;
     let (parts, rules) = system.parts();
     let rules = Rules {
         settled_below: None,
@@ -202,7 +202,7 @@ pub(crate) fn orbit_of_system(
         // The derivatives do not depend on the rules.
         move |_| (jets.clone(), Rules::until(Jet::constant(rules.t_end))),
     );
-    check_start_of_system(&family, &start).map_err(of_case)?;
+    check_start_of_system(&family, &start).map_err(error_of_case)?;
     let searched = family.clone();
     let orbit = interruptible(py, None, move |_| searched.orbit([0.0; 2], &start, &wanted))?;
     Ok(match orbit {
@@ -238,12 +238,12 @@ pub(crate) fn find_orbits(
     prove: bool,
     progress: Option<&Bound<'_, PyAny>>,
 ) -> PyResult<Vec<Orbit>> {
-    let wanted = wanted(periods, symbol, phase).map_err(of_case)?;
+    let wanted = wanted(periods, symbol, phase).map_err(error_of_case)?;
     let parameters = *case.parameters();
     let exact = prove.then(|| ExactCase::of(&parameters, |_| None));
     let exact = exact.transpose().map_err(PyValueError::new_err)?;
-    let orbits = interruptible(py, progress, move |watch| {
-        let on_progress = |progress: snapload::analysis::Progress| watch.go_on(progress);
+    let orbits = interruptible(py, progress, move |shared| {
+        let on_progress = |progress: snapload::analysis::Progress| shared.report(progress);
         let starts = Starts {
             count: starts,
             seed,
@@ -255,7 +255,7 @@ pub(crate) fn find_orbits(
         }
         Ok::<_, Unfinished>(orbits)
     })?;
-    let orbits = orbits.map_err(of_work)?.into_iter();
+    let orbits = orbits.map_err(error_of_work)?.into_iter();
     Ok(orbits
         .map(|orbit| Orbit::of_case(case.clone(), orbit))
         .collect())
@@ -284,14 +284,14 @@ impl Branch {
     }
 
     fn orbit_of(&self, orbit: &snapload_orbits::Orbit) -> PyResult<Orbit> {
-        let case = self.case_of(orbit).map_err(of_case)?;
+        let case = self.case_of(orbit).map_err(error_of_case)?;
         Ok(Orbit::of_case(case, orbit.clone()))
     }
 }
 
 #[pymethods]
 impl Branch {
-    /// What is told of it, as JSON.
+    /// Its results, as JSON.
     fn json(&self) -> PyResult<String> {
         to_json(&BranchRow::new(self.key, &self.branch, &self.from))
     }
@@ -333,15 +333,15 @@ impl Branch {
         };
         let value = Value::Number(event.value[0]);
         let here = self.case.parameters_with(vec![(self.key, value)]);
-        let here = here.map_err(of_case)?;
-        let (key, _, along) = along(&here, self.key, range, step, points).map_err(of_case)?;
+        let here = here.map_err(error_of_case)?;
+        let (key, _, along) = along(&here, self.key, range, step, points).map_err(error_of_case)?;
         let family = Moored::case(*self.case.parameters(), [Some(key), None]);
         let from = self.from.iter().cloned().chain([event.clone()]).collect();
-        let born = interruptible(py, progress, move |watch| {
-            let on_progress = |progress: snapload::analysis::Progress| watch.go_on(progress);
+        let born = interruptible(py, progress, move |shared| {
+            let on_progress = |progress: snapload::analysis::Progress| shared.report(progress);
             family.branch_of_doubling(&event, &along, &on_progress)
         })?;
-        let born = born.map_err(|cancelled| of_work(cancelled.into()))?;
+        let born = born.map_err(|cancelled| error_of_work(cancelled.into()))?;
         let none = "no direction of a branch of twice the length is found there";
         Ok(match born {
             Some(branch) => {
@@ -374,17 +374,17 @@ pub(crate) fn continuation(
 ) -> PyResult<Branch> {
     let range = side(key, range)?.ends();
     let case = orbit.case.clone();
-    let no_case = || crate::errors::of_program("this orbit does not belong to a case");
+    let no_case = || crate::errors::internal_error("this orbit does not belong to a case");
     let case = case.ok_or_else(no_case)?;
     let (key, value, along): (_, _, Along) =
-        along(case.parameters(), key, range, step, points).map_err(of_case)?;
+        along(case.parameters(), key, range, step, points).map_err(error_of_case)?;
     let family = Moored::case(*case.parameters(), [Some(key), None]);
     let start = orbit.orbit.clone().with_at([value, 0.0]);
-    let branch = interruptible(py, progress, move |watch| {
-        let on_progress = |progress: snapload::analysis::Progress| watch.go_on(progress);
+    let branch = interruptible(py, progress, move |shared| {
+        let on_progress = |progress: snapload::analysis::Progress| shared.report(progress);
         family.branch(&start, &along, &on_progress)
     })?;
-    let branch = branch.map_err(|cancelled| of_work(Unfinished::from(cancelled)))?;
+    let branch = branch.map_err(|cancelled| error_of_work(Unfinished::from(cancelled)))?;
     Ok(Branch {
         case,
         key,

@@ -3,7 +3,7 @@
 //! A forked process has no threads of its parent, and would wait for them forever. So the pool is
 //! stored with the process that made it, and another process makes a new one.
 
-use crate::errors::of_program;
+use crate::errors::internal_error;
 use pyo3::prelude::*;
 use rayon::{ThreadPool, ThreadPoolBuilder};
 use std::process;
@@ -30,7 +30,7 @@ pub(crate) fn pool(_py: Python<'_>) -> PyResult<Arc<ThreadPool>> {
             // A panic closes the channel of the result, which tells the receiver; without a handler
             // rayon would abort the process.
             let pool = ThreadPoolBuilder::new().panic_handler(|_| {}).build();
-            let pool = Arc::new(pool.map_err(of_program)?);
+            let pool = Arc::new(pool.map_err(internal_error)?);
             *known = Some((here, Arc::clone(&pool)));
             Ok(pool)
         }
@@ -38,7 +38,7 @@ pub(crate) fn pool(_py: Python<'_>) -> PyResult<Arc<ThreadPool>> {
 }
 
 /// Leaves the pool to the work that still runs in it; the next work gets a new pool.
-pub(crate) fn leave(_py: Python<'_>) {
+pub(crate) fn abandon_pool(_py: Python<'_>) {
     let mut known = POOL.lock().unwrap_or_else(PoisonError::into_inner);
     std::mem::forget(known.take());
 }

@@ -1,7 +1,7 @@
 //! Questions about one case: one function for all questions of the report crate.
 
 use crate::case::{Case, checked};
-use crate::errors::{of_program, of_work};
+use crate::errors::{error_of_work, internal_error};
 use crate::interrupt::interruptible;
 use crate::run::to_json;
 use pyo3::prelude::*;
@@ -20,13 +20,13 @@ pub(crate) fn answer(
     options: &Bound<'_, PyDict>,
     progress: Option<&Bound<'_, PyAny>>,
 ) -> PyResult<String> {
-    let no_question = || of_program(format!("there is no question {name:?}"));
+    let no_question = || internal_error(format!("there is no question {name:?}"));
     let question = question(name).ok_or_else(no_question)?;
     let options = checked(options, |name| question.option(name))?;
     let theirs = Arc::clone(&case.case);
-    let answer = interruptible(py, progress, move |watch| {
-        let on_progress = |progress: Progress| watch.go_on(progress);
+    let answer = interruptible(py, progress, move |shared| {
+        let on_progress = |progress: Progress| shared.report(progress);
         question.ask(&theirs, options, &on_progress)
     })?;
-    to_json(&answer.map_err(of_work)?.about(&case.name, &case.case))
+    to_json(&answer.map_err(error_of_work)?.about(&case.name, &case.case))
 }

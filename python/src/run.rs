@@ -1,7 +1,7 @@
 //! A run, and its trust.
 
 use crate::case::Case;
-use crate::errors::{of_case, of_program, of_work};
+use crate::errors::{error_of_case, error_of_work, internal_error};
 use crate::interrupt::{interruptible, on_this_thread};
 use crate::schema::in_cf;
 use crate::table::{Table, array_of};
@@ -13,11 +13,13 @@ use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use pyo3::types::{PyByteArray, PyDict};
 use serde::Serialize;
-use snapload::analysis::{Cancelled, Counter, Ensemble, Progress, Uncertainty, record, unwatched};
+use snapload::analysis::{
+    Cancelled, Counter, Ensemble, Progress, Uncertainty, no_progress, record,
+};
 use snapload::{ModeInterval, Playback, Sampling, Trajectory};
 use snapload_report::tables::{IMPACTS, ImpactRow, impact_rows};
 use snapload_report::{
-    CaseEcho, EndRow, NormsRow, OutcomeRow, Report, ShareRow, TOLERANCE, TrustRow, Trusted,
+    CaseEcho, EndRow, NormsRow, OutcomeRow, Report, RunWithTrust, ShareRow, TOLERANCE, TrustRow,
     summary, summary_lines, trust_in_words,
 };
 use std::collections::HashMap;
@@ -29,27 +31,27 @@ use std::sync::Arc;
 pub(crate) struct Run {
     /// None of a system of one's own.
     case: Option<Case>,
-    known: Arc<Known>,
+    data: Arc<RunData>,
 }
 
-/// The run itself, and what is known of it if that was asked for.
-enum Known {
-    Alone(Box<Trajectory>),
-    Trusted(Box<Trusted>),
+/// The run itself, and the trust in it if that was requested.
+enum RunData {
+    WithoutTrust(Box<Trajectory>),
+    WithTrust(Box<RunWithTrust>),
 }
 
-impl Known {
+impl RunData {
     fn run(&self) -> &Trajectory {
         match self {
-            Self::Alone(run) => run,
-            Self::Trusted(trusted) => &trusted.run,
+            Self::WithoutTrust(run) => run,
+            Self::WithTrust(trusted) => &trusted.run,
         }
     }
 
-    fn trusted(&self) -> Option<&Trusted> {
+    fn trusted(&self) -> Option<&RunWithTrust> {
         match self {
-            Self::Alone(_) => None,
-            Self::Trusted(trusted) => Some(&**trusted),
+            Self::WithoutTrust(_) => None,
+            Self::WithTrust(trusted) => Some(&**trusted),
         }
     }
 }
@@ -67,26 +69,26 @@ struct Head<'a> {
 
 impl Run {
     /// A run without a word on trust.
-    pub(crate) fn alone(case: Option<Case>, run: Trajectory) -> Self {
-        let known = Arc::new(Known::Alone(Box::new(run)));
-        Self { case, known }
+    pub(crate) fn without_trust(case: Option<Case>, run: Trajectory) -> Self {
+        let data = Arc::new(RunData::WithoutTrust(Box::new(run)));
+        Self { case, data }
     }
 
     /// A run with what is known of it.
-    pub(crate) fn trusted(case: Option<Case>, run: Trusted) -> Self {
-        let known = Arc::new(Known::Trusted(Box::new(run)));
-        Self { case, known }
+    pub(crate) fn from_trusted(case: Option<Case>, run: RunWithTrust) -> Self {
+        let data = Arc::new(RunData::WithTrust(Box::new(run)));
+        Self { case, data }
     }
 
     /// The case that was run.
     pub(crate) fn case(&self) -> PyResult<&Case> {
-        let no_case = || of_program("this run does not belong to a case");
+        let no_case = || internal_error("this run does not belong to a case");
         self.case.as_ref().ok_or_else(no_case)
     }
 
     /// The run itself.
     pub(crate) fn trajectory(&self) -> &Trajectory {
-        self.known.run()
+        self.data.run()
     }
 }
 
@@ -94,7 +96,7 @@ impl Run {
 impl Run {
     /// How it ended, norms, outcome and trust, as JSON.
     fn head(&self) -> PyResult<String> {
-        let (run, trusted) = (self.known.run(), self.known.trusted());
+        let (run, trusted) = (self.data.run(), self.data.trusted());
         to_json(&Head {
             case: self.case.as_ref().map(|case| CaseEcho(case.parameters())),
             end: EndRow::new(run.end()),
@@ -110,7 +112,7 @@ impl Run {
     fn to_json(&self, dt: Option<f64>) -> PyResult<String> {
         let sampling = dt.map(|dt| self.sampling(dt)).transpose()?;
         let trusted = self.with_trust()?;
-        let report = Report::new(self.case()?.parameters(), trusted, sampling, &unwatched);
+        let report = Report::new(self.case()?.parameters(), trusted, sampling, &no_progress);
         to_json(&report)
     }
 
@@ -134,13 +136,15 @@ impl Run {
     /// The impacts, a row an impact and cable; the digits that are known of them only where it is
     /// known how far the run can be trusted.
     fn impacts(&self) -> PyResult<Table> {
-        let rows: Vec<ImpactRow> = match &*self.known {
-            Known::Alone(run) => impact_rows(run, repeat(f64::NAN)).collect(),
-            Known::Trusted(trusted) => impact_rows(&trusted.run, trusted.trust.digits()).collect(),
+        let rows: Vec<ImpactRow> = match &*self.data {
+            RunData::WithoutTrust(run) => impact_rows(run, repeat(f64::NAN)).collect(),
+            RunData::WithTrust(trusted) => {
+                impact_rows(&trusted.run, trusted.trust.digits()).collect()
+            }
         };
         let shown = IMPACTS
             .iter()
-            .filter(|column| column.name != "digits" || self.known.trusted().is_some());
+            .filter(|column| column.name != "digits" || self.data.trusted().is_some());
         let columns = shown.map(|column| {
             let values = array_of(column.values(rows.iter().map(Some)));
             (column.name, column.unit, column.meaning, values)
@@ -150,7 +154,7 @@ impl Run {
 
     /// The mode intervals.
     fn modes(&self) -> PyResult<Table> {
-        let modes = self.known.run().modes();
+        let modes = self.data.run().modes();
         let mut taut = ListBuilder::new(Int64Builder::new());
         for mode in modes {
             for cable in mode.taut.iter() {
@@ -190,8 +194,8 @@ impl Run {
 }
 
 impl Run {
-    fn with_trust(&self) -> PyResult<&Trusted> {
-        self.known.trusted().ok_or_else(|| {
+    fn with_trust(&self) -> PyResult<&RunWithTrust> {
+        self.data.trusted().ok_or_else(|| {
             PyValueError::new_err(
                 "this run was made with trust=False, so how far it can be trusted is not known; \
                  run the case without trust=False",
@@ -200,14 +204,14 @@ impl Run {
     }
 
     fn sampling(&self, dt: f64) -> PyResult<Sampling> {
-        let end = self.known.run().end().t;
+        let end = self.data.run().end().t;
         Sampling::every(dt, end).map_err(|allowed| {
             PyValueError::new_err(format!("dt = {dt:?} is not allowed; allowed: {allowed}"))
         })
     }
 
     fn play<'py>(&self, py: Python<'py>, times: Vec<f64>) -> PyResult<Bound<'py, PyByteArray>> {
-        let run = self.known.run();
+        let run = self.data.run();
         let bytes = on_this_thread(py, |on_progress| {
             let counter = Counter::new("playing", 0, times.len() as u64, on_progress);
             let mut playback = Playback::new(run);
@@ -223,7 +227,7 @@ impl Run {
             }
             Ok(bytes)
         })?;
-        let bytes = bytes.map_err(|cancelled: Cancelled| of_work(cancelled.into()))?;
+        let bytes = bytes.map_err(|cancelled: Cancelled| error_of_work(cancelled.into()))?;
         Ok(PyByteArray::new(py, &bytes))
     }
 }
@@ -244,7 +248,7 @@ fn table(columns: Vec<(&str, &str, &str, ArrayRef)>) -> PyResult<Table> {
 }
 
 pub(crate) fn to_json(value: &impl Serialize) -> PyResult<String> {
-    serde_json::to_string(value).map_err(of_program)
+    serde_json::to_string(value).map_err(internal_error)
 }
 
 /// What of a case is in doubt: nothing, so much of every start value, or a size for every key that
@@ -279,7 +283,7 @@ pub(crate) fn read_uncertainty(
 /// What counts as known, checked.
 pub(crate) fn checked_tolerance(tolerance: f64) -> PyResult<f64> {
     let checked = TOLERANCE.check(TOLERANCE.name, &tolerance.into());
-    checked.map(|()| tolerance).map_err(of_case)
+    checked.map(|()| tolerance).map_err(error_of_case)
 }
 
 /// Runs a case; see `snapload.Case.run`.
@@ -293,24 +297,27 @@ pub(crate) fn run(
     seed: u64,
 ) -> PyResult<Run> {
     let uncertainty = read_uncertainty(&case.case, uncertainty, tolerance)?;
-    let begun = Arc::clone(&case.case);
+    let shared_case = Arc::clone(&case.case);
     // The run itself takes one thread, and would be over before others had started. Neighbours take
     // all threads.
-    let alone = on_this_thread(py, |on_progress| {
-        Trusted::run_alone(&begun, uncertainty, on_progress)
+    let run_only = on_this_thread(py, |on_progress| {
+        RunWithTrust::run_alone(&shared_case, uncertainty, on_progress)
     })?
-    .map_err(of_work)?;
-    let trusted = if alone.trust.decides_the_end() || members == Some(0) {
+    .map_err(error_of_work)?;
+    let trusted = if run_only.trust.decides_the_end() || members == Some(0) {
         on_this_thread(py, |on_progress| {
-            alone.completed(&begun, members, seed, on_progress)
+            run_only.completed(&shared_case, members, seed, on_progress)
         })?
     } else {
-        interruptible(py, None, move |watch| {
-            let on_progress = |progress: Progress| watch.go_on(progress);
-            alone.completed(&begun, members, seed, &on_progress)
+        interruptible(py, None, move |shared| {
+            let on_progress = |progress: Progress| shared.report(progress);
+            run_only.completed(&shared_case, members, seed, &on_progress)
         })?
     };
-    Ok(Run::trusted(Some(case.clone()), trusted.map_err(of_work)?))
+    Ok(Run::from_trusted(
+        Some(case.clone()),
+        trusted.map_err(error_of_work)?,
+    ))
 }
 
 /// Runs a case without a word on how far the run can be trusted.
@@ -319,8 +326,8 @@ pub(crate) fn run_alone(py: Python<'_>, case: &Case) -> PyResult<Run> {
     let run = on_this_thread(py, |on_progress| {
         record(case.case.simulation(), on_progress, |_, _| {})
     })?;
-    let run = run.map_err(|cancelled| of_work(cancelled.into()))?;
-    Ok(Run::alone(Some(case.clone()), run))
+    let run = run.map_err(|cancelled| error_of_work(cancelled.into()))?;
+    Ok(Run::without_trust(Some(case.clone()), run))
 }
 
 /// Runs the neighbours of a case: how they end, as JSON.
@@ -335,10 +342,10 @@ pub(crate) fn ensemble(
 ) -> PyResult<String> {
     let uncertainty = read_uncertainty(&case.case, uncertainty, Uncertainty::default().tolerance)?;
     let ensemble = Ensemble::about(&case.case, &uncertainty, members, seed);
-    let tally = interruptible(py, progress, move |watch| {
-        ensemble.tally(&|progress| watch.go_on(progress))
+    let tally = interruptible(py, progress, move |shared| {
+        ensemble.tally(&|progress| shared.report(progress))
     })?;
-    let shares = tally.map_err(of_work)?.shares();
+    let shares = tally.map_err(error_of_work)?.shares();
     let rows: Vec<ShareRow> = shares.into_iter().map(ShareRow::new).collect();
     to_json(&rows)
 }

@@ -1,7 +1,7 @@
 //! The keys of a case, the columns of a study and the built-in cases, as Python's own lists.
 
 use crate::case::Case;
-use crate::errors::of_case;
+use crate::errors::error_of_case;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 use snapload::{KEYS, Kind, Limit, Parameters, Stop};
@@ -53,14 +53,14 @@ pub(crate) fn keys(py: Python<'_>) -> PyResult<Vec<Bound<'_, PyDict>>> {
     entries.collect()
 }
 
-/// Why a run may end; of a limit of the motion also what is told of its bound.
+/// Why a run may end; of a limit of the motion also the text of its bound.
 #[pyfunction]
 pub(crate) fn stops() -> Vec<(&'static str, Option<&'static str>)> {
-    let told = |stop: Stop| (stop.name(), stop.limit().map(Limit::meaning));
-    Stop::ALL.map(told).to_vec()
+    let name_and_bound = |stop: Stop| (stop.name(), stop.limit().map(Limit::bound_text));
+    Stop::ALL.map(name_and_bound).to_vec()
 }
 
-/// The columns that tell what the runs of a study come to.
+/// The columns with the results of the runs of a study.
 #[pyfunction]
 pub(crate) fn columns(py: Python<'_>) -> PyResult<Vec<Bound<'_, PyDict>>> {
     let entries = snapload_study::columns().iter().map(|column| {
@@ -81,15 +81,15 @@ pub(crate) fn columns(py: Python<'_>) -> PyResult<Vec<Bound<'_, PyDict>>> {
 #[pyfunction]
 pub(crate) fn named_case(code: &str) -> PyResult<Case> {
     let hint = "print(snapload.cases) lists them all";
-    let named = snapload::named_case(code).map_err(|error| of_case(error.with_hint(hint)))?;
-    Case::new(named.code.to_owned(), named.entries()).map_err(of_case)
+    let named = snapload::named_case(code).map_err(|error| error_of_case(error.with_hint(hint)))?;
+    Case::new(named.code.to_owned(), named.entries()).map_err(error_of_case)
 }
 
 /// The built-in cases: code, what there is to say of it, case.
 #[pyfunction]
 pub(crate) fn named_cases() -> PyResult<Vec<(&'static str, String, Case)>> {
     let cases = all_named_cases().map(|named| {
-        let case = Case::new(named.code.to_owned(), named.entries()).map_err(of_case)?;
+        let case = Case::new(named.code.to_owned(), named.entries()).map_err(error_of_case)?;
         Ok((named.code, named.origin(), case))
     });
     cases.collect()

@@ -1,6 +1,6 @@
 //! Structures in SI units: assessed, in many records of a sea, and on elastic lines.
 
-use crate::errors::{of_case, of_program, of_work};
+use crate::errors::{error_of_case, error_of_work, internal_error};
 use crate::interrupt::interruptible;
 use pyo3::prelude::*;
 use snapload::{CaseError, Entries};
@@ -45,8 +45,8 @@ impl Structure {
     /// Reads the text of a case; `changes` are keys such as `wave.height=2`.
     #[staticmethod]
     fn parse(name: &str, text: &str, changes: Vec<String>) -> PyResult<Self> {
-        let entries = Entries::parse(&STRUCTURE, name, text).map_err(of_case)?;
-        Self::of(name, entries, &changes).map_err(of_case)
+        let entries = Entries::parse(&STRUCTURE, name, text).map_err(error_of_case)?;
+        Self::of(name, entries, &changes).map_err(error_of_case)
     }
 
     /// The text of the manual's example.
@@ -58,19 +58,19 @@ impl Structure {
     /// Reads an input file of MoorDyn; returns what of it was left out or taken otherwise, too.
     #[staticmethod]
     fn from_moordyn(name: &str, text: &str, changes: Vec<String>) -> PyResult<(Self, Vec<String>)> {
-        let reading = moordyn::read(name, text).map_err(of_case)?;
-        let structure = Self::of(name, reading.entries, &changes).map_err(of_case)?;
+        let reading = moordyn::read(name, text).map_err(error_of_case)?;
+        let structure = Self::of(name, reading.entries, &changes).map_err(error_of_case)?;
         Ok((structure, reading.notes))
     }
 
     /// An input file for MoorDyn.
     fn to_moordyn(&self, segments: u32) -> PyResult<String> {
-        moordyn::write(&self.name, &self.structure, segments).map_err(of_case)
+        moordyn::write(&self.name, &self.structure, segments).map_err(error_of_case)
     }
 
     /// The same with other values of keys.
     fn replace(&self, changes: Vec<String>) -> PyResult<Self> {
-        Self::of(&self.name, self.entries.clone(), &changes).map_err(of_case)
+        Self::of(&self.name, self.entries.clone(), &changes).map_err(error_of_case)
     }
 
     #[getter]
@@ -91,12 +91,12 @@ impl Structure {
         progress: Option<&Bound<'_, PyAny>>,
     ) -> PyResult<Assessment> {
         let structure = self.structure.clone();
-        let found = interruptible(py, progress, move |watch| {
-            snapload_structure::assess(structure, neighbours, &|progress| watch.go_on(progress))
+        let found = interruptible(py, progress, move |shared| {
+            snapload_structure::assess(structure, neighbours, &|progress| shared.report(progress))
         })?;
         Ok(Assessment {
             name: self.name.clone(),
-            found: found.map_err(of_work)?,
+            found: found.map_err(error_of_work)?,
         })
     }
 
@@ -113,11 +113,11 @@ impl Structure {
             true => Lines::Elastic,
             false => Lines::Inextensible,
         };
-        let found = interruptible(py, progress, move |watch| {
-            snapload_structure::seas(structure, seeds, lines, &|progress| watch.go_on(progress))
+        let found = interruptible(py, progress, move |shared| {
+            snapload_structure::seas(structure, seeds, lines, &|progress| shared.report(progress))
         })?;
-        let seas = found.map_err(of_work)?;
-        let page = note::seas_page(source(&self.name), &seas).map_err(of_program)?;
+        let seas = found.map_err(error_of_work)?;
+        let page = note::seas_page(source(&self.name), &seas).map_err(internal_error)?;
         Ok((
             seas.to_json(&self.name).to_string(),
             seas.summary(&self.name),
@@ -134,16 +134,16 @@ impl Structure {
         progress: Option<&Bound<'_, PyAny>>,
     ) -> PyResult<Elastic> {
         let structure = self.structure.clone();
-        let every_s = checked_every(structure.duration_s, every_s).map_err(of_case)?;
-        let found = interruptible(py, progress, move |watch| {
+        let every_s = checked_every(structure.duration_s, every_s).map_err(error_of_case)?;
+        let found = interruptible(py, progress, move |shared| {
             let prepared = Prepared::for_springs(structure)?;
             both_models(prepared, stiffer, every_s, &|progress| {
-                watch.go_on(progress)
+                shared.report(progress)
             })
         })?;
         Ok(Elastic {
             name: self.name.clone(),
-            found: found.map_err(of_work)?,
+            found: found.map_err(error_of_work)?,
         })
     }
 }
@@ -179,7 +179,7 @@ impl Assessment {
 
     /// The page for a design note, without a scan of other waves.
     fn page(&self) -> PyResult<String> {
-        note::page(source(&self.name), &self.found, None).map_err(of_program)
+        note::page(source(&self.name), &self.found, None).map_err(internal_error)
     }
 
     /// The motion at times.

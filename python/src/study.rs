@@ -1,7 +1,7 @@
 //! Studies: the rows of `snapload sweep`.
 
 use crate::case::{Case, to_value};
-use crate::errors::{of_program, of_study, of_work};
+use crate::errors::{error_of_study, error_of_work, internal_error};
 use crate::interrupt::{interruptible, on_this_thread};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
@@ -9,7 +9,7 @@ use pyo3::types::{PyByteArray, PyBytes};
 use snapload::Value;
 use snapload::analysis::{Cancelled, Progress};
 use snapload_study::{
-    Axis, Grid, Identity, List, Opened, Plan, Side, StudyError, Values, check_name,
+    Axis, Grid, Identity, List, Opened, Plan, RandomRange, StudyError, Values, check_name,
     checked_identity, read_rows,
 };
 use std::collections::HashMap;
@@ -29,7 +29,7 @@ impl Study {
     #[staticmethod]
     fn grid(case: &Case, axes: Vec<(String, Bound<'_, PyAny>)>, trust: bool) -> PyResult<Self> {
         let axes = axes.iter().map(|(key, values)| axis(key, values));
-        let plan = Plan::grid(axes.collect::<PyResult<_>>()?).map_err(of_study)?;
+        let plan = Plan::grid(axes.collect::<PyResult<_>>()?).map_err(error_of_study)?;
         Self::of(case, plan, trust)
     }
 
@@ -42,9 +42,9 @@ impl Study {
         seed: u64,
         trust: bool,
     ) -> PyResult<Self> {
-        let sides = sides.iter().map(|(key, ends)| side(key, ends));
-        let sides = sides.collect::<PyResult<_>>()?;
-        let plan = Plan::random(sides, count, seed).map_err(of_study)?;
+        let ranges = sides.iter().map(|(key, ends)| side(key, ends));
+        let ranges = ranges.collect::<PyResult<_>>()?;
+        let plan = Plan::random(ranges, count, seed).map_err(error_of_study)?;
         Self::of(case, plan, trust)
     }
 
@@ -59,8 +59,8 @@ impl Study {
         trust: bool,
     ) -> PyResult<Self> {
         let list = py
-            .detach(|| List::open_called(&path, &called))
-            .map_err(of_study)?;
+            .detach(|| List::open_named(&path, &called))
+            .map_err(error_of_study)?;
         Self::of(case, Plan::List(list), trust)
     }
 
@@ -83,12 +83,12 @@ impl Study {
         threads: Option<usize>,
     ) -> PyResult<Bound<'py, PyBytes>> {
         let study = Arc::clone(&self.study);
-        let bytes = interruptible(py, None, move |watch| {
-            let on_progress = |progress: Progress| watch.go_on(progress);
+        let bytes = interruptible(py, None, move |shared| {
+            let on_progress = |progress: Progress| shared.report(progress);
             let chunk = || snapload_study::chunk(&study, start..stop, &on_progress);
             on_threads(threads, chunk)
         })?;
-        Ok(PyBytes::new(py, &bytes.map_err(of_study)?))
+        Ok(PyBytes::new(py, &bytes.map_err(error_of_study)?))
     }
 
     /// Runs what is missing in a file, and completes it.
@@ -101,12 +101,12 @@ impl Study {
         progress: Option<&Bound<'_, PyAny>>,
     ) -> PyResult<()> {
         let (study, store) = (Arc::clone(&self.study), store.take()?);
-        let swept = interruptible(py, progress, move |watch| {
-            let on_progress = |progress: Progress| watch.go_on(progress);
+        let swept = interruptible(py, progress, move |shared| {
+            let on_progress = |progress: Progress| shared.report(progress);
             let sweep = || snapload_study::sweep(&study, store, &on_progress);
             on_threads(threads, sweep)
         })?;
-        swept.map_err(of_study)
+        swept.map_err(error_of_study)
     }
 }
 
@@ -116,7 +116,7 @@ impl Study {
             .given
             .iter()
             .map(|(key, value)| ((*key).to_owned(), value.clone()));
-        let study = snapload_study::Study::new(base, plan, trust).map_err(of_study)?;
+        let study = snapload_study::Study::new(base, plan, trust).map_err(error_of_study)?;
         Ok(Self {
             study: Arc::new(study),
         })
@@ -135,7 +135,7 @@ impl Store {
     #[staticmethod]
     fn open(study: &Study, path: PathBuf, resume: bool) -> PyResult<Option<Self>> {
         let identity = Identity::new(&study.study, None);
-        match snapload_study::Store::open(&path, identity, resume).map_err(of_study)? {
+        match snapload_study::Store::open(&path, identity, resume).map_err(error_of_study)? {
             Opened::Complete => Ok(None),
             Opened::Work(store) => Ok(Some(Self {
                 store: Mutex::new(Some(store)),
@@ -145,7 +145,7 @@ impl Store {
 
     /// How many rows are safe.
     fn safe(&self) -> PyResult<u64> {
-        self.with(|store| Ok(store.safe()))
+        self.with(|store| Ok(store.saved()))
     }
 
     /// The stretches of rows that are missing.
@@ -155,13 +155,13 @@ impl Store {
 
     /// Keeps rows that `Study.chunk` made.
     fn keep(&self, py: Python<'_>, start: u64, stop: u64, bytes: &[u8]) -> PyResult<()> {
-        py.detach(|| self.with(|store| store.keep(start..stop, bytes)))
+        py.detach(|| self.with(|store| store.save_chunk(start..stop, bytes)))
     }
 
     /// Joins all rows into the file.
     fn finish(&self, py: Python<'_>) -> PyResult<()> {
         let mut store = self.take()?;
-        py.detach(move || store.finish()).map_err(of_study)
+        py.detach(move || store.finish()).map_err(error_of_study)
     }
 
     /// Lets go of the place; what is safe stays.
@@ -181,34 +181,34 @@ impl Store {
         ask: impl FnOnce(&mut snapload_study::Store) -> Result<T, StudyError>,
     ) -> PyResult<T> {
         let mut store = self.store.lock().unwrap_or_else(PoisonError::into_inner);
-        ask(store.as_mut().ok_or_else(closed)?).map_err(of_study)
+        ask(store.as_mut().ok_or_else(closed)?).map_err(error_of_study)
     }
 }
 
 fn closed() -> PyErr {
-    of_program("this file is no longer being written")
+    internal_error("this file is no longer being written")
 }
 
 /// The values along one axis, a list or the text `first:last:n`.
 pub(crate) fn axis(key: &str, values: &Bound<'_, PyAny>) -> PyResult<Axis> {
     if let Ok(text) = values.extract::<String>() {
-        return Axis::written(key, &text).map_err(of_study);
+        return Axis::written(key, &text).map_err(error_of_study);
     }
     let values = values.try_iter()?.map(|value| to_value(key, &value?));
     let values: Vec<Value> = values.collect::<PyResult<_>>()?;
-    Axis::listed(key, values).map_err(of_study)
+    Axis::listed(key, values).map_err(error_of_study)
 }
 
 /// The ends of one side of a box, a pair or the text `low:high`.
-pub(crate) fn side(key: &str, ends: &Bound<'_, PyAny>) -> PyResult<Side> {
+pub(crate) fn side(key: &str, ends: &Bound<'_, PyAny>) -> PyResult<RandomRange> {
     if let Ok(text) = ends.extract::<String>() {
-        return Side::written(key, &text).map_err(of_study);
+        return RandomRange::written(key, &text).map_err(error_of_study);
     }
     let (low, high) = ends.extract().map_err(|_| {
         let allowed = "the ends of its range, such as (0.1, 0.6) or \"0.1:0.6\"";
         PyValueError::new_err(format!("{key} = {ends} is not allowed; allowed: {allowed}"))
     })?;
-    Side::new(key, low, high).map_err(of_study)
+    RandomRange::new(key, low, high).map_err(error_of_study)
 }
 
 /// As many threads as asked for, up to what helps; and where these are fewer, why.
@@ -237,7 +237,9 @@ type Origin = (String, String, u64, u64, u64);
 /// Of which study the rows of a file are, once it was compared with its checksum.
 #[pyfunction]
 pub(crate) fn identity(py: Python<'_>, path: PathBuf) -> PyResult<Option<Origin>> {
-    let read = py.detach(|| checked_identity(&path)).map_err(of_study)?;
+    let read = py
+        .detach(|| checked_identity(&path))
+        .map_err(error_of_study)?;
     Ok(read.map(|identity| {
         let rows = identity.rows;
         let (first, count) = (rows.start, rows.end - rows.start);
@@ -253,7 +255,7 @@ pub(crate) fn identity(py: Python<'_>, path: PathBuf) -> PyResult<Option<Origin>
 
 /// Some rows of one column of a file, as its type and bytes.
 ///
-/// The type hangs on the column alone, whatever its rows hold. Numbers and counts are doubles, NaN
+/// The type depends on the column alone, whatever its rows contain. Numbers and counts are doubles, NaN
 /// where there are none; flags are not set then. Words are places in a list of words, which comes
 /// with them and begins with the empty one, that of rows without.
 #[pyfunction]
@@ -266,7 +268,7 @@ pub(crate) fn read_column<'py>(
 ) -> PyResult<(&'static str, Bound<'py, PyByteArray>, Vec<String>)> {
     let mut plain = Plain::none();
     let read = py.detach(|| read_rows(&path, name, start..stop, |values| plain.take(values)));
-    read.map_err(of_study)?;
+    read.map_err(error_of_study)?;
     Ok((plain.kind, PyByteArray::new(py, &plain.bytes), plain.words))
 }
 
@@ -336,9 +338,9 @@ impl Plain {
 /// Joins the parts of a study into one file.
 #[pyfunction]
 pub(crate) fn merge(py: Python<'_>, parts: Vec<PathBuf>, out: PathBuf) -> PyResult<()> {
-    check_name(&out).map_err(of_study)?;
+    check_name(&out).map_err(error_of_study)?;
     let joined = interruptible(py, None, move |_| snapload_study::merge(&parts, &out))?;
-    joined.map_err(of_study)
+    joined.map_err(error_of_study)
 }
 
 /// The number of values between two checks for signals.
@@ -362,12 +364,12 @@ pub(crate) fn evenly<'py>(
         let mut bytes = Vec::new();
         for k in 0..count {
             if k % VALUES == 0 {
-                Progress::new("values", k as f64, count as f64).tell(on_progress)?;
+                Progress::new("values", k as f64, count as f64).report(on_progress)?;
             }
             bytes.extend(grid.value(k).to_ne_bytes());
         }
         Ok(bytes)
     })?;
-    let bytes = bytes.map_err(|cancelled: Cancelled| of_work(cancelled.into()))?;
+    let bytes = bytes.map_err(|cancelled: Cancelled| error_of_work(cancelled.into()))?;
     Ok(PyByteArray::new(py, &bytes))
 }

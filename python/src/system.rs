@@ -1,6 +1,6 @@
 //! User-defined systems: body, cables and forces, from Python objects.
 
-use crate::errors::{of_case, of_program, of_study, of_work};
+use crate::errors::{error_of_case, error_of_study, error_of_work, internal_error};
 use crate::interrupt::{interruptible, on_this_thread};
 use crate::run::{Run, checked_tolerance};
 use crate::study::{Plain, on_threads};
@@ -13,7 +13,7 @@ use snapload::{
     CaseError, Forcing, Harmonic, Limit, LimitBounds, Outcome, Rules, Shape, Simulation,
     StartError, State, Value,
 };
-use snapload_report::Trusted;
+use snapload_report::RunWithTrust;
 use snapload_study::{Column, StudyError, Values, columns};
 use std::collections::HashMap;
 use std::sync::Arc;
@@ -75,7 +75,7 @@ impl Body {
         }
     }
 
-    /// A body of unit mass flies in closed form under up to eight sinusoids. What is told as the
+    /// A body of unit mass flies in closed form under up to eight sinusoids. What is given as the
     /// inertia of a point of another mass does nothing, as its cables have no lever arm.
     fn in_engine(&self) -> PyResult<snapload::Body> {
         match (self.mass == 1.0, self.inertia) {
@@ -86,7 +86,7 @@ impl Body {
                 let turning = inertia.unwrap_or(m);
                 let matrix = [[m, 0.0, 0.0], [0.0, m, 0.0], [0.0, 0.0, turning]];
                 let body = snapload::Body::with_mass_matrix(self.shape(), matrix);
-                body.ok_or_else(|| of_program("mass and inertia are above 0"))
+                body.ok_or_else(|| internal_error("mass and inertia are above 0"))
             }
         }
     }
@@ -122,7 +122,7 @@ impl Stops {
 /// A system at its start.
 #[pyclass(frozen, module = "snapload._engine")]
 pub(crate) struct System {
-    begun: Arc<Simulation>,
+    simulation: Arc<Simulation>,
 }
 
 #[pymethods]
@@ -150,10 +150,11 @@ impl System {
             restitution,
         };
         let start = State::from_components(start);
-        let begun = Simulation::new(system, stops.in_engine(), 0.0, start);
-        let begun = begun.map_err(|error| of_case(explain(error, &start, &lengths)))?;
+        let simulation = Simulation::new(system, stops.in_engine(), 0.0, start);
+        let simulation =
+            simulation.map_err(|error| error_of_case(explain(error, &start, &lengths)))?;
         Ok(Self {
-            begun: Arc::new(begun),
+            simulation: Arc::new(simulation),
         })
     }
 }
@@ -161,7 +162,7 @@ impl System {
 impl System {
     /// Its parts and what ends a run.
     pub(crate) fn parts(&self) -> (snapload::System, Rules) {
-        (self.begun.system().clone(), *self.begun.rules())
+        (self.simulation.system().clone(), *self.simulation.rules())
     }
 }
 
@@ -191,7 +192,7 @@ fn explain(error: StartError, start: &State, lengths: &[f64]) -> CaseError {
     }
 }
 
-/// Runs a system; says how far the run can be trusted where it is told how far each value of the
+/// Runs a system; says how far the run can be trusted where it is given how far each value of the
 /// start may be off.
 #[pyfunction]
 pub(crate) fn run_system(
@@ -200,20 +201,20 @@ pub(crate) fn run_system(
     doubts: Option<[f64; 6]>,
     tolerance: f64,
 ) -> PyResult<Run> {
-    let begun = Simulation::clone(&system.begun);
-    let unfinished = |cancelled: Cancelled| of_work(cancelled.into());
+    let simulation = Simulation::clone(&system.simulation);
+    let unfinished = |cancelled: Cancelled| error_of_work(cancelled.into());
     let Some(start) = doubts else {
-        let run = on_this_thread(py, |on_progress| record(begun, on_progress, |_, _| {}))?;
-        return Ok(Run::alone(None, run.map_err(unfinished)?));
+        let run = on_this_thread(py, |on_progress| record(simulation, on_progress, |_, _| {}))?;
+        return Ok(Run::without_trust(None, run.map_err(unfinished)?));
     };
     let tolerance = checked_tolerance(tolerance)?;
-    let mut monitor = TrustMonitor::new(&begun, &start, tolerance);
+    let mut monitor = TrustMonitor::new(&simulation, &start, tolerance);
     let run = on_this_thread(py, |on_progress| {
-        record(begun, on_progress, |simulation, step| {
+        record(simulation, on_progress, |simulation, step| {
             monitor.follow(simulation, step);
         })
     })?;
-    let trusted = Trusted {
+    let trusted = RunWithTrust {
         run: run.map_err(unfinished)?,
         trust: monitor.verdict(),
         uncertainty: Uncertainty {
@@ -225,7 +226,7 @@ pub(crate) fn run_system(
         tally: None,
         sensitivity: Vec::new(),
     };
-    Ok(Run::trusted(None, trusted))
+    Ok(Run::from_trusted(None, trusted))
 }
 
 /// Name of a column, its type, its bytes, and its words.
@@ -241,22 +242,22 @@ pub(crate) fn sweep_systems<'py>(
     threads: Option<usize>,
     progress: Option<&Bound<'py, PyAny>>,
 ) -> PyResult<Vec<Filled<'py>>> {
-    let begun: Vec<Arc<Simulation>> = systems
+    let simulations: Vec<Arc<Simulation>> = systems
         .iter()
-        .map(|system| Arc::clone(&system.get().begun))
+        .map(|system| Arc::clone(&system.get().simulation))
         .collect();
-    let runs = interruptible(py, progress, move |watch| {
-        let go_on = |progress: Progress| watch.go_on(progress);
-        let counter = Counter::new("running", 0, begun.len() as u64, &go_on);
+    let runs = interruptible(py, progress, move |shared| {
+        let on_progress = |progress: Progress| shared.report(progress);
+        let counter = Counter::new("running", 0, simulations.len() as u64, &on_progress);
         on_threads(threads, || {
-            let made = in_parallel(begun.len(), |k| {
+            let made = in_parallel(simulations.len(), |k| {
                 counter.add(1)?;
-                Ok(run_of(&begun[k], trust))
+                Ok(run_of(&simulations[k], trust))
             });
             made.map_err(StudyError::Cancelled)
         })
     })?;
-    let runs = runs.map_err(of_study)?;
+    let runs = runs.map_err(error_of_study)?;
     let mut filled = Vec::new();
     let mut fill = |name: String, values: Values| {
         let plain = Plain::of(values);
@@ -294,9 +295,9 @@ fn shown(trust: bool) -> impl Iterator<Item = &'static Column> {
 }
 
 /// What one run comes to, and, if that is asked for, how far rounding alone leaves it to be trusted.
-fn run_of(begun: &Simulation, trust: bool) -> snapload_study::Run {
+fn run_of(simulation: &Simulation, trust: bool) -> snapload_study::Run {
     let certainty = trust.then(|| {
-        let mut simulation = begun.clone();
+        let mut simulation = simulation.clone();
         let tolerance = Uncertainty::default().tolerance;
         let mut monitor = TrustMonitor::new(&simulation, &[0.0; 6], tolerance);
         while monitor.horizon().is_none()
@@ -309,7 +310,7 @@ fn run_of(begun: &Simulation, trust: bool) -> snapload_study::Run {
         }
     });
     snapload_study::Run {
-        outcome: Outcome::after(begun.clone()),
+        outcome: Outcome::after(simulation.clone()),
         certainty,
     }
 }

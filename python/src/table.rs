@@ -1,7 +1,7 @@
 //! Tables, shared by the Arrow C data interface: pandas, Polars and PyArrow read the same memory
 //! without a copy.
 
-use crate::errors::of_program;
+use crate::errors::internal_error;
 use arrow_array::builder::{Int64Builder, ListBuilder};
 use arrow_array::cast::AsArray;
 use arrow_array::ffi_stream::FFI_ArrowArrayStream;
@@ -28,7 +28,7 @@ pub(crate) struct Table {
 
 impl Table {
     pub(crate) fn new(schema: SchemaRef, columns: Vec<ArrayRef>) -> PyResult<Self> {
-        let batch = RecordBatch::try_new(Arc::clone(&schema), columns).map_err(of_program)?;
+        let batch = RecordBatch::try_new(Arc::clone(&schema), columns).map_err(internal_error)?;
         Ok(Self { schema, batch })
     }
 }
@@ -61,7 +61,7 @@ impl Table {
     }
 
     fn __arrow_c_schema__<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyCapsule>> {
-        let schema = FFI_ArrowSchema::try_from(self.schema.as_ref()).map_err(of_program)?;
+        let schema = FFI_ArrowSchema::try_from(self.schema.as_ref()).map_err(internal_error)?;
         PyCapsule::new_with_value(py, schema, c"arrow_schema")
     }
 

@@ -60,7 +60,7 @@ impl ExactCase {
     ) -> Result<Self, String> {
         let unknown = |(limit, _): &(Limit, f64)| !PROVABLE.contains(limit);
         if let Some((limit, _)) = parameters.rules().limits.iter().find(unknown) {
-            let (words, key) = (limit.stop().words(), limit.stop().name());
+            let (words, key) = (limit.stop().label(), limit.stop().name());
             let why = format!("proofs do not cover the {words}; leave {key} out");
             return Err(why);
         }

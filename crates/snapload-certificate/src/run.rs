@@ -103,7 +103,7 @@ impl<'a> Run<'a> {
             let what = format!(
                 "whether {} or {} comes first",
                 name(root.which),
-                last.1.words()
+                last.1.label()
             );
             return Err(ProofFailure::undecided(what));
         }

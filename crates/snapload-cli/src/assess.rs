@@ -2,9 +2,9 @@
 use crate::bar::Bar;
 use crate::failure::{Failure, print};
 use crate::json::JsonArgs;
+use crate::option_values::whole_number;
 use crate::outputs::Outputs;
 use crate::structure_input::{ReadStructure, StructureArgs};
-use crate::whole::whole;
 use snapload::analysis::Progress;
 use snapload_structure::note::{self, Source};
 use snapload_structure::{DEFAULT_NEIGHBOURS, NEIGHBOURS, STRUCTURE, assess};
@@ -27,7 +27,7 @@ pub(crate) struct Args {
     #[command(flatten)]
     json: JsonArgs,
     /// Number of neighbours of the run, 1e-6 of the wave height away, that show how far it can be trusted
-    #[arg(long, value_name = "NUMBER", default_value_t = DEFAULT_NEIGHBOURS, value_parser = whole::<u32>(NEIGHBOURS))]
+    #[arg(long, value_name = "NUMBER", default_value_t = DEFAULT_NEIGHBOURS, value_parser = whole_number::<u32>(NEIGHBOURS))]
     neighbours: u32,
     /// Omit the scan over wave heights and periods from the page
     #[arg(long)]
@@ -67,5 +67,5 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
             .map_err(|error| Failure::Failed(format!("can not draw the page: {error}")))?;
         outputs.write(out, |out| out.write_all(page.as_bytes()))?;
     }
-    outputs.finish_told(&assessment.to_json(&name), assessment.summary(&name))
+    outputs.finish_with_text(&assessment.to_json(&name), assessment.summary(&name))
 }

@@ -6,7 +6,7 @@ use std::sync::Mutex;
 use std::time::{Duration, Instant};
 
 /// The time that passes before a bar is shown.
-const PATIENCE: Duration = Duration::from_secs(2);
+const DELAY: Duration = Duration::from_secs(2);
 /// The form of a bar in per cent.
 const PARTS: &str = "{msg} {bar:40} {percent} %, {eta} left";
 /// The form of a bar in numbers, with the rate.
@@ -54,7 +54,7 @@ impl Bar {
             stage.part = part;
             if self.counts {
                 stage.count(progress);
-            } else if stage.began.elapsed() >= PATIENCE {
+            } else if stage.began.elapsed() >= DELAY {
                 stage.part(progress);
             }
         }

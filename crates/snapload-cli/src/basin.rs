@@ -3,9 +3,9 @@ use crate::bar::Bar;
 use crate::case_input::CaseArgs;
 use crate::failure::Failure;
 use crate::json::JsonArgs;
+use crate::option_values::whole_number;
 use crate::outputs::{Outputs, TABLE};
 use crate::table::{axis, names, numbers};
-use crate::whole::whole;
 use serde::Serialize;
 use snapload::Parameters;
 use snapload::analysis::Progress;
@@ -41,7 +41,7 @@ pub(crate) struct Args {
     #[arg(long, default_value = "safe", value_parser = ["safe", "attractor"])]
     kind: String,
     /// Forcing periods to skip before attractors are identified
-    #[arg(long, value_name = "N", default_value_t = 300, value_parser = whole::<u64>(BASIN_TRANSIENT))]
+    #[arg(long, value_name = "N", default_value_t = 300, value_parser = whole_number::<u64>(BASIN_TRANSIENT))]
     transient: u64,
     /// Write a table with one row per cell, FILE.parquet or FILE.csv
     #[arg(long, value_name = "FILE")]
@@ -120,7 +120,7 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
     if args.kind == "attractor" {
         let found = Attraction::of(window, args.transient, &on_progress)?;
         drop(bar);
-        outputs.table(table, &fates(&found))?;
+        outputs.table(table, &outcome_columns(&found))?;
         let row = Answer {
             case: CaseEcho(&base),
             found: AttractionRow::new(&found),
@@ -210,7 +210,7 @@ fn points(erosion: &Erosion) -> Vec<(&'static str, Values)> {
     ]
 }
 
-fn fates(found: &Attraction) -> Vec<(&'static str, Values)> {
+fn outcome_columns(found: &Attraction) -> Vec<(&'static str, Values)> {
     let window = &found.window;
     let key = |axis: usize| numbers((0..window.count()).map(|k| window.at(k)[axis]));
     let outcome = |fate: &Fate| match fate {

@@ -3,11 +3,11 @@ use crate::bar::Bar;
 use crate::case_input::CaseArgs;
 use crate::failure::Failure;
 use crate::json::JsonArgs;
+use crate::option_values::whole_number;
 use crate::orbit::NearArgs;
-use crate::orbit_columns::{OF_ORBITS, of_orbit, words_of};
+use crate::orbit_columns::{ORBIT_COLUMNS, of_orbit, text_columns};
 use crate::orbit_picture::{Drawn, PlotArgs, PlotFile, branch_layers};
 use crate::outputs::{Outputs, TABLE};
-use crate::whole::whole;
 use serde::Serialize;
 use snapload::Parameters;
 use snapload::analysis::{OnProgress, Progress};
@@ -16,7 +16,7 @@ use snapload_orbits::{
     Along, Branch, BranchEvent, BranchRow, Kind, Moored, POINTS, branch_in_words,
 };
 use snapload_report::{CaseEcho, case_in_words};
-use snapload_study::{Side, Values};
+use snapload_study::{RandomRange, Values};
 use std::fmt::Write;
 use std::path::PathBuf;
 
@@ -56,7 +56,7 @@ pub(crate) struct Args {
     #[arg(long, default_value_t = 0.01)]
     step: f64,
     /// Maximum number of points in each direction
-    #[arg(long, value_name = "N", default_value_t = 2000, value_parser = whole::<u32>(POINTS))]
+    #[arg(long, value_name = "N", default_value_t = 2000, value_parser = whole_number::<u32>(POINTS))]
     points: u32,
     /// Kinds of events to report, separated by commas
     #[arg(long, value_name = "all|fold,graze,...", default_value = "all")]
@@ -90,7 +90,7 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
     args.near.read(&parameters)?;
     let mut outputs = Outputs::open(&args.json)?;
     let table = outputs.file("--out", args.out.as_deref(), &TABLE)?;
-    let known = [&[key][..], &OF_ORBITS].concat();
+    let known = [&[key][..], &ORBIT_COLUMNS].concat();
     let plot = args.plot.open(&mut outputs, [key, "y"], &known)?;
     let bar = Bar::new();
     let on_progress = |progress: Progress| bar.show(progress);
@@ -107,7 +107,7 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
     outputs.table(table, &columns(key, &branch))?;
     if let Some(plot) = plot {
         let layers = layers(key, &branch, &plot);
-        plot.stage(&mut outputs, &case_in_words(&name, &parameters), layers)?;
+        plot.add_to(&mut outputs, &case_in_words(&name, &parameters), layers)?;
     }
     let row = Answer {
         case: CaseEcho(&parameters),
@@ -157,7 +157,7 @@ fn along(args: &Args, parameters: &Parameters) -> Result<(&'static str, f64, Alo
             "--along {text:?}: no range; write --along KEY=low:high, such as --along f_o=0.6:1.0"
         )));
     };
-    let side = Side::written(key.trim(), range.trim())
+    let side = RandomRange::written(key.trim(), range.trim())
         .map_err(|error| Failure::from(error).with_prefix("--along"))?;
     let most = args.points as usize;
     let found = snapload_orbits::along(parameters, side.key(), side.ends(), args.step, most)?;
@@ -206,17 +206,17 @@ fn columns(key: &'static str, branch: &Branch) -> Vec<(&'static str, Values)> {
         let values = values.map(|value| Some(value).filter(|value| value.is_finite()));
         (column, Values::Numbers(values.collect()))
     };
-    let others = OF_ORBITS.into_iter().filter(|column| *column != key);
+    let others = ORBIT_COLUMNS.into_iter().filter(|column| *column != key);
     let mut columns: Vec<_> = others.map(number).collect();
     columns.insert(1, number(key));
-    columns.extend(words_of(
+    columns.extend(text_columns(
         &points().map(|point| &point.orbit).collect::<Vec<_>>(),
     ));
     columns
 }
 
 /// The names of the sorts of orbits.
-const OF_BRANCHES: [&str; 4] = ["stable", "neutral", "unstable", "not admissible"];
+const BRANCH_LABELS: [&str; 4] = ["stable", "neutral", "unstable", "not admissible"];
 
 /// The branch in the order of its arclength, special points among the others.
 fn layers(key: &str, branch: &Branch, plot: &PlotFile) -> Vec<Layer> {
@@ -246,5 +246,5 @@ fn layers(key: &str, branch: &Branch, plot: &PlotFile) -> Vec<Layer> {
         .axes
         .iter()
         .any(|column| ["vx", "vy", "vtheta"].contains(&column.as_str()));
-    branch_layers(&all, jumps, OF_BRANCHES)
+    branch_layers(&all, jumps, BRANCH_LABELS)
 }

@@ -1,5 +1,5 @@
 //! The case that a command line asks for: built-in or from a file, then changed by `--set`.
-use crate::failure::{Failure, plain};
+use crate::failure::{Failure, without_number};
 use snapload::{CASE, Case, CaseError, Entries, Parameters, Schema, Value, named_case};
 use std::fs::File;
 use std::io::{ErrorKind, Read};
@@ -58,7 +58,7 @@ impl CaseArgs {
             (Some(path), _) => (path.display().to_string(), read_file(schema, path)?),
             (None, Some(code)) => {
                 let mut entries = Entries::new(schema);
-                begin_with(&mut entries, code).map_err(|error| error.at("--case"))?;
+                add_case_defaults(&mut entries, code).map_err(|error| error.at("--case"))?;
                 (code.clone(), entries)
             }
             (None, None) => ("standard case".to_owned(), Entries::new(schema)),
@@ -95,7 +95,7 @@ impl CaseArgs {
 }
 
 /// Adds the keys of a built-in case that are not given yet.
-pub(crate) fn begin_with(entries: &mut Entries, code: &str) -> Result<(), CaseError> {
+pub(crate) fn add_case_defaults(entries: &mut Entries, code: &str) -> Result<(), CaseError> {
     let case = named_case(code);
     let case = case.map_err(|error| error.with_hint("snapload cases lists them all"))?;
     for (key, value) in case.entries() {
@@ -162,7 +162,7 @@ pub(crate) fn read_up_to(path: &Path, largest: u64, too_large: &str) -> Result<S
         Err(error) if error.kind() == ErrorKind::IsADirectory => {
             Err(bad("a directory, not a case file"))
         }
-        Err(error) => Err(bad(&format!("can not be read: {}", plain(&error)))),
+        Err(error) => Err(bad(&format!("can not be read: {}", without_number(&error)))),
     }
 }
 

@@ -4,18 +4,18 @@ use snapload::{Value, named_cases};
 use std::fmt::Write;
 
 /// Keys in which the built-in cases differ.
-const SHOWN: [&str; 7] = ["r", "e", "a", "b", "f_o", "nu", "omega"];
+const KEYS_SHOWN: [&str; 7] = ["r", "e", "a", "b", "f_o", "nu", "omega"];
 
 /// Lists them.
 pub(crate) fn run() -> Result<(), Failure> {
     let mut text = format!("{:<16}", "CODE");
-    for key in SHOWN {
+    for key in KEYS_SHOWN {
         let _ = write!(text, "  {key:<5}");
     }
     text.push_str("  SERIES\n");
     for case in named_cases() {
         let _ = write!(text, "{:<16}", case.code);
-        for key in SHOWN {
+        for key in KEYS_SHOWN {
             let value = case
                 .parameters
                 .get(key)

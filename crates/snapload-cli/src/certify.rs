@@ -3,7 +3,7 @@ use crate::bar::Bar;
 use crate::case_input::{CaseArgs, read_up_to};
 use crate::failure::{Failure, print};
 use crate::json::{Json, JsonArgs};
-use crate::stage::Stage;
+use crate::pending_outputs::PendingOutputs;
 use serde::Serialize;
 use snapload::analysis::Progress;
 use snapload::{Entries, Parameters};
@@ -74,9 +74,9 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
 fn run_certify(args: &Args) -> Result<(), Failure> {
     let input = args.case.read()?;
     let case = exact(input.case.parameters(), &input.entries)?;
-    let mut stage = Stage::default();
-    let out = Json::open(&mut stage, args.out.as_deref())?;
-    let json = args.json.open(&mut stage)?;
+    let mut pending = PendingOutputs::default();
+    let out = Json::open(&mut pending, args.out.as_deref())?;
+    let json = args.json.open(&mut pending)?;
     let begun = Instant::now();
     let bar = Bar::new();
     let t_end = input.case.parameters().t_end;
@@ -93,9 +93,9 @@ fn run_certify(args: &Args) -> Result<(), Failure> {
         return Err(Failure::Failed(words));
     }
     // Both files appear complete, and together.
-    out.stage(&mut stage, &proof)?;
-    json.stage(&mut stage, &proof)?;
-    let files = stage.commit()?;
+    out.add_to(&mut pending, &proof)?;
+    json.add_to(&mut pending, &proof)?;
+    let files = pending.commit()?;
     if !(out.print(&proof)? | json.print(&proof)?) {
         let mut text = words + "\n";
         if proof.end == Ended::Proved(Reason::Sticks) {
@@ -109,7 +109,7 @@ fn run_certify(args: &Args) -> Result<(), Failure> {
     if is_proved {
         Ok(())
     } else {
-        Err(Failure::Answered(1))
+        Err(Failure::ExitStatus(1))
     }
 }
 
@@ -169,8 +169,8 @@ struct Row<'a> {
 }
 
 fn run_check(args: &Args, path: &Path) -> Result<(), Failure> {
-    let mut stage = Stage::default();
-    let json = args.json.open(&mut stage)?;
+    let mut pending = PendingOutputs::default();
+    let json = args.json.open(&mut pending)?;
     let begun = Instant::now();
     let verdict = match read_up_to(path, LARGEST, "larger than 1 GiB") {
         Ok(text) => check(&text),
@@ -194,7 +194,7 @@ fn run_check(args: &Args, path: &Path) -> Result<(), Failure> {
         bits,
         why,
     };
-    if json.write(stage, &row)?.is_some() {
+    if json.write(pending, &row)?.is_some() {
         let mut words = match (impacts, bits) {
             (Some(impacts), Some(bits)) => {
                 format!("{word}: {impacts} impacts ({bits} bits, {seconds:.1} s)")
@@ -208,6 +208,6 @@ fn run_check(args: &Args, path: &Path) -> Result<(), Failure> {
     }
     match verdict.status() {
         0 => Ok(()),
-        status => Err(Failure::Answered(status)),
+        status => Err(Failure::ExitStatus(status)),
     }
 }

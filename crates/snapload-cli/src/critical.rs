@@ -4,12 +4,12 @@ use crate::bar::Bar;
 use crate::case_input::{CaseArgs, Input};
 use crate::failure::Failure;
 use crate::json::JsonArgs;
+use crate::option_values::whole_number;
 use crate::outputs::Outputs;
 use crate::uncertainty::UncertaintyArgs;
-use crate::whole::whole;
 use serde::Serialize;
 use snapload::analysis::{
-    CriticalForce, ExceedanceCurve, ForceScan, OnProgress, Progress, SOME_MEMBERS,
+    CriticalForce, ExceedanceCurve, ForceScan, NONZERO_MEMBERS, OnProgress, Progress,
 };
 use snapload::{CaseError, Value};
 use snapload_report::{CriticalRow, Probability, case_in_words};
@@ -49,7 +49,7 @@ pub(crate) struct Args {
     max: f64,
     /// Run N neighbours at each amplitude where one run can not decide, and report the probability of
     /// exceeding a limit
-    #[arg(long, value_name = "N", conflicts_with = "over", value_parser = whole::<u32>(SOME_MEMBERS.called("ensemble")))]
+    #[arg(long, value_name = "N", conflicts_with = "over", value_parser = whole_number::<u32>(NONZERO_MEMBERS.called("ensemble")))]
     ensemble: Option<u32>,
     #[command(flatten)]
     uncertainty: UncertaintyArgs,

@@ -3,12 +3,12 @@ use crate::bar::Bar;
 use crate::case_input::CaseArgs;
 use crate::failure::Failure;
 use crate::json::JsonArgs;
+use crate::option_values::whole_number;
 use crate::orbit::NearArgs;
-use crate::orbit_columns::{OF_ORBITS, of_orbit};
+use crate::orbit_columns::{ORBIT_COLUMNS, of_orbit};
 use crate::orbit_picture::{Drawn, PlotArgs, PlotFile, branch_layers};
 use crate::outputs::{Outputs, TABLE};
 use crate::table::names;
-use crate::whole::whole;
 use serde::Serialize;
 use snapload::analysis::{OnProgress, Progress};
 use snapload::{Parameters, key_named};
@@ -18,7 +18,7 @@ use snapload_orbits::{
     curve_in_words,
 };
 use snapload_report::{CaseEcho, case_in_words};
-use snapload_study::{Side, Values};
+use snapload_study::{RandomRange, Values};
 use std::path::PathBuf;
 
 const EXAMPLES: &str = "\
@@ -62,7 +62,7 @@ pub(crate) struct Args {
     #[arg(long, default_value_t = 0.01)]
     step: f64,
     /// Maximum number of points in each direction
-    #[arg(long, value_name = "N", default_value_t = 500, value_parser = whole::<u32>(POINTS))]
+    #[arg(long, value_name = "N", default_value_t = 500, value_parser = whole_number::<u32>(POINTS))]
     points: u32,
     /// Write a table with one row per point, FILE.parquet or FILE.csv
     #[arg(long, value_name = "FILE")]
@@ -88,7 +88,7 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
     args.near.read(&parameters)?;
     let mut outputs = Outputs::open(&args.json)?;
     let table = outputs.file("--out", args.out.as_deref(), &TABLE)?;
-    let known = [&keys[..], &OF_ORBITS, &COEFFICIENTS].concat();
+    let known = [&keys[..], &ORBIT_COLUMNS, &COEFFICIENTS].concat();
     let plot = args.plot.open(&mut outputs, keys, &known)?;
     let bar = Bar::new();
     let on_progress = |progress: Progress| bar.show(progress);
@@ -97,7 +97,7 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
     outputs.table(table, &columns(keys, &curve))?;
     if let Some(plot) = plot {
         let layers = layers(keys, &curve, &plot);
-        plot.stage(&mut outputs, &case_in_words(&name, &parameters), layers)?;
+        plot.add_to(&mut outputs, &case_in_words(&name, &parameters), layers)?;
     }
     let row = Answer {
         case: CaseEcho(&parameters),
@@ -180,7 +180,7 @@ fn across(args: &Args, parameters: &Parameters) -> Result<([&'static str; 2], Ac
     };
     let of = |part: &'_ str| match part.split_once('=') {
         Some((key, range)) => {
-            let side = Side::written(key.trim(), range.trim())
+            let side = RandomRange::written(key.trim(), range.trim())
                 .map_err(|error| Failure::from(error).with_prefix("--along"))?;
             Ok::<_, Failure>((side.key(), Some(side.ends())))
         }
@@ -211,7 +211,7 @@ fn columns(keys: [&'static str; 2], curve: &Curve) -> Vec<(&'static str, Values)
         let values = values.map(|value| Some(value).filter(|value| value.is_finite()));
         (column, Values::Numbers(values.collect()))
     };
-    let others = OF_ORBITS.into_iter().chain(COEFFICIENTS);
+    let others = ORBIT_COLUMNS.into_iter().chain(COEFFICIENTS);
     let mut columns: Vec<_> = others.map(number).collect();
     columns.splice(1..1, keys.map(number));
     let symbols = points().map(|point| Some(point.orbit.lap.sequence.symbol().join(" ").into()));
@@ -224,7 +224,7 @@ fn columns(keys: [&'static str; 2], curve: &Curve) -> Vec<(&'static str, Values)
 }
 
 /// The names of the sorts of points.
-const OF_CURVES: [&str; 4] = [
+const CURVE_LABELS: [&str; 4] = [
     "of a stable orbit",
     "of a neutral orbit",
     "of an unstable orbit",
@@ -248,5 +248,5 @@ fn layers(keys: [&str; 2], curve: &Curve, plot: &PlotFile) -> Vec<Layer> {
         .axes
         .iter()
         .any(|column| velocities.contains(&column.as_str()));
-    branch_layers(&all, jumps, OF_CURVES)
+    branch_layers(&all, jumps, CURVE_LABELS)
 }

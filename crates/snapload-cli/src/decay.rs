@@ -15,7 +15,7 @@ const EXAMPLES: &str = include_str!("../help/decay.txt").trim_ascii_end();
 /// A displacement below this from the position of the file is none \[m, rad\].
 const SMALL: f64 = 1e-3;
 /// The number of swings that are printed.
-const SHOWN: usize = 8;
+const MOST_SWINGS: usize = 8;
 
 /// Which file, from where, for how long.
 #[derive(clap::Args)]
@@ -95,7 +95,7 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
     let mut rows = Vec::new();
     for (freedom, called) in FREEDOMS.iter().enumerate().filter(|(i, _)| from[*i] != 0.0) {
         let swings = swings(&motion, freedom);
-        text += &words(called, &swings, freedom, motion.comes_back[freedom]);
+        text += &swing_table(called, &swings, freedom, motion.comes_back[freedom]);
         rows.extend(swings.into_iter().map(|swing| SwingRow {
             freedom: called,
             from_s: swing.from_s,
@@ -108,7 +108,7 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
         text += &told("measured", &note);
     }
     if rows.iter().any(|row| row.damping_ratio < 0.0) {
-        text += &told("mixed", MIXED);
+        text += &told("mixed", NEGATIVE_DAMPING_NOTE);
     }
     for warning in &report.warnings {
         text += &told("warning", &format!("{}: {}", warning.what, warning.words));
@@ -123,12 +123,12 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
         pitch_rad: of(2),
         swings: rows,
     };
-    outputs.finish_told(&answer, text)
+    outputs.finish_with_text(&answer, text)
 }
 
-/// The words if a swing is larger than the one before.
-const MIXED: &str = "a damping below zero occurs in a freedom in which motions of several periods are added; \
-                     snapload hydro gives the damping of each motion";
+/// The note if a swing is larger than the one before.
+const NEGATIVE_DAMPING_NOTE: &str = "a damping below zero occurs in a freedom in which motions of several periods are \
+                                     added; snapload hydro gives the damping of each motion";
 
 /// From where displacements are measured, if not from the position of the file: the motion is linear
 /// about the position in which the body floats without lines.
@@ -149,15 +149,15 @@ fn measured_from(floating: &Floating, hydro: &Hydrodynamics) -> Option<String> {
 }
 
 /// The swings of a freedom as a small table below its name.
-fn words(called: &str, swings: &[Swing], freedom: usize, comes_back: bool) -> String {
+fn swing_table(called: &str, swings: &[Swing], freedom: usize, comes_back: bool) -> String {
     if swings.is_empty() {
         return told(called, "it does not swing");
     }
     let unit = ["m", "m", "rad"][freedom];
     // A swing begins at every turning point; those of one side are printed.
     let side = || swings.iter().step_by(2);
-    let few = match side().count() > SHOWN {
-        true => format!("the first {SHOWN} "),
+    let few = match side().count() > MOST_SWINGS {
+        true => format!("the first {MOST_SWINGS} "),
         false => String::new(),
     };
     let about = match comes_back {
@@ -173,7 +173,7 @@ fn words(called: &str, swings: &[Swing], freedom: usize, comes_back: bool) -> St
         "            {:>8}{amplitude:>15}{:>10}{:>26}",
         "from s", "period s", "damping, % of critical"
     );
-    for swing in side().take(SHOWN) {
+    for swing in side().take(MOST_SWINGS) {
         let _ = writeln!(
             text,
             "            {:>8.2}{:>15}{:>10.3}{:>26.2}",

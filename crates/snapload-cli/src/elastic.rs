@@ -2,9 +2,9 @@
 use crate::bar::Bar;
 use crate::failure::Failure;
 use crate::json::JsonArgs;
+use crate::option_values::number;
 use crate::outputs::Outputs;
 use crate::structure_input::{ReadStructure, StructureArgs};
-use crate::whole::number;
 use snapload::CaseError;
 use snapload::analysis::{Progress, Unfinished};
 use snapload_report::tables::in_digits;
@@ -54,7 +54,7 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
     if let Some(out) = out {
         outputs.write(out, |out| table(&both, out))?;
     }
-    outputs.finish_told(&both.to_json(&name), both.summary(&name))
+    outputs.finish_with_text(&both.to_json(&name), both.summary(&name))
 }
 
 /// An error that names an option, with the option as it is written on a command line.

@@ -1,9 +1,9 @@
 //! `snapload explore`: a run on a page in the browser, which this program serves itself.
 use crate::case_input::{CaseArgs, read_text};
-use crate::failure::{Failure, plain, print};
-use crate::interrupt::{Graceful, end_gracefully, say};
+use crate::failure::{Failure, print, without_number};
+use crate::interrupt::{Graceful, end_gracefully, print_error_line};
+use crate::option_values::whole_number;
 use crate::structure_input::{entries_of, structure_of};
-use crate::whole::whole;
 use snapload::{Key, Kind, Parameters};
 use snapload_explore::{Opened, Server, Start};
 use std::io;
@@ -40,7 +40,7 @@ pub(crate) struct Args {
     #[command(flatten)]
     case: CaseArgs,
     /// Port to serve the page on; 0 means any free port [default: 7627, or any free port if that is taken]
-    #[arg(long, value_name = "N", value_parser = whole::<u16>(PORT))]
+    #[arg(long, value_name = "N", value_parser = whole_number::<u16>(PORT))]
     port: Option<u16>,
     /// Print the address without opening a browser
     #[arg(long)]
@@ -69,13 +69,17 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
     });
     print(&format!("{address}\n"))?;
     // A program that reads the address may have closed the output by now.
-    say("press Ctrl-C to stop");
+    print_error_line("press Ctrl-C to stop");
     if !args.no_browser && open::that_detached(&address).is_err() {
-        say("no browser could be opened; open the address above by hand");
+        print_error_line("no browser could be opened; open the address above by hand");
     }
     let served = server.serve();
-    served
-        .map_err(|error| Failure::Failed(format!("the page can not be served: {}", plain(&error))))
+    served.map_err(|error| {
+        Failure::Failed(format!(
+            "the page can not be served: {}",
+            without_number(&error)
+        ))
+    })
 }
 
 /// The first case of the thesis's model.
@@ -124,6 +128,6 @@ fn bind(port: Option<u16>, start: &Start) -> Result<Server, Failure> {
 fn no_port(port: u16, error: &io::Error) -> Failure {
     Failure::BadInput(format!(
         "--port {port}: {}\nhint: choose another port, or leave --port out for any free one",
-        plain(error)
+        without_number(error)
     ))
 }

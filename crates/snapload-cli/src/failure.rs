@@ -3,7 +3,7 @@ use crate::standard_output::standard_output;
 use snapload::CaseError;
 use snapload::analysis::{Cancelled, Unfinished};
 use snapload_study::StudyError;
-pub(crate) use snapload_study::without_number as plain;
+pub(crate) use snapload_study::without_number;
 use std::fmt::Display;
 use std::io::{self, ErrorKind, StdoutLock, Write};
 use std::path::Path;
@@ -18,9 +18,9 @@ pub(crate) enum Failure {
     /// It was interrupted, and stopped: exit status 130.
     Interrupted(String),
     /// The reader of our output closed the pipe, which is not a failure.
-    ReaderLeft,
+    OutputClosed,
     /// The exit status is the answer, which was also printed.
-    Answered(u8),
+    ExitStatus(u8),
 }
 
 impl Failure {
@@ -36,25 +36,25 @@ impl Failure {
             Self::BadInput(words) => Self::BadInput(before(words)),
             Self::Failed(words) => Self::Failed(before(words)),
             Self::Interrupted(words) => Self::Interrupted(before(words)),
-            Self::ReaderLeft => Self::ReaderLeft,
-            Self::Answered(status) => Self::Answered(status),
+            Self::OutputClosed => Self::OutputClosed,
+            Self::ExitStatus(status) => Self::ExitStatus(status),
         }
     }
 
     /// Output that could not be written.
     pub(crate) fn write(place: impl Display, error: &io::Error) -> Self {
         match error.kind() {
-            ErrorKind::BrokenPipe => Self::ReaderLeft,
-            _ => Self::Failed(format!("can not write {place}: {}", plain(error))),
+            ErrorKind::BrokenPipe => Self::OutputClosed,
+            _ => Self::Failed(format!("can not write {place}: {}", without_number(error))),
         }
     }
 
     /// A path for output to which nothing can be written.
-    pub(crate) fn no_place(path: &Path, error: &io::Error) -> Self {
+    pub(crate) fn cannot_write_to(path: &Path, error: &io::Error) -> Self {
         Self::BadInput(format!(
             "can not write to {}: {}",
             path.display(),
-            plain(error)
+            without_number(error)
         ))
     }
 }
@@ -94,8 +94,8 @@ impl From<StudyError> for Failure {
 /// Prints the error on standard error, and chooses the exit status.
 pub(crate) fn exit_status(result: Result<(), Failure>) -> u8 {
     let (kind, message, status) = match result {
-        Ok(()) | Err(Failure::ReaderLeft) => return 0,
-        Err(Failure::Answered(status)) => return status,
+        Ok(()) | Err(Failure::OutputClosed) => return 0,
+        Err(Failure::ExitStatus(status)) => return status,
         Err(Failure::BadInput(message)) => ("error", message, 2),
         Err(Failure::Failed(message)) => ("error", message, 1),
         Err(Failure::Interrupted(message)) => ("interrupted", message, 130),

@@ -77,7 +77,7 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
         text += &told(label, words);
     }
     for row in &sea {
-        text += &told("sea", &row.words());
+        text += &told("sea", &row.text());
     }
     for (label, words) in &warnings {
         text += &told(label, words);
@@ -86,7 +86,7 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
         report: report.to_json(),
         sea,
     };
-    outputs.finish_told(&answer, text)
+    outputs.finish_with_text(&answer, text)
 }
 
 impl Args {
@@ -139,7 +139,7 @@ impl Args {
 }
 
 impl SeaRow {
-    fn words(&self) -> String {
+    fn text(&self) -> String {
         let to = if self.direction > 0.0 { "+x" } else { "−x" };
         let [surge, heave, pitch] = self.rms;
         let part = match self.covered < 0.99 {

@@ -2,7 +2,7 @@
 //! that it lacks.
 use crate::case_input::read_text;
 use crate::failure::Failure;
-use crate::whole::whole;
+use crate::option_values::whole_number;
 use snapload_hydro::{
     FirstColumn, FitOptions, Given, GivenMemory, HydroError, Line, Report, Request, Weight, read,
 };
@@ -57,7 +57,7 @@ pub(crate) struct HydroArgs {
     #[arg(long, value_name = "B1,B3,B5", value_parser = triple, help_heading = "The body")]
     damping: Option<[f64; 3]>,
     /// Number of pole pairs in the fit of the memory; by default as many as 1 % accuracy needs
-    #[arg(long, value_name = "NUMBER", value_parser = whole::<usize>(PAIRS), help_heading = "The memory")]
+    #[arg(long, value_name = "NUMBER", value_parser = whole_number::<usize>(PAIRS), help_heading = "The memory")]
     pairs: Option<usize>,
     /// Read the fitted memory from a file that --json wrote, instead of fitting it
     #[arg(

@@ -7,25 +7,27 @@ use std::sync::{Mutex, MutexGuard, OnceLock, PoisonError};
 /// Directories to remove if the program is interrupted: temporary ones with their contents, and new
 /// output directories, which are removed only if empty.
 #[derive(Default)]
-pub(crate) struct Leftovers {
+pub(crate) struct TemporaryPaths {
     /// Temporary directories.
     pub(crate) scratch: Vec<PathBuf>,
     /// New directories, outermost first.
     pub(crate) new: Vec<PathBuf>,
 }
 
-static LEFTOVERS: Mutex<Leftovers> = Mutex::new(Leftovers {
+static TEMPORARY_PATHS: Mutex<TemporaryPaths> = Mutex::new(TemporaryPaths {
     scratch: Vec::new(),
     new: Vec::new(),
 });
 
 /// The directories to remove. While this lock is held an interruption waits, so that files that
 /// belong together can be renamed together.
-pub(crate) fn leftovers() -> MutexGuard<'static, Leftovers> {
-    LEFTOVERS.lock().unwrap_or_else(PoisonError::into_inner)
+pub(crate) fn temporary_paths() -> MutexGuard<'static, TemporaryPaths> {
+    TEMPORARY_PATHS
+        .lock()
+        .unwrap_or_else(PoisonError::into_inner)
 }
 
-impl Leftovers {
+impl TemporaryPaths {
     /// Removes all of them, as far as the system allows.
     pub(crate) fn clear(&mut self) {
         for directory in self.scratch.drain(..) {
@@ -47,7 +49,7 @@ pub(crate) struct Graceful {
 
 static GRACEFUL: OnceLock<Graceful> = OnceLock::new();
 /// Whether it was asked to stop.
-static ASKED: AtomicBool = AtomicBool::new(false);
+static STOP_REQUESTED: AtomicBool = AtomicBool::new(false);
 
 /// From now on the first interruption only asks the work to stop; the second ends the program at
 /// once.
@@ -57,26 +59,26 @@ pub(crate) fn end_gracefully(graceful: Graceful) {
 }
 
 /// Prints a message on standard error, which may be closed.
-pub(crate) fn say(words: &str) {
+pub(crate) fn print_error_line(words: &str) {
     let _ = writeln!(std::io::stderr(), "{words}");
 }
 
 /// Whether it is time to stop.
-pub(crate) fn asked() -> bool {
-    ASKED.load(Ordering::Relaxed)
+pub(crate) fn stop_requested() -> bool {
+    STOP_REQUESTED.load(Ordering::Relaxed)
 }
 
 /// Installs the handler; if that is not possible the system's default for Ctrl-C remains.
 pub(crate) fn install() {
     let _ = ctrlc::set_handler(|| {
         let graceful = GRACEFUL.get();
-        if let Some(graceful) = graceful.filter(|_| !ASKED.swap(true, Ordering::Relaxed)) {
+        if let Some(graceful) = graceful.filter(|_| !STOP_REQUESTED.swap(true, Ordering::Relaxed)) {
             (graceful.on_first)();
             return;
         }
-        leftovers().clear();
+        temporary_paths().clear();
         let left = graceful.map_or("nothing was written", |graceful| graceful.after_second);
-        say(&format!("interrupted: {left}"));
+        print_error_line(&format!("interrupted: {left}"));
         std::process::exit(130);
     });
 }

@@ -1,6 +1,6 @@
 //! The output of `--json`.
 use crate::failure::Failure;
-use crate::stage::{Room, Stage};
+use crate::pending_outputs::{PendingOutputs, TargetFolder};
 use crate::standard_output::standard_output;
 use serde::Serialize;
 use snapload_report::write_json;
@@ -18,8 +18,8 @@ pub(crate) struct JsonArgs {
 
 impl JsonArgs {
     /// Opens the place of the output.
-    pub(crate) fn open(&self, stage: &mut Stage) -> Result<Json, Failure> {
-        Json::open(stage, self.json.as_deref())
+    pub(crate) fn open(&self, pending: &mut PendingOutputs) -> Result<Json, Failure> {
+        Json::open(pending, self.json.as_deref())
     }
 }
 
@@ -30,12 +30,12 @@ pub(crate) enum Json {
     /// `-`.
     Stdout,
     /// A file, a device or a pipe.
-    File(Room, PathBuf),
+    File(TargetFolder, PathBuf),
 }
 
 impl Json {
     /// Opens the place, so that an error is known before anything is computed.
-    pub(crate) fn open(stage: &mut Stage, path: Option<&Path>) -> Result<Self, Failure> {
+    pub(crate) fn open(pending: &mut PendingOutputs, path: Option<&Path>) -> Result<Self, Failure> {
         let Some(path) = path else {
             return Ok(Self::None);
         };
@@ -43,27 +43,31 @@ impl Json {
             return Ok(Self::Stdout);
         }
         refuse_directory(path)?;
-        let room = stage.create_and_open(&folder_for(path))?;
-        Ok(Self::File(room, path.to_owned()))
+        let folder = pending.create_and_open(&folder_for(path))?;
+        Ok(Self::File(folder, path.to_owned()))
     }
 
-    /// Writes the value to its place, together with all other staged files. Returns the files
+    /// Writes the value to its place, together with all other pending files. Returns the files
     /// written, or none if the value is printed to standard output.
     pub(crate) fn write(
         self,
-        mut stage: Stage,
+        mut pending: PendingOutputs,
         value: &impl Serialize,
     ) -> Result<Option<Vec<PathBuf>>, Failure> {
-        self.stage(&mut stage, value)?;
-        let written = stage.commit()?;
+        self.add_to(&mut pending, value)?;
+        let written = pending.commit()?;
         Ok((!self.print(value)?).then_some(written))
     }
 
     /// Stages the value if it is to be a file.
-    pub(crate) fn stage(&self, stage: &mut Stage, value: &impl Serialize) -> Result<(), Failure> {
+    pub(crate) fn add_to(
+        &self,
+        pending: &mut PendingOutputs,
+        value: &impl Serialize,
+    ) -> Result<(), Failure> {
         match self {
-            Self::File(room, path) => {
-                stage.write(*room, path.clone(), |out| write_json(value, out))
+            Self::File(folder, path) => {
+                pending.write(*folder, path.clone(), |out| write_json(value, out))
             }
             _ => Ok(()),
         }
@@ -85,8 +89,8 @@ impl Json {
     }
 }
 
-/// The directory in which a file is staged: that of the file, so that it can be renamed; another
-/// one for a device or a pipe, into which the contents are copied.
+/// The directory in which a file is written first: that of the file, so that it can be renamed;
+/// another one for a device or a pipe, into which the contents are copied.
 pub(crate) fn folder_for(path: &Path) -> PathBuf {
     match path.exists() && !path.is_file() {
         true => std::env::temp_dir(),

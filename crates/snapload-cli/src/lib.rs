@@ -33,11 +33,13 @@ mod keys;
 mod merge;
 #[cfg(feature = "structure")]
 mod moordyn;
+mod option_values;
 mod orbit;
 mod orbit_columns;
 mod orbit_picture;
 mod orbit_search;
 mod outputs;
+mod pending_outputs;
 mod pictures;
 mod question;
 #[cfg(feature = "reproduce")]
@@ -46,7 +48,6 @@ mod run;
 #[cfg(feature = "structure")]
 mod seas;
 mod section;
-mod stage;
 mod standard_output;
 #[cfg(feature = "structure")]
 mod structure_input;
@@ -56,7 +57,6 @@ mod study_summary;
 mod sweep;
 mod table;
 mod uncertainty;
-mod whole;
 
 use clap::error::{ContextKind, ContextValue, ErrorKind};
 use clap::{CommandFactory, FromArgMatches, Parser, Subcommand};
@@ -162,7 +162,7 @@ pub fn command(line: impl IntoIterator<Item = OsString>) -> u8 {
     let words = WORDS.get_or_init(|| line.iter().skip(1).cloned().collect());
     let name = OsString::from("snapload");
     let line = std::iter::once(&name).chain(words);
-    let command = help::flowing(whole::with_negative_numbers(Cli::command()));
+    let command = help::flowing(option_values::with_negative_numbers(Cli::command()));
     let matches = command.try_get_matches_from(line);
     let cli = matches.and_then(|matches| Cli::from_arg_matches(&matches));
     let cli = cli.unwrap_or_else(|error| refuse(error));
@@ -207,7 +207,7 @@ pub fn command(line: impl IntoIterator<Item = OsString>) -> u8 {
 /// key; if a key is used as an option, the message says how keys are set.
 fn refuse(mut error: clap::Error) -> ! {
     if error.kind() == ErrorKind::ValueValidation
-        && let Some(message) = whole::refusal(&error)
+        && let Some(message) = option_values::refusal(&error)
     {
         let status = failure::exit_status(Err(failure::Failure::BadInput(message)));
         std::process::exit(i32::from(status));

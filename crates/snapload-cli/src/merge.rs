@@ -1,6 +1,6 @@
 //! `snapload merge`: the parts of a study, joined into the file that one run would have written.
 use crate::failure::Failure;
-use crate::stage::Stage;
+use crate::pending_outputs::PendingOutputs;
 use crate::study_picture::PictureArgs;
 use crate::study_summary::Summary;
 use snapload_study::{check_name, identity_of, merge, parent_of};
@@ -35,13 +35,13 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
     if let Some(identity) = args.parts.first().and_then(|part| identity_of(part)) {
         args.picture.check(&identity.study, false)?;
     }
-    let mut stage = Stage::default();
-    let room = stage.open(parent_of(&args.out))?;
-    stage.place(room, args.out.clone(), |scratch| {
+    let mut pending = PendingOutputs::default();
+    let folder = pending.open(parent_of(&args.out))?;
+    pending.place(folder, args.out.clone(), |scratch| {
         Ok(merge(&args.parts, scratch)?)
     })?;
-    stage.commit()?;
+    pending.commit()?;
     let picture = args.picture.draw(&args.out)?;
     let cases = identity_of(&args.out).map_or(0, |identity| identity.cases);
-    Summary::of(&args.out, cases, picture)?.tell(true)
+    Summary::of(&args.out, cases, picture)?.print(true)
 }

@@ -2,9 +2,9 @@
 use crate::case_input::read_text;
 use crate::failure::{Failure, print};
 use crate::json::{folder_for, refuse_directory};
-use crate::stage::Stage;
+use crate::option_values::whole_number;
+use crate::pending_outputs::PendingOutputs;
 use crate::structure_input::{ReadStructure, StructureArgs};
-use crate::whole::whole;
 use clap::Subcommand;
 use snapload_structure::{SEGMENTS, Structure, moordyn, told};
 use std::fmt::Write as _;
@@ -17,11 +17,11 @@ const EXAMPLES: &str = include_str!("../help/moordyn.txt").trim_ascii_end();
 #[command(after_help = EXAMPLES)]
 pub(crate) struct Args {
     #[command(subcommand)]
-    way: Way,
+    direction: Direction,
 }
 
 #[derive(Subcommand)]
-enum Way {
+enum Direction {
     /// Read a MoorDyn v2 input file whose body and lines lie in one vertical plane
     #[command(after_help = EXAMPLES)]
     Read(Read),
@@ -49,7 +49,7 @@ struct Write {
     input: StructureArgs,
     /// Number of segments of each line: one is a spring with a damper, more have mass along the
     /// length of the line
-    #[arg(long, value_name = "NUMBER", default_value_t = 1, value_parser = whole::<u32>(SEGMENTS))]
+    #[arg(long, value_name = "NUMBER", default_value_t = 1, value_parser = whole_number::<u32>(SEGMENTS))]
     segments: u32,
     /// Write to this file instead of standard output
     #[arg(long, value_name = "LINES.txt")]
@@ -58,9 +58,9 @@ struct Write {
 
 /// Does it.
 pub(crate) fn run(args: &Args) -> Result<(), Failure> {
-    match &args.way {
-        Way::Read(args) => read(args),
-        Way::Write(args) => write(args),
+    match &args.direction {
+        Direction::Read(args) => read(args),
+        Direction::Write(args) => write(args),
     }
 }
 
@@ -84,18 +84,18 @@ fn read(args: &Read) -> Result<(), Failure> {
     let Some(path) = &args.out else {
         return print(&text);
     };
-    let mut said = told("written", &put(path, &text)?);
+    let mut message = told("written", &put(path, &text)?);
     for note in &notes {
-        said += &told("note", note);
+        message += &told("note", note);
     }
     if !missing.is_empty() {
         let words = format!(
             "{}: MoorDyn files do not contain them; add them to the case, or set them with --set",
             missing.join(", ")
         );
-        said += &told("missing", &words);
+        message += &told("missing", &words);
     }
-    print(&said)
+    print(&message)
 }
 
 fn write(args: &Write) -> Result<(), Failure> {
@@ -112,11 +112,13 @@ fn write(args: &Write) -> Result<(), Failure> {
 
 /// Writes a text to a file, completely or not at all, and returns a message with its path.
 fn put(path: &Path, text: &str) -> Result<String, Failure> {
-    let mut stage = Stage::default();
+    let mut pending = PendingOutputs::default();
     refuse_directory(path)?;
-    let room = stage.create_and_open(&folder_for(path))?;
-    stage.write(room, path.to_owned(), |out| out.write_all(text.as_bytes()))?;
-    stage.commit()?;
+    let folder = pending.create_and_open(&folder_for(path))?;
+    pending.write(folder, path.to_owned(), |out| {
+        out.write_all(text.as_bytes())
+    })?;
+    pending.commit()?;
     Ok(path.display().to_string())
 }
 

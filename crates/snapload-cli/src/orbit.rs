@@ -2,10 +2,10 @@
 use crate::case_input::CaseArgs;
 use crate::failure::Failure;
 use crate::json::JsonArgs;
-use crate::orbit_search::{Found, Search, columns};
+use crate::option_values::whole_number;
+use crate::orbit_search::{FoundOrbits, Search, columns};
 use crate::outputs::{Outputs, TABLE};
 use crate::table::axis;
-use crate::whole::whole;
 use serde::Serialize;
 use snapload::analysis::{OnProgress, SEED, START_KEYS};
 use snapload::{CaseError, Parameters, Value, parse_value};
@@ -50,14 +50,14 @@ pub(crate) struct Args {
     #[arg(long, value_name = "2,1")]
     symbol: Option<String>,
     /// Try N random starts and report all orbits found
-    #[arg(long, value_name = "N", conflicts_with = "start", value_parser = whole::<u32>(STARTS.called("find")))]
+    #[arg(long, value_name = "N", conflicts_with = "start", value_parser = whole_number::<u32>(STARTS.called("find")))]
     find: Option<u32>,
     /// Seed of the random starts
     #[arg(
         long,
         value_name = "S",
         default_value_t = 0,
-        value_parser = whole::<u64>(SEED),
+        value_parser = whole_number::<u64>(SEED),
         requires = "find"
     )]
     seed: u64,
@@ -88,7 +88,7 @@ pub(crate) struct NearArgs {
     #[arg(long, value_name = "x=..,y=..", allow_hyphen_values = true)]
     start: Option<String>,
     /// Period of the orbit in forcing periods; by default 1 with --start, else that of the motion
-    #[arg(long, value_name = "N", value_parser = whole::<u32>(ORBIT_PERIODS))]
+    #[arg(long, value_name = "N", value_parser = whole_number::<u32>(ORBIT_PERIODS))]
     periods: Option<u32>,
     /// Time of the section, in forcing periods
     #[arg(long, value_name = "P", default_value_t = 0.0)]
@@ -131,7 +131,7 @@ impl NearArgs {
 }
 
 #[derive(Serialize)]
-struct One<'a> {
+struct OneAnswer<'a> {
     case: CaseEcho<'a>,
     /// The largest difference of the section's state from `--start`.
     start_distance: Option<f64>,
@@ -169,7 +169,7 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
     match args.find {
         Some(starts) => outputs.finish(&found.row(case, starts, args.seed), text)?,
         None => {
-            let row = One {
+            let row = OneAnswer {
                 case,
                 start_distance: start.map(|start| distance(&found.orbits[0].z, &start)),
                 orbit: OrbitRow::new(&found.orbits[0]),
@@ -178,15 +178,15 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
         }
     }
     match found.proofs {
-        Some(proofs) if args.find.is_none() && proofs.proved == 0 => Err(Failure::Answered(1)),
+        Some(proofs) if args.find.is_none() && proofs.proved == 0 => Err(Failure::ExitStatus(1)),
         _ => Ok(()),
     }
 }
 
 /// The most orbits that are listed one by one.
-const TOLD: usize = 12;
+const MOST_LISTED: usize = 12;
 
-fn in_words(args: &Args, found: &Found, start: Option<Point>) -> String {
+fn in_words(args: &Args, found: &FoundOrbits, start: Option<Point>) -> String {
     let mut text = String::new();
     let orbits = &found.orbits;
     if let Some(starts) = args.find {
@@ -208,10 +208,14 @@ fn in_words(args: &Args, found: &Found, start: Option<Point>) -> String {
             );
         }
     }
-    for orbit in orbits.iter().take(TOLD) {
+    for orbit in orbits.iter().take(MOST_LISTED) {
         text.push_str(&orbit_in_words(orbit));
     }
-    if let Some(left) = orbits.len().checked_sub(TOLD).filter(|left| *left > 0) {
+    if let Some(left) = orbits
+        .len()
+        .checked_sub(MOST_LISTED)
+        .filter(|left| *left > 0)
+    {
         let _ = writeln!(
             text,
             "More      {left}, which --json FILE or --out FILE writes"

@@ -5,7 +5,7 @@ use snapload_orbits::Orbit;
 use snapload_study::Values;
 
 /// The numeric columns of an orbit.
-pub(crate) const OF_ORBITS: [&str; 11] = [
+pub(crate) const ORBIT_COLUMNS: [&str; 11] = [
     "arclength",
     "x",
     "y",
@@ -35,7 +35,7 @@ pub(crate) fn of_orbit(column: &str, keys: [&str; 2], orbit: &Orbit, arclength: 
 }
 
 /// The columns of orbits that are words or flags.
-pub(crate) fn words_of(orbits: &[&Orbit]) -> Vec<(&'static str, Values)> {
+pub(crate) fn text_columns(orbits: &[&Orbit]) -> Vec<(&'static str, Values)> {
     let orbits = || orbits.iter();
     let symbols = orbits().map(|orbit| Some(orbit.lap.sequence.symbol().join(" ").into()));
     let stability = orbits().map(|orbit| Some(orbit.stability().name()));

@@ -85,8 +85,8 @@ impl PlotFile {
         }
     }
 
-    /// Draws the layers and stages the picture.
-    pub(crate) fn stage(
+    /// Draws the layers and adds the picture to the outputs.
+    pub(crate) fn add_to(
         self,
         outputs: &mut Outputs,
         title: &str,
@@ -140,7 +140,7 @@ pub(crate) struct Drawn<'a> {
 }
 
 /// The strokes of each sort of orbits: stable, neutral, unstable and inadmissible ones.
-const SORTS: [Stroke; 4] = [
+const STROKES: [Stroke; 4] = [
     Stroke::new(Colour::BLACK, 1.3, Dash::Solid),
     Stroke::new(Colour::GREEN, 1.0, Dash::Solid),
     Stroke::new(Colour::BLUE, 0.9, Dash::Dashed),
@@ -179,7 +179,7 @@ pub(crate) fn branch_layers(all: &[Drawn], jumps: bool, words: [&str; 4]) -> Vec
         last = Some(other);
     }
     let mut layers = Vec::new();
-    for (lines, (words, stroke)) in pieces.into_iter().zip(words.into_iter().zip(SORTS)) {
+    for (lines, (words, stroke)) in pieces.into_iter().zip(words.into_iter().zip(STROKES)) {
         if !lines.is_empty() {
             layers.push(Layer::Line(lines, stroke, words.to_owned()));
         }
@@ -205,6 +205,6 @@ fn short(kind: Kind) -> &'static str {
         Kind::Graze => "graze",
         Kind::Corner => "corner",
         Kind::TensionLost => "slack",
-        Kind::Limit(limit) => limit.stop().words(),
+        Kind::Limit(limit) => limit.stop().label(),
     }
 }

@@ -2,7 +2,7 @@
 use crate::bar::Bar;
 use crate::certify::{exact, exact_but};
 use crate::failure::Failure;
-use crate::orbit_columns::{OF_ORBITS, of_orbit, words_of};
+use crate::orbit_columns::{ORBIT_COLUMNS, of_orbit, text_columns};
 use serde::Serialize;
 use snapload::analysis::{OnProgress, Progress};
 use snapload::{Entries, Parameters};
@@ -15,7 +15,7 @@ use snapload_report::CaseEcho;
 use snapload_study::Values;
 
 #[derive(Serialize)]
-pub(crate) struct Many<'a> {
+pub(crate) struct ManyOrbits<'a> {
     case: CaseEcho<'a>,
     starts: u32,
     seed: u64,
@@ -23,11 +23,11 @@ pub(crate) struct Many<'a> {
     vary: Option<&'static str>,
     #[serde(flatten)]
     proofs: Option<Proofs>,
-    orbits: Vec<OneOfMany>,
+    orbits: Vec<OrbitOfCase>,
 }
 
 #[derive(Serialize)]
-struct OneOfMany {
+struct OrbitOfCase {
     /// The value of the key that is varied.
     #[serde(skip_serializing_if = "Option::is_none")]
     value: Option<f64>,
@@ -54,7 +54,7 @@ pub(crate) struct OneCase {
 }
 
 /// The orbits found.
-pub(crate) struct Found {
+pub(crate) struct FoundOrbits {
     vary: Option<&'static str>,
     /// The value of that key of each orbit.
     values: Vec<Option<f64>>,
@@ -92,7 +92,7 @@ impl Search<'_> {
     }
 
     /// The orbit near a start, or the one that the motion of the case approaches.
-    pub(crate) fn one(&self, case: &OneCase, start: Option<Point>) -> Result<Found, Failure> {
+    pub(crate) fn one(&self, case: &OneCase, start: Option<Point>) -> Result<FoundOrbits, Failure> {
         let bar = Bar::new();
         let on_progress = |progress: Progress| bar.show(progress);
         let orbit = match start {
@@ -103,7 +103,7 @@ impl Search<'_> {
             None => of_attractor(&case.parameters, self.wanted, &on_progress)?,
         };
         let no_orbit = |why| Failure::Failed(format!("no orbit was found: {why}"));
-        let mut found = Found::nothing(None);
+        let mut found = FoundOrbits::none(None);
         found.add(case, vec![orbit.map_err(no_orbit)?], &on_progress)?;
         Ok(found)
     }
@@ -113,10 +113,10 @@ impl Search<'_> {
         &self,
         cases: &[OneCase],
         (starts, seed): (u32, u64),
-    ) -> Result<Found, Failure> {
+    ) -> Result<FoundOrbits, Failure> {
         let bar = Bar::new();
         let on_progress = |progress: Progress| bar.show(progress);
-        let mut found = Found::nothing(self.along.as_ref().map(|(key, _)| *key));
+        let mut found = FoundOrbits::none(self.along.as_ref().map(|(key, _)| *key));
         let mut near = Vec::new();
         for case in cases {
             let starts = Starts {
@@ -132,8 +132,8 @@ impl Search<'_> {
     }
 }
 
-impl Found {
-    fn nothing(vary: Option<&'static str>) -> Self {
+impl FoundOrbits {
+    fn none(vary: Option<&'static str>) -> Self {
         Self {
             vary,
             values: Vec::new(),
@@ -161,13 +161,13 @@ impl Found {
         Ok(())
     }
 
-    pub(crate) fn row<'a>(&self, case: CaseEcho<'a>, starts: u32, seed: u64) -> Many<'a> {
+    pub(crate) fn row<'a>(&self, case: CaseEcho<'a>, starts: u32, seed: u64) -> ManyOrbits<'a> {
         let orbits = self.orbits.iter().zip(&self.values);
-        let orbits = orbits.map(|(orbit, value)| OneOfMany {
+        let orbits = orbits.map(|(orbit, value)| OrbitOfCase {
             value: *value,
             orbit: OrbitRow::new(orbit),
         });
-        Many {
+        ManyOrbits {
             case,
             starts,
             seed,
@@ -179,19 +179,19 @@ impl Found {
 }
 
 /// The columns of a table with one row for each orbit.
-pub(crate) fn columns(found: &Found) -> Vec<(&'static str, Values)> {
+pub(crate) fn columns(found: &FoundOrbits) -> Vec<(&'static str, Values)> {
     let orbits = &found.orbits;
     let number = |column: &'static str| {
         let values = orbits.iter().map(|o| of_orbit(column, ["", ""], o, 0.0));
         let values = values.map(|value| Some(value).filter(|value| value.is_finite()));
         (column, Values::Numbers(values.collect()))
     };
-    let others = OF_ORBITS.into_iter();
+    let others = ORBIT_COLUMNS.into_iter();
     let mut columns: Vec<_> = others
         .filter(|column| *column != "arclength")
         .map(number)
         .collect();
-    columns.extend(words_of(&orbits.iter().collect::<Vec<_>>()));
+    columns.extend(text_columns(&orbits.iter().collect::<Vec<_>>()));
     let proved = |orbit: &Orbit| orbit.proof.as_ref().map(Result::is_ok);
     columns.push(("proved", Values::Flags(orbits.iter().map(proved).collect())));
     let bound = |orbit: &Orbit| {

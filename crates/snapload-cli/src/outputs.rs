@@ -1,7 +1,7 @@
 //! The files of a command's answer, and its JSON.
 use crate::failure::{Failure, print};
 use crate::json::{Json, JsonArgs, folder_for, refuse_directory};
-use crate::stage::{Room, Stage, is_same};
+use crate::pending_outputs::{PendingOutputs, TargetFolder, is_same};
 use crate::table::write_csv;
 use serde::Serialize;
 use snapload_study::{Values, write_table};
@@ -14,7 +14,7 @@ pub(crate) const TABLE: [&str; 2] = ["parquet", "csv"];
 /// The places of a command's answer. They are opened before anything is computed, so that an error
 /// is known at once, and filled when all of it is.
 pub(crate) struct Outputs {
-    stage: Stage,
+    pending: PendingOutputs,
     json: Json,
     /// The files by the options that name them.
     named: Vec<(&'static str, PathBuf)>,
@@ -22,7 +22,7 @@ pub(crate) struct Outputs {
 
 /// A file that an option names.
 pub(crate) struct OutFile {
-    room: Room,
+    folder: TargetFolder,
     path: PathBuf,
     /// The ending of its name, which is one of those allowed.
     pub(crate) ending: &'static str,
@@ -31,13 +31,17 @@ pub(crate) struct OutFile {
 impl Outputs {
     /// With the place of the JSON.
     pub(crate) fn open(json: &JsonArgs) -> Result<Self, Failure> {
-        let mut stage = Stage::default();
-        let json = json.open(&mut stage)?;
+        let mut pending = PendingOutputs::default();
+        let json = json.open(&mut pending)?;
         let named = match &json {
             Json::File(_, path) => vec![("--json", path.clone())],
             Json::None | Json::Stdout => Vec::new(),
         };
-        Ok(Self { stage, json, named })
+        Ok(Self {
+            pending,
+            json,
+            named,
+        })
     }
 
     /// Opens the place of a file, if an option names one. Its folder is created if necessary.
@@ -62,25 +66,25 @@ impl Outputs {
             let message = format!("{option} and {other}: both name {shown}; allowed are two files");
             return Err(Failure::BadInput(message));
         }
-        let room = self.stage.create_and_open(&folder_for(path))?;
+        let folder = self.pending.create_and_open(&folder_for(path))?;
         self.named.push((option, path.to_owned()));
         Ok(Some(OutFile {
-            room,
+            folder,
             path: path.to_owned(),
             ending,
         }))
     }
 
-    /// Stages the contents of a file.
+    /// Adds the contents of a file.
     pub(crate) fn write(
         &mut self,
         file: OutFile,
         fill: impl FnOnce(&mut dyn io::Write) -> io::Result<()>,
     ) -> Result<(), Failure> {
-        self.stage.write(file.room, file.path, fill)
+        self.pending.write(file.folder, file.path, fill)
     }
 
-    /// Stages a table, if one is wanted.
+    /// Adds a table, if one is wanted.
     pub(crate) fn table(
         &mut self,
         file: Option<OutFile>,
@@ -104,7 +108,11 @@ impl Outputs {
 
     /// The same with each path under a label of its own, as answers about structures have them.
     #[cfg(feature = "structure")]
-    pub(crate) fn finish_told(self, json: &impl Serialize, words: String) -> Result<(), Failure> {
+    pub(crate) fn finish_with_text(
+        self,
+        json: &impl Serialize,
+        words: String,
+    ) -> Result<(), Failure> {
         self.finish_with(json, words, |path| {
             snapload_structure::told("written", path)
         })
@@ -116,7 +124,7 @@ impl Outputs {
         mut words: String,
         line: impl Fn(&str) -> String,
     ) -> Result<(), Failure> {
-        let Some(written) = self.json.write(self.stage, json)? else {
+        let Some(written) = self.json.write(self.pending, json)? else {
             return Ok(());
         };
         for path in written {

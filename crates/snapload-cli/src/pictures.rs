@@ -1,7 +1,7 @@
 //! The pictures of a run, as files.
 use crate::failure::Failure;
 use snapload_figures::{FigureError, PNG_SCALE, RunPlot, RunPlots};
-use snapload_report::Trusted;
+use snapload_report::RunWithTrust;
 
 /// A picture, ready to be written.
 pub(crate) struct Picture {
@@ -12,7 +12,7 @@ pub(crate) struct Picture {
 }
 
 /// Draws the pictures of a run; `title` is the code or the file name of the case.
-pub(crate) fn pictures(title: &str, trusted: &Trusted) -> Result<Vec<Picture>, Failure> {
+pub(crate) fn pictures(title: &str, trusted: &RunWithTrust) -> Result<Vec<Picture>, Failure> {
     let mut files = Vec::new();
     let plots = RunPlots::new(&trusted.run).with_horizon(trusted.horizon());
     for plot in RunPlot::ALL {

@@ -3,8 +3,8 @@ use crate::bar::Bar;
 use crate::case_input::CaseArgs;
 use crate::failure::Failure;
 use crate::json::JsonArgs;
+use crate::option_values::key_value;
 use crate::outputs::Outputs;
-use crate::whole::described;
 use clap::{Arg, ArgAction, ArgMatches, Args as _, Command, Error, FromArgMatches, Subcommand};
 use snapload::analysis::{Progress, Unfinished};
 use snapload::{CaseError, DefaultValue, Key, Kind, Value};
@@ -35,10 +35,10 @@ impl Subcommand for Args {
 
 impl FromArgMatches for Args {
     fn from_arg_matches(matches: &ArgMatches) -> Result<Self, Error> {
-        let asked = matches.subcommand();
-        let asked = asked.and_then(|(name, matches)| Some((question(name)?, matches)));
+        let subcommand = matches.subcommand();
+        let subcommand = subcommand.and_then(|(name, matches)| Some((question(name)?, matches)));
         let missing = || Error::new(clap::error::ErrorKind::MissingSubcommand);
-        let (question, matches) = asked.ok_or_else(missing)?;
+        let (question, matches) = subcommand.ok_or_else(missing)?;
         let options = question.options.iter();
         let options = options.filter_map(|key| Some((key.name, given(key, matches)?)));
         Ok(Self {
@@ -79,7 +79,7 @@ fn option(key: &'static Key) -> Arg {
     }
     let option = option
         .value_name(key.symbol)
-        .value_parser(described(key))
+        .value_parser(key_value(key))
         .required(key.default == DefaultValue::Required);
     match key.default.value() {
         Some(Value::Text(word)) => option.help(help).default_value(word),
@@ -114,8 +114,8 @@ pub(crate) fn run(args: Args) -> Result<(), Failure> {
         cancelled => Failure::from(cancelled),
     })?;
     drop(bar);
-    let told = answer.about(&input.name, &input.case);
-    outputs.finish(&told.answer, told.words)
+    let texts = answer.about(&input.name, &input.case);
+    outputs.finish(&texts.answer, texts.words)
 }
 
 /// An error that names an option, with the option in the notation of the command line.

@@ -1,7 +1,7 @@
 //! `snapload reproduce`: the chapter's tables and figures as one report.
 use crate::bar::Bar;
 use crate::failure::{Failure, print};
-use crate::stage::Stage;
+use crate::pending_outputs::PendingOutputs;
 use snapload::analysis::Progress;
 use snapload_reproduce::{Report, Study};
 use std::path::PathBuf;
@@ -27,10 +27,10 @@ pub(crate) struct Args {
 
 /// Runs it.
 pub(crate) fn run(args: &Args) -> Result<(), Failure> {
-    let mut stage = Stage::default();
-    let room = stage.create_and_open(&args.out)?;
+    let mut pending = PendingOutputs::default();
+    let folder = pending.create_and_open(&args.out)?;
     let pictures = args.out.join("figures");
-    let picture_room = stage.create_and_open(&pictures)?;
+    let picture_folder = pending.create_and_open(&pictures)?;
 
     let bar = Bar::new();
     let study = Study::compute(&|progress| bar.show(progress));
@@ -41,14 +41,14 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
     drop(bar);
 
     for (name, contents) in &report.files {
-        let room = if name.starts_with("figures/") {
-            picture_room
+        let folder = if name.starts_with("figures/") {
+            picture_folder
         } else {
-            room
+            folder
         };
-        stage.write(room, args.out.join(name), |out| out.write_all(contents))?;
+        pending.write(folder, args.out.join(name), |out| out.write_all(contents))?;
     }
-    let written = stage.commit()?.len();
+    let written = pending.commit()?.len();
     let page = args.out.join("report.html");
     print(&format!(
         "{}\nand {} files beside it\n",

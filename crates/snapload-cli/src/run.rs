@@ -4,15 +4,15 @@ use crate::case_input::{CaseArgs, Input};
 use crate::certify::exact;
 use crate::failure::{Failure, print};
 use crate::json::{Json, JsonArgs, refuse_directory};
+use crate::option_values::whole_number;
+use crate::pending_outputs::{PendingOutputs, TargetFolder};
 use crate::pictures::pictures;
-use crate::stage::{Room, Stage};
 use crate::uncertainty::UncertaintyArgs;
-use crate::whole::whole;
 use snapload::analysis::{MEMBERS, Progress};
 use snapload::{Case, Sampling};
 use snapload_certificate::Cancelled;
 use snapload_report::{
-    Certified, Report, Trusted, case_in_words, prove, summary, tables, write_json,
+    Certified, Report, RunWithTrust, case_in_words, prove, summary, tables, write_json,
 };
 use std::path::{Path, PathBuf};
 
@@ -48,7 +48,7 @@ pub(crate) struct Args {
     uncertainty: UncertaintyArgs,
     /// Number of neighbours to run if the end is past the horizon of trust; 0 for none. If left out,
     /// 1000, or 200 if those end alike
-    #[arg(long, value_name = "N", value_parser = whole::<u32>(MEMBERS.called("ensemble")))]
+    #[arg(long, value_name = "N", value_parser = whole_number::<u32>(MEMBERS.called("ensemble")))]
     ensemble: Option<u32>,
     /// Prove the run as snapload certify does, with the decimals of the case taken as exact; with --out,
     /// the certificate is written as run.cert
@@ -85,19 +85,19 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
     let report = Report::new(input.case.parameters(), &trusted, sampling, &on_progress)
         .with_certificate(certified.as_ref());
 
-    if let Some((room, directory)) = outputs.directory.take() {
-        let stage = &mut outputs.stage;
-        write_directory(stage, room, &directory, &input, &trusted, sampling)?;
-        stage.write(room, directory.join("run.json"), |out| {
+    if let Some((folder, directory)) = outputs.directory.take() {
+        let pending = &mut outputs.pending;
+        write_directory(pending, folder, &directory, &input, &trusted, sampling)?;
+        pending.write(folder, directory.join("run.json"), |out| {
             write_json(&report, out)
         })?;
         if let Some(certified) = &certified {
-            stage.write(room, directory.join(CERTIFICATE), |out| {
+            pending.write(folder, directory.join(CERTIFICATE), |out| {
                 write_json(&certified.proof, out)
             })?;
         }
     }
-    match outputs.json.write(outputs.stage, &report)? {
+    match outputs.json.write(outputs.pending, &report)? {
         Some(written) => print(&summary(
             &input.name,
             input.case.parameters(),
@@ -110,16 +110,20 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
 }
 
 /// The run, and its neighbours if needed, with a progress bar.
-fn trusted(args: &Args, case: &Case) -> Result<Trusted, Failure> {
+fn trusted(args: &Args, case: &Case) -> Result<RunWithTrust, Failure> {
     let uncertainty = args.uncertainty.read(case)?;
     let (bar, seed) = (Bar::new(), args.uncertainty.seed());
     let on_progress = |progress: Progress| bar.show(progress);
-    Trusted::run(case, uncertainty, args.ensemble, seed, &on_progress)
+    RunWithTrust::run(case, uncertainty, args.ensemble, seed, &on_progress)
         .map_err(|error| Failure::from(error).with_prefix("--uncertainty"))
 }
 
 /// The proof of the run, if it is asked for.
-fn certified(args: &Args, input: &Input, trusted: &Trusted) -> Result<Option<Certified>, Failure> {
+fn certified(
+    args: &Args,
+    input: &Input,
+    trusted: &RunWithTrust,
+) -> Result<Option<Certified>, Failure> {
     if !args.certify {
         return Ok(None);
     }
@@ -154,8 +158,8 @@ fn sampling(dt: f64, end: f64, instead: &str) -> Result<Sampling, Failure> {
 
 /// The places of the output, opened before the run so that an error is known at once.
 struct Outputs {
-    stage: Stage,
-    directory: Option<(Room, PathBuf)>,
+    pending: PendingOutputs,
+    directory: Option<(TargetFolder, PathBuf)>,
     json: Json,
 }
 
@@ -172,20 +176,20 @@ const FILES: [&str; 5] = [
 
 impl Outputs {
     fn open(args: &Args) -> Result<Self, Failure> {
-        let mut stage = Stage::default();
-        let json = args.json.open(&mut stage)?;
+        let mut pending = PendingOutputs::default();
+        let json = args.json.open(&mut pending)?;
         let directory = match &args.out {
             None => None,
             Some(directory) => {
-                let room = stage.create_and_open(directory)?;
+                let folder = pending.create_and_open(directory)?;
                 FILES
                     .iter()
                     .try_for_each(|name| refuse_directory(&directory.join(name)))?;
-                Some((room, directory.clone()))
+                Some((folder, directory.clone()))
             }
         };
         Ok(Self {
-            stage,
+            pending,
             directory,
             json,
         })
@@ -193,30 +197,30 @@ impl Outputs {
 }
 
 fn write_directory(
-    stage: &mut Stage,
-    room: Room,
+    pending: &mut PendingOutputs,
+    folder: TargetFolder,
     directory: &Path,
     input: &Input,
-    trusted: &Trusted,
+    trusted: &RunWithTrust,
     sampling: Option<Sampling>,
 ) -> Result<(), Failure> {
     let trajectory = &trusted.run;
     let sampling = sampling.unwrap_or_else(|| Sampling::thousand(trajectory.end().t));
     let place = |name: &str| directory.join(name);
-    stage.write(room, place("impacts.csv"), |out| {
+    pending.write(folder, place("impacts.csv"), |out| {
         tables::impacts(trajectory, trusted.trust.digits(), out)
     })?;
-    stage.write(room, place("modes.csv"), |out| {
+    pending.write(folder, place("modes.csv"), |out| {
         tables::modes(trajectory, out)
     })?;
-    stage.write(room, place("motion.csv"), |out| {
+    pending.write(folder, place("motion.csv"), |out| {
         tables::motion(trajectory, sampling, out)
     })?;
     for picture in pictures(
         &case_in_words(&input.name, input.case.parameters()),
         trusted,
     )? {
-        stage.write(room, place(&picture.name), |out| {
+        pending.write(folder, place(&picture.name), |out| {
             out.write_all(&picture.bytes)
         })?;
     }

@@ -2,9 +2,9 @@
 use crate::bar::Bar;
 use crate::failure::Failure;
 use crate::json::JsonArgs;
+use crate::option_values::whole_number;
 use crate::outputs::Outputs;
 use crate::structure_input::{ReadStructure, StructureArgs};
-use crate::whole::whole;
 use snapload_report::tables::in_digits;
 use snapload_structure::note::{self, Source};
 use snapload_structure::{Lines, SEEDS, SeaOutcome, Seas, end_words, seas};
@@ -20,7 +20,7 @@ pub(crate) struct Args {
     #[command(flatten)]
     input: StructureArgs,
     /// Number of records to run
-    #[arg(long, value_name = "NUMBER", default_value_t = 20, value_parser = whole::<u32>(SEEDS))]
+    #[arg(long, value_name = "NUMBER", default_value_t = 20, value_parser = whole_number::<u32>(SEEDS))]
     seeds: u32,
     /// Model the lines as springs, which is slower; needed if they are too soft for instant snaps
     #[arg(long)]
@@ -66,7 +66,7 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
             outputs.write(out, |out| out.write_all(page.as_bytes()))?;
         }
     }
-    outputs.finish_told(&result.to_json(&name), result.summary(&name))
+    outputs.finish_with_text(&result.to_json(&name), result.summary(&name))
 }
 
 /// One row for each record.
@@ -89,9 +89,9 @@ fn table(seas: &Seas, out: &mut dyn io::Write) -> io::Result<()> {
         let least = least.reduce(f64::min);
         let peak = outcome.peak_n().map(in_digits);
         // Of a record that ends before anything is judged there is nothing to tell.
-        let judged = |told: String| match outcome.is_unjudged() {
+        let judged = |text: String| match outcome.is_unjudged() {
             true => String::new(),
-            false => told,
+            false => text,
         };
         table.write_record([
             seed.to_string(),

@@ -3,10 +3,10 @@ use crate::bar::Bar;
 use crate::case_input::CaseArgs;
 use crate::failure::Failure;
 use crate::json::JsonArgs;
+use crate::option_values::whole_number;
 use crate::orbit_picture::{PlotArgs, PlotFile};
 use crate::outputs::{Outputs, TABLE};
 use crate::table::numbers;
-use crate::whole::whole;
 use serde::Serialize;
 use snapload::analysis::{Progress, START_KEYS};
 use snapload_figures::{Colour, Layer, Shape};
@@ -61,10 +61,10 @@ pub(crate) struct Args {
 #[derive(clap::Args)]
 pub(crate) struct StretchArgs {
     /// Total number of forcing periods
-    #[arg(long, value_name = "N", default_value_t = 400, value_parser = whole::<u64>(PERIODS))]
+    #[arg(long, value_name = "N", default_value_t = 400, value_parser = whole_number::<u64>(PERIODS))]
     periods: u64,
     /// Number of forcing periods to keep, at the end of the motion
-    #[arg(long, value_name = "N", default_value_t = 100, value_parser = whole::<u64>(KEEP))]
+    #[arg(long, value_name = "N", default_value_t = 100, value_parser = whole_number::<u64>(KEEP))]
     keep: u64,
     /// Time of the section, in forcing periods; the start is the state at that time, so another phase
     /// gives another motion
@@ -97,7 +97,7 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
     let mut outputs = Outputs::open(&args.json)?;
     let table = outputs.file("--out", args.out.as_deref(), &TABLE)?;
     let (usual, known) = match stretch.impacts {
-        true => (["phase", "v_n"], &OF_IMPACTS[..]),
+        true => (["phase", "v_n"], &IMPACT_COLUMNS[..]),
         false => (["x", "vx"], &START_KEYS[..]),
     };
     let plot = args.plot.open(&mut outputs, usual, known)?;
@@ -111,7 +111,7 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
             "no section: the motion from this start {why}; use fewer --periods, or another start"
         )));
     }
-    let impacts = kept(&section)?;
+    let impacts = kept_impacts(&section)?;
     match impacts {
         Some(impacts) => outputs.table(table, &impact_columns(impacts))?,
         None => outputs.table(table, &columns(&section))?,
@@ -124,7 +124,7 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
             }
             None => section_layers(&section, &plot),
         };
-        plot.stage(
+        plot.add_to(
             &mut outputs,
             &case_in_words(&input.name, parameters),
             layers,
@@ -140,7 +140,7 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
 }
 
 /// The impacts, if they were asked for.
-fn kept(section: &Section) -> Result<Option<&[ImpactPoint]>, Failure> {
+fn kept_impacts(section: &Section) -> Result<Option<&[ImpactPoint]>, Failure> {
     match &section.impacts {
         Some(kept) if kept.left_out > 0 => Err(Failure::BadInput(format!(
             "--at impacts: {} impacts, and at most {MOST_KEPT} are kept; write a smaller --keep",
@@ -151,7 +151,7 @@ fn kept(section: &Section) -> Result<Option<&[ImpactPoint]>, Failure> {
 }
 
 /// The numeric columns of an impact.
-const OF_IMPACTS: [&str; 13] = [
+const IMPACT_COLUMNS: [&str; 13] = [
     "t",
     "phase",
     "v_n",
@@ -187,7 +187,7 @@ fn of_impact(impact: &ImpactPoint, column: &str) -> f64 {
 fn impact_columns(impacts: &[ImpactPoint]) -> Vec<(&'static str, Values)> {
     let cables = impacts.iter().map(|impact| Some(impact.cable as i64));
     let number = |name| numbers(impacts.iter().map(|impact| of_impact(impact, name)));
-    let mut columns: Vec<_> = OF_IMPACTS
+    let mut columns: Vec<_> = IMPACT_COLUMNS
         .iter()
         .map(|name| (*name, number(name)))
         .collect();

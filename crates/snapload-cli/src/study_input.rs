@@ -1,15 +1,15 @@
 //! The study that a command line asks for: a case, what varies, and how.
-use crate::case_input::{CaseArgs, begin_with};
+use crate::case_input::{CaseArgs, add_case_defaults};
 use crate::failure::Failure;
-use crate::interrupt::say;
-use crate::whole::whole;
+use crate::interrupt::print_error_line;
+use crate::option_values::whole_number;
 use snapload::DefaultValue::{Count, Derived, Flag};
 use snapload::analysis::SEED;
 use snapload::{
     CASE_KEYS, CaseError, Entries, Heading, KEYS, Key, Kind, Schema, Table, Value, key_named,
     parse_value,
 };
-use snapload_study::{Axis, List, Plan, RANDOM, Side, Study};
+use snapload_study::{Axis, List, Plan, RANDOM, RandomRange, Study};
 use std::borrow::Cow;
 use std::path::{Path, PathBuf};
 
@@ -51,10 +51,10 @@ pub(crate) struct StudyArgs {
     #[arg(long, value_name = "KEY=VALUES", allow_hyphen_values = true)]
     vary: Vec<String>,
     /// Run N Sobol points in the box of the ranges instead of a grid
-    #[arg(long, value_name = "N", value_parser = whole::<u64>(RANDOM))]
+    #[arg(long, value_name = "N", value_parser = whole_number::<u64>(RANDOM))]
     random: Option<u64>,
     /// Seed of the random points
-    #[arg(long, value_name = "S", value_parser = whole::<u64>(SEED))]
+    #[arg(long, value_name = "S", value_parser = whole_number::<u64>(SEED))]
     seed: Option<u64>,
     /// Read the cases from a CSV or Parquet file, with one row per case and one column per key
     #[arg(long, value_name = "FILE", conflicts_with_all = ["vary", "random", "seed"])]
@@ -70,19 +70,19 @@ impl StudyArgs {
         let (_, mut entries) = self.case.entries(&STUDY)?;
         if let Some(code) = entries.table("study", 0).get::<String>("case")? {
             let place = entries.place("case").unwrap_or_default().to_owned();
-            begin_with(&mut entries, &code).map_err(|error| error.at(place))?;
+            add_case_defaults(&mut entries, &code).map_err(|error| error.at(place))?;
         }
-        let asked = Asked::of_file(self.case.file(), &entries)?.changed_by(self)?;
-        let trust = asked.trust;
+        let options = StudyOptions::of_file(self.case.file(), &entries)?.overridden_by(self)?;
+        let trust = options.trust;
         let base = entries
             .values("case")
             .map(|(key, value)| (key.to_owned(), value));
-        Ok(Study::new(base, asked.plan()?, trust)?)
+        Ok(Study::new(base, options.plan()?, trust)?)
     }
 }
 
 /// What is to vary, before it is checked.
-struct Asked {
+struct StudyOptions {
     vary: Vec<(String, Varied)>,
     random: Option<u64>,
     seed: u64,
@@ -108,7 +108,7 @@ impl Varied {
     }
 }
 
-impl Asked {
+impl StudyOptions {
     fn of_file(file: Option<&Path>, entries: &Entries) -> Result<Self, Failure> {
         let study = entries.table("study", 0);
         let vary = entries.values("vary");
@@ -126,7 +126,7 @@ impl Asked {
     }
 
     /// Options of the command line replace those of the file.
-    fn changed_by(mut self, args: &StudyArgs) -> Result<Self, Failure> {
+    fn overridden_by(mut self, args: &StudyArgs) -> Result<Self, Failure> {
         for text in &args.vary {
             let (key, varied) = of_text(text)?;
             match self.vary.iter_mut().find(|(known, _)| *known == key) {
@@ -171,9 +171,9 @@ impl Asked {
         }
         let vary = self.vary.into_iter();
         if let Some(count) = self.random {
-            let sides = vary.map(|(key, varied)| side(&key, varied));
-            let sides = sides.collect::<Result<_, _>>()?;
-            return Ok(Plan::random(sides, count, self.seed)?);
+            let ranges = vary.map(|(key, varied)| side(&key, varied));
+            let ranges = ranges.collect::<Result<_, _>>()?;
+            return Ok(Plan::random(ranges, count, self.seed)?);
         }
         let axes = vary.map(|(key, varied)| axis(&key, varied));
         Ok(Plan::grid(axes.collect::<Result<_, _>>()?)?)
@@ -231,7 +231,7 @@ fn warn_of_comma(key: &str, values: &str) {
         return;
     };
     if digits(whole.trim_start_matches(['+', '-'])) && digits(fraction) {
-        say(&format!(
+        print_error_line(&format!(
             "--vary {key}={values} is two values, {whole} and {fraction}; if one was meant, write a point: \
              {key}={whole}.{fraction}"
         ));
@@ -245,10 +245,10 @@ fn axis(key: &str, varied: Varied) -> Result<Axis, Failure> {
     })
 }
 
-fn side(key: &str, varied: Varied) -> Result<Side, Failure> {
+fn side(key: &str, varied: Varied) -> Result<RandomRange, Failure> {
     key_named(key).map_err(Failure::bad_input)?;
     match varied {
-        Varied::Range(text) => Ok(Side::written(key, &text)?),
+        Varied::Range(text) => Ok(RandomRange::written(key, &text)?),
         Varied::Listed(_) => Err(Failure::BadInput(format!(
             "{key}: random points are drawn from a range; write {key}=low:high"
         ))),

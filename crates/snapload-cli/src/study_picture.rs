@@ -1,6 +1,6 @@
 //! `--plot` and `--show`: which picture of a study, and where it goes.
 use crate::failure::Failure;
-use crate::stage::Stage;
+use crate::pending_outputs::PendingOutputs;
 use crate::study_input::axes_of;
 use snapload_figures::PNG_SCALE;
 use snapload_study::{StudyError, StudyPicture, folder_of, identity_of};
@@ -22,13 +22,13 @@ impl PictureArgs {
     /// Refuses what can not be drawn, before anything is computed. Whoever resumes may have drawn
     /// the picture already, so then it may be there.
     pub(crate) fn check(&self, study: &str, resume: bool) -> Result<(), Failure> {
-        match self.wanted(study)? {
+        match self.requested(study)? {
             Some((path, _)) if !resume && is_there(path) => Err(occupied(path)),
             _ => Ok(()),
         }
     }
 
-    fn wanted(&self, study: &str) -> Result<Option<(&Path, StudyPicture)>, Failure> {
+    fn requested(&self, study: &str) -> Result<Option<(&Path, StudyPicture)>, Failure> {
         let Some(path) = &self.plot else {
             return Ok(None);
         };
@@ -52,7 +52,7 @@ impl PictureArgs {
         let Some(identity) = identity_of(file) else {
             return Ok(None);
         };
-        let Some((path, picture)) = self.wanted(&identity.study)? else {
+        let Some((path, picture)) = self.requested(&identity.study)? else {
             return Ok(None);
         };
         let picture = picture.draw(file)?;
@@ -68,10 +68,10 @@ impl PictureArgs {
                 _ => Err(occupied(path)),
             };
         }
-        let mut stage = Stage::default();
-        let room = stage.open(folder_of(path)?)?;
-        stage.write(room, path.to_owned(), |out| out.write_all(&bytes))?;
-        stage.commit()?;
+        let mut pending = PendingOutputs::default();
+        let folder = pending.open(folder_of(path)?)?;
+        pending.write(folder, path.to_owned(), |out| out.write_all(&bytes))?;
+        pending.commit()?;
         Ok(Some(path.to_owned()))
     }
 }

@@ -1,6 +1,6 @@
 //! A summary of the file of a study.
 use crate::failure::{Failure, print};
-use snapload_study::{Axis, Plan, Side, StudyEnds, ends};
+use snapload_study::{Axis, Plan, RandomRange, StudyEnds, ends};
 use std::fmt::Write;
 use std::path::{Path, PathBuf};
 
@@ -33,7 +33,7 @@ impl<'a> Summary<'a> {
 
     /// Prints it. A whole study without a single run is bad input: the file exists, and contains
     /// the reasons.
-    pub(crate) fn tell(&self, whole: bool) -> Result<(), Failure> {
+    pub(crate) fn print(&self, whole: bool) -> Result<(), Failure> {
         print(&self.in_words())?;
         if !whole || self.tally.errors < self.rows {
             return Ok(());
@@ -111,8 +111,8 @@ fn varied(plan: &Plan) -> String {
             };
             axes.iter().map(axis).collect::<Vec<_>>().join(", ")
         }
-        Plan::Random { sides, seed, .. } => {
-            let keys: Vec<&str> = sides.iter().map(Side::key).collect();
+        Plan::Random { ranges, seed, .. } => {
+            let keys: Vec<&str> = ranges.iter().map(RandomRange::key).collect();
             format!("{} (random points, seed {seed})", keys.join(", "))
         }
         Plan::List(list) => format!("{} (columns of {})", list.keys().join(", "), list.name()),

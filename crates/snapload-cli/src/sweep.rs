@@ -1,11 +1,11 @@
 //! `snapload sweep`: a study, a row a case, in one Parquet file.
 use crate::bar::Bar;
 use crate::failure::Failure;
-use crate::interrupt::{self, Graceful, say};
+use crate::interrupt::{self, Graceful, print_error_line};
+use crate::option_values::whole_number;
 use crate::study_input::StudyArgs;
 use crate::study_picture::PictureArgs;
 use crate::study_summary::Summary;
-use crate::whole::whole;
 use clap::CommandFactory;
 use snapload::analysis::{Cancelled, Progress};
 use snapload_study::{Identity, Opened, Shard, Store, StudyError, THREADS, sweep, threads_for};
@@ -48,7 +48,7 @@ pub(crate) struct Args {
     #[arg(long, value_name = "i/n", conflicts_with = "plot")]
     shard: Option<String>,
     /// Number of threads; by default as many as the machine has, at most four times as many
-    #[arg(long, value_name = "N", value_parser = whole::<u16>(THREADS))]
+    #[arg(long, value_name = "N", value_parser = whole_number::<u16>(THREADS))]
     threads: Option<u16>,
     #[command(flatten)]
     picture: PictureArgs,
@@ -68,38 +68,40 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
         Opened::Work(store) => {
             if store.damaged() > 0 {
                 let (rows, out) = (store.damaged(), args.out.display());
-                say(&format!(
+                print_error_line(&format!(
                     "{rows} rows in {out}.parts were damaged, and are computed again"
                 ));
             }
             interrupt::end_gracefully(Graceful {
                 on_first: Box::new(|| {
-                    say("stopping after the cases in progress; interrupt again to stop at once");
+                    print_error_line(
+                        "stopping after the cases in progress; interrupt again to stop at once",
+                    );
                 }),
                 after_second: "the saved rows are kept, and --resume continues from there",
             });
             let bar = Bar::counting();
-            let on_progress = |progress: Progress| match interrupt::asked() {
+            let on_progress = |progress: Progress| match interrupt::stop_requested() {
                 true => ControlFlow::Break(()),
                 false => bar.show(progress),
             };
             let swept = sweep(&study, store, &on_progress);
             drop(bar);
-            swept.map_err(|error| go_on(error, rows))?;
+            swept.map_err(|error| with_resume_hint(error, rows))?;
         }
     }
     let picture = args.picture.draw(&args.out)?;
     let whole = args.shard.is_none();
     Summary::of(&args.out, rows, picture)?
         .with(study.plan())
-        .tell(whole)
+        .print(whole)
 }
 
 /// Starts as many threads as asked for, up to a few for each that the machine runs at a time.
 fn start_threads(asked: u16) -> Result<(), Failure> {
     let (threads, fewer) = threads_for(asked.into());
     if let Some(why) = fewer {
-        say(&format!("--threads {asked}: {why}"));
+        print_error_line(&format!("--threads {asked}: {why}"));
     }
     let pool = rayon::ThreadPoolBuilder::new().num_threads(threads);
     let built = pool.build_global();
@@ -107,7 +109,7 @@ fn start_threads(asked: u16) -> Result<(), Failure> {
 }
 
 /// The error, and the remark that no more than a few seconds of work are lost.
-fn go_on(error: StudyError, rows: u64) -> Failure {
+fn with_resume_hint(error: StudyError, rows: u64) -> Failure {
     match error {
         StudyError::Cancelled(Cancelled { done }) => Failure::Interrupted(format!(
             "{done} of {rows} rows are saved; to continue:\n  {}",

@@ -1,6 +1,6 @@
 //! The uncertainties of a case, as given on the command line.
 use crate::failure::Failure;
-use crate::whole::whole;
+use crate::option_values::whole_number;
 use snapload::Case;
 use snapload::analysis::{SEED, Uncertainty};
 use snapload_report::TOLERANCE;
@@ -30,7 +30,7 @@ pub(crate) struct UncertaintyArgs {
     #[command(flatten)]
     tolerance: ToleranceArgs,
     /// Seed with which an ensemble draws its neighbours
-    #[arg(long, value_name = "NUMBER", default_value_t = 1, value_parser = whole::<u64>(SEED))]
+    #[arg(long, value_name = "NUMBER", default_value_t = 1, value_parser = whole_number::<u64>(SEED))]
     seed: u64,
 }
 

@@ -8,7 +8,7 @@ use snapload::analysis::{Progress, Uncertainty, Unfinished};
 use snapload::{Case, Sampling};
 use snapload_figures::{FigureError, PNG_SCALE, RunPlot, RunPlots};
 use snapload_report::{
-    Followed, Report, Trusted, case_file, case_in_words, shell_line, tables, write_json,
+    Report, RunWithHorizon, RunWithTrust, case_file, case_in_words, shell_line, tables, write_json,
 };
 use std::time::Duration;
 
@@ -100,7 +100,12 @@ impl File {
         Ok(bytes)
     }
 
-    fn fill(self, case: &Case, followed: &Followed, out: &mut Vec<u8>) -> Result<(), Refusal> {
+    fn fill(
+        self,
+        case: &Case,
+        followed: &RunWithHorizon,
+        out: &mut Vec<u8>,
+    ) -> Result<(), Refusal> {
         let run = &followed.run;
         let written = match self {
             Self::Modes => tables::modes(run, out),
@@ -127,7 +132,7 @@ impl File {
             Unfinished::Case(error) => error.into(),
             Unfinished::Cancelled(_) => for_the_command(case, TOO_SLOW),
         };
-        let run = Trusted::run_alone(case, Uncertainty::default(), &go_on).map_err(refuse)?;
+        let run = RunWithTrust::run_alone(case, Uncertainty::default(), &go_on).map_err(refuse)?;
         if matches!(self, Self::Impacts) {
             let written = tables::impacts(&run.run, run.trust.digits(), out);
             return written.map_err(Refusal::failed);
@@ -143,7 +148,7 @@ fn picture(
     file: File,
     plot: RunPlot,
     case: &Case,
-    followed: &Followed,
+    followed: &RunWithHorizon,
 ) -> Result<Vec<u8>, FigureError> {
     let horizon = followed.horizon.map(|horizon| horizon.t);
     let plots = RunPlots::new(&followed.run).with_horizon(horizon);

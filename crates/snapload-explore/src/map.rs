@@ -11,7 +11,7 @@ use snapload::analysis::{
 };
 use snapload::{Case, CaseError, Kind, Lanes, Outcome, Parameters, Stop, Value, key_named};
 use snapload_report::tables::Cell;
-use snapload_study::{Column, Grid, Run, Take};
+use snapload_study::{Column, ColumnValue, Grid, Run};
 use std::convert::Infallible;
 use std::sync::Arc;
 use std::time::{Duration, Instant};
@@ -194,19 +194,19 @@ impl Drawing {
 /// The values of each cell, by which it can be coloured.
 #[rustfmt::skip] // one row a column
 pub(crate) static COLUMNS: [Column; 12] = [
-    Column::new("reason", "", "", Take::Word(|run| run.outcome.end.reason.name()), "how the run ends"),
-    Column::new("t", "", "T", Take::Number(|run| Some(run.outcome.end.t)), "time of the end"),
-    Column::new("impacts", "", "", Take::Count(|run| Some(run.outcome.snaps())), "number of impacts"),
-    Column::quantity("rho1", Take::Number(|run| Some(run.outcome.norms.rho1))),
-    Column::quantity("rho2", Take::Number(|run| Some(run.outcome.norms.rho2))),
-    Column::quantity("rho3", Take::Number(|run| Some(run.outcome.norms.rho3))),
-    Column::quantity("y_max", Take::Number(|run| Some(run.outcome.norms.y_max))),
-    Column::quantity("theta_max", Take::Number(|run| Some(run.outcome.norms.theta_max))),
-    Column::new("t_sliding", "", "T", Take::Number(|run| Some(run.outcome.sliding)), "time with one taut cable"),
-    Column::new("t_rocking", "", "T", Take::Number(|run| Some(run.outcome.rocking)), "time with both cables taut"),
-    Column::new("horizon_t", "", "T", Take::Number(|run| run.certainty?.horizon.map(|horizon| horizon.t)),
+    Column::new("reason", "", "", ColumnValue::Word(|run| run.outcome.end.reason.name()), "how the run ends"),
+    Column::new("t", "", "T", ColumnValue::Number(|run| Some(run.outcome.end.t)), "time of the end"),
+    Column::new("impacts", "", "", ColumnValue::Count(|run| Some(run.outcome.snaps())), "number of impacts"),
+    Column::quantity("rho1", ColumnValue::Number(|run| Some(run.outcome.norms.rho1))),
+    Column::quantity("rho2", ColumnValue::Number(|run| Some(run.outcome.norms.rho2))),
+    Column::quantity("rho3", ColumnValue::Number(|run| Some(run.outcome.norms.rho3))),
+    Column::quantity("y_max", ColumnValue::Number(|run| Some(run.outcome.norms.y_max))),
+    Column::quantity("theta_max", ColumnValue::Number(|run| Some(run.outcome.norms.theta_max))),
+    Column::new("t_sliding", "", "T", ColumnValue::Number(|run| Some(run.outcome.sliding)), "time with one taut cable"),
+    Column::new("t_rocking", "", "T", ColumnValue::Number(|run| Some(run.outcome.rocking)), "time with both cables taut"),
+    Column::new("horizon_t", "", "T", ColumnValue::Number(|run| run.certainty?.horizon.map(|horizon| horizon.t)),
         "time up to which the run can be trusted, if not to its end"),
-    Column::new("certain", "", "", Take::Flag(|run| Some(run.certainty?.decides_the_end())),
+    Column::new("certain", "", "", ColumnValue::Flag(|run| Some(run.certainty?.decides_the_end())),
         "whether neighbours end in the same way"),
 ];
 

@@ -12,7 +12,7 @@ use snapload::{
 use snapload_report::MOTION;
 use snapload_report::tables::{Cell, IMPACTS, ImpactRow};
 use snapload_report::{
-    CaseEcho, EndRow, Followed, HorizonRow, MotionRow, NormsKnown, NormsRow, end_in_words,
+    CaseEcho, EndRow, HorizonRow, MotionRow, NormsKnown, NormsRow, RunWithHorizon, end_in_words,
     python_lines, shell_line,
 };
 use std::time::{Duration, Instant};
@@ -103,9 +103,9 @@ pub(crate) fn answer(request: Request, allowance: &Allowance) -> Result<Vec<u8>,
 }
 
 /// A run with its trust, within the budget.
-pub(crate) fn follow(case: &Case, allowance: &Allowance) -> Result<Followed, Refusal> {
+pub(crate) fn follow(case: &Case, allowance: &Allowance) -> Result<RunWithHorizon, Refusal> {
     let allowance = allowance.within(BUDGET);
-    let run = Followed::run(case, &|progress| allowance.go_on(progress));
+    let run = RunWithHorizon::run(case, &|progress| allowance.go_on(progress));
     run.map_err(|cancelled| too_long(case.parameters(), cancelled))
 }
 
@@ -222,7 +222,7 @@ struct HorizonInWords {
 }
 
 impl HorizonInWords {
-    fn of(followed: &Followed) -> Self {
+    fn of(followed: &RunWithHorizon) -> Self {
         Self {
             horizon: HorizonRow::new(followed.horizon),
             certain: followed.horizon.is_none(),

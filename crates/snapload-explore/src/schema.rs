@@ -1,7 +1,7 @@
 //! `/api/schema`: the keys, and the cases to start from.
 use crate::map::COLUMNS;
 use serde_json::{Map, Value as JsonValue, json};
-use snapload::analysis::{Certainty, Counter, Made, on_all_threads, unwatched};
+use snapload::analysis::{Certainty, Counter, ThreadResults, no_progress, on_all_threads};
 use snapload::{
     Bounds, Case, DefaultValue, KEYS, Key, Kind, Lanes, Outcome, Parameters, Stop, named_cases,
 };
@@ -47,12 +47,12 @@ static HAPPENS: LazyLock<Vec<String>> = LazyLock::new(|| {
         .map(|case| Case::new(case.parameters))
         .collect();
     let cases = cases.unwrap_or_default();
-    let counter = Counter::new("the built-in cases", 0, cases.len() as u64, &unwatched);
+    let counter = Counter::new("the built-in cases", 0, cases.len() as u64, &no_progress);
     let told = on_all_threads(cases.len(), |numbers| {
         let cases = numbers.map(|k| cases[k].clone());
         Certainty::with_outcomes(Lanes::best(), cases, &counter)
     });
-    let told = told.map(Made::into_vec).unwrap_or_default();
+    let told = told.map(ThreadResults::into_vec).unwrap_or_default();
     told.iter().map(what_happens).collect()
 });
 
@@ -71,7 +71,7 @@ fn what_happens((outcome, certainty): &(Outcome, Certainty)) -> String {
         Stop::EndTime if outcome.sliding > 0.0 => format!("slides on one cable at times{past}"),
         Stop::EndTime => format!("continues to snap, {about}{snaps} times by t = {t:.0}"),
         Stop::ImpactLimit => format!("snaps more than {snaps} times by t = {about}{t:.1}"),
-        limit => format!("reaches the {} at t = {about}{t:.1}", limit.words()),
+        limit => format!("reaches the {} at t = {about}{t:.1}", limit.label()),
     }
 }
 

@@ -5,7 +5,7 @@ use crate::hybrid::{Point, distance};
 use crate::moored::Moored;
 use crate::orbit::{Orbit, Wanted};
 use crate::section::{Section, Stretch, start_of};
-use snapload::analysis::{Counter, OnProgress, Unfinished, in_parallel, unwatched};
+use snapload::analysis::{Counter, OnProgress, Unfinished, in_parallel, no_progress};
 use snapload::{Case, Parameters, Stop};
 
 /// The long-term behaviour of a start.
@@ -136,7 +136,7 @@ fn met(parameters: &Parameters, stretch: &Stretch) -> Result<Met, Unfinished> {
         return Ok(Met::Fate(Fate::Illegal));
     };
     let z = start_of(case.parameters());
-    let section = Section::from(&free, (0.0, &z), stretch, &unwatched)?;
+    let section = Section::from(&free, (0.0, &z), stretch, &no_progress)?;
     Ok(match (section.stop, section.period()) {
         (Some(stop), _) => Met::Fate(Fate::Stopped(stop, section.end.1)),
         (None, Some(period)) => {

@@ -38,7 +38,7 @@ pub fn of_attractor(
         return Ok(Err(NoOrbit(format!(
             "the motion from this start stops at t = {t:.4}: {}; give a state near an orbit with \
              --start, or search for unstable orbits with --find N",
-            stop.meaning()
+            stop.reason_text()
         ))));
     }
     let Some(period) = section.period() else {

@@ -288,7 +288,7 @@ impl Walk<'_> {
             }
             self.done += 1;
             let of = (2 * self.along.most) as f64;
-            Progress::new("points", self.done as f64, of).tell(self.on_progress)?;
+            Progress::new("points", self.done as f64, of).report(self.on_progress)?;
             step = self.next_step(step, there.steps);
         }
         Ok(side)

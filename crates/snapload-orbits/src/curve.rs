@@ -329,7 +329,7 @@ impl Walk<'_> {
             side.points.push(point(&on_curve, orbit, arclength));
             self.done += 1;
             let of = (2 * self.across.most) as f64;
-            Progress::new("points", self.done as f64, of).tell(self.on_progress)?;
+            Progress::new("points", self.done as f64, of).report(self.on_progress)?;
             step = self.next_length(step, steps);
         }
         Ok(side)

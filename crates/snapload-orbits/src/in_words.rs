@@ -119,7 +119,7 @@ pub fn without_points_in_words(section: &Section) -> Option<String> {
     Some(format!(
         "stops at t = {:.4}: {}. That is before the first point of the section, which comes after {}",
         section.end.1,
-        stop.meaning(),
+        stop.reason_text(),
         of_the_forcing(section.first as usize)
     ))
 }
@@ -135,7 +135,7 @@ pub fn section_in_words(section: &Section) -> String {
             text,
             "Stopped   at t = {:.4}: {}",
             section.end.1,
-            stop.meaning()
+            stop.reason_text()
         );
         return text;
     }
@@ -179,7 +179,7 @@ pub fn diagram_in_words(key: &str, found: &[At]) -> String {
         let exponent = exponent.map_or("-".to_owned(), |both| exponent_in_words(*both));
         let value = six_digits(at.value);
         let _ = match at.stop() {
-            Some(stop) => writeln!(text, "{value:<12} {}", stop.words()),
+            Some(stop) => writeln!(text, "{value:<12} {}", stop.label()),
             None => writeln!(text, "{value:<12} {period:<7} {snaps:<8} {exponent}"),
         };
     }
@@ -201,7 +201,7 @@ pub fn basin_in_words(basin: &Basin) -> String {
         .into_iter()
         .filter(|(_, count)| *count > 0)
     {
-        let _ = writeln!(text, "          {count} {}", stop.words());
+        let _ = writeln!(text, "          {count} {}", stop.label());
     }
     if basin.looked_beside {
         let _ = writeln!(text, "Undecided {}", m.undecided);

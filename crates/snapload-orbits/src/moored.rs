@@ -3,7 +3,8 @@
 use crate::hybrid::{Family, Hybrid, Jet, Limits, PARAMETER, Point, Simulated};
 use crate::sequence::{Event, Happening, Sequence, Timed};
 use snapload::{
-    Held, Limit, Parameters, PerCable, Real, Rules, Simulation, State, System, TautSet, Value,
+    Limit, Parameters, PerCable, PrescribedTaut, Real, Rules, Simulation, State, System, TautSet,
+    Value,
 };
 use std::sync::Arc;
 
@@ -14,21 +15,21 @@ const MOST_IMPACTS: u64 = 20_000;
 
 /// A body on cables over some numbers.
 pub struct Cables<T: Real> {
-    held: Held<T>,
+    prescribed: PrescribedTaut<T>,
     rules: Rules<T>,
 }
 
 impl<T: Real> Cables<T> {
     fn new((system, rules): (System<T>, Rules<T>)) -> Self {
         Self {
-            held: Held::new(system),
+            prescribed: PrescribedTaut::new(system),
             rules,
         }
     }
 
     /// The system.
     pub fn system(&self) -> &System<T> {
-        self.held.system()
+        self.prescribed.system()
     }
 }
 
@@ -39,11 +40,13 @@ impl<T: Real> Hybrid<T> for Cables<T> {
 
     fn flow(&self, held: TautSet, t: T, z: &Point<T>, s: T) -> Point<T> {
         let state = State::from_components(*z);
-        self.held.carried(held, t, &state, s).components()
+        self.prescribed.carried(held, t, &state, s).components()
     }
 
     fn path(&self, held: TautSet, t: T, z: &Point<T>, s: T) -> impl Fn(T) -> Point<T> {
-        let path = self.held.path(held, t, &State::from_components(*z), s);
+        let path = self
+            .prescribed
+            .path(held, t, &State::from_components(*z), s);
         move |s| path.state(s).components()
     }
 
@@ -62,19 +65,22 @@ impl<T: Real> Hybrid<T> for Cables<T> {
     }
 
     fn tension(&self, surface: usize, held: TautSet, t: T, z: &Point<T>) -> T {
-        self.held.tensions(held, t, &State::from_components(*z))[surface]
+        self.prescribed
+            .tensions(held, t, &State::from_components(*z))[surface]
     }
 
     fn law(&self, struck: TautSet, pulling: TautSet, z: &Point<T>) -> (Point<T>, PerCable<T>) {
         let (after, impulse) = self
-            .held
+            .prescribed
             .struck(&State::from_components(*z), struck, pulling);
         (after.components(), impulse)
     }
 
     fn placed(&self, closed: TautSet, still: TautSet, z: &Point<T>) -> Point<T> {
         let state = State::from_components(*z);
-        self.held.projected(&state, closed, still).components()
+        self.prescribed
+            .projected(&state, closed, still)
+            .components()
     }
 }
 

@@ -195,7 +195,7 @@ fn run_once<F: Family>(
     if let Some((stop, t)) = simulated.stop {
         why_not.push(format!(
             "the motion stops at t = {t:.6}: {}",
-            stop.meaning()
+            stop.reason_text()
         ));
         return None;
     }

@@ -194,7 +194,7 @@ impl<F: Family> Search<'_, F> {
             if let Some((stop, t)) = simulated.stop {
                 why = format!(
                     "a lap of the search stopped at t = {t:.4}: {}",
-                    stop.meaning()
+                    stop.reason_text()
                 );
                 break;
             }

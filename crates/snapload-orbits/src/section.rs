@@ -4,7 +4,7 @@ use crate::exponents::{Directions, exponents};
 use crate::hybrid::Point;
 use crate::impact_map::Impacts;
 use snapload::analysis::{Cancelled, OnProgress, Progress};
-use snapload::{CaseError, Held, Parameters, Simulation, State, Step, Stop, Tangent};
+use snapload::{CaseError, Parameters, PrescribedTaut, Simulation, State, Step, Stop, Tangent};
 
 /// The section points of a long motion, at t = (phase + k) T.
 #[derive(Clone, Debug)]
@@ -94,12 +94,15 @@ impl Section {
                 error.to_string(),
             )
         })?;
-        let held = Held::new(parameters.system());
+        let prescribed = PrescribedTaut::new(parameters.system());
         let mut follow = Follow {
-            linearised: stretch
-                .exponents
-                .then(|| (Tangent::new(held.system()), Directions::new(parameters))),
-            held,
+            linearised: stretch.exponents.then(|| {
+                (
+                    Tangent::new(prescribed.system()),
+                    Directions::new(parameters),
+                )
+            }),
+            prescribed,
             logs: Vec::new(),
             next: stretch.skip,
             period,
@@ -162,7 +165,7 @@ pub fn start_of(p: &Parameters) -> Point {
 
 /// A motion that is followed.
 struct Follow {
-    held: Held,
+    prescribed: PrescribedTaut,
     /// The deviations, if exponents are computed.
     linearised: Option<(Tangent, Directions)>,
     /// The logarithms of the growth at the beginning of each kept period.
@@ -196,7 +199,7 @@ impl Follow {
                 directions.follow(&map, step.taut_after, &step.after.components());
             }
             let periods = (step.t_end - self.begun) / self.period;
-            Progress::new("following the motion", periods, last as f64).tell(on_progress)?;
+            Progress::new("following the motion", periods, last as f64).report(on_progress)?;
         }
         let section = &mut self.section;
         section.end = (simulation.state().components(), simulation.time());
@@ -218,7 +221,9 @@ impl Follow {
                 return;
             }
             let s = t - step.t_start;
-            let state = self.held.carried(step.taut, step.t_start, &step.start, s);
+            let state = self
+                .prescribed
+                .carried(step.taut, step.t_start, &step.start, s);
             self.section.points.push(state.components());
             if let Some((_, directions)) = &mut self.linearised {
                 directions.begin_to_count();

@@ -94,7 +94,7 @@ impl Survey {
         }
         for (beyond, limit) in self.limits.iter().zip(Limit::ALL) {
             if *beyond > ROUNDING {
-                let name = limit.stop().words();
+                let name = limit.stop().label();
                 why.push(format!("the {name} is exceeded by {beyond:.3e}"));
             }
         }

@@ -48,7 +48,7 @@ pub enum Differs {
 }
 
 impl Differs {
-    fn words(self) -> &'static str {
+    fn label(self) -> &'static str {
         match self {
             Self::Cable => "is in the other cable",
             Self::Time => "differs in the first five digits of its time",
@@ -90,7 +90,7 @@ impl Certified {
     /// Compares a run with its proof.
     pub fn new(proof: Certification, run: &Trajectory) -> Self {
         let mut proved = proof.proved_impacts();
-        let (mut departure, mut astray) = (None, false);
+        let (mut departure, mut cables_differ) = (None, false);
         let mut confirmed = Vec::new();
         for (number, impact) in (1..).zip(run.impacts()) {
             // An impulse that passes into a taut cable is not an impact.
@@ -99,8 +99,8 @@ impl Certified {
                 continue;
             }
             let exact = proved.next();
-            astray |= exact.is_some_and(|exact| exact.cable != impact.cable);
-            let close = exact.filter(|_| !astray);
+            cables_differ |= exact.is_some_and(|exact| exact.cable != impact.cable);
+            let close = exact.filter(|_| !cables_differ);
             confirmed.push(close.map(|exact| confirmed_digits(impact.t, nearest(exact.t))));
             let differs = match exact {
                 Some(exact) => difference(impact, &exact),
@@ -181,7 +181,7 @@ impl Certified {
             ),
             Some(Departure { impact, differs }) => format!(
                 "the run departs from the proof at impact {impact}, which {}",
-                differs.words()
+                differs.label()
             ),
         })
     }

@@ -1,6 +1,6 @@
 //! The critical force, and the probability of exceeding the limits against the force amplitude: in
 //! JSON and in words.
-use crate::trusted::{neighbours, percent};
+use crate::run_with_trust::{neighbours, percent};
 use serde::Serialize;
 use snapload::analysis::{CriticalForce, ExceedanceCurve, Exceeding};
 use std::fmt::Write;

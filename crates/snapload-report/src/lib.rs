@@ -5,15 +5,15 @@ mod case_file;
 mod certified;
 mod critical;
 mod digits;
-mod followed;
 mod motion;
 mod question;
 mod report;
+mod run_with_horizon;
+mod run_with_trust;
 mod sensitivities;
 mod summary;
 pub mod tables;
 mod trust;
-mod trusted;
 mod verified;
 
 pub use case_file::{case_file, python_lines, shell_line};
@@ -21,13 +21,13 @@ pub use certified::{
     CertificateRow, Certified, Departure, Differs, nearest, prove, proved_in_words,
 };
 pub use critical::{CriticalRow, Probability};
-pub use followed::Followed;
 pub use motion::{MOTION, MotionRow};
 pub use question::{Answer, Options, Question, TOLERANCE};
 pub use report::{CaseEcho, EndRow, NormsRow, Report, ValueRow, write_json};
+pub use run_with_horizon::RunWithHorizon;
+pub use run_with_trust::{RunWithTrust, neighbours, outcome_in_words, percent, trust_in_words};
 pub use summary::{NormsKnown, case_in_words, end_in_words, summary, summary_lines};
 pub use trust::{HorizonRow, OutcomeRow, ShareRow, TrustRow};
-pub use trusted::{Trusted, neighbours, outcome_in_words, percent, trust_in_words};
 
 /// All questions about one case, in the order in which help lists them.
 pub static QUESTIONS: &[Question] = &[verified::VERIFY, sensitivities::SENSITIVITIES];

@@ -127,11 +127,11 @@ mod tests {
     use super::*;
     use crate::verified::VERIFY;
     use snapload::Parameters;
-    use snapload::analysis::unwatched;
+    use snapload::analysis::no_progress;
 
     fn refused(given: &[(&str, Value)]) -> Result<String, CaseError> {
         let case = Case::new(Parameters::STANDARD)?;
-        match VERIFY.ask(&case, given.iter().cloned(), &unwatched) {
+        match VERIFY.ask(&case, given.iter().cloned(), &no_progress) {
             Err(Unfinished::Case(error)) => Ok(error.to_string()),
             _ => Ok("(nothing)".to_owned()),
         }

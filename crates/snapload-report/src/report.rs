@@ -1,6 +1,6 @@
 //! The shape of a run in JSON. Names and order here are a promise to whoever reads the files.
 use crate::motion::MotionRow;
-use crate::{CertificateRow, Certified, OutcomeRow, TrustRow, Trusted};
+use crate::{CertificateRow, Certified, OutcomeRow, RunWithTrust, TrustRow};
 use serde::ser::{Error, SerializeSeq};
 use serde::{Serialize, Serializer};
 use snapload::analysis::{OnProgress, Progress};
@@ -30,7 +30,7 @@ impl<'a> Report<'a> {
     /// the motion.
     pub fn new(
         parameters: &'a Parameters,
-        trusted: &'a Trusted,
+        trusted: &'a RunWithTrust,
         sampling: Option<Sampling>,
         on_progress: OnProgress<'a>,
     ) -> Self {
@@ -125,11 +125,11 @@ impl<T, R: Serialize> Serialize for Rows<'_, T, R> {
 }
 
 /// The impacts with the known digits of each.
-struct ImpactRows<'a>(&'a Trusted);
+struct ImpactRows<'a>(&'a RunWithTrust);
 
 impl Serialize for ImpactRows<'_> {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        let Trusted { run, trust, .. } = self.0;
+        let RunWithTrust { run, trust, .. } = self.0;
         let rows = run.impacts().iter().zip(trust.digits());
         serializer.collect_seq(rows.map(|(impact, digits)| ImpactRow::new(impact, digits)))
     }
@@ -228,7 +228,9 @@ impl Serialize for MotionRows<'_> {
         for (k, t) in self.sampling.times().enumerate() {
             if k.is_multiple_of(ROWS) {
                 let progress = Progress::new("writing the motion", t, end);
-                progress.tell(self.on_progress).map_err(S::Error::custom)?;
+                progress
+                    .report(self.on_progress)
+                    .map_err(S::Error::custom)?;
             }
             rows.serialize_element(&MotionRow::new(&playback.at(t)))?;
         }

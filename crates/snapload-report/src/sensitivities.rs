@@ -1,9 +1,9 @@
 //! The derivatives of the first impacts by each key: the question, its words and its JSON.
 use crate::digits::digits;
 use crate::question::{Answer, Options, Question};
+use crate::run_with_trust::horizon_in_words;
 use crate::summary::indented;
 use crate::trust::HorizonRow;
-use crate::trusted::horizon_in_words;
 use serde::Serialize;
 use snapload::analysis::{
     Horizon, OnProgress, Sensitivity, TrustMonitor, Uncertainty, Unfinished, sensitivity,
@@ -39,7 +39,7 @@ Examples:
 /// legal, is not legal over dual numbers.
 #[derive(Serialize)]
 struct Derivatives {
-    /// The horizon of the run, up to the impacts that are asked for.
+    /// The horizon of the run, up to the impacts that are answer_for for.
     horizon: HorizonRow,
     derivatives: Vec<Row>,
 }
@@ -56,12 +56,12 @@ struct Row {
 }
 
 /// How far the run is followed.
-struct Looked {
+struct FollowedPart {
     impacts: usize,
     horizon: Option<Horizon>,
 }
 
-impl Looked {
+impl FollowedPart {
     /// Follows it up to `count` impacts, or, past the first, up to the horizon.
     fn at(case: &Case, count: usize) -> Result<Self, Unfinished> {
         let mut simulation = case.simulation();
@@ -84,12 +84,12 @@ impl Looked {
 fn answer(case: &Case, options: &Options, on_progress: OnProgress) -> Result<Answer, Unfinished> {
     let count = options.get::<u64>("impacts")? as usize;
     let found = sensitivity(case, count, on_progress)?;
-    let looked = Looked::at(case, count)?;
-    let words = in_words(&found, &looked);
+    let followed_part = FollowedPart::at(case, count)?;
+    let words = in_words(&found, &followed_part);
     let rows = found
         .into_iter()
         .flat_map(|Sensitivity { impact, slopes }| {
-            let certain = looked.is_certain(impact);
+            let certain = followed_part.is_certain(impact);
             slopes.into_iter().map(move |slope| Row {
                 impact,
                 key: slope.key,
@@ -101,17 +101,17 @@ fn answer(case: &Case, options: &Options, on_progress: OnProgress) -> Result<Ans
         });
     let row = Derivatives {
         derivatives: rows.collect(),
-        horizon: HorizonRow::new(looked.horizon),
+        horizon: HorizonRow::new(followed_part.horizon),
     };
     Ok(Answer::new(words, &row)?)
 }
 
 /// A table for each impact.
-fn in_words(found: &[Sensitivity], looked: &Looked) -> String {
+fn in_words(found: &[Sensitivity], followed_part: &FollowedPart) -> String {
     let mut text = String::new();
     for Sensitivity { impact, slopes } in found {
         let label = format!("Impact {impact}");
-        let doubt = if looked.is_certain(*impact) {
+        let doubt = if followed_part.is_certain(*impact) {
             ""
         } else {
             "  (not certain)"
@@ -131,14 +131,14 @@ fn in_words(found: &[Sensitivity], looked: &Looked) -> String {
         }
     }
     if found.is_empty() {
-        text.push_str(match looked.impacts {
+        text.push_str(match followed_part.impacts {
             0 => "Impacts   none, so there are no derivatives\n",
             _ => "Impacts   no derivatives: the start is exactly at the limit of what is legal\n",
         });
     }
-    if looked.horizon.is_some() {
+    if followed_part.horizon.is_some() {
         let known = horizon_in_words(
-            looked.horizon,
+            followed_part.horizon,
             Uncertainty::default().tolerance,
             found.len(),
         );
@@ -150,20 +150,20 @@ fn in_words(found: &[Sensitivity], looked: &Looked) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use snapload::analysis::unwatched;
+    use snapload::analysis::no_progress;
     use snapload::{Parameters, Value};
 
-    fn asked(parameters: Parameters, impacts: i64) -> Result<Answer, Unfinished> {
+    fn answer_for(parameters: Parameters, impacts: i64) -> Result<Answer, Unfinished> {
         let case = Case::new(parameters)?;
-        SENSITIVITIES.ask(&case, [("impacts", Value::from(impacts))], &unwatched)
+        SENSITIVITIES.ask(&case, [("impacts", Value::from(impacts))], &no_progress)
     }
 
     /// The standard case is certain before impact 191, where a near miss ends trust.
     #[test]
     fn what_is_past_the_horizon_is_marked() -> Result<(), Unfinished> {
-        let known = asked(Parameters::STANDARD, 190)?;
+        let known = answer_for(Parameters::STANDARD, 190)?;
         assert!(!known.words.contains("Trust") && !known.answer.get().contains("false"));
-        let more = asked(Parameters::STANDARD, 192)?;
+        let more = answer_for(Parameters::STANDARD, 192)?;
         let marked = more.words.matches("(not certain)").count();
         assert_eq!(marked, 2);
         assert!(more.words.contains("before impact 191 of 192"));
@@ -175,12 +175,16 @@ mod tests {
     }
 
     #[test]
-    fn a_run_without_a_snap_says_so() -> Result<(), Unfinished> {
+    fn a_run_without_a_snap_has_no_derivatives() -> Result<(), Unfinished> {
         let still = Parameters {
             t_end: 0.01,
             ..Parameters::STANDARD
         };
-        assert!(asked(still, 3)?.words.contains("there are no derivatives"));
+        assert!(
+            answer_for(still, 3)?
+                .words
+                .contains("there are no derivatives")
+        );
         Ok(())
     }
 }

@@ -1,6 +1,6 @@
 //! A run in a few lines of text.
 use crate::digits::digits;
-use crate::{Certified, Trusted, outcome_in_words, trust_in_words};
+use crate::{Certified, RunWithTrust, outcome_in_words, trust_in_words};
 use serde::Serialize;
 use snapload::analysis::{NormErrors, digits_within};
 use snapload::{Mode, ModeInterval, Norms, Parameters, SETTLING_HEIGHT, Stop, Trajectory, Value};
@@ -15,7 +15,7 @@ const FEW_MODES: usize = 6;
 pub fn summary(
     name: &str,
     parameters: &Parameters,
-    trusted: &Trusted,
+    trusted: &RunWithTrust,
     certified: Option<&Certified>,
     written: &[PathBuf],
 ) -> String {
@@ -35,13 +35,13 @@ pub fn summary(
 pub fn summary_lines(
     name: &str,
     parameters: &Parameters,
-    trusted: &Trusted,
+    trusted: &RunWithTrust,
     certified: Option<&Certified>,
 ) -> Vec<(&'static str, String)> {
     let run = &trusted.run;
     let mut lines = vec![
         ("Case", case_in_words(name, parameters)),
-        ("End", end_known(trusted, parameters, certified)),
+        ("End", end_with_digits(trusted, parameters, certified)),
     ];
     if let Some(limit) = run.end().t_limit {
         let limit = digits(limit);
@@ -51,7 +51,7 @@ pub fn summary_lines(
     lines.push(("Trust", trust_in_words(trusted)));
     lines.extend(certified.map(|certified| ("Proved", certified.in_words())));
     lines.push(("Impacts", impacts(trusted)));
-    lines.extend(hardest(trusted).map(|hardest| ("Hardest", hardest)));
+    lines.extend(largest_snap(trusted).map(|largest_snap| ("Hardest", largest_snap)));
     let norms = run.norms();
     let known = NormsKnown::of(norms, &NormErrors::of(run, &trusted.trust));
     let norm =
@@ -138,7 +138,7 @@ impl NormsKnown {
 const NOT_CERTAIN: &str = "not certain";
 
 /// The remark on results of the motion up to some time, if that is past the horizon.
-fn doubt_at(trusted: &Trusted, t: f64) -> &'static str {
+fn doubt_at(trusted: &RunWithTrust, t: f64) -> &'static str {
     match trusted.horizon() {
         Some(horizon) if t >= horizon => " (not certain)",
         _ => "",
@@ -161,7 +161,11 @@ fn in_digits(digits: f64) -> String {
 }
 
 /// How a run ended, and the accuracy of its time: by its proof if there is one.
-fn end_known(trusted: &Trusted, parameters: &Parameters, certified: Option<&Certified>) -> String {
+fn end_with_digits(
+    trusted: &RunWithTrust,
+    parameters: &Parameters,
+    certified: Option<&Certified>,
+) -> String {
     let (end, trust) = (trusted.run.end(), &trusted.trust);
     let words = end_in_words(&trusted.run, parameters);
     if end.reason == Stop::EndTime {
@@ -207,8 +211,8 @@ pub fn end_in_words(trajectory: &Trajectory, parameters: &Parameters) -> String 
         }
         limit => {
             let here = LIMITS_HERE.iter().find(|(stop, _)| *stop == limit);
-            let what = here.map_or(limit.meaning(), |(_, what)| what);
-            format!("{} at t = {t}: {what}", limit.words())
+            let what = here.map_or(limit.reason_text(), |(_, what)| what);
+            format!("{} at t = {t}: {what}", limit.label())
         }
     }
 }
@@ -216,7 +220,7 @@ pub fn end_in_words(trajectory: &Trajectory, parameters: &Parameters) -> String 
 /// The number of rows of the table of impacts, as horizons count them, and the number of certain
 /// ones if not all are: snaps of each cable, and impulses passed into a taut cable, which have v_n
 /// = 0.
-fn impacts(trusted: &Trusted) -> String {
+fn impacts(trusted: &RunWithTrust) -> String {
     let impacts = trusted.run.impacts();
     let mut of_cable = [0_usize; snapload::MAX_CABLES];
     let mut passed = 0;
@@ -245,21 +249,21 @@ fn impacts(trusted: &Trusted) -> String {
     text
 }
 
-/// The hardest snap, with its number of known digits; past the horizon none are known.
-fn hardest(trusted: &Trusted) -> Option<String> {
+/// The largest snap, with its number of known digits; past the horizon none are known.
+fn largest_snap(trusted: &RunWithTrust) -> Option<String> {
     let (impacts, errors) = (trusted.run.impacts(), &trusted.trust.errors);
     let rows = impacts.iter().zip(errors).zip(1..);
     let snaps = rows.filter(|((impact, _), _)| impact.v_n > 0.0);
-    let ((hardest, error), number) =
+    let ((snap, error), number) =
         snaps.max_by(|((p, _), _), ((q, _), _)| p.v_n.total_cmp(&q.v_n))?;
     let horizon = trusted.trust.horizon;
     let certain = horizon.is_none_or(|horizon| horizon.is_after(number));
     Some(format!(
         "v_n = {}, impulse {}, at t = {} in cable {} ({})",
-        digits(hardest.v_n),
-        digits(hardest.impulse),
-        digits(hardest.t),
-        hardest.cable + 1,
+        digits(snap.v_n),
+        digits(snap.impulse),
+        digits(snap.t),
+        snap.cable + 1,
         known(1.0, Some(*error).filter(|_| certain))
     ))
 }

@@ -2,7 +2,7 @@
 use crate::motion::{MOTION, MotionRow};
 use serde::{Serialize, Serializer};
 use snapload::{Impact, Playback, Sampling, Trajectory};
-use snapload_study::{Column, Take};
+use snapload_study::{Column, ColumnValue};
 use std::io::{self, Write};
 
 /// An impact with the number of its decimal digits that are expected to be right.
@@ -14,17 +14,17 @@ const fn number(
     of: fn(&ImpactRow) -> Option<f64>,
     meaning: &'static str,
 ) -> Column<ImpactRow> {
-    Column::new(name, name, unit, Take::Number(of), meaning)
+    Column::new(name, name, unit, ColumnValue::Number(of), meaning)
 }
 
 /// The columns of the impacts.
 #[rustfmt::skip] // one row a column
 pub static IMPACTS: [Column<ImpactRow>; 18] = [
-    Column::quantity("t", Take::Number(|i| Some(i.0.t))),
-    Column::new("cable", "cable", "", Take::Count(|i| Some(i.0.cable as u64 + 1)), "number of the cable"),
+    Column::quantity("t", ColumnValue::Number(|i| Some(i.0.t))),
+    Column::new("cable", "cable", "", ColumnValue::Count(|i| Some(i.0.cable as u64 + 1)), "number of the cable"),
     number("v_n", "L/T", |i| Some(i.0.v_n), "normal velocity just before; 0 where an impulse was passed on"),
-    Column::quantity("impulse", Take::Number(|i| Some(i.0.impulse))),
-    Column::quantity("energy_lost", Take::Number(|i| Some(i.0.energy_lost))),
+    Column::quantity("impulse", ColumnValue::Number(|i| Some(i.0.impulse))),
+    Column::quantity("energy_lost", ColumnValue::Number(|i| Some(i.0.energy_lost))),
     number("before_x", "L", |i| Some(i.0.before.x), "just before"),
     number("before_y", "L", |i| Some(i.0.before.y), "just before"),
     number("before_theta", "rad", |i| Some(i.0.before.theta), "just before"),
@@ -81,11 +81,11 @@ pub enum Cell {
 impl Cell {
     /// The cell of a column in a row.
     pub fn new<R>(column: &Column<R>, row: &R) -> Self {
-        match column.take {
-            Take::Number(of) => Self::Number(of(row)),
-            Take::Count(of) => Self::Count(of(row)),
-            Take::Flag(of) => Self::Flag(of(row)),
-            Take::Word(of) => Self::Word(of(row)),
+        match column.value {
+            ColumnValue::Number(of) => Self::Number(of(row)),
+            ColumnValue::Count(of) => Self::Count(of(row)),
+            ColumnValue::Flag(of) => Self::Flag(of(row)),
+            ColumnValue::Word(of) => Self::Word(of(row)),
         }
     }
 }
@@ -148,7 +148,7 @@ mod tests {
 
     #[test]
     fn numbers_have_no_row_of_zeros_and_are_read_back() {
-        let told = [
+        let examples = [
             (5.810_268_896_183_074e-20, "5.810268896183074e-20"),
             (-9.9e-6, "-9.9e-6"),
             (1e-5, "0.00001"),
@@ -159,7 +159,7 @@ mod tests {
             (1e16, "1e16"),
             (f64::NAN, "NaN"),
         ];
-        for (number, words) in told {
+        for (number, words) in examples {
             assert_eq!(in_digits(number), words);
             let read: f64 = words.parse().expect("a number");
             assert_eq!(read.to_bits(), number.to_bits());

@@ -1,5 +1,5 @@
 //! The form of trust and outcome in JSON.
-use crate::Trusted;
+use crate::RunWithTrust;
 use serde::Serialize;
 use serde::ser::{SerializeMap, Serializer};
 use snapload::Stop;
@@ -40,7 +40,7 @@ pub struct TrustRow<'a> {
 
 impl<'a> TrustRow<'a> {
     /// The row of a run.
-    pub fn new(trusted: &'a Trusted) -> Self {
+    pub fn new(trusted: &'a RunWithTrust) -> Self {
         let Trust {
             horizon,
             end_error,
@@ -162,7 +162,7 @@ pub struct ShareRow {
 
 impl OutcomeRow {
     /// The row of a run.
-    pub fn new(trusted: &Trusted) -> Self {
+    pub fn new(trusted: &RunWithTrust) -> Self {
         Self {
             certain: trusted.trust.decides_the_end(),
             ensemble: trusted.tally.as_ref().map(|tally| EnsembleRow {

@@ -2,7 +2,7 @@
 //! JSON and its words.
 use crate::question::{Answer, Options, Question, TOLERANCE};
 use crate::summary::indented;
-use crate::{TrustRow, Trusted, trust_in_words};
+use crate::{RunWithTrust, TrustRow, trust_in_words};
 use serde::Serialize;
 use snapload::analysis::{OnProgress, Uncertainty, Unfinished};
 use snapload::{Case, DefaultValue, Key, Kind, Stop};
@@ -47,7 +47,7 @@ fn answer(case: &Case, options: &Options, on_progress: OnProgress) -> Result<Ans
 /// An ordinary run together with the same run in many digits.
 struct Verified {
     /// The ordinary run.
-    trusted: Trusted,
+    trusted: RunWithTrust,
     /// The comparison with the other.
     found: Verification,
 }
@@ -99,7 +99,7 @@ struct Ordinary {
 impl Verified {
     /// The result for a tolerance.
     fn new(found: Verification, tolerance: f64) -> Self {
-        let trusted = Trusted {
+        let trusted = RunWithTrust {
             run: found.run.clone(),
             trust: found.trust.clone(),
             uncertainty: Uncertainty {
@@ -153,13 +153,13 @@ impl Verified {
         let _ = writeln!(
             text,
             "Ordinary  {} at t = {:.6}, {} impacts",
-            found.run.end().reason.words(),
+            found.run.end().reason.label(),
             found.run.end().t,
             found.run.impacts().len()
         );
         let end = found.end.map_or_else(
             || "the comparison ends, as a cable stays taut,".to_owned(),
-            |end| end.words().to_owned(),
+            |end| end.label().to_owned(),
         );
         let _ = writeln!(
             text,

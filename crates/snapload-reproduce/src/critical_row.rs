@@ -4,7 +4,7 @@ use crate::proved::{self, Proved};
 use crate::reading::{Both, Reading, TABLE_6_2, first_exceeding, of_shape};
 use crate::verdict::Verdict;
 use snapload::analysis::{
-    CriticalForce, ExceedanceCurve, ForceScan, Uncertainty, Unfinished, unwatched,
+    CriticalForce, ExceedanceCurve, ForceScan, Uncertainty, Unfinished, no_progress,
 };
 use snapload::{Parameters, Stop};
 
@@ -42,7 +42,11 @@ impl CriticalRow {
     ) -> Result<Self, Unfinished> {
         let parameters = of_shape(r, size);
         let computed = Both::try_new(|reading| {
-            CriticalForce::scan(&reading.apply(parameters), ForceScan::default(), &unwatched)
+            CriticalForce::scan(
+                &reading.apply(parameters),
+                ForceScan::default(),
+                &no_progress,
+            )
         })?;
         let (chapter, uncertainty) = (Reading::Chapter.apply(parameters), Uncertainty::default());
         let scan = ForceScan::default();
@@ -63,9 +67,13 @@ impl CriticalRow {
                 &uncertainty,
                 NEIGHBOURS,
                 1,
-                &unwatched,
+                &no_progress,
             )?,
-            proved: proved::amplitudes(&parameters, |case| Proved::kept(case).cloned(), published),
+            proved: proved::amplitudes(
+                &parameters,
+                |case| Proved::stored(case).cloned(),
+                published,
+            ),
         })
     }
 

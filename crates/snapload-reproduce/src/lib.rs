@@ -7,19 +7,19 @@
 
 mod claims;
 mod critical_row;
+mod example_steps;
 mod figures;
 mod page;
 mod proved;
 mod reading;
 mod sentences;
 mod source;
-mod story;
 mod study;
 mod tables;
 mod verdict;
 
+pub use example_steps::stretches;
 pub use proved::proofs;
-pub use story::stretches;
 pub use study::Study;
 
 use claims::Claim;
@@ -42,7 +42,7 @@ pub enum ReportError {
     /// The list of figures or the page refers to something that was not computed.
     #[error("the report refers to {0}, which was not computed")]
     Missing(String),
-    /// Texts and judge of a claim do not match, or a run on which it is based is missing.
+    /// Texts and check of a claim do not match, or a run on which it is based is missing.
     #[error("a claim can not be reported: {0}")]
     Claim(String),
 }
@@ -91,7 +91,7 @@ fn claims_json(claims: &[Claim]) -> String {
             "id": claim.id,
             "section": claim.section,
             "claim": claim.claim,
-            "verdict": claim.verdict.words(),
+            "verdict": claim.verdict.label(),
             "evidence": evidence.trim_end(),
             "judged": claim.judged,
         })

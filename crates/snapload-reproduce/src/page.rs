@@ -6,10 +6,10 @@ mod rows;
 use crate::ReportError;
 use crate::claims::{Claim, FEW, MANY, ROUNDING, Verdict};
 use crate::critical_row::{CriticalRow, NEIGHBOURS};
+use crate::example_steps::{self, steps};
 use crate::figures::{Figure, Row};
 use crate::sentences::{Chapter, Kind};
 use crate::source::{Number, REPORT, decimals};
-use crate::story::{self, story};
 use crate::study::{CaseRuns, Study};
 use crate::tables::END_TIMES;
 use maud::{Markup, PreEscaped, html};
@@ -136,7 +136,7 @@ impl Page<'_> {
                 // The number of claims with a verdict.
                 let verdict = VERDICTS
                     .into_iter()
-                    .find(|verdict| verdict.words() == words)?;
+                    .find(|verdict| verdict.label() == words)?;
                 let claims = self.claims.iter().filter(|claim| claim.verdict == verdict);
                 let key = format!("claims.json: map(select(.verdict == \"{words}\")) | length");
                 return Some(self.link(&Number::word(claims.count(), REPORT, key)));
@@ -219,8 +219,8 @@ impl Page<'_> {
                     }
                 }
             },
-            "story of sliding" => self.story("sliding-example"),
-            "story of rocking" => self.story("rocking-example"),
+            "story of sliding" => self.example_steps("sliding-example"),
+            "story of rocking" => self.example_steps("rocking-example"),
             "claims" => html! {
                 @for (section, claims) in sections(claims) {
                     tbody id={ "claims-" (section) } {
@@ -288,11 +288,11 @@ impl Page<'_> {
         }
     }
 
-    fn story(&mut self, code: &str) -> Markup {
-        let made = story::proof(code);
+    fn example_steps(&mut self, code: &str) -> Markup {
+        let made = example_steps::proof(code);
         html! {
             ol {
-                @for (begins, what) in story(code) {
+                @for (begins, what) in steps(code) {
                     li {
                         @match &begins {
                             Some(t) => { "t = " (self.link(t)) }
@@ -319,7 +319,7 @@ impl Page<'_> {
             tr id={ "claim-" (id) } {
                 td { a.number href={ "#claim-" (id) } { (id) } }
                 td class="long" { (symbols(claim.claim)) }
-                td { span class={ "verdict " (class) } { (claim.verdict.words()) } }
+                td { span class={ "verdict " (class) } { (claim.verdict.label()) } }
                 td class="long" {
                     (self.link(&Number::word(&claim.evidence, REPORT, key))) " " (self.cite(REPORT))
                     @if !claim.judged.is_empty() { br; span.judged { (symbols(&claim.judged)) } }

@@ -23,7 +23,7 @@ pub(crate) struct Proved {
 /// The keys in which the cases of the tables differ; all else is as in the standard case.
 const KEYS: [&str; 6] = ["r", "e", "a", "b", "f_o", "omega"];
 
-static KEPT: LazyLock<HashMap<&str, Proved>> = LazyLock::new(|| {
+static STORED: LazyLock<HashMap<&str, Proved>> = LazyLock::new(|| {
     let lines = include_str!("../data/proved.csv").lines().skip(1);
     lines.filter_map(read).collect()
 });
@@ -50,7 +50,7 @@ fn case(parameters: &Parameters) -> String {
 }
 
 /// Whether a case has the standard value of every key that its line does not contain.
-fn is_told_by_its_line(parameters: &Parameters) -> bool {
+fn line_contains_all_differences(parameters: &Parameters) -> bool {
     let Parameters {
         r,
         e,
@@ -61,7 +61,7 @@ fn is_told_by_its_line(parameters: &Parameters) -> bool {
         stop_when_sliding,
         ..
     } = *parameters;
-    let told = Parameters {
+    let from_line = Parameters {
         r,
         e,
         a,
@@ -72,15 +72,15 @@ fn is_told_by_its_line(parameters: &Parameters) -> bool {
         inertia: natural_inertia(a, b),
         ..Parameters::STANDARD
     };
-    told == *parameters
+    from_line == *parameters
 }
 
 impl Proved {
     /// The stored end of a case; none if a cable stays taut before a stop rule ends the run, and
     /// none for a case that differs from the standard one in a key that lines do not contain.
-    pub(crate) fn kept(parameters: &Parameters) -> Option<&'static Self> {
-        let known = KEPT.get(case(parameters).as_str());
-        known.filter(|_| is_told_by_its_line(parameters))
+    pub(crate) fn stored(parameters: &Parameters) -> Option<&'static Self> {
+        let known = STORED.get(case(parameters).as_str());
+        known.filter(|_| line_contains_all_differences(parameters))
     }
 
     /// The proof, made again.
@@ -141,7 +141,7 @@ fn under(f_o: f64) -> Parameters {
 /// The proved ends of the standard case, in the chapter's reading, under each amplitude up to 1.
 pub(crate) fn over_force() -> impl Iterator<Item = (f64, Option<&'static Proved>)> {
     let forces = ForceScan::default().amplitudes();
-    forces.map(|f_o| (f_o, Proved::kept(&under(f_o))))
+    forces.map(|f_o| (f_o, Proved::stored(&under(f_o))))
 }
 
 /// The standard case with another restitution, in the chapter's reading.
@@ -219,11 +219,11 @@ pub fn proofs() -> Result<String, CaseError> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use snapload_verify::Run;
+    use snapload_verify::RoundedRun;
 
     /// Some of the stored proofs give the same results again; and so does the run of 76 digits.
     #[test]
-    fn what_is_kept_is_proved_again() -> Result<(), CaseError> {
+    fn stored_proofs_are_proved_again() -> Result<(), CaseError> {
         let rows = published();
         let of = |row: usize, f_o: f64| {
             let (parameters, _) = rows[row];
@@ -240,11 +240,14 @@ mod tests {
             of(0, 0.9),
             e,
         ] {
-            let kept = Proved::kept(&case);
-            assert_eq!(Proved::anew(&case).as_ref(), kept, "{case:?}");
-            let (kept, run) = (kept.expect("a proof"), Run::of_76_digits(&case)?);
-            assert_eq!((run.end().reason, run.snaps()), (kept.reason, kept.impacts));
-            assert!((run.end().t - kept.time()).abs() < 1e-12);
+            let stored = Proved::stored(&case);
+            assert_eq!(Proved::anew(&case).as_ref(), stored, "{case:?}");
+            let (stored, run) = (stored.expect("a proof"), RoundedRun::of_76_digits(&case)?);
+            assert_eq!(
+                (run.end().reason, run.snaps()),
+                (stored.reason, stored.impacts)
+            );
+            assert!((run.end().t - stored.time()).abs() < 1e-12);
         }
         Ok(())
     }
@@ -252,16 +255,20 @@ mod tests {
     #[test]
     fn every_line_is_read_and_every_case_stands_once() {
         let lines = include_str!("../data/proved.csv").lines().count() - 1;
-        assert!(lines > 500 && KEPT.len() == lines, "{lines} {}", KEPT.len());
+        assert!(
+            lines > 500 && STORED.len() == lines,
+            "{lines} {}",
+            STORED.len()
+        );
         // A changed case has no proof, an unknown end no line.
         let altered = Parameters {
             f_o: 0.123,
             ..Parameters::STANDARD
         };
-        assert_eq!(Proved::kept(&altered), None);
+        assert_eq!(Proved::stored(&altered), None);
         // Nor does a case that is changed in a key that lines do not contain.
         let standard = Parameters::STANDARD;
-        assert!(Proved::kept(&standard).is_some());
+        assert!(Proved::stored(&standard).is_some());
         let inertia = Some(0.02);
         for other in [
             Parameters {
@@ -277,7 +284,7 @@ mod tests {
                 ..standard
             },
         ] {
-            assert_eq!(Proved::kept(&other), None, "{other:?}");
+            assert_eq!(Proved::stored(&other), None, "{other:?}");
         }
         assert_eq!(read("1.5,0.9,0.1,0,0.3,0.9,true,drifted,7.2,290"), None);
     }

@@ -33,7 +33,7 @@ impl Reading {
     }
 
     /// In words, as a heading.
-    pub(crate) fn words(self) -> &'static str {
+    pub(crate) fn heading(self) -> &'static str {
         self.either("sliding ends the run (the chapter)", "sliding goes on")
     }
 

@@ -69,11 +69,11 @@ impl Chapter {
     /// judged.
     fn check(&self, ids: &[&str]) -> Result<(), ReportError> {
         let fault = |id: &str, what: &str| Err(ReportError::Claim(format!("claim {id}: {what}")));
-        let told: Vec<&str> = self.claimed().collect();
-        if let Some(id) = told.iter().find(|id| !ids.contains(*id)) {
+        let claimed_ids: Vec<&str> = self.claimed().collect();
+        if let Some(id) = claimed_ids.iter().find(|id| !ids.contains(*id)) {
             return fault(id, "a sentence names it, but it is not judged");
         }
-        match ids.iter().find(|id| !told.contains(*id)) {
+        match ids.iter().find(|id| !claimed_ids.contains(*id)) {
             Some(id) => fault(id, "no sentence makes it"),
             None => Ok(()),
         }

@@ -4,7 +4,7 @@ use crate::critical_row::{CriticalRow, NEIGHBOURS};
 use crate::study::Reading;
 
 /// The prefix of a number that is past the horizon of its run.
-pub(crate) const DOUBTFUL: &str = "~";
+pub(crate) const PAST_HORIZON_MARK: &str = "~";
 
 /// A number (or a word) of the report, with its source.
 #[derive(Clone, Debug)]
@@ -49,8 +49,8 @@ impl Number {
     }
 
     /// The number marked as one that depends on rounding.
-    pub(crate) fn doubtful(mut self) -> Self {
-        self.shown.insert_str(0, DOUBTFUL);
+    pub(crate) fn mark_past_horizon(mut self) -> Self {
+        self.shown.insert_str(0, PAST_HORIZON_MARK);
         self
     }
 }

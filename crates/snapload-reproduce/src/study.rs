@@ -5,10 +5,10 @@ use crate::proved::Proved;
 pub(crate) use crate::reading::{Both, Reading};
 use crate::reading::{first_exceeding, standard, up_to_exceeding};
 use snapload::analysis::{
-    ForceScan, OnProgress, Progress, Uncertainty, Unfinished, in_parallel, trusted_run, unwatched,
+    ForceScan, OnProgress, Progress, Uncertainty, Unfinished, in_parallel, no_progress, trusted_run,
 };
 use snapload::{Case, CaseError, Outcome, Parameters, Trajectory, Value, named_case, table_6_1};
-use snapload_verify::Run;
+use snapload_verify::RoundedRun;
 
 /// A built-in case, its runs, and their proofs.
 #[derive(Clone, Debug)]
@@ -19,7 +19,7 @@ pub(crate) struct CaseRuns {
     /// The proved ends of its runs, if no cable stays taut before a stop rule ends them.
     pub(crate) proved: Both<Option<&'static Proved>>,
     /// The run with many digits, in the chapter's reading.
-    pub(crate) exact: Run,
+    pub(crate) exact: RoundedRun,
 }
 
 /// A run in doubles.
@@ -35,7 +35,7 @@ pub(crate) struct Known {
 impl Known {
     pub(crate) fn new(parameters: Parameters) -> Result<Self, Unfinished> {
         let case = Case::new(parameters)?;
-        let (run, trust) = trusted_run(&case, &Uncertainty::default(), &unwatched)?;
+        let (run, trust) = trusted_run(&case, &Uncertainty::default(), &no_progress)?;
         Ok(Self {
             run,
             horizon: trust.horizon.map(|horizon| horizon.t),
@@ -102,7 +102,7 @@ impl Study {
     /// # Errors
     /// [`Unfinished::Cancelled`]; a case that is not legal would be an error of the program.
     pub fn compute(on_progress: OnProgress) -> Result<Self, Unfinished> {
-        let tell = |doing: &str, part: f64| Progress::new(doing, part, 1.0).tell(on_progress);
+        let tell = |doing: &str, part: f64| Progress::new(doing, part, 1.0).report(on_progress);
         tell("the cases of Table 6.1", 0.0)?;
         let cases = cases()?;
         tell("Table 6.2", 0.1)?;
@@ -157,8 +157,8 @@ impl CaseRuns {
     fn new(code: &'static str) -> Result<Self, Unfinished> {
         let parameters = named_case(code)?.parameters;
         let proved = Both {
-            chapter: Proved::kept(&Reading::Chapter.apply(parameters)),
-            sliding_on: Proved::kept(&Reading::SlidingOn.apply(parameters)),
+            chapter: Proved::stored(&Reading::Chapter.apply(parameters)),
+            sliding_on: Proved::stored(&Reading::SlidingOn.apply(parameters)),
         };
         Ok(Self {
             code,
@@ -171,12 +171,15 @@ impl CaseRuns {
 }
 
 /// The run with enough digits that its end agrees with the proved one, if there is a proof.
-pub(crate) fn exact(parameters: &Parameters, proved: Option<&Proved>) -> Result<Run, CaseError> {
-    let run = Run::of_76_digits(parameters)?;
+pub(crate) fn exact(
+    parameters: &Parameters,
+    proved: Option<&Proved>,
+) -> Result<RoundedRun, CaseError> {
+    let run = RoundedRun::of_76_digits(parameters)?;
     let Some(proved) = proved else {
         return Ok(run);
     };
-    let is_proved = |run: &Run| {
+    let is_proved = |run: &RoundedRun| {
         run.end().reason == proved.reason
             && run.snaps() == proved.impacts
             && (run.end().t - proved.time()).abs() < 1e-12
@@ -184,7 +187,7 @@ pub(crate) fn exact(parameters: &Parameters, proved: Option<&Proved>) -> Result<
     if is_proved(&run) {
         return Ok(run);
     }
-    let run = Run::of_153_digits(parameters)?;
+    let run = RoundedRun::of_153_digits(parameters)?;
     if is_proved(&run) {
         return Ok(run);
     }

@@ -53,7 +53,7 @@ fn known(case: &CaseRuns, reading: Reading, proved: &Proved) -> Vec<Number> {
     let velocities = ".impacts | map(.[2] | tonumber)";
     let early = ".impacts | map(select((.[1] | tonumber) <= 10) | .[2] | tonumber)";
     let mut numbers = vec![
-        Number::word(proved.reason.words(), &command, ".end.reason"),
+        Number::word(proved.reason.label(), &command, ".end.reason"),
         Number::decimal(&proved.t, PROVED_PLACES, &command, ".end.t | tonumber"),
         Number::word(proved.impacts, &command, ".impacts | length"),
         Number::new(norms.rho1, 4, &command, format!("{velocities} | max")),
@@ -88,7 +88,7 @@ fn in_doubles(case: &CaseRuns, reading: Reading) -> Vec<Number> {
     let impacts = run.impacts().iter().filter(|impact| impact.v_n > 0.0);
     let snaps = "[.impacts[] | select(.v_n > 0)] | length";
     let mut numbers = vec![
-        Number::word(run.end().reason.words(), &command, ".end.reason"),
+        Number::word(run.end().reason.label(), &command, ".end.reason"),
         Number::new(run.end().t, 4, &command, ".end.t"),
         Number::word(impacts.count(), &command, snaps),
     ];
@@ -97,7 +97,7 @@ fn in_doubles(case: &CaseRuns, reading: Reading) -> Vec<Number> {
         Number::new(of(run.norms()), 4, &command, key)
     }));
     match known.horizon {
-        Some(_) => numbers.into_iter().map(Number::doubtful).collect(),
+        Some(_) => numbers.into_iter().map(Number::mark_past_horizon).collect(),
         None => numbers,
     }
 }
@@ -128,7 +128,7 @@ pub(crate) fn critical_outcome(row: &CriticalRow) -> Vec<Number> {
     };
     numbers.push(match row.at_published() {
         Some(proved) => Number::word(
-            proved.reason.words(),
+            proved.reason.label(),
             &amplitude(row, published),
             ".end.reason",
         ),
@@ -144,7 +144,7 @@ pub(crate) fn critical_outcome(row: &CriticalRow) -> Vec<Number> {
         }),
     );
     let key = format!("table-6-2.csv: verdict of {}", shape(row));
-    numbers.push(Number::word(row.verdict().words(), REPORT, key));
+    numbers.push(Number::word(row.verdict().label(), REPORT, key));
     let found = &row.computed.chapter;
     let exact = intervals(found, "-", "; ", |f_o| f_o.to_string());
     numbers.push(Number {

@@ -84,7 +84,7 @@ impl Verdict {
     }
 
     /// Its text in `claims.json` and in the report.
-    pub fn words(self) -> &'static str {
+    pub fn label(self) -> &'static str {
         match self {
             Self::Reproduced => "reproduced",
             Self::NotReproduced => "not reproduced",

@@ -15,9 +15,9 @@ pub enum StudyError {
     /// The request is not possible.
     #[error("{0}")]
     Input(String),
-    /// Random points were asked for, and nothing varies; so many keys could.
-    #[error("{}", no_side(*.0, "--vary KEY=low:high, such as --vary e=0.5:0.9"))]
-    NoSide(usize),
+    /// Random points were total for, and nothing varies; so many keys could.
+    #[error("{}", no_random_range(*.0, "--vary KEY=low:high, such as --vary e=0.5:0.9"))]
+    NoRandomRange(usize),
     /// Something stands where the rows are to be kept.
     #[error("{}", .0.in_words("--resume", "--out"))]
     Occupied(Occupied),
@@ -47,13 +47,13 @@ pub enum Occupied {
     /// A file with other contents.
     OtherFile(PathBuf),
     /// Some rows of this study.
-    Begun {
+    Partial {
         /// Where they are.
         directory: PathBuf,
         /// The number of rows that are there.
-        safe: u64,
+        saved: u64,
         /// The number of rows of the study.
-        asked: u64,
+        total: u64,
     },
     /// Rows of another study.
     OtherStudy {
@@ -86,12 +86,12 @@ impl Occupied {
                 "{} exists already and holds something else; choose another {out}, or remove it",
                 file.display()
             ),
-            Self::Begun {
+            Self::Partial {
                 directory,
-                safe,
-                asked,
+                saved,
+                total,
             } => format!(
-                "{} holds {safe} of {asked} rows of this study already; continue with {resume}, or remove it to start \
+                "{} holds {saved} of {total} rows of this study already; continue with {resume}, or remove it to start \
                  again",
                 directory.display()
             ),
@@ -143,7 +143,7 @@ impl StudyError {
 }
 
 /// That nothing varies, with words on how a key is let vary.
-pub fn no_side(most: usize, how: &str) -> String {
+pub fn no_random_range(most: usize, how: &str) -> String {
     format!(
         "random points are drawn from the ranges of 1 to {most} keys, and none varies; vary one with {how}"
     )

@@ -8,6 +8,7 @@
 //! threads, chunks, shards or interruptions. Each file contains its checksum, which is checked
 //! before its rows are copied into another one.
 
+mod checksum;
 mod error;
 mod grid;
 mod lines;
@@ -19,33 +20,32 @@ mod parquet_writer;
 mod picture;
 mod plan;
 mod rows;
-mod seal;
 mod sobol;
 mod store;
 mod study;
+mod study_file;
 mod sweep;
 mod table;
 mod table_file;
 mod threads;
-mod whole;
 
-pub use error::{Occupied, StudyError, no_side, without_number};
+pub use error::{Occupied, StudyError, no_random_range, without_number};
 pub use grid::Grid;
 pub use list::List;
 pub use metadata::{Identity, Shard};
-pub use parquet_file::{Holds, Values};
+pub use parquet_file::{ColumnType, Values};
 #[cfg(feature = "pictures")]
 pub use picture::{StudyPicture, key_label};
-pub use plan::{Axis, MOST_CASES, Plan, RANDOM, Side};
+pub use plan::{Axis, MOST_CASES, Plan, RANDOM, RandomRange};
 pub use rows::{Row, Run, rows};
 pub use sobol::Sobol;
 pub use store::{Opened, Store, check_name, chunk, folder_of, parent_of};
-pub use study::{Drawn, NoCase, Study};
-pub use sweep::sweep;
-pub use table::{Column, Take, columns};
-pub use table_file::write_table;
-pub use threads::{THREADS, threads_for};
-pub use whole::{
-    Shown, StudyEnds, checked_identity, columns_of_files, ends, identity_of, merge, read_rows,
+pub use study::{NoCase, Study, StudyCases};
+pub use study_file::{
+    ShownValue, StudyEnds, checked_identity, columns_of_files, ends, identity_of, merge, read_rows,
     read_shown,
 };
+pub use sweep::sweep;
+pub use table::{Column, ColumnValue, columns};
+pub use table_file::write_table;
+pub use threads::{THREADS, threads_for};

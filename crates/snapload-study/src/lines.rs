@@ -9,13 +9,13 @@ use std::io::{self, BufRead, BufReader, Read};
 use std::path::Path;
 
 /// The longest record, which is many times what all keys need.
-const LONGEST: usize = 1 << 20;
+const LONGEST_RECORD: usize = 1 << 20;
 /// The byte order mark that some programs write before the first letter.
-const MARK: &[u8; 3] = b"\xef\xbb\xbf";
+const BYTE_ORDER_MARK: &[u8; 3] = b"\xef\xbb\xbf";
 
 /// The position of the next byte in a record, as the `csv` crate parses it.
 #[derive(Clone, Copy, Debug, PartialEq)]
-enum At {
+enum RecordState {
     /// Before its first byte; a line without any is no record.
     Record,
     /// Before a cell, where a quote opens.
@@ -32,8 +32,8 @@ enum At {
 
 /// Follows records byte by byte.
 #[derive(Debug)]
-struct Lines {
-    at: At,
+struct LineChecker {
+    state: RecordState,
     /// The line, from 1.
     line: u64,
     /// Whether the last byte was a carriage return, whose line feed does not count as another line.
@@ -44,10 +44,10 @@ struct Lines {
     mark: usize,
 }
 
-impl Lines {
+impl LineChecker {
     fn new() -> Self {
         Self {
-            at: At::Record,
+            state: RecordState::Record,
             line: 1,
             returned: false,
             length: 0,
@@ -55,44 +55,48 @@ impl Lines {
         }
     }
 
-    fn see(&mut self, byte: u8) {
-        if MARK.get(self.mark) == Some(&byte) {
+    fn read_byte(&mut self, byte: u8) {
+        if BYTE_ORDER_MARK.get(self.mark) == Some(&byte) {
             self.mark += 1;
             return;
         }
-        self.mark = MARK.len();
-        if self.at == At::Open || self.length > LONGEST {
+        self.mark = BYTE_ORDER_MARK.len();
+        if self.state == RecordState::Open || self.length > LONGEST_RECORD {
             return;
         }
         let new_line = matches!(byte, b'\r' | b'\n');
-        self.at = match (self.at, byte) {
-            (At::Quoted, b'"') => At::Quote,
-            (At::Quoted, _) if new_line => At::Open,
-            (At::Quote | At::Record | At::Cell, b'"') => At::Quoted,
-            (At::Quoted, _) => At::Quoted,
-            (_, b',') => At::Cell,
-            _ if new_line => At::Record,
-            _ => At::Plain,
+        self.state = match (self.state, byte) {
+            (RecordState::Quoted, b'"') => RecordState::Quote,
+            (RecordState::Quoted, _) if new_line => RecordState::Open,
+            (RecordState::Quote | RecordState::Record | RecordState::Cell, b'"') => {
+                RecordState::Quoted
+            }
+            (RecordState::Quoted, _) => RecordState::Quoted,
+            (_, b',') => RecordState::Cell,
+            _ if new_line => RecordState::Record,
+            _ => RecordState::Plain,
         };
-        if self.at == At::Open {
+        if self.state == RecordState::Open {
             return;
         }
         self.line += u64::from(new_line && !(byte == b'\n' && self.returned));
         self.returned = byte == b'\r';
-        self.length = match self.at {
-            At::Record => 0,
+        self.length = match self.state {
+            RecordState::Record => 0,
             _ => self.length + 1,
         };
     }
 
     /// Reports an error found so far.
     fn check(&self, ended: bool) -> io::Result<()> {
-        let open = self.at == At::Open || ended && self.at == At::Quoted;
+        let open = self.state == RecordState::Open || ended && self.state == RecordState::Quoted;
         let line = self.line;
         let words = if open {
             format!("line {line} opens a quote and does not close it; close it, or leave it out")
-        } else if self.length > LONGEST {
-            format!("line {line} is longer than {LONGEST} bytes; a list has one case per line")
+        } else if self.length > LONGEST_RECORD {
+            format!(
+                "line {line} is longer than {LONGEST_RECORD} bytes; a list has one case per line"
+            )
         } else {
             return Ok(());
         };
@@ -102,23 +106,23 @@ impl Lines {
 
 /// A file whose lines are checked while it is read.
 #[derive(Debug)]
-pub(crate) struct Watched {
+pub(crate) struct CheckedFile {
     file: File,
-    lines: Lines,
+    lines: LineChecker,
 }
 
-impl Watched {
+impl CheckedFile {
     pub(crate) fn open(path: &Path) -> io::Result<Self> {
-        let (file, lines) = (File::open(path)?, Lines::new());
+        let (file, lines) = (File::open(path)?, LineChecker::new());
         Ok(Self { file, lines })
     }
 }
 
-impl Read for Watched {
+impl Read for CheckedFile {
     fn read(&mut self, buffer: &mut [u8]) -> io::Result<usize> {
         let length = self.file.read(buffer)?;
         for byte in &buffer[..length] {
-            self.lines.see(*byte);
+            self.lines.read_byte(*byte);
         }
         self.lines.check(length == 0 && !buffer.is_empty())?;
         Ok(length)
@@ -128,7 +132,7 @@ impl Read for Watched {
 /// The line in which a record begins, from 1; the first record has the number 0.
 pub(crate) fn line_of(path: &Path, record: u64) -> io::Result<Option<u64>> {
     let mut bytes = BufReader::new(File::open(path)?);
-    let (mut lines, mut before) = (Lines::new(), 0);
+    let (mut lines, mut before) = (LineChecker::new(), 0);
     loop {
         let some = bytes.fill_buf()?;
         if some.is_empty() {
@@ -136,9 +140,9 @@ pub(crate) fn line_of(path: &Path, record: u64) -> io::Result<Option<u64>> {
         }
         let length = some.len();
         for byte in some {
-            let (at, line) = (lines.at, lines.line);
-            lines.see(*byte);
-            if at == At::Record && lines.at != At::Record {
+            let (state, line) = (lines.state, lines.line);
+            lines.read_byte(*byte);
+            if state == RecordState::Record && lines.state != RecordState::Record {
                 if before == record {
                     return Ok(Some(line));
                 }

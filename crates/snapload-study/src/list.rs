@@ -1,9 +1,9 @@
 //! A list of cases in a CSV or Parquet file, of which only the needed rows are read.
 
 use crate::StudyError;
-use crate::lines::{Watched, line_of};
+use crate::checksum::Sum;
+use crate::lines::{CheckedFile, line_of};
 use crate::parquet_file::{Reader as ParquetReader, Values};
-use crate::seal::Sum;
 use csv::{ByteRecord, Position, Reader, ReaderBuilder, Trim};
 use parquet::basic::ConvertedType;
 use parquet::schema::types::Type;
@@ -50,14 +50,14 @@ impl List {
     /// [`StudyError::Input`] if there is no such file, if it is of another kind, holds no case, or
     /// if a column is no key.
     pub fn open(path: &Path) -> Result<Self, StudyError> {
-        Self::open_called(path, &path.display().to_string())
+        Self::open_named(path, &path.display().to_string())
     }
 
     /// The same of a file that errors call otherwise, as it is a copy, or was made for this.
     ///
     /// # Errors
     /// As for [`List::open`].
-    pub fn open_called(path: &Path, called: &str) -> Result<Self, StudyError> {
+    pub fn open_named(path: &Path, called: &str) -> Result<Self, StudyError> {
         let input = |error: &dyn Display| StudyError::read(called, error).of_input();
         let about = path.metadata().map_err(|error| input(&error))?;
         if !about.is_file() {
@@ -186,9 +186,10 @@ impl List {
         let (mut rows, mut first) = (Vec::new(), 0);
         for (group, length) in reader.groups().enumerate() {
             let end = first + length;
-            let wanted = range.start.clamp(first, end) - first..range.end.clamp(first, end) - first;
-            if !wanted.is_empty() {
-                let columns = reader.read(group, &places, wanted)?;
+            let in_group =
+                range.start.clamp(first, end) - first..range.end.clamp(first, end) - first;
+            if !in_group.is_empty() {
+                let columns = reader.read(group, &places, in_group)?;
                 rows.extend(self.rows_of(&columns));
             }
             first = end;
@@ -222,7 +223,7 @@ fn as_csv<R: Read>(file: R) -> Reader<R> {
 
 /// The names of the columns, the position of every 1024th row, and the number of rows.
 fn index(path: &Path) -> csv::Result<(Vec<String>, Vec<Position>, u64)> {
-    let mut reader = as_csv(Watched::open(path)?);
+    let mut reader = as_csv(CheckedFile::open(path)?);
     let names = reader.byte_headers()?.iter();
     let names = names.map(|name| String::from_utf8_lossy(name).into_owned());
     let names = names.collect();
@@ -242,9 +243,9 @@ fn index(path: &Path) -> csv::Result<(Vec<String>, Vec<Position>, u64)> {
 
 /// The names of the columns of a Parquet file, if each is of a type that a key could have.
 fn named_columns(called: &str, reader: &ParquetReader) -> Result<Vec<String>, StudyError> {
-    let fields = reader.fields().map(|(field, holds)| {
+    let fields = reader.fields().map(|(field, column_type)| {
         let (name, allowed) = (field.name(), "numbers, texts, or true and false");
-        holds.map(|_| name.to_owned()).ok_or_else(|| {
+        column_type.map(|_| name.to_owned()).ok_or_else(|| {
             let shown = CaseError::value(name, "", allowed).key;
             let kind = shown_type(field);
             StudyError::Input(format!(

@@ -89,7 +89,7 @@ impl Identity {
     }
 
     /// Whether both are of the same study and program.
-    pub(crate) fn goes_with(&self, other: &Self) -> bool {
+    pub(crate) fn is_same_study_as(&self, other: &Self) -> bool {
         (&self.study, &self.version, self.cases) == (&other.study, &other.version, other.cases)
     }
 
@@ -159,7 +159,7 @@ mod tests {
     }
 
     #[test]
-    fn a_file_tells_what_it_is() {
+    fn metadata_identifies_a_file() {
         let whole = Identity {
             study: "trust = true\n".to_owned(),
             version: "1".to_owned(),

@@ -23,7 +23,7 @@ use std::path::Path;
 
 /// The type of a column's values.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Holds {
+pub enum ColumnType {
     /// Doubles.
     Numbers,
     /// Whole numbers.
@@ -61,17 +61,17 @@ macro_rules! of_each {
 
 impl Values {
     /// An empty column.
-    pub(crate) fn none(holds: Holds) -> Self {
-        Self::with_room(holds, 0)
+    pub(crate) fn none(column_type: ColumnType) -> Self {
+        Self::with_room(column_type, 0)
     }
 
     /// An empty column with room for so many values.
-    pub(crate) fn with_room(holds: Holds, count: usize) -> Self {
-        match holds {
-            Holds::Numbers => Self::Numbers(Vec::with_capacity(count)),
-            Holds::Counts => Self::Counts(Vec::with_capacity(count)),
-            Holds::Flags => Self::Flags(Vec::with_capacity(count)),
-            Holds::Words => Self::Words(Vec::with_capacity(count)),
+    pub(crate) fn with_room(column_type: ColumnType, count: usize) -> Self {
+        match column_type {
+            ColumnType::Numbers => Self::Numbers(Vec::with_capacity(count)),
+            ColumnType::Counts => Self::Counts(Vec::with_capacity(count)),
+            ColumnType::Flags => Self::Flags(Vec::with_capacity(count)),
+            ColumnType::Words => Self::Words(Vec::with_capacity(count)),
         }
     }
 
@@ -148,9 +148,9 @@ impl Reader {
     }
 
     /// The names of the columns, and their types; none for a type that is not in [`Values`].
-    pub(crate) fn fields(&self) -> impl Iterator<Item = (&Type, Option<Holds>)> {
+    pub(crate) fn fields(&self) -> impl Iterator<Item = (&Type, Option<ColumnType>)> {
         let fields = self.about().schema().get_fields().iter();
-        fields.map(|field| (&**field, holds(field)))
+        fields.map(|field| (&**field, column_type(field)))
     }
 
     /// The number of rows of each group.
@@ -166,7 +166,7 @@ impl Reader {
         columns: &[usize],
         rows: Range<u64>,
     ) -> Result<Vec<Values>> {
-        let fields: Vec<(&Type, Option<Holds>)> = self.fields().collect();
+        let fields: Vec<(&Type, Option<ColumnType>)> = self.fields().collect();
         let group = self.reader.get_row_group(group)?;
         let read = |&place: &usize| match fields.get(place) {
             Some((field, Some(_))) => get(group.get_column_reader(place)?, field, &rows),
@@ -180,7 +180,7 @@ impl Reader {
 }
 
 /// The type of a column's values, for numbers, texts, and true or false.
-fn holds(field: &Type) -> Option<Holds> {
+fn column_type(field: &Type) -> Option<ColumnType> {
     use ConvertedType as As;
     let about = field.get_basic_info();
     if !field.is_primitive() || about.repetition() == Repetition::REPEATED {
@@ -191,16 +191,18 @@ fn holds(field: &Type) -> Option<Holds> {
         about.converted_type(),
         about.logical_type_ref(),
     ) {
-        (Physical::BOOLEAN, ..) => Some(Holds::Flags),
-        (Physical::FLOAT | Physical::DOUBLE, ..) => Some(Holds::Numbers),
-        (_, As::DECIMAL, _) => Some(Holds::Numbers),
-        (Physical::FIXED_LEN_BYTE_ARRAY, _, Some(LogicalType::Float16)) => Some(Holds::Numbers),
+        (Physical::BOOLEAN, ..) => Some(ColumnType::Flags),
+        (Physical::FLOAT | Physical::DOUBLE, ..) => Some(ColumnType::Numbers),
+        (_, As::DECIMAL, _) => Some(ColumnType::Numbers),
+        (Physical::FIXED_LEN_BYTE_ARRAY, _, Some(LogicalType::Float16)) => {
+            Some(ColumnType::Numbers)
+        }
         // A column of only empty cells has the unknown type.
         (Physical::INT32 | Physical::INT64, As::NONE, None | Some(LogicalType::Unknown)) => {
-            Some(Holds::Counts)
+            Some(ColumnType::Counts)
         }
-        (Physical::INT32 | Physical::INT64, kind, _) if is_whole(kind) => Some(Holds::Counts),
-        (Physical::BYTE_ARRAY, As::UTF8 | As::JSON, _) => Some(Holds::Words),
+        (Physical::INT32 | Physical::INT64, kind, _) if is_whole(kind) => Some(ColumnType::Counts),
+        (Physical::BYTE_ARRAY, As::UTF8 | As::JSON, _) => Some(ColumnType::Words),
         _ => None,
     }
 }

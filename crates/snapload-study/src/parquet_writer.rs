@@ -1,6 +1,6 @@
 //! Writes columns of Parquet files.
 
-use crate::parquet_file::{Holds, Reader, Values};
+use crate::parquet_file::{ColumnType, Reader, Values};
 use bytes::Bytes;
 use parquet::basic::{LogicalType, Repetition, Type as Physical};
 use parquet::column::writer::{
@@ -21,17 +21,17 @@ use std::sync::Arc;
 /// The name of a column, its type, and whether each row has a value.
 pub(crate) struct Field {
     pub name: &'static str,
-    pub holds: Holds,
+    pub column_type: ColumnType,
     pub required: bool,
 }
 
 fn schema(fields: &[Field]) -> Result<TypePtr> {
     let column = |field: &Field| {
-        let (physical, logical) = match field.holds {
-            Holds::Numbers => (Physical::DOUBLE, None),
-            Holds::Counts => (Physical::INT64, None),
-            Holds::Flags => (Physical::BOOLEAN, None),
-            Holds::Words => (Physical::BYTE_ARRAY, Some(LogicalType::String)),
+        let (physical, logical) = match field.column_type {
+            ColumnType::Numbers => (Physical::DOUBLE, None),
+            ColumnType::Counts => (Physical::INT64, None),
+            ColumnType::Flags => (Physical::BOOLEAN, None),
+            ColumnType::Words => (Physical::BYTE_ARRAY, Some(LogicalType::String)),
         };
         let repetition = if field.required {
             Repetition::REQUIRED

@@ -2,8 +2,8 @@
 
 use crate::error::StudyError;
 use crate::plan::Axis;
+use crate::study_file::{ShownValue, read_shown};
 use crate::table::{Column, columns};
-use crate::whole::{Shown, read_shown};
 use snapload::key_named;
 use snapload_figures::{
     Axis as PlotAxis, Cell, Layer, Map, Picture, Plot, Range, Stroke, Width, draw,
@@ -140,13 +140,13 @@ impl StudyPicture {
         let words = self.column.words();
         read_shown(file, self.column, |row, shown, doubtful| {
             let cell = match shown {
-                Shown::Number(value) => Cell::Value(value),
-                Shown::Word(word) => {
+                ShownValue::Number(value) => Cell::Value(value),
+                ShownValue::Word(word) => {
                     let class = words.iter().position(|known| *known == word);
                     class.map_or(Cell::Empty, Cell::Class)
                 }
-                Shown::Nothing => Cell::Empty,
-                Shown::Fault => Cell::Fault,
+                ShownValue::Nothing => Cell::Empty,
+                ShownValue::Fault => Cell::Fault,
             };
             visit(row, cell, doubtful);
         })

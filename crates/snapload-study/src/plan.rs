@@ -42,7 +42,7 @@ impl Axis {
     /// [`StudyError::Input`] if the text is no range, and as for [`Axis::even`].
     pub fn written(key: &str, text: &str) -> Result<Self, StudyError> {
         key_named(key)?;
-        let wrong = |what: &str| wrong_range(key, text, what, GRID);
+        let wrong = |what: &str| wrong_range(key, text, what, GRID_FORM);
         let parts: Vec<&str> = text.split(':').map(str::trim).collect();
         let [first, last, count] = parts[..] else {
             return Err(wrong("three numbers are needed"));
@@ -111,9 +111,9 @@ impl fmt::Display for Axis {
     }
 }
 
-/// The notation of a grid, and of a side of a box.
-const GRID: &str = "first:last:n for n evenly spaced values, such as 0.01:0.6:60";
-const SIDE: &str = "low:high for the side of a box, such as 0.05:0.6";
+/// The notation of a grid, and of a range of random values.
+const GRID_FORM: &str = "first:last:n for n evenly spaced values, such as 0.01:0.6:60";
+const RANGE_FORM: &str = "low:high for the side of a box, such as 0.05:0.6";
 
 /// The error of a wrong range for a key, with the notation that is allowed.
 fn wrong_range(key: &str, text: &str, what: &str, form: &str) -> StudyError {
@@ -126,20 +126,20 @@ fn is_drawn(key: &Key) -> bool {
 }
 
 /// How many keys can be drawn at random.
-fn most_sides() -> usize {
+fn most_ranges() -> usize {
     KEYS.iter().filter(|key| is_drawn(key)).count()
 }
 
-/// One side of a box of random points.
+/// The range of one key of random points, a side of their box.
 #[derive(Clone, Debug)]
-pub struct Side {
+pub struct RandomRange {
     key: &'static str,
     low: f64,
     high: f64,
 }
 
-impl Side {
-    /// A side from a lowest value to a highest one, which is not reached itself.
+impl RandomRange {
+    /// A range from a lowest value to a highest one, which is not reached itself.
     ///
     /// # Errors
     /// [`StudyError::Input`] if there is no such key, if it does not accept every number of a
@@ -158,17 +158,17 @@ impl Side {
         Ok(Self { key, low, high })
     }
 
-    /// A side in the notation `low:high`. A number of values, as for a grid, may follow after
+    /// A range in the notation `low:high`. A number of values, as for a grid, may follow after
     /// another colon; it has no effect here.
     ///
     /// # Errors
-    /// [`StudyError::Input`] if the text is no range, and as for [`Side::new`].
+    /// [`StudyError::Input`] if the text is no range, and as for [`RandomRange::new`].
     pub fn written(key: &str, text: &str) -> Result<Self, StudyError> {
         key_named(key)?;
         let ends: Vec<&str> = text.split(':').map(str::trim).collect();
         let number = |end: &str| {
             let number = end.parse().ok().filter(|n: &f64| n.is_finite());
-            number.ok_or_else(|| wrong_range(key, end, "not a number", SIDE))
+            number.ok_or_else(|| wrong_range(key, end, "not a number", RANGE_FORM))
         };
         match ends[..] {
             [low, high] => Self::new(key, number(low)?, number(high)?),
@@ -177,9 +177,9 @@ impl Side {
             }
             [_, _, count] => {
                 let what = format!("{count:?} is not a number of values");
-                Err(wrong_range(key, text, &what, SIDE))
+                Err(wrong_range(key, text, &what, RANGE_FORM))
             }
-            _ => Err(wrong_range(key, text, "two numbers are needed", SIDE)),
+            _ => Err(wrong_range(key, text, "two numbers are needed", RANGE_FORM)),
         }
     }
 
@@ -198,7 +198,7 @@ impl Side {
     }
 }
 
-impl fmt::Display for Side {
+impl fmt::Display for RandomRange {
     /// In the notation of a study file, without its quotes.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(
@@ -217,8 +217,8 @@ pub enum Plan {
     Grid(Vec<Axis>),
     /// Sobol points in a box.
     Random {
-        /// The sides of the box.
-        sides: Vec<Side>,
+        /// The ranges of the box.
+        ranges: Vec<RandomRange>,
         /// The points.
         points: Sobol,
         /// The number of points.
@@ -236,7 +236,7 @@ impl Plan {
     /// # Errors
     /// [`StudyError::Input`] for a key with two axes, and for too many cases.
     pub fn grid(axes: Vec<Axis>) -> Result<Self, StudyError> {
-        once(axes.iter().map(Axis::key))?;
+        check_distinct(axes.iter().map(Axis::key))?;
         let counts = axes.iter().map(Axis::count);
         let count = counts.fold(1_u64, u64::saturating_mul);
         check_count(count)?;
@@ -246,15 +246,15 @@ impl Plan {
     /// Random points.
     ///
     /// # Errors
-    /// [`StudyError::NoSide`] for a box without any, and [`StudyError::Input`] for a key with two
-    /// sides, and for no points or too many.
-    pub fn random(sides: Vec<Side>, count: u64, seed: u64) -> Result<Self, StudyError> {
-        once(sides.iter().map(Side::key))?;
-        let points =
-            Sobol::new(sides.len(), seed).ok_or_else(|| StudyError::NoSide(most_sides()))?;
+    /// [`StudyError::NoRandomRange`] if there is no range, and [`StudyError::Input`] for a key with
+    /// two ranges, and for no points or too many.
+    pub fn random(ranges: Vec<RandomRange>, count: u64, seed: u64) -> Result<Self, StudyError> {
+        check_distinct(ranges.iter().map(RandomRange::key))?;
+        let points = Sobol::new(ranges.len(), seed)
+            .ok_or_else(|| StudyError::NoRandomRange(most_ranges()))?;
         check_count(count)?;
         Ok(Self::Random {
-            sides,
+            ranges,
             points,
             count,
             seed,
@@ -287,10 +287,10 @@ impl Plan {
                 entries.reverse();
                 entries
             }
-            Self::Random { sides, points, .. } => sides
+            Self::Random { ranges, points, .. } => ranges
                 .iter()
                 .enumerate()
-                .map(|(d, side)| (side.key, side.at(points.coordinate(index, d))))
+                .map(|(d, range)| (range.key, range.at(points.coordinate(index, d))))
                 .collect(),
             Self::List(_) => Vec::new(),
         }
@@ -298,7 +298,7 @@ impl Plan {
 }
 
 /// Checks that no key varies twice.
-fn once(keys: impl Iterator<Item = &'static str>) -> Result<(), StudyError> {
+fn check_distinct(keys: impl Iterator<Item = &'static str>) -> Result<(), StudyError> {
     let mut seen: Vec<&str> = Vec::new();
     for key in keys {
         if seen.contains(&key) {
@@ -323,12 +323,12 @@ fn check_count(count: u64) -> Result<(), StudyError> {
 
 #[cfg(test)]
 mod tests {
-    use super::most_sides;
+    use super::most_ranges;
     use crate::Sobol;
 
-    /// So that no sides at all is the only number that a box can not have.
+    /// So that no ranges at all is the only number that a box can not have.
     #[test]
     fn there_are_points_for_all_keys_that_can_be_drawn() {
-        assert!((1..=Sobol::MOST).contains(&most_sides()));
+        assert!((1..=Sobol::MOST).contains(&most_ranges()));
     }
 }

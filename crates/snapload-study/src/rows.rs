@@ -1,8 +1,8 @@
 //! Turns cases into rows.
 
-use crate::{Drawn, NoCase};
+use crate::{NoCase, StudyCases};
 use snapload::analysis::{
-    Cancelled, Certainty, Counter, Made, on_all_threads_until, outcomes_on_one_thread,
+    Cancelled, Certainty, Counter, ThreadResults, on_all_threads_until, outcomes_on_one_thread,
 };
 use snapload::{Lanes, Outcome, Parameters};
 
@@ -27,22 +27,22 @@ pub struct Run {
 /// # Errors
 /// [`Cancelled`] if the work is to end before.
 pub fn rows(
-    drawn: &Drawn,
+    cases: &StudyCases,
     counter: &Counter,
     no_more: &(dyn Fn() -> bool + Sync),
-) -> Result<Made<Row>, Cancelled> {
-    on_all_threads_until(no_more, drawn.count(), |numbers| {
-        side_by_side(drawn, numbers, counter)
+) -> Result<ThreadResults<Row>, Cancelled> {
+    on_all_threads_until(no_more, cases.count(), |numbers| {
+        side_by_side(cases, numbers, counter)
     })
 }
 
 fn side_by_side(
-    drawn: &Drawn,
+    study_cases: &StudyCases,
     numbers: &mut dyn Iterator<Item = usize>,
     counter: &Counter,
 ) -> Result<Vec<Row>, Cancelled> {
     let mut made = Vec::with_capacity(numbers.size_hint().1.unwrap_or(0));
-    let cases = numbers.filter_map(|k| match drawn.case(k) {
+    let cases = numbers.filter_map(|k| match study_cases.case(k) {
         Ok(case) => {
             made.push(Ok(*case.parameters()));
             Some(case)
@@ -54,30 +54,30 @@ fn side_by_side(
             None
         }
     });
-    if drawn.trust() {
-        let told = Certainty::with_outcomes(Lanes::best(), cases, counter)?;
+    if study_cases.trust() {
+        let results = Certainty::with_outcomes(Lanes::best(), cases, counter)?;
         let run = |(outcome, certainty)| Run {
             outcome,
             certainty: Some(certainty),
         };
-        Ok(together(made, told.into_iter().map(run)))
+        Ok(together(made, results.into_iter().map(run)))
     } else {
-        let told = outcomes_on_one_thread(cases, counter)?;
+        let results = outcomes_on_one_thread(cases, counter)?;
         let run = |outcome| Run {
             outcome,
             certainty: None,
         };
-        Ok(together(made, told.into_iter().map(run)))
+        Ok(together(made, results.into_iter().map(run)))
     }
 }
 
 /// Cases with the results of their runs; those that can not be run have none.
 fn together(
     made: Vec<Result<Parameters, Box<NoCase>>>,
-    mut told: impl Iterator<Item = Run>,
+    mut results: impl Iterator<Item = Run>,
 ) -> Vec<Row> {
     let row = |made| match made {
-        Ok(parameters) => Some(Ok((parameters, told.next()?))),
+        Ok(parameters) => Some(Ok((parameters, results.next()?))),
         Err(no_case) => Some(Err(no_case)),
     };
     made.into_iter().filter_map(row).collect()

@@ -7,10 +7,10 @@
 //! others are computed again. A chunk whose contents on the disk have changed does not count: its
 //! rows are missing.
 
-use crate::seal::{flaw, flaw_of};
-use crate::whole::{identity_of, join, to_bytes};
+use crate::checksum::{damage, damage_of};
+use crate::study_file::{identity_of, join, to_bytes};
 use crate::{Identity, Occupied, Row, Study, StudyError, rows};
-use snapload::analysis::{Counter, Made, OnProgress};
+use snapload::analysis::{Counter, OnProgress, ThreadResults};
 use std::collections::BTreeMap;
 use std::ffi::{OsStr, OsString};
 use std::fs::{self, File, OpenOptions, TryLockError};
@@ -87,21 +87,21 @@ impl Store {
             _lock: lock,
         };
         if known.is_none() {
-            store.put(STUDY, text.as_bytes())?;
+            store.write_file(STUDY, text.as_bytes())?;
         }
         store.find_chunks()?;
-        if store.safe() > 0 && !resume {
-            return Err(StudyError::Occupied(Occupied::Begun {
+        if store.saved() > 0 && !resume {
+            return Err(StudyError::Occupied(Occupied::Partial {
                 directory: store.directory.clone(),
-                safe: store.safe(),
-                asked: store.asked(),
+                saved: store.saved(),
+                total: store.total(),
             }));
         }
         Ok(Opened::Work(store))
     }
 
     /// The number of rows that are saved.
-    pub fn safe(&self) -> u64 {
+    pub fn saved(&self) -> u64 {
         self.chunks.iter().map(|(start, end)| end - start).sum()
     }
 
@@ -116,7 +116,7 @@ impl Store {
     }
 
     /// The number of rows of the final file.
-    pub fn asked(&self) -> u64 {
+    pub fn total(&self) -> u64 {
         self.identity.rows.end - self.identity.rows.start
     }
 
@@ -139,10 +139,10 @@ impl Store {
     ///
     /// # Errors
     /// [`StudyError::Failed`], for example if the disk is full.
-    pub fn save(&mut self, range: Range<u64>, rows: &Made<Row>) -> Result<(), StudyError> {
+    pub fn save(&mut self, range: Range<u64>, rows: &ThreadResults<Row>) -> Result<(), StudyError> {
         let bytes = encode(&self.identity, range.clone(), rows);
         let bytes = bytes.map_err(|error| StudyError::write(&self.directory, error))?;
-        self.put(&chunk_name(&range), &bytes)?;
+        self.write_file(&chunk_name(&range), &bytes)?;
         self.chunks.insert(range.start, range.end);
         Ok(())
     }
@@ -152,19 +152,20 @@ impl Store {
     /// # Errors
     /// [`StudyError::Input`] if they are not these rows of this study, computed by this version of
     /// the program; [`StudyError::Failed`] if they can not be written.
-    pub fn keep(&mut self, range: Range<u64>, bytes: &[u8]) -> Result<(), StudyError> {
+    pub fn save_chunk(&mut self, range: Range<u64>, bytes: &[u8]) -> Result<(), StudyError> {
         let name = chunk_name(&range);
-        if let Ok(Some(why)) = flaw_of(Cursor::new(bytes)) {
+        if let Ok(Some(why)) = damage_of(Cursor::new(bytes)) {
             return Err(StudyError::Input(format!(
                 "rows {} to {} can not be used: {why}; compute them again",
                 range.start,
                 range.end - 1
             )));
         }
-        self.put(&name, bytes)?;
+        self.write_file(&name, bytes)?;
         let path = self.directory.join(name);
         let found = identity_of(&path);
-        if found.is_some_and(|found| found.goes_with(&self.identity) && found.rows == range) {
+        if found.is_some_and(|found| found.is_same_study_as(&self.identity) && found.rows == range)
+        {
             self.chunks.insert(range.start, range.end);
             return Ok(());
         }
@@ -201,21 +202,21 @@ impl Store {
     fn join_to(&mut self, scratch: &Path) -> Result<(), StudyError> {
         let path = |(start, end): (&u64, &u64)| self.directory.join(chunk_name(&(*start..*end)));
         let paths: Vec<PathBuf> = self.chunks.iter().map(path).collect();
-        let flawed = |path: &PathBuf| flaw(path).map(|why| StudyError::damaged(path, why));
-        let mut wrong: Vec<StudyError> = paths.iter().filter_map(flawed).collect();
+        let damaged_part = |path: &PathBuf| damage(path).map(|why| StudyError::damaged(path, why));
+        let mut wrong: Vec<StudyError> = paths.iter().filter_map(damaged_part).collect();
         if wrong.is_empty() {
             wrong.extend(join(&paths, scratch, &self.identity).err());
         }
         for error in &wrong {
             if let StudyError::Damaged { file, .. } = error {
-                self.lose(file)?;
+                self.remove_chunk(file)?;
             }
         }
         wrong.into_iter().next().map_or(Ok(()), Err)
     }
 
     /// Removes a chunk whose contents have changed.
-    fn lose(&mut self, path: &Path) -> Result<(), StudyError> {
+    fn remove_chunk(&mut self, path: &Path) -> Result<(), StudyError> {
         let name = path.file_name().and_then(OsStr::to_str);
         if let Some(range) = name.and_then(parse_chunk_name) {
             self.chunks.remove(&range.start);
@@ -229,7 +230,7 @@ impl Store {
     }
 
     /// Writes a file of the directory.
-    fn put(&self, name: &str, bytes: &[u8]) -> Result<(), StudyError> {
+    fn write_file(&self, name: &str, bytes: &[u8]) -> Result<(), StudyError> {
         let (scratch, path) = (self.directory.join(SCRATCH), self.directory.join(name));
         let write = || {
             let mut file = File::create(&scratch)?;
@@ -255,14 +256,15 @@ impl Store {
         for range in found {
             let path = self.directory.join(chunk_name(&range));
             let fits = next <= range.start && range.end <= self.identity.rows.end;
-            let ours =
-                |identity: Identity| identity.goes_with(&self.identity) && identity.rows == range;
-            let whole = flaw(&path).is_none();
-            if fits && whole && identity_of(&path).is_some_and(ours) {
+            let ours = |identity: Identity| {
+                identity.is_same_study_as(&self.identity) && identity.rows == range
+            };
+            let intact = damage(&path).is_none();
+            if fits && intact && identity_of(&path).is_some_and(ours) {
                 next = range.end;
                 self.chunks.insert(range.start, range.end);
             } else {
-                if !whole {
+                if !intact {
                     self.damaged += range.end - range.start;
                 }
                 fs::remove_file(&path).map_err(|error| StudyError::write(&path, error))?;
@@ -272,7 +274,7 @@ impl Store {
     }
 }
 
-/// Some rows of a study, computed on all threads, as a file for [`Store::keep`].
+/// Some rows of a study, computed on all threads, as a file for [`Store::save_chunk`].
 ///
 /// # Errors
 /// [`StudyError::Failed`] if the list of cases can not be read, and [`StudyError::Cancelled`].
@@ -282,12 +284,12 @@ pub fn chunk(
     on_progress: OnProgress,
 ) -> Result<Vec<u8>, StudyError> {
     let counter = Counter::new("running", 0, range.end - range.start, on_progress);
-    let rows = rows(&study.draw(range.clone())?, &counter, &|| false)?;
+    let rows = rows(&study.cases(range.clone())?, &counter, &|| false)?;
     let bytes = encode(&Identity::new(study, None), range, &rows);
     bytes.map_err(|error| StudyError::Failed(error.to_string()))
 }
 
-fn encode(whole: &Identity, rows: Range<u64>, made: &Made<Row>) -> io::Result<Vec<u8>> {
+fn encode(whole: &Identity, rows: Range<u64>, made: &ThreadResults<Row>) -> io::Result<Vec<u8>> {
     let identity = Identity {
         rows,
         shard: None,
@@ -305,7 +307,7 @@ fn finished(
     resume: bool,
 ) -> Result<Opened, StudyError> {
     let ours = identity_of(target).is_some_and(|found| found == *identity);
-    if ours && flaw(target).is_some() {
+    if ours && damage(target).is_some() {
         return Err(StudyError::Occupied(Occupied::Damaged(target.to_owned())));
     }
     if ours && resume {
@@ -372,7 +374,7 @@ pub fn folder_of(file: &Path) -> Result<&Path, StudyError> {
     )))
 }
 
-fn other_study(directory: &Path, known: &str, wanted: &str) -> StudyError {
+fn other_study(directory: &Path, known: &str, expected: &str) -> StudyError {
     let only = |one: &str, other: &str| {
         let mut lines = one
             .lines()
@@ -381,8 +383,8 @@ fn other_study(directory: &Path, known: &str, wanted: &str) -> StudyError {
     };
     StudyError::Occupied(Occupied::OtherStudy {
         directory: directory.to_owned(),
-        there: only(known, wanted),
-        here: only(wanted, known),
+        there: only(known, expected),
+        here: only(expected, known),
     })
 }
 

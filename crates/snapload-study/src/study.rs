@@ -25,7 +25,7 @@ pub struct NoCase {
 }
 
 /// Some cases of a study, in order. Each is made when it is needed.
-pub struct Drawn<'a> {
+pub struct StudyCases<'a> {
     study: &'a Study,
     range: Range<u64>,
     /// The rows of the list, if it is one.
@@ -78,13 +78,13 @@ impl Study {
     ///
     /// # Errors
     /// [`StudyError::Failed`] if the list of cases can no longer be read.
-    pub fn draw(&self, range: Range<u64>) -> Result<Drawn<'_>, StudyError> {
+    pub fn cases(&self, range: Range<u64>) -> Result<StudyCases<'_>, StudyError> {
         let listed = match &self.plan {
             Plan::List(list) => list.read(range.clone())?,
             Plan::Grid(_) | Plan::Random { .. } => Vec::new(),
         };
         let study = self;
-        Ok(Drawn {
+        Ok(StudyCases {
             study,
             range,
             listed,
@@ -107,11 +107,14 @@ impl Study {
                 }
             }
             Plan::Random {
-                sides, count, seed, ..
+                ranges,
+                count,
+                seed,
+                ..
             } => {
                 let _ = writeln!(text, "random = {count}\nseed = {seed}\n\n[vary]");
-                for side in sides {
-                    let _ = writeln!(text, "{} = \"{side}\"", side.key());
+                for range in ranges {
+                    let _ = writeln!(text, "{} = \"{range}\"", range.key());
                 }
             }
             Plan::List(list) => {
@@ -123,7 +126,7 @@ impl Study {
     }
 }
 
-impl Drawn<'_> {
+impl StudyCases<'_> {
     /// Whether the certainty of each run is to be computed.
     pub fn trust(&self) -> bool {
         self.study.trust

@@ -1,14 +1,14 @@
 //! The loop of a study: runs the next cases, and saves their rows in the store.
 
-use crate::whole::GROUP;
+use crate::study_file::GROUP;
 use crate::{Row, Store, Study, StudyError, rows};
-use snapload::analysis::{Cancelled, Counter, Made, OnProgress, Progress};
+use snapload::analysis::{Cancelled, Counter, OnProgress, Progress, ThreadResults};
 use std::ops::{ControlFlow, Range};
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::{Duration, Instant};
 
 /// Cases of a chunk are begun for this long; a crash can cost two chunks.
-const BEGUN_FOR: Duration = Duration::from_secs(3);
+const CHUNK_TIME: Duration = Duration::from_secs(3);
 /// The most cases of a chunk: what is held in memory at a time, and a row group of the file, into
 /// which such a chunk is copied unchanged.
 const MOST: u64 = GROUP as u64;
@@ -17,7 +17,7 @@ const MOST: u64 = GROUP as u64;
 const TRIES: u32 = 3;
 
 /// A chunk that is computed but not saved yet.
-type Chunk = (Range<u64>, Made<Row>);
+type Chunk = (Range<u64>, ThreadResults<Row>);
 
 /// Runs the cases that are missing in the store, on all threads, and completes the file. While a
 /// chunk is run the one before it is written. Rows that are found damaged when the file is joined
@@ -41,17 +41,17 @@ pub fn sweep(study: &Study, mut store: Store, on_progress: OnProgress) -> Result
 
 /// Runs what is missing.
 fn fill(study: &Study, store: &mut Store, on_progress: OnProgress) -> Result<(), StudyError> {
-    let told_to_end = AtomicBool::new(false);
+    let stop_requested = AtomicBool::new(false);
     let within = |progress: Progress| {
-        told_to_end.fetch_or(on_progress(progress).is_break(), Ordering::Relaxed);
+        stop_requested.fetch_or(on_progress(progress).is_break(), Ordering::Relaxed);
         ControlFlow::Continue(())
     };
-    let counter = Counter::new("sweep", store.safe(), store.asked(), &within);
+    let counter = Counter::new("sweep", store.saved(), store.total(), &within);
     let mut written: Option<Chunk> = None;
     loop {
         counter.add(0)?;
-        let go_on = !told_to_end.load(Ordering::Relaxed);
-        let range = next_range(store, written.as_ref()).filter(|_| go_on);
+        let should_continue = !stop_requested.load(Ordering::Relaxed);
+        let range = next_range(store, written.as_ref()).filter(|_| should_continue);
         if range.is_none() && written.is_none() {
             break;
         }
@@ -62,7 +62,7 @@ fn fill(study: &Study, store: &mut Store, on_progress: OnProgress) -> Result<(),
             },
             || {
                 range.map_or(Ok(None), |range| {
-                    chunk(study, range, &counter, &told_to_end)
+                    chunk(study, range, &counter, &stop_requested)
                 })
             },
         );
@@ -70,7 +70,7 @@ fn fill(study: &Study, store: &mut Store, on_progress: OnProgress) -> Result<(),
         written = run?;
     }
     if store.gap().is_some() {
-        let done = store.safe() as f64;
+        let done = store.saved() as f64;
         return Err(Cancelled { done }.into());
     }
     Ok(())
@@ -82,12 +82,12 @@ fn chunk(
     study: &Study,
     range: Range<u64>,
     counter: &Counter,
-    told_to_end: &AtomicBool,
+    stop_requested: &AtomicBool,
 ) -> Result<Option<Chunk>, StudyError> {
-    let drawn = study.draw(range.clone())?;
+    let cases = study.cases(range.clone())?;
     let began = Instant::now();
-    let no_more = || told_to_end.load(Ordering::Relaxed) || began.elapsed() >= BEGUN_FOR;
-    let rows = rows(&drawn, counter, &no_more)?;
+    let no_more = || stop_requested.load(Ordering::Relaxed) || began.elapsed() >= CHUNK_TIME;
+    let rows = rows(&cases, counter, &no_more)?;
     let end = range.start + rows.iter().len() as u64;
     Ok((end > range.start).then_some((range.start..end, rows)))
 }

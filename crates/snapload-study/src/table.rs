@@ -1,6 +1,6 @@
 //! Columns of tables: their names, units and meanings, and how their values are taken from a row.
 
-use crate::parquet_file::{Holds, Values};
+use crate::parquet_file::{ColumnType, Values};
 use crate::parquet_writer::Field;
 use crate::{Row, Run};
 use snapload::analysis::Horizon;
@@ -8,7 +8,7 @@ use snapload::{FirstImpact, Get, Parameters, Stop, Value, quantity};
 use std::ops::Range;
 
 /// How a column's values are taken from a row; none if the row has no such value.
-pub enum Take<R = Run> {
+pub enum ColumnValue<R = Run> {
     /// A number.
     Number(fn(&R) -> Option<f64>),
     /// A whole number.
@@ -30,7 +30,7 @@ pub struct Column<R = Run> {
     /// What it means.
     pub meaning: &'static str,
     /// Its values.
-    pub take: Take<R>,
+    pub value: ColumnValue<R>,
 }
 
 impl<R> Column<R> {
@@ -39,7 +39,7 @@ impl<R> Column<R> {
         name: &'static str,
         symbol: &'static str,
         unit: &'static str,
-        take: Take<R>,
+        value: ColumnValue<R>,
         meaning: &'static str,
     ) -> Self {
         Self {
@@ -47,22 +47,22 @@ impl<R> Column<R> {
             symbol,
             unit,
             meaning,
-            take,
+            value,
         }
     }
 
     /// One of the model's quantities, under its own name; an unknown name has neither unit nor
     /// meaning.
-    pub const fn quantity(name: &'static str, take: Take<R>) -> Self {
+    pub const fn quantity(name: &'static str, value: ColumnValue<R>) -> Self {
         match quantity(name) {
-            Some(known) => Self::new(name, known.symbol, known.unit, take, known.meaning),
-            None => Self::new(name, name, "", take, ""),
+            Some(known) => Self::new(name, known.symbol, known.unit, value, known.meaning),
+            None => Self::new(name, name, "", value, ""),
         }
     }
 
     /// Whether it holds numbers.
     pub fn is_number(&self) -> bool {
-        matches!(self.take, Take::Number(_) | Take::Count(_))
+        matches!(self.value, ColumnValue::Number(_) | ColumnValue::Count(_))
     }
 
     /// Its values; none where there is no row.
@@ -70,21 +70,23 @@ impl<R> Column<R> {
     where
         R: 'a,
     {
-        match self.take {
-            Take::Number(of) => Values::Numbers(rows.map(|row| of(row?)).collect()),
-            Take::Count(of) => Values::Counts(rows.map(|row| of(row?).map(signed)).collect()),
-            Take::Flag(of) => Values::Flags(rows.map(|row| of(row?)).collect()),
-            Take::Word(of) => Values::Words(rows.map(|row| Some(of(row?).into())).collect()),
+        match self.value {
+            ColumnValue::Number(of) => Values::Numbers(rows.map(|row| of(row?)).collect()),
+            ColumnValue::Count(of) => {
+                Values::Counts(rows.map(|row| of(row?).map(signed)).collect())
+            }
+            ColumnValue::Flag(of) => Values::Flags(rows.map(|row| of(row?)).collect()),
+            ColumnValue::Word(of) => Values::Words(rows.map(|row| Some(of(row?).into())).collect()),
         }
     }
 
     /// The type of its values.
-    pub fn holds(&self) -> Holds {
-        match self.take {
-            Take::Number(_) => Holds::Numbers,
-            Take::Count(_) => Holds::Counts,
-            Take::Flag(_) => Holds::Flags,
-            Take::Word(_) => Holds::Words,
+    pub fn column_type(&self) -> ColumnType {
+        match self.value {
+            ColumnValue::Number(_) => ColumnType::Numbers,
+            ColumnValue::Count(_) => ColumnType::Counts,
+            ColumnValue::Flag(_) => ColumnType::Flags,
+            ColumnValue::Word(_) => ColumnType::Words,
         }
     }
 }
@@ -92,10 +94,10 @@ impl<R> Column<R> {
 impl Column {
     /// Its possible words, if its values are words.
     pub fn words(&self) -> Vec<&'static str> {
-        match self.take {
-            Take::Word(_) => Stop::ALL.map(Stop::name).to_vec(),
-            Take::Flag(_) => vec!["true", "false"],
-            Take::Number(_) | Take::Count(_) => Vec::new(),
+        match self.value {
+            ColumnValue::Word(_) => Stop::ALL.map(Stop::name).to_vec(),
+            ColumnValue::Flag(_) => vec!["true", "false"],
+            ColumnValue::Number(_) | ColumnValue::Count(_) => Vec::new(),
         }
     }
 }
@@ -111,33 +113,33 @@ fn horizon<T>(run: &Run, of: fn(Horizon) -> T) -> Option<T> {
 /// The columns of a study besides the row's number, the keys and the error, in their order.
 #[rustfmt::skip] // one row a column
 static COLUMNS: [Column; 18] = [
-    Column::new("end", "end", "", Take::Word(|a| a.outcome.end.reason.name()),
+    Column::new("end", "end", "", ColumnValue::Word(|a| a.outcome.end.reason.name()),
         "why the run ended, in the words of run --json"),
-    Column::new("t", "t", "T", Take::Number(|a| Some(a.outcome.end.t)), "when"),
-    Column::new("impacts_1", "impacts of cable 1", "", Take::Count(|a| Some(a.outcome.impacts[0])),
+    Column::new("t", "t", "T", ColumnValue::Number(|a| Some(a.outcome.end.t)), "when"),
+    Column::new("impacts_1", "impacts of cable 1", "", ColumnValue::Count(|a| Some(a.outcome.impacts[0])),
         "impacts of cable 1"),
-    Column::new("impacts_2", "impacts of cable 2", "", Take::Count(|a| Some(a.outcome.impacts[1])),
+    Column::new("impacts_2", "impacts of cable 2", "", ColumnValue::Count(|a| Some(a.outcome.impacts[1])),
         "impacts of cable 2"),
-    Column::quantity("rho1", Take::Number(|a| Some(a.outcome.norms.rho1))),
-    Column::quantity("rho2", Take::Number(|a| Some(a.outcome.norms.rho2))),
-    Column::quantity("rho3", Take::Number(|a| Some(a.outcome.norms.rho3))),
-    Column::quantity("y_max", Take::Number(|a| Some(a.outcome.norms.y_max))),
-    Column::quantity("theta_max", Take::Number(|a| Some(a.outcome.norms.theta_max))),
-    Column::new("first_t", "time of the first impact", "T", Take::Number(|a| first(a, |f| f.t)),
+    Column::quantity("rho1", ColumnValue::Number(|a| Some(a.outcome.norms.rho1))),
+    Column::quantity("rho2", ColumnValue::Number(|a| Some(a.outcome.norms.rho2))),
+    Column::quantity("rho3", ColumnValue::Number(|a| Some(a.outcome.norms.rho3))),
+    Column::quantity("y_max", ColumnValue::Number(|a| Some(a.outcome.norms.y_max))),
+    Column::quantity("theta_max", ColumnValue::Number(|a| Some(a.outcome.norms.theta_max))),
+    Column::new("first_t", "time of the first impact", "T", ColumnValue::Number(|a| first(a, |f| f.t)),
         "time of the first impact"),
-    Column::new("first_cable", "cable of the first impact", "", Take::Count(|a| first(a, |f| f.cable as u64 + 1)),
+    Column::new("first_cable", "cable of the first impact", "", ColumnValue::Count(|a| first(a, |f| f.cable as u64 + 1)),
         "its cable, 1 or 2"),
-    Column::new("first_v_n", "*v*ₙ of the first impact", "L/T", Take::Number(|a| first(a, |f| f.v_n)),
+    Column::new("first_v_n", "*v*ₙ of the first impact", "L/T", ColumnValue::Number(|a| first(a, |f| f.v_n)),
         "its normal velocity"),
-    Column::new("t_slack", "time slack", "T", Take::Number(|a| Some(a.outcome.slack())), "time without a taut cable"),
-    Column::new("t_sliding", "time sliding", "T", Take::Number(|a| Some(a.outcome.sliding)),
+    Column::new("t_slack", "time slack", "T", ColumnValue::Number(|a| Some(a.outcome.slack())), "time without a taut cable"),
+    Column::new("t_sliding", "time sliding", "T", ColumnValue::Number(|a| Some(a.outcome.sliding)),
         "time with one taut cable"),
-    Column::new("t_rocking", "time rocking", "T", Take::Number(|a| Some(a.outcome.rocking)), "time with both"),
-    Column::new("horizon_t", "horizon", "T", Take::Number(|a| horizon(a, |h| h.t)),
+    Column::new("t_rocking", "time rocking", "T", ColumnValue::Number(|a| Some(a.outcome.rocking)), "time with both"),
+    Column::new("horizon_t", "horizon", "T", ColumnValue::Number(|a| horizon(a, |h| h.t)),
         "time up to which the run can be trusted; null if to its end"),
-    Column::new("horizon_impact", "impact at the horizon", "", Take::Count(|a| horizon(a, |h| h.impact as u64)),
+    Column::new("horizon_impact", "impact at the horizon", "", ColumnValue::Count(|a| horizon(a, |h| h.impact as u64)),
         "the number of the impact there"),
-    Column::new("certain", "end certain", "", Take::Flag(|a| a.certainty.map(|c| c.decides_the_end())),
+    Column::new("certain", "end certain", "", ColumnValue::Flag(|a| a.certainty.map(|c| c.decides_the_end())),
         "whether the way it ends is certain; null without trust"),
 ];
 
@@ -148,23 +150,23 @@ pub fn columns() -> &'static [Column] {
 
 /// The columns in their order: `row`, the keys, the results, `error`.
 pub(crate) fn fields() -> Vec<Field> {
-    let field = |name, holds| Field {
+    let field = |name, column_type| Field {
         name,
-        holds,
+        column_type,
         required: name == "row",
     };
     let key_holds = |get: Get| match get {
-        Get::Number(_) => Holds::Numbers,
-        Get::Count(_) => Holds::Counts,
-        Get::Flag(_) => Holds::Flags,
-        Get::Word(_) => Holds::Words,
+        Get::Number(_) => ColumnType::Numbers,
+        Get::Count(_) => ColumnType::Counts,
+        Get::Flag(_) => ColumnType::Flags,
+        Get::Word(_) => ColumnType::Words,
     };
     let keys = Parameters::keys().map(|(key, get)| field(key.name, key_holds(get)));
-    let ends = COLUMNS.iter().map(|c| field(c.name, c.holds()));
-    std::iter::once(field("row", Holds::Counts))
+    let ends = COLUMNS.iter().map(|c| field(c.name, c.column_type()));
+    std::iter::once(field("row", ColumnType::Counts))
         .chain(keys)
         .chain(ends)
-        .chain([field("error", Holds::Words)])
+        .chain([field("error", ColumnType::Words)])
         .collect()
 }
 
@@ -174,7 +176,7 @@ const BLOCK: usize = 256;
 /// Rows as columns; `range` are their indices in the study, from 0.
 pub(crate) fn columns_of(range: Range<u64>, rows: &[&Row]) -> Vec<Values> {
     let fields = fields();
-    let with_room = |field: &Field| Values::with_room(field.holds, rows.len());
+    let with_room = |field: &Field| Values::with_room(field.column_type, rows.len());
     let mut columns: Vec<Values> = fields.iter().map(with_room).collect();
     let mut start = range.start;
     for block in rows.chunks(BLOCK) {

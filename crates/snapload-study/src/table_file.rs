@@ -1,18 +1,18 @@
 //! Writes a table as a Parquet file, for answers that are not studies.
 
-use crate::parquet_file::{Holds, Values};
+use crate::parquet_file::{ColumnType, Values};
 use crate::parquet_writer::{Field, Writer};
-use crate::whole::to_io;
+use crate::study_file::to_io;
 use parquet::basic::{Compression, ZstdLevel};
 use parquet::file::properties::WriterProperties;
 use std::io::{self, Write};
 
-fn holds(values: &Values) -> Holds {
+fn column_type(values: &Values) -> ColumnType {
     match values {
-        Values::Numbers(_) => Holds::Numbers,
-        Values::Counts(_) => Holds::Counts,
-        Values::Flags(_) => Holds::Flags,
-        Values::Words(_) => Holds::Words,
+        Values::Numbers(_) => ColumnType::Numbers,
+        Values::Counts(_) => ColumnType::Counts,
+        Values::Flags(_) => ColumnType::Flags,
+        Values::Words(_) => ColumnType::Words,
     }
 }
 
@@ -25,7 +25,7 @@ pub fn write_table(columns: &[(&'static str, Values)], out: &mut dyn Write) -> i
         .iter()
         .map(|(name, values)| Field {
             name,
-            holds: holds(values),
+            column_type: column_type(values),
             required: false,
         })
         .collect();

@@ -4,11 +4,11 @@
 //! crate that uses those numbers would otherwise compile the whole engine for them again.
 //!
 //! ```
-//! use snapload::analysis::{Unfinished, unwatched};
+//! use snapload::analysis::{Unfinished, no_progress};
 //! use snapload::{Case, Parameters};
 //!
 //! let case = Case::new(Parameters::STANDARD)?;
-//! let found = snapload_verify::verify(&case, 60, 1e-3, &unwatched)?;
+//! let found = snapload_verify::verify(&case, 60, 1e-3, &no_progress)?;
 //! assert_eq!(found.impacts.len(), 290);
 //! assert!(found.first_wrong > Some(180));
 //! # Ok::<(), Unfinished>(())
@@ -17,5 +17,5 @@
 mod many_digits;
 mod verify;
 
-pub use many_digits::Run;
+pub use many_digits::RoundedRun;
 pub use verify::{ExactImpact, MOST_DIGITS, Verification, verify};

@@ -11,7 +11,7 @@ type Digits153 = Precise<8>;
 
 /// A run for tables: of doubles, or of many digits rounded to doubles.
 #[derive(Clone, Debug)]
-pub struct Run {
+pub struct RoundedRun {
     system: System,
     /// The beginning of each stretch, from which the motion within it is computed.
     stretches: Vec<(f64, State)>,
@@ -20,7 +20,7 @@ pub struct Run {
     norms: Norms,
 }
 
-impl Run {
+impl RoundedRun {
     /// In doubles.
     pub fn of_doubles(parameters: &Parameters) -> Result<Self, CaseError> {
         let case = Case::new(*parameters)?;
@@ -147,7 +147,10 @@ mod tests {
     #[test]
     fn a_run_of_many_digits_is_one_of_doubles_until_these_are_used_up() -> Result<(), CaseError> {
         let case = Parameters::STANDARD;
-        let (exact, doubles) = (Run::of_76_digits(&case)?, Run::of_doubles(&case)?);
+        let (exact, doubles) = (
+            RoundedRun::of_76_digits(&case)?,
+            RoundedRun::of_doubles(&case)?,
+        );
         for (p, q) in exact.impacts().iter().zip(doubles.impacts()).take(100) {
             assert!((p.t - q.t).abs() < 1e-6 && p.cable == q.cable);
         }

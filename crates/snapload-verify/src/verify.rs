@@ -110,7 +110,7 @@ fn with_words<const WORDS: usize>(
             impacts.push(ExactImpact::new(&exact, left));
         }
         let t = simulation.time().to_f64();
-        Progress::new("computing with many digits", t, t_end).tell(on_progress)?;
+        Progress::new("computing with many digits", t, t_end).report(on_progress)?;
         if stuck {
             break;
         }
@@ -218,16 +218,16 @@ fn relative<T: Real>(ours: f64, exact: T) -> f64 {
 mod tests {
     use super::*;
     use snapload::Parameters;
-    use snapload::analysis::unwatched;
+    use snapload::analysis::no_progress;
     use std::ops::ControlFlow::{Break, Continue};
     use std::sync::Mutex;
 
     /// With twice the digits each decimal is the same, up to a rounding of the last one.
     #[test]
-    fn decimals_that_are_told_are_right() -> Result<(), Unfinished> {
+    fn printed_decimals_are_right() -> Result<(), Unfinished> {
         let case = Case::new(Parameters::STANDARD)?;
-        let few = verify(&case, 60, 1e-3, &unwatched)?;
-        let many = verify(&case, 150, 1e-3, &unwatched)?;
+        let few = verify(&case, 60, 1e-3, &no_progress)?;
+        let many = verify(&case, 150, 1e-3, &no_progress)?;
         assert_eq!(few.impacts.len(), many.impacts.len());
         let units = |text: &str, decimals: usize| {
             let (whole, fraction) = text.split_once('.').expect("decimals");
@@ -260,17 +260,18 @@ mod tests {
     #[test]
     fn a_proof_can_be_watched_and_cancelled() -> Result<(), Unfinished> {
         let case = Case::new(Parameters::STANDARD)?;
-        let told = Mutex::new(Vec::new());
+        let reports = Mutex::new(Vec::new());
         verify(&case, 60, 1e-3, &|progress| {
             assert!((0.0..=progress.of).contains(&progress.done));
-            let mut told = told.lock().expect("no panic");
-            told.push((progress.doing.to_owned(), progress.done));
+            let mut reports = reports.lock().expect("no panic");
+            reports.push((progress.doing.to_owned(), progress.done));
             Continue(())
         })?;
-        let told = told.into_inner().expect("no panic");
-        assert!(!told.is_empty());
+        let reports = reports.into_inner().expect("no panic");
+        assert!(!reports.is_empty());
         assert!(
-            told.windows(2)
+            reports
+                .windows(2)
                 .all(|pair| pair[0].0 != pair[1].0 || pair[0].1 <= pair[1].1)
         );
         let cancelled = verify(&case, 60, 1e-3, &|_| Break(()));

@@ -5,7 +5,7 @@
 
 use criterion::{BatchSize, Criterion, Throughput, criterion_group, criterion_main};
 use rayon::ThreadPoolBuilder;
-use snapload::analysis::{Certainty, Counter, Uncertainty, outcomes, trusted_run, unwatched};
+use snapload::analysis::{Certainty, Counter, Uncertainty, no_progress, outcomes, trusted_run};
 use snapload::{Case, Lanes, Parameters, Trajectory, named_case};
 use std::hint::black_box;
 use std::thread::available_parallelism;
@@ -65,7 +65,7 @@ fn one_run(c: &mut Criterion) {
             );
         });
         group.bench_function(format!("{name}/trusted"), |b| {
-            b.iter(|| trusted_run(black_box(&case), &Uncertainty::default(), &unwatched));
+            b.iter(|| trusted_run(black_box(&case), &Uncertainty::default(), &no_progress));
         });
     }
     group.finish();
@@ -87,12 +87,12 @@ fn many_runs(c: &mut Criterion) {
         let pool = ThreadPoolBuilder::new().num_threads(threads).build();
         let pool = pool.expect("threads can be started");
         group.bench_function(format!("{:?}/threads-{threads}", Lanes::best()), |b| {
-            b.iter(|| pool.install(|| outcomes(black_box(&cases), &unwatched)));
+            b.iter(|| pool.install(|| outcomes(black_box(&cases), &no_progress)));
         });
     }
     for lanes in Lanes::available() {
         group.bench_function(format!("{lanes:?}/with-certainty"), |b| {
-            let counter = Counter::new("running", 0, u64::from(SWEEP), &unwatched);
+            let counter = Counter::new("running", 0, u64::from(SWEEP), &no_progress);
             b.iter(|| {
                 let cases = black_box(&cases).iter().cloned();
                 Certainty::with_outcomes(lanes, cases, &counter)

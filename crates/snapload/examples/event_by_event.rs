@@ -33,7 +33,7 @@ fn main() -> Result<(), CaseError> {
             );
         }
         if let Some(stop) = step.stop {
-            println!("t = {:8.5}  the end: {}", step.t_end, stop.meaning());
+            println!("t = {:8.5}  the end: {}", step.t_end, stop.reason_text());
         }
     }
     println!("the wave brought {brought:.5}, the snaps took {lost:.5}");

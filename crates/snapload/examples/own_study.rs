@@ -1,7 +1,7 @@
 //! A study of one's own: how many of the force amplitudes up to 0.6 turn the body over, against
 //! restitution.
 
-use snapload::analysis::{Unfinished, outcomes, unwatched};
+use snapload::analysis::{Unfinished, no_progress, outcomes};
 use snapload::{Case, Parameters};
 
 fn main() -> Result<(), Unfinished> {
@@ -18,7 +18,7 @@ fn main() -> Result<(), Unfinished> {
         let cases: Vec<Case> = amplitudes.iter().map(case).collect::<Result<_, _>>()?;
         // On all threads, and side by side in the lanes of the processor; nobody watches, and
         // nobody cancels.
-        let outcomes = outcomes(&cases, &unwatched)?;
+        let outcomes = outcomes(&cases, &no_progress)?;
         let over = outcomes.iter().filter(|run| run.exceeds()).count();
         println!("e = {e}: {over} of {} exceed a limit", cases.len());
         fractions.push(over);

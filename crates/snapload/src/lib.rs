@@ -57,10 +57,10 @@ pub use model::state::State;
 pub use model::surroundings::Surroundings;
 pub use model::system::{System, anchor_height};
 pub use model::taut_set::{MAX_CABLES, Mode, PerCable, TautSet};
-pub use motion::held::{Held, Path};
 pub use motion::impact::Impact;
 pub use motion::outcome::{FirstImpact, Outcome};
 pub use motion::playback::{Motion, Playback};
+pub use motion::prescribed_motion::{Path, PrescribedTaut};
 pub use motion::sampling::Sampling;
 #[cfg(feature = "comparisons")]
 pub use motion::simulation::comparisons::BounceStages;

@@ -279,14 +279,14 @@ fn the_example_of_a_torus_shows_curves() {
     let examples = help.split("Examples:").nth(1).unwrap();
     let example = examples.split("snapload section ").nth(1).unwrap();
     let example = example.split("--plot").next().unwrap().replace('\\', " ");
-    let told = snapload(d.path())
+    let output = snapload(d.path())
         .arg("section")
         .args(example.split_whitespace())
         .args(["--json", "-"])
         .assert()
         .success();
-    let told: Value = serde_json::from_slice(&told.get_output().stdout).unwrap();
-    let points: Vec<[f64; 2]> = told["points"]
+    let diagram: Value = serde_json::from_slice(&output.get_output().stdout).unwrap();
+    let points: Vec<[f64; 2]> = diagram["points"]
         .as_array()
         .unwrap()
         .iter()

@@ -5,14 +5,14 @@ use crate::common::{directory, listing, snapload};
 use serde_json::Value;
 use std::fs;
 
-fn told(args: &[&str]) -> String {
+fn output(args: &[&str]) -> String {
     let d = directory();
     let out = snapload(d.path()).args(args).assert().success();
     String::from_utf8(out.get_output().stdout.clone()).unwrap()
 }
 
 fn json(args: &[&str]) -> Value {
-    serde_json::from_str(&told(&[args, &["--json", "-"]].concat())).unwrap()
+    serde_json::from_str(&output(&[args, &["--json", "-"]].concat())).unwrap()
 }
 
 /// Five significant digits.
@@ -54,7 +54,7 @@ fn the_standard_case_is_proved_and_the_run_leaves_it_where_many_digits_do() {
     let end: f64 = certificate["t"].as_str().unwrap().parse().unwrap();
     assert_eq!(end, exact["t"].as_f64().unwrap());
 
-    let text = told(&args);
+    let text = output(&args);
     let (count, t) = (true_ones.len(), certificate["t"].as_str().unwrap());
     let proved = format!("\nProved    {count} impacts, settled at t = {t} (256 bits)\n");
     assert!(text.contains(&proved), "{text}");
@@ -65,7 +65,7 @@ fn the_standard_case_is_proved_and_the_run_leaves_it_where_many_digits_do() {
 #[test]
 fn a_run_that_is_known_to_its_end_has_what_is_proved() {
     let args = ["run", "--set", "f_o=0.31", "--certify"];
-    let text = told(&args);
+    let text = output(&args);
     assert!(
         text.contains("\n          the run agrees in five digits\n"),
         "{text}"
@@ -77,7 +77,7 @@ fn a_run_that_is_known_to_its_end_has_what_is_proved() {
 }
 
 #[test]
-fn where_a_cable_sticks_the_proof_goes_on() {
+fn the_proof_continues_where_a_cable_sticks() {
     let keys = "e=0.5 omega=0 stop_when_settled=false t_end=0.88";
     let mut args = vec!["run", "--certify"];
     for key in keys.split(' ') {
@@ -93,9 +93,9 @@ fn where_a_cable_sticks_the_proof_goes_on() {
 }
 
 #[test]
-fn what_is_not_proved_is_said() {
+fn missing_proofs_are_reported() {
     // The case is symmetric: both cables snap at one instant.
-    let text = told(&["run", "--certify", "--set", "f_o=0", "--ensemble", "0"]);
+    let text = output(&["run", "--certify", "--set", "f_o=0", "--ensemble", "0"]);
     assert!(
         text.contains("\nProved    0 impacts, up to t = 0 "),
         "{text}"
@@ -140,8 +140,8 @@ fn the_certificate_of_a_run_can_be_checked() {
 /// Where a proof of slack flight ends although the motion continues, the command names the option
 /// with which the proof continues.
 #[test]
-fn a_proof_that_ends_at_a_stick_names_the_option_that_goes_on() {
-    let slack = told(&[
+fn a_proof_that_ends_where_a_cable_sticks_names_the_option_to_continue() {
+    let slack = output(&[
         "certify",
         "--set",
         "e=0.5",
@@ -152,7 +152,7 @@ fn a_proof_that_ends_at_a_stick_names_the_option_that_goes_on() {
         slack.starts_with("proved up to t = ") && slack.contains("--taut"),
         "{slack}"
     );
-    let settled = told(&["certify", "--set", "e=0.5"]);
+    let settled = output(&["certify", "--set", "e=0.5"]);
     assert!(settled.contains("settled at t = ") && !settled.contains("--taut"));
 }
 
@@ -165,11 +165,11 @@ fn a_certificate_is_written_into_every_file_that_is_named() {
         let out = snapload(d.path()).args(args).assert().success();
         String::from_utf8(out.get_output().stdout.clone()).unwrap()
     };
-    let said = proved(&["--json", "one.json"]);
-    assert!(said.ends_with("Written   one.json\n"), "{said}");
-    let said = proved(&["--json", "two.json", "--out", "run.cert"]);
+    let output = proved(&["--json", "one.json"]);
+    assert!(output.ends_with("Written   one.json\n"), "{output}");
+    let output = proved(&["--json", "two.json", "--out", "run.cert"]);
     let both = "Written   run.cert\nWritten   two.json\n";
-    assert!(said.ends_with(both), "{said}");
+    assert!(output.ends_with(both), "{output}");
     let read = |name: &str| fs::read_to_string(d.path().join(name)).unwrap();
     assert_eq!(read("one.json"), read("two.json"));
     assert_eq!(read("one.json"), read("run.cert"));

@@ -58,13 +58,13 @@ fn a_run_is_summed_up_for_a_person() {
 #[test]
 fn the_summary_names_what_differs_from_the_standard_case() {
     let d = directory();
-    let run = |args: &[&str], wanted: &'static str| {
+    let run = |args: &[&str], expected: &'static str| {
         snapload(d.path())
             .arg("run")
             .args(args)
             .assert()
             .success()
-            .stdout(contains(wanted));
+            .stdout(contains(expected));
     };
     run(&["--set", "f_o=0.4"], "standard case with f_o = 0.4\n");
     run(

@@ -100,9 +100,9 @@ fn every_file_has_the_bytes_of_the_command() {
         let names = listing(&results);
         assert_eq!(names.len(), 14, "{names:?}");
         for name in names {
-            let wanted = fs::read(results.join(&name)).unwrap();
+            let expected = fs::read(results.join(&name)).unwrap();
             assert!(
-                serving.file(&name, values) == wanted,
+                serving.file(&name, values) == expected,
                 "{name} of {values} differs"
             );
         }
@@ -128,7 +128,7 @@ fn a_saved_case_runs_as_it_did() {
 }
 
 #[test]
-fn it_begins_with_the_case_that_was_asked_for() {
+fn the_page_begins_with_the_requested_case() {
     let d = directory();
     fs::write(d.path().join("mine.toml"), "a = 0.2\nf_o = 0.4\n").unwrap();
     for (args, start) in [

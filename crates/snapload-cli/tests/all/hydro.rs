@@ -93,7 +93,7 @@ fn hydro_answers_in_a_few_lines_a_page_and_json() {
 
 /// Heave oscillates with the period of the eigenvalue; the table has a row for each step.
 #[test]
-fn decay_tells_its_swings() {
+fn decay_lists_its_swings() {
     let room = room();
     let output = snapload(room.path())
         .args([
@@ -138,11 +138,11 @@ fn decay_tells_its_swings() {
 }
 
 /// Displacements are from where the body floats: a weight of 98.4 t at an arm of 0.3 m turns it by
-/// 98.4 · 9.81 · 0.3/682.7556 rad. Where a swing is larger than the one before, it is said why.
+/// 98.4 · 9.81 · 0.3/682.7556 rad. Where a swing is larger than the one before, it is output why.
 #[test]
-fn decay_tells_from_where_it_is_measured() {
+fn decay_reports_where_displacements_are_measured_from() {
     let room = room();
-    let said = |options: &[&str]| {
+    let output = |options: &[&str]| {
         let done = snapload(room.path())
             .args(["decay", "pontoon.nc", "--pairs", "6", "--duration", "30"])
             .args(options)
@@ -152,10 +152,10 @@ fn decay_tells_from_where_it_is_measured() {
         text.split_whitespace().collect::<Vec<_>>().join(" ")
     };
     let turned = (98.4 * 9.81 * 0.3_f64 / 682.7556).to_degrees();
-    let aside = said(&["--centre", "0.3,-0.2", "--from", "0,0.3,0.05"]);
+    let aside = output(&["--centre", "0.3,-0.2", "--from", "0,0.3,0.05"]);
     assert!(aside.contains(&format!("{turned:.2}° of pitch")), "{aside}");
     assert!(aside.contains("a damping below zero"), "{aside}");
-    let upright = said(&["--from", "0,0.3,0"]);
+    let upright = output(&["--from", "0,0.3,0"]);
     assert!(
         !upright.contains("measured") && !upright.contains("below zero"),
         "{upright}"

@@ -15,6 +15,6 @@ mod physics;
 mod report;
 mod structure;
 mod sweep;
-mod sweep_slips;
+mod sweep_errors;
 mod system;
 mod trust;

@@ -71,10 +71,10 @@ fn the_orbit_of_the_attractor_and_near_a_start_are_one() {
 /// Two laps of an orbit of one period form a lap of two periods; the output says that they are one
 /// orbit.
 #[test]
-fn a_lap_that_goes_round_twice_says_so() {
+fn a_lap_that_repeats_a_shorter_orbit_is_reported() {
     let d = directory();
     let start = "x=-0.2688,y=0.3830,vx=0.8084,vy=-0.4263";
-    for (periods, told) in [("1", false), ("2", true), ("3", true)] {
+    for (periods, expected) in [("1", false), ("2", true), ("3", true)] {
         let near = ["--start", start, "--periods", periods];
         let orbit = json("orbit", &near);
         assert_eq!(orbit["period"]["forcing_periods"].to_string(), periods);
@@ -87,7 +87,7 @@ fn a_lap_that_goes_round_twice_says_so() {
             .success();
         let words = String::from_utf8_lossy(&out.get_output().stdout).into_owned();
         let line = format!("after one period: this lap goes round that orbit {periods} times");
-        assert_eq!(words.contains(&line), told, "{words}");
+        assert_eq!(words.contains(&line), expected, "{words}");
     }
 }
 
@@ -104,7 +104,7 @@ fn an_orbit_of_two_periods_has_no_fewer() {
 }
 
 #[test]
-fn an_orbit_far_from_its_start_says_so() {
+fn an_orbit_far_from_its_start_is_reported() {
     for (start, is_far) in [("x=-0.26,y=0.38,vx=0.81,vy=-0.42", false), ("y=0.4", true)] {
         let orbit = json("orbit", &["--start", start]);
         let far = number(&orbit["start_distance"]);
@@ -117,8 +117,8 @@ fn an_orbit_far_from_its_start_says_so() {
             .assert()
             .success();
         let words = String::from_utf8_lossy(&out.get_output().stdout).into_owned();
-        let told = words.contains(&format!("{far:.3} from the start in one coordinate"));
-        assert_eq!(told, is_far, "{words}");
+        let reported = words.contains(&format!("{far:.3} from the start in one coordinate"));
+        assert_eq!(reported, is_far, "{words}");
     }
     assert!(json("orbit", &[])["start_distance"].is_null());
 }
@@ -175,7 +175,7 @@ fn the_section_at_impacts_is_that_of_the_orbit() {
 
 /// A torus has no period, however few its points: a period is reported only after eight laps of it.
 #[test]
-fn a_motion_without_a_period_is_told_as_one() {
+fn a_motion_without_a_period_is_reported() {
     let keys = [
         "r=1.976",
         "e=0.71",
@@ -194,7 +194,7 @@ fn a_motion_without_a_period_is_told_as_one() {
 }
 
 #[test]
-fn a_basin_tells_of_its_cells() {
+fn a_basin_reports_its_cells() {
     let d = directory();
     let args = [
         "basin",
@@ -346,7 +346,7 @@ fn an_orbit_is_proved_with_a_bound_on_the_error_of_what_is_printed() {
 }
 
 #[test]
-fn a_taut_lap_is_not_proved_and_says_why() {
+fn a_taut_lap_is_not_proved_and_the_reason_is_printed() {
     let d = directory();
     snapload(d.path())
         .args(

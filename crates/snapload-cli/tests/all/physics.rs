@@ -111,15 +111,15 @@ fn a_directory_gets_tables_and_pictures() {
         .assert()
         .success();
     let names = listing(&d.path().join("results"));
-    let mut wanted = vec!["impacts.csv", "modes.csv", "motion.csv", "run.json"];
+    let mut expected = vec!["impacts.csv", "modes.csv", "motion.csv", "run.json"];
     let pictures = ["trajectory", "rotation", "snaps", "tensions", "energy"];
     let files: Vec<String> = pictures
         .iter()
         .flat_map(|p| [format!("{p}.svg"), format!("{p}.png")])
         .collect();
-    wanted.extend(files.iter().map(String::as_str));
-    wanted.sort_unstable();
-    assert_eq!(names, wanted);
+    expected.extend(files.iter().map(String::as_str));
+    expected.sort_unstable();
+    assert_eq!(names, expected);
     let trajectory = std::fs::read_to_string(d.path().join("results/trajectory.svg")).unwrap();
     for letter in ["I", "S", "G", "R", "E"] {
         assert!(trajectory.contains(&format!(">{letter}<")), "mark {letter}");
@@ -154,13 +154,13 @@ fn the_critical_force_is_found_and_so_is_all_that_exceeds() {
 #[test]
 fn critical_refuses_in_words() {
     let d = directory();
-    let refused = |args: &[&str], wanted: &'static str| {
+    let refused = |args: &[&str], expected: &'static str| {
         snapload(d.path())
             .arg("critical")
             .args(args)
             .assert()
             .code(2)
-            .stderr(predicates::str::contains(wanted));
+            .stderr(predicates::str::contains(expected));
     };
     refused(&["--over", "e"], "no values");
     refused(&["--over", "e=0:1"], "three numbers");

@@ -60,10 +60,10 @@ fn opened(page: &Path, more: &[&str]) -> (String, String) {
 
 #[test]
 fn the_report_opens_with_every_figure() {
-    let (dom, said) = opened(&place("report.html"), &["--dump-dom"]);
+    let (dom, stderr) = opened(&place("report.html"), &["--dump-dom"]);
     assert!(
-        !said.contains("CONSOLE") || !said.contains("Error"),
-        "{said}"
+        !stderr.contains("CONSOLE") || !stderr.contains("Error"),
+        "{stderr}"
     );
     // Self-contained: nothing is loaded from anywhere.
     assert!(!dom.contains("src=\"") && !dom.contains("<link") && !dom.contains("<script"));
@@ -130,8 +130,8 @@ fn the_report_fits_a_phone() {
          onload=\"{script}\"></iframe>"
     );
     fs::write(&frame, html).unwrap();
-    let (dom, said) = opened(&frame, &["--allow-file-access-from-files", "--dump-dom"]);
-    assert!(dom.contains("<title>0 too wide</title>"), "{dom}\n{said}");
+    let (dom, stderr) = opened(&frame, &["--allow-file-access-from-files", "--dump-dom"]);
+    assert!(dom.contains("<title>0 too wide</title>"), "{dom}\n{stderr}");
 }
 
 fn claims() -> Vec<Value> {
@@ -212,8 +212,11 @@ fn printed(commands: &[String]) -> Vec<Vec<Value>> {
         let mut shell = Command::new("sh");
         shell.args(["-c", command]).env("PATH", &path);
         let out = shell.current_dir(scratch.path()).output().unwrap();
-        let said = String::from_utf8_lossy(&out.stderr);
-        assert!(out.status.success() && said.is_empty(), "{command}: {said}");
+        let stderr = String::from_utf8_lossy(&out.stderr);
+        assert!(
+            out.status.success() && stderr.is_empty(),
+            "{command}: {stderr}"
+        );
         let lines = String::from_utf8(out.stdout).unwrap();
         let json = lines.lines().filter(|line| line.starts_with('{'));
         Ok(json

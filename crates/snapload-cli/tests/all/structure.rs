@@ -60,9 +60,9 @@ fn assess_answers_in_a_few_lines_a_page_and_json() {
 
 /// The inputs of a note state the direction of the waves; a headline does so if they travel to −x.
 #[test]
-fn it_is_told_where_waves_go() {
+fn the_direction_of_waves_is_reported() {
     let room = room();
-    let told = |verb: &str, file: &str, key: &str, direction: &str| {
+    let headline_and_page = |verb: &str, file: &str, key: &str, direction: &str| {
         let heading = format!("{key}.direction={direction}");
         let mut command = snapload(room.path());
         command.args([verb, file, "--set", "run.duration=40", "--set", &heading]);
@@ -83,7 +83,7 @@ fn it_is_told_where_waves_go() {
         ("seas", "cylinder-sea.toml", "sea"),
     ] {
         for (direction, headlined) in [("+x", false), ("-x", true)] {
-            let (headline, page) = told(verb, file, key, direction);
+            let (headline, page) = headline_and_page(verb, file, key, direction);
             assert_eq!(headline.contains(" to -x"), headlined, "{headline}");
             let listed = page.contains(&format!(", to {direction}</td>"));
             assert!(listed, "{verb} {file} {direction}");
@@ -92,7 +92,7 @@ fn it_is_told_where_waves_go() {
 }
 
 #[test]
-fn bad_input_is_told_and_ends_with_2() {
+fn bad_input_is_reported_with_exit_status_2() {
     let room = room();
     for (set, says) in [
         ("wave.hieght=2", "did you mean height?"),

@@ -56,12 +56,12 @@ pub(crate) fn begin(directory: &Path, args: &[&str], out: &str) -> Child {
 }
 
 /// Waits until so many chunks are there; false if the program ended before.
-pub(crate) fn chunks(directory: &Path, out: &str, wanted: usize, child: &mut Child) -> bool {
+pub(crate) fn chunks(directory: &Path, out: &str, expected: usize, child: &mut Child) -> bool {
     let parts = directory.join(format!("{out}.parts"));
     loop {
         let entries = fs::read_dir(&parts).into_iter().flatten().flatten();
         let names = entries.map(|entry| entry.file_name().into_string().unwrap());
-        if names.filter(|name| name.starts_with("rows-")).count() >= wanted {
+        if names.filter(|name| name.starts_with("rows-")).count() >= expected {
             return true;
         }
         if child.try_wait().unwrap().is_some() {
@@ -72,7 +72,7 @@ pub(crate) fn chunks(directory: &Path, out: &str, wanted: usize, child: &mut Chi
 }
 
 #[test]
-fn a_killed_study_goes_on_to_the_same_bytes() {
+fn a_killed_study_resumes_to_the_same_bytes() {
     let d = directory();
     sweep(d.path(), &LONG, "whole.parquet").success();
     // Killed at the first chunk, at the second, and so on: while computing, writing or joining.
@@ -100,7 +100,7 @@ fn a_killed_study_goes_on_to_the_same_bytes() {
 }
 
 #[test]
-fn an_interruption_says_how_to_go_on() {
+fn an_interruption_prints_how_to_resume() {
     let d = directory();
     // So long that it can not end by itself before it is told to end.
     let endless = ["--vary", "f_o=0.01:0.6:600", "--vary", "omega=0.4:2.4:500"];
@@ -111,12 +111,12 @@ fn an_interruption_says_how_to_go_on() {
         .status();
     assert!(interrupt.unwrap().success());
     let done = child.wait_with_output().unwrap();
-    let said = String::from_utf8(done.stderr).unwrap();
-    assert_eq!(done.status.code(), Some(130), "{said}");
+    let stderr = String::from_utf8(done.stderr).unwrap();
+    assert_eq!(done.status.code(), Some(130), "{stderr}");
     let command = "snapload sweep --vary f_o=0.01:0.6:600 --vary omega=0.4:2.4:500 --out map.parquet --resume";
     assert!(
-        said.contains("of 300000 rows are saved") && said.contains(command),
-        "{said}"
+        stderr.contains("of 300000 rows are saved") && stderr.contains(command),
+        "{stderr}"
     );
     assert_eq!(listing(d.path()), ["map.parquet.parts"]);
     // Without --resume nothing is continued or lost; nor by another study.
@@ -150,12 +150,15 @@ fn a_full_disk_loses_nothing() {
             .current_dir(d.path())
             .output();
         let done = run.unwrap();
-        let said = String::from_utf8(done.stderr).unwrap();
-        assert_eq!(done.status.code(), Some(1), "{said}");
-        assert!(said.contains("can not write full.parquet.parts"), "{said}");
+        let stderr = String::from_utf8(done.stderr).unwrap();
+        assert_eq!(done.status.code(), Some(1), "{stderr}");
         assert!(
-            said.contains("File too large") && said.contains("--resume"),
-            "{said}"
+            stderr.contains("can not write full.parquet.parts"),
+            "{stderr}"
+        );
+        assert!(
+            stderr.contains("File too large") && stderr.contains("--resume"),
+            "{stderr}"
         );
         assert!(!d.path().join("full.parquet").exists());
         assert!(!d.path().join("full.parquet.parts/scratch").exists());
@@ -283,18 +286,18 @@ fn a_bad_row_is_a_row_with_its_error() {
 
 /// With e = 0.5 errors hardly grow; the standard case ends past its horizon of trust.
 #[test]
-fn the_summary_tells_how_many_ends_are_certain() {
+fn the_summary_counts_certain_ends() {
     let d = directory();
-    let told = sweep(d.path(), &["--vary", "e=0.5,0.55,0.9"], "e.parquet").success();
-    told.stdout(contains(
+    let output = sweep(d.path(), &["--vary", "e=0.5,0.55,0.9"], "e.parquet").success();
+    output.stdout(contains(
         "Trust     2 of 3 ends are certain (see the column certain)",
     ));
-    let told = sweep(
+    let output = sweep(
         d.path(),
         &["--vary", "e=0.5,0.9", "--no-trust"],
         "plain.parquet",
     );
-    told.success().stdout(contains("Trust").not());
+    output.success().stdout(contains("Trust").not());
 }
 
 #[test]
@@ -343,8 +346,8 @@ fn pictures_are_lines_and_maps() {
         "map.svg",
     );
     let map = String::from_utf8(map).unwrap();
-    for wanted in ["ρ₁", "f_o", "no legal case", "url(#hatch)"] {
-        assert!(map.contains(wanted), "{wanted}");
+    for expected in ["ρ₁", "f_o", "no legal case", "url(#hatch)"] {
+        assert!(map.contains(expected), "{expected}");
     }
     let ends = plot(
         &["--vary", "f_o=0.1:0.5:5", "--vary", "e=0.5:0.9:5"],
@@ -359,7 +362,7 @@ fn pictures_are_lines_and_maps() {
 fn slips_are_refused_before_anything_is_run() {
     let d = directory();
     fs::write(d.path().join("c.csv"), "f_o,omgea\n1,2\n").unwrap();
-    for (args, wanted) in [
+    for (args, expected) in [
         (
             &["--vary", "f_o"][..],
             "no values; write --vary KEY=first:last:n",
@@ -408,7 +411,7 @@ fn slips_are_refused_before_anything_is_run() {
     ] {
         sweep(d.path(), args, "out.parquet")
             .code(2)
-            .stderr(contains(wanted));
+            .stderr(contains(expected));
     }
     sweep(d.path(), &[], "no/such/out.parquet")
         .code(2)

@@ -110,9 +110,9 @@ fn standard_output_that_takes_nothing_is_an_error() {
                 .output()
                 .unwrap();
             assert_eq!(done.status.code(), Some(1), "{line}");
-            let said = String::from_utf8(done.stderr).unwrap();
+            let stderr = String::from_utf8(done.stderr).unwrap();
             assert_eq!(
-                said,
+                stderr,
                 format!("error: can not write standard output: {why}\n")
             );
         }

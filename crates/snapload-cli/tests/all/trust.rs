@@ -4,14 +4,14 @@ use crate::common::{directory, listing, snapload};
 use predicates::str::contains;
 use serde_json::Value;
 
-fn told(args: &[&str]) -> String {
+fn output(args: &[&str]) -> String {
     let d = directory();
     let out = snapload(d.path()).args(args).assert().success();
     String::from_utf8(out.get_output().stdout.clone()).unwrap()
 }
 
 fn json(args: &[&str]) -> Value {
-    serde_json::from_str(&told(&[args, &["--json", "-"]].concat())).unwrap()
+    serde_json::from_str(&output(&[args, &["--json", "-"]].concat())).unwrap()
 }
 
 fn refused(args: &[&str], why: &str) {
@@ -25,7 +25,7 @@ fn refused(args: &[&str], why: &str) {
 
 #[test]
 fn an_end_before_the_horizon_is_certain() {
-    let text = told(&["run", "--set", "f_o=0.31"]);
+    let text = output(&["run", "--set", "f_o=0.31"]);
     assert!(
         text.contains("Outcome   rotation limit: certain\n"),
         "{text}"
@@ -72,7 +72,7 @@ fn past_the_horizon_there_are_probabilities() {
     assert_eq!(run["trust"]["uncertainty"]["vtheta"], 1e-3);
     let horizon = run["trust"]["impact"].as_u64().unwrap();
     assert!((1..5).contains(&horizon));
-    let text = told(&args);
+    let text = output(&args);
     assert!(text.contains(" % of 300 neighbours (95 %: "), "{text}");
 }
 
@@ -125,7 +125,7 @@ fn many_digits_show_where_the_ordinary_run_goes_wrong() {
     let differences = found["differences"].as_array().unwrap();
     assert!(differences[(first_wrong - 1) as usize].as_f64().unwrap() > 1e-6);
     assert!(differences[0].as_f64().unwrap() < 1e-14);
-    let text = told(&["verify", "--set", "f_o=0.31"]);
+    let text = output(&["verify", "--set", "f_o=0.31"]);
     assert!(
         text.contains("Compared  correct to 1e-3 at all 12 impacts"),
         "{text}"
@@ -192,8 +192,8 @@ fn the_table_of_impacts_has_their_digits() {
 }
 
 #[test]
-fn what_is_said_of_few_neighbours_and_few_impacts_is_grammar() {
-    let text = told(&[
+fn texts_for_few_neighbours_and_few_impacts_are_grammatical() {
+    let text = output(&[
         "run",
         "--uncertainty",
         "f_o=0.01",
@@ -204,7 +204,7 @@ fn what_is_said_of_few_neighbours_and_few_impacts_is_grammar() {
     ]);
     assert!(text.contains(" % of 1 neighbour (95 %"), "{text}");
     let unsure = ["run", "--set", "t_end=0.3", "--uncertainty", "0.1"];
-    let text = told(&[&unsure[..], &["--ensemble", "2"]].concat());
+    let text = output(&[&unsure[..], &["--ensemble", "2"]].concat());
     assert!(text.contains("known to 1e-3 up to t = 0.3000"), "{text}");
 }
 

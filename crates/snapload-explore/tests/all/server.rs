@@ -2,7 +2,7 @@
 
 use crate::common::serve;
 use serde_json::{Value, json};
-use snapload::analysis::{Uncertainty, trusted_run, unwatched};
+use snapload::analysis::{Uncertainty, no_progress, trusted_run};
 use snapload::{Case, KEYS, Outcome, Parameters, Playback, State, Trajectory, named_cases};
 use std::io::{BufRead, BufReader, Write};
 use std::time::{Duration, Instant};
@@ -121,7 +121,7 @@ fn a_run_has_the_numbers_of_the_library() {
         ),
     ] {
         let case = case(&entries);
-        let (run, trust) = trusted_run(&case, &Uncertainty::default(), &unwatched).unwrap();
+        let (run, trust) = trusted_run(&case, &Uncertainty::default(), &no_progress).unwrap();
         let told = server.run(values);
         let impacts = &told["impacts"];
         assert!(run.impacts().iter().map(|i| i.t).eq(numbers(&impacts["t"])));

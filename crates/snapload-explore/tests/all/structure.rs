@@ -3,7 +3,7 @@
 use crate::common::{Running, serve_structure};
 use serde_json::{Value, json};
 use snapload::Entries;
-use snapload::analysis::unwatched;
+use snapload::analysis::no_progress;
 use snapload_structure::{Prepared, STRUCTURE, Structure, Water, Wave, assess, both_models};
 
 /// A cylinder on two lines of chain, for a minute and a half of a wave.
@@ -68,7 +68,7 @@ fn a_run_is_what_assess_tells() {
     let set = ["wave.height=2.5", "line.2.length=6.01"];
     let asked = json!({ "case": { "set": set }, "neighbours": true, "window": [60.0, 80.0] });
     let told = ask(&server, "/api/structure/run", asked);
-    let direct = assess(structure(&set), 40, &unwatched).unwrap();
+    let direct = assess(structure(&set), 40, &no_progress).unwrap();
     let mut expected = direct.to_json("cylinder.toml");
     for list in ["snaps", "neighbour_peaks_n"] {
         expected.as_object_mut().unwrap().remove(list);
@@ -121,7 +121,7 @@ fn lines_that_stretch_are_what_elastic_tells() {
     let asked = json!({ "case": { "set": ["wave.period=5"] }, "window": [30.0, 50.0] });
     let told = ask(&serve(), "/api/structure/elastic", asked);
     let prepared = Prepared::for_springs(structure(&["wave.period=5"])).unwrap();
-    let direct = both_models(prepared, 1.0, 0.02, &unwatched).unwrap();
+    let direct = both_models(prepared, 1.0, 0.02, &no_progress).unwrap();
     let expected = direct.to_json("cylinder.toml");
     assert_eq!(told["elastic"]["lines"], expected["lines"]);
     assert_eq!(told["elastic"]["end"], expected["end"]);
@@ -160,7 +160,7 @@ fn another_water_takes_the_place_of_that_of_the_file() {
     // The exported file is the case that is shown.
     let file = server.post("/api/structure/export/case.toml", &json!({ "case": sea }));
     let saved = Structure::parse("case.toml", std::str::from_utf8(&file.body).unwrap()).unwrap();
-    let direct = assess(saved, 0, &unwatched).unwrap();
+    let direct = assess(saved, 0, &no_progress).unwrap();
     assert_eq!(whole["assessment"]["verdict"], json!(direct.verdict()));
     let still = ask(
         &server,
@@ -190,7 +190,7 @@ fn a_file_that_is_opened_is_told_and_run() {
         "/api/structure/run",
         json!({ "case": { "file": file } }),
     );
-    let direct = assess(structure(&["wave.height=1.5"]), 0, &unwatched).unwrap();
+    let direct = assess(structure(&["wave.height=1.5"]), 0, &no_progress).unwrap();
     assert_eq!(run["assessment"]["verdict"], json!(direct.verdict()));
     let kind = ask(&server, "/api/case", file);
     assert_eq!(kind["structure"], true);
@@ -254,7 +254,7 @@ fn the_design_note_is_of_the_case_that_is_shown() {
     let direct = assess(
         structure(&["wave.height=2.2", "run.duration=60"]),
         0,
-        &unwatched,
+        &no_progress,
     )
     .unwrap();
     let page = String::from_utf8(page.body).unwrap();
@@ -288,7 +288,7 @@ fn other_waves_are_those_of_the_note() {
         height_m: heights[j],
         period_s: periods[i],
     });
-    let direct = assess(same, 0, &unwatched).unwrap();
+    let direct = assess(same, 0, &no_progress).unwrap();
     let largest = direct.outcome.utilisations(&structure(&[]));
     let largest = largest.into_iter().flatten().fold(0.0, f64::max);
     assert_eq!(cells[i * heights.len() + j].as_f64(), Some(largest));
@@ -313,7 +313,7 @@ fn a_body_that_floats_on_textbook_values_can_be_opened() {
     let direct = assess(
         Structure::parse("barge.toml", BARGE).unwrap(),
         0,
-        &unwatched,
+        &no_progress,
     );
     assert_eq!(
         run["assessment"]["verdict"],

@@ -2,7 +2,7 @@
 
 use crate::common::{number, parameters, reference};
 use serde_json::Value as Json;
-use snapload::analysis::unwatched;
+use snapload::analysis::no_progress;
 use snapload::{Parameters, Stop, key_named};
 use snapload_orbits::{Basin, Cell, Erosion, KNEE, Window, basin_in_words, erosion_in_words};
 
@@ -43,7 +43,7 @@ fn letter(cell: &Cell) -> char {
 /// Decided cells agree, and so do the measures.
 fn agrees(name: &str, trust: bool) {
     let grid = &reference()["grids"][name];
-    let basin = Basin::of(window(grid), trust, &unwatched).unwrap();
+    let basin = Basin::of(window(grid), trust, &no_progress).unwrap();
     let known: String = grid["rows"]
         .as_array()
         .unwrap()
@@ -101,7 +101,7 @@ fn the_knee_is_that_of_the_decided_cells() {
     let [first, .., before, after] = [0, 1, 2, 3].map(|k| number(&chosen[k]["fraction"]));
     assert!(before > KNEE * first && after < KNEE * first);
     let values: Vec<f64> = chosen.iter().map(|point| number(&point["f_o"])).collect();
-    let erosion = Erosion::of(&window(curve), "f_o", &values, true, &unwatched).unwrap();
+    let erosion = Erosion::of(&window(curve), "f_o", &values, true, &no_progress).unwrap();
     assert_eq!(erosion.knee(), Some(values[2]));
     // As a part of all cells the first value's safe part is too large, so that the knee is too
     // early.
@@ -122,7 +122,7 @@ fn a_window_beyond_the_cables_is_said_to_be_so() {
         keys: ["x", "y"],
         values: [vec![5.0, 6.0], vec![5.0, 6.0]],
     };
-    let text = basin_in_words(&Basin::of(window, false, &unwatched).unwrap());
+    let text = basin_in_words(&Basin::of(window, false, &no_progress).unwrap());
     assert!(
         text.contains("no cell is legal") && !text.contains("NaN"),
         "{text}"
@@ -135,11 +135,11 @@ fn a_window_beyond_the_cables_is_said_to_be_so() {
 fn a_plane_beside_the_equilibrium_has_no_distances_from_it() {
     let mut window = window(&reference()["grids"]["circle_xy_f0.3"]);
     window.values = [vec![-0.1, 0.0, 0.1], vec![0.1, 0.3, 0.5]];
-    let basin = Basin::of(window.clone(), false, &unwatched).unwrap();
+    let basin = Basin::of(window.clone(), false, &no_progress).unwrap();
     let lim = basin.measures.lim.unwrap();
     assert!(basin_in_words(&basin).contains(&format!("{lim:.4} from the equilibrium (LIM)")));
     window.base.vy = -0.2;
-    let basin = Basin::of(window, false, &unwatched).unwrap();
+    let basin = Basin::of(window, false, &no_progress).unwrap();
     assert_eq!((basin.measures.lim, basin.measures.iim), (None, None));
     assert!(basin.measures.integrity_factor.is_some());
     let words = basin_in_words(&basin);
@@ -157,7 +157,7 @@ fn an_erosion_says_in_which_planes_there_are_distances() {
     window.values = [vec![-0.1, 0.1], vec![0.1, 0.3]];
     window.base.t_end = 2.0;
     let words = |window: &Window, key: &'static str, values: &[f64]| {
-        let erosion = Erosion::of(window, key, values, false, &unwatched).unwrap();
+        let erosion = Erosion::of(window, key, values, false, &no_progress).unwrap();
         erosion_in_words(&erosion)
     };
     assert!(!words(&window, "f_o", &[0.1, 0.2]).contains("undefined (LIM"));
@@ -180,7 +180,7 @@ fn measures_do_not_hang_on_the_order_of_the_cells() {
         values.reverse();
     }
     let [one, other] =
-        [upwards, downwards].map(|window| Basin::of(window, false, &unwatched).unwrap().measures);
+        [upwards, downwards].map(|window| Basin::of(window, false, &no_progress).unwrap().measures);
     assert_eq!(
         (one.safe, one.legal, one.lim),
         (other.safe, other.legal, other.lim)

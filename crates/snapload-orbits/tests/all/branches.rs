@@ -2,7 +2,7 @@
 
 use crate::common::{number, parameters, point, reference};
 use serde_json::Value as Json;
-use snapload::analysis::unwatched;
+use snapload::analysis::no_progress;
 use snapload_orbits::{Along, Branch, Moored, Orbit, Wanted};
 
 fn branch(reference: &Json, start: [f64; 6], range: [f64; 2]) -> Branch {
@@ -16,7 +16,7 @@ fn branch(reference: &Json, start: [f64; 6], range: [f64; 2]) -> Branch {
         step: 0.02,
         most: 2000,
     };
-    Branch::of(&family, &orbit, &along, &unwatched).unwrap()
+    Branch::of(&family, &orbit, &along, &no_progress).unwrap()
 }
 
 fn name_of(kind: &str) -> &str {
@@ -106,7 +106,7 @@ fn a_branch_ends_on_the_borders_of_its_range() {
             step: 0.02,
             most: 2000,
         };
-        let branch = Branch::of(&family, &orbit, &along, &unwatched).unwrap();
+        let branch = Branch::of(&family, &orbit, &along, &no_progress).unwrap();
         let ends = branch
             .ends
             .each_ref()

@@ -3,7 +3,7 @@
 
 use crate::common::{number, reference, relative};
 use crate::wall::{Wall, WallOver};
-use snapload::analysis::unwatched;
+use snapload::analysis::no_progress;
 use snapload::{Body, Cable, Forcing, Harmonic, Real, Rules, System, TautSet};
 use snapload_orbits::{
     Along, Branch, Event, Family, Happening, Hybrid, Kind, Lap, Moored, Orbit, Sequence, close,
@@ -229,7 +229,7 @@ fn the_ball_on_a_table_is_born_and_doubles_where_it_must() {
             step: 0.02,
             most: 400,
         };
-        let branch = Branch::of(&family, &orbit, &along, &unwatched).unwrap();
+        let branch = Branch::of(&family, &orbit, &along, &no_progress).unwrap();
         let located = |kind: Kind, value: f64| {
             let of_kind = branch.events.iter().filter(|event| event.kind == kind);
             of_kind
@@ -261,7 +261,7 @@ fn the_ball_doubles_its_period_again_and_again() {
         step: 0.02,
         most: 60,
     };
-    let mut branch = Branch::of(&family, &orbit, &along, &unwatched).unwrap();
+    let mut branch = Branch::of(&family, &orbit, &along, &no_progress).unwrap();
     let mut values: Vec<f64> = Vec::new();
     let mut periods = 1;
     while let Some(event) = branch
@@ -274,7 +274,7 @@ fn the_ball_doubles_its_period_again_and_again() {
         values.push(event.value[0]);
         along.step *= 0.45;
         let event = event.clone();
-        branch = Branch::of_doubling(&family, &event, &along, &unwatched)
+        branch = Branch::of_doubling(&family, &event, &along, &no_progress)
             .unwrap()
             .unwrap();
         periods *= 2;

@@ -2,7 +2,7 @@
 
 use crate::closed_forms::{bouncing, bouncing_from, table};
 use crate::common::{parameters, reference};
-use snapload::analysis::unwatched;
+use snapload::analysis::no_progress;
 use snapload_orbits::{
     Across, Along, Branch, BranchEvent, Curve, CurvePoint, Family, Kind, Moored, Orbit, Wanted,
     distance,
@@ -15,7 +15,7 @@ fn curve<F: Family>(family: &F, event: &BranchEvent, ranges: [[f64; 2]; 2], step
         step,
         most: 400,
     };
-    let curve = Curve::of(family, event, &across, &unwatched)
+    let curve = Curve::of(family, event, &across, &no_progress)
         .unwrap()
         .unwrap();
     for end in &curve.ends {
@@ -48,7 +48,7 @@ fn the_ball_on_a_table_has_its_curves() {
         step: 0.02,
         most: 400,
     };
-    let branch = Branch::of(&family, &orbit, &along, &unwatched).unwrap();
+    let branch = Branch::of(&family, &orbit, &along, &no_progress).unwrap();
     for (kind, which) in [(Kind::Fold, 0), (Kind::PeriodDoubling, 1)] {
         let event = branch.event(kind, None).unwrap();
         let found = curve(&family, event, [[0.0, 5.0], [0.2, 0.95]], 0.02);
@@ -88,7 +88,7 @@ fn coefficients_are_those_of_the_branches() {
         step: 0.002,
         most: 2000,
     };
-    let branch = Branch::of(&family, &orbit, &along, &unwatched).unwrap();
+    let branch = Branch::of(&family, &orbit, &along, &no_progress).unwrap();
     let first =
         |event| curve(&family, event, [[0.0, 5.0], [0.499, 0.501]], 0.002).points[0].clone();
     let fold = branch.event(Kind::Fold, None).unwrap();
@@ -119,7 +119,7 @@ fn coefficients_are_those_of_the_branches() {
     assert!(found > 0.0);
     along.step = 0.001;
     along.most = 20;
-    let twice = Branch::of_doubling(&family, doubling, &along, &unwatched)
+    let twice = Branch::of_doubling(&family, doubling, &along, &no_progress)
         .unwrap()
         .unwrap();
     let apart = &twice.points[4].orbit;
@@ -150,7 +150,7 @@ fn agrees(name: &str, key: &'static str, kind: Kind, point: &CurvePoint, range: 
         step: 0.01,
         most: 500,
     };
-    let branch = Branch::of(&family, &aside.unwrap(), &along, &unwatched).unwrap();
+    let branch = Branch::of(&family, &aside.unwrap(), &along, &no_progress).unwrap();
     let of_kind = branch.events.iter().filter(|event| event.kind == kind);
     let off = of_kind.map(|event| {
         (event.value[0] - f_o).abs() + distance(&event.orbit.z, &point.orbit.z) * 1e-3
@@ -188,7 +188,7 @@ fn curves_of_the_breakwater_are_those_of_branches() {
             step: 0.02,
             most: 2000,
         };
-        let branch = Branch::of(&family, &orbit, &along, &unwatched).unwrap();
+        let branch = Branch::of(&family, &orbit, &along, &no_progress).unwrap();
         let event = branch.event(kind, None).unwrap();
         let found = curve(&family, event, [around, other], 0.01);
         assert!(found.points.len() > 5);
@@ -223,7 +223,7 @@ fn coefficients_of_folds_have_a_sign_along_the_curve() {
         step: 0.02,
         most: 2000,
     };
-    let branch = Branch::of(&family, &orbit, &along, &unwatched).unwrap();
+    let branch = Branch::of(&family, &orbit, &along, &no_progress).unwrap();
     let event = branch.event(Kind::Fold, None).unwrap();
     let found = curve(&family, event, [[1.0, 2.0], [2.5, 3.5]], 0.01);
     let known: Vec<f64> = found

@@ -3,7 +3,7 @@
 use crate::common::{number, numbers, parameters, reference};
 use crate::orbits::volley;
 use snapload::Parameters;
-use snapload::analysis::unwatched;
+use snapload::analysis::no_progress;
 use snapload_orbits::{
     Attraction, Fate, Orbit, Section, Stability, Stretch, Wanted, Window, diagram, distance,
     of_attractor, section_in_words,
@@ -29,7 +29,7 @@ fn the_attractor_is_followed_as_in_the_reference() {
         exponents: true,
         impacts: false,
     };
-    let found = diagram(&base, "f_o", &values, &stretch, &unwatched).unwrap();
+    let found = diagram(&base, "f_o", &values, &stretch, &no_progress).unwrap();
     for (at, row) in found.iter().zip(rows) {
         assert_eq!(at.period.map(|n| n as u64), row["period"].as_u64());
         assert_eq!(at.snaps().unwrap(), number(&row["snaps_per_period"]));
@@ -63,7 +63,7 @@ fn two_attractors_share_the_starts() {
         keys: ["x", "y"],
         values: [vec![-0.1, 0.0, 0.1], vec![0.2, 0.425, 0.65]],
     };
-    let found = Attraction::of(window, 200, &unwatched).unwrap();
+    let found = Attraction::of(window, 200, &no_progress).unwrap();
     let symbols: Vec<_> = found
         .attractors
         .iter()
@@ -84,7 +84,7 @@ const KEPT: Stretch = Stretch {
 };
 
 fn section(parameters: &Parameters) -> Section {
-    Section::of(parameters, &KEPT, &unwatched).unwrap()
+    Section::of(parameters, &KEPT, &no_progress).unwrap()
 }
 
 /// Two taut cables leave a point mass no deviation, and a rigid body those of its rocking, which
@@ -127,7 +127,7 @@ fn exponents_of_an_orbit_that_sticks_are_those_of_its_multipliers() {
         omega: 3.1,
         ..Parameters::STANDARD
     };
-    let orbit = of_attractor(&parameters, &Wanted::default(), &unwatched);
+    let orbit = of_attractor(&parameters, &Wanted::default(), &no_progress);
     let orbit: Orbit = orbit.unwrap().unwrap();
     assert_eq!(orbit.multipliers.zeros_from_contact, 2);
     let found = section(&parameters).exponents;
@@ -159,7 +159,7 @@ fn the_orbit_of_an_attractor_is_where_the_motion_goes() {
             omega: 3.1,
             ..Parameters::STANDARD
         };
-        let orbit = of_attractor(&parameters, &Wanted::default(), &unwatched);
+        let orbit = of_attractor(&parameters, &Wanted::default(), &no_progress);
         let orbit: Orbit = orbit.unwrap().unwrap();
         assert_eq!(orbit.stability(), Stability::Stable);
         let followed = section(&parameters);

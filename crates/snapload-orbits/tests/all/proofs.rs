@@ -3,7 +3,7 @@
 use crate::common::{number, parameters, point, reference};
 use serde_json::{Value as Json, json};
 use snapload::Parameters;
-use snapload::analysis::unwatched;
+use snapload::analysis::no_progress;
 use snapload_certificate::{ExactCase, ProvedOrbit, Supposed, prove_orbit};
 use snapload_orbits::{
     Along, Branch, Family, Kind, Lap, Moored, Orbit, Point, Starts, Wanted, close, find_orbits,
@@ -127,7 +127,10 @@ fn branch(place: usize, start: Point, range: [f64; 2]) -> (Parameters, Branch) {
     let orbit = Orbit::find(&family, [p.f_o, 0.0], &start, &Wanted::default()).unwrap();
     let (step, most) = (0.02, 2000);
     let along = Along { range, step, most };
-    (p, Branch::of(&family, &orbit, &along, &unwatched).unwrap())
+    (
+        p,
+        Branch::of(&family, &orbit, &along, &no_progress).unwrap(),
+    )
 }
 
 /// Below the fold there is no orbit, above it there are two.
@@ -232,7 +235,8 @@ fn random(count: usize, seed: u64) -> Starts<'static> {
 #[test]
 fn orbits_found_by_chance_are_proved_and_told_apart() {
     let square = parameters(&json!({"a": 0.3, "b": 0.3, "f_o": 0.5, "omega": 2.5}));
-    let mut orbits = find_orbits(&square, &random(200, 1), &Wanted::default(), &unwatched).unwrap();
+    let mut orbits =
+        find_orbits(&square, &random(200, 1), &Wanted::default(), &no_progress).unwrap();
     assert!(orbits.len() >= 15, "{}", orbits.len());
     // Most orbits of a case are found from those of a neighbouring one, without random starts.
     let near: Vec<Point> = orbits.iter().map(|orbit| orbit.z).collect();
@@ -244,7 +248,7 @@ fn orbits_found_by_chance_are_proved_and_told_apart() {
         f_o: 0.49,
         ..square
     };
-    let others = find_orbits(&beside, &near, &Wanted::default(), &unwatched).unwrap();
+    let others = find_orbits(&beside, &near, &Wanted::default(), &no_progress).unwrap();
     assert!(
         2 * others.len() > orbits.len(),
         "{} {}",
@@ -252,11 +256,11 @@ fn orbits_found_by_chance_are_proved_and_told_apart() {
         orbits.len()
     );
     let twice: Vec<Orbit> = orbits.iter().chain(&orbits).cloned().collect();
-    let proofs = prove_all(&mut orbits, &exact(&square), &unwatched).unwrap();
+    let proofs = prove_all(&mut orbits, &exact(&square), &no_progress).unwrap();
     assert_eq!([proofs.proved, proofs.distinct], [orbits.len(); 2]);
     // An orbit that is listed twice is counted once.
     let mut twice = twice;
-    let again = prove_all(&mut twice, &exact(&square), &unwatched).unwrap();
+    let again = prove_all(&mut twice, &exact(&square), &no_progress).unwrap();
     assert_eq!(
         [again.proved, again.distinct],
         [2 * orbits.len(), orbits.len()]
@@ -272,8 +276,8 @@ fn orbits_of_two_periods_are_found_once_and_proved_not_to_be_shorter() {
         periods: Some(2),
         ..Wanted::default()
     };
-    let mut orbits = find_orbits(&square, &random(150, 2), &two, &unwatched).unwrap();
-    let proofs = prove_all(&mut orbits, &exact(&square), &unwatched).unwrap();
+    let mut orbits = find_orbits(&square, &random(150, 2), &two, &no_progress).unwrap();
+    let proofs = prove_all(&mut orbits, &exact(&square), &no_progress).unwrap();
     assert!(
         proofs.distinct == orbits.len() && proofs.distinct >= 5,
         "{proofs:?}"

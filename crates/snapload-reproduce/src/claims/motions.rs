@@ -1,15 +1,15 @@
 //! Quantities of a run: its end, its swings, its clear impacts, and the forces on the body.
 
 use snapload::{End, Impact, State, Stop, System};
-use snapload_verify::Run;
+use snapload_verify::RoundedRun;
 
 /// Whether a run exceeded the limits: rotation limit or upper bound.
-pub(super) fn exceeds(run: &Run) -> bool {
+pub(super) fn exceeds(run: &RoundedRun) -> bool {
     run.end().reason.exceeds()
 }
 
 /// Time and θ of the turning points of the rotation.
-pub(super) fn turns(run: &Run) -> Vec<(f64, f64)> {
+pub(super) fn turns(run: &RoundedRun) -> Vec<(f64, f64)> {
     let turns =
         |hit: &&Impact| hit.before.vtheta == 0.0 || hit.before.vtheta * hit.after.vtheta < 0.0;
     let turning = run.impacts().iter().filter(turns);
@@ -39,7 +39,7 @@ impl Swing {
 }
 
 /// The swings of θ between its turns.
-pub(super) fn swings(run: &Run) -> Vec<Swing> {
+pub(super) fn swings(run: &RoundedRun) -> Vec<Swing> {
     let turns = turns(run);
     let pairs = turns.windows(2);
     pairs
@@ -51,7 +51,7 @@ pub(super) fn swings(run: &Run) -> Vec<Swing> {
 }
 
 /// The largest rotation of a run.
-pub(super) fn rotation(run: &Run) -> f64 {
+pub(super) fn rotation(run: &RoundedRun) -> f64 {
     run.norms().theta_max
 }
 
@@ -71,7 +71,7 @@ pub(super) fn places(
 pub(super) const CLEAR: f64 = 1e-2;
 
 /// The impacts that are visible in a printed plot.
-pub(super) fn clear(run: &Run) -> impl Iterator<Item = &Impact> + Clone {
+pub(super) fn clear(run: &RoundedRun) -> impl Iterator<Item = &Impact> + Clone {
     run.impacts().iter().filter(|hit| hit.v_n > CLEAR)
 }
 
@@ -105,13 +105,13 @@ fn how(reason: Stop) -> &'static str {
         Stop::Settled => "settles",
         Stop::SlidingStart => "slides",
         Stop::EndTime => "goes on",
-        other => other.words(),
+        other => other.label(),
     }
 }
 
 /// The ends of the runs in many digits, which are the first of the members; and for each, the
 /// number of other starts that end differently, if there are any.
-pub(super) fn endings<const N: usize>(members: &[[&Run; N]]) -> String {
+pub(super) fn endings<const N: usize>(members: &[[&RoundedRun; N]]) -> String {
     let words = (0..N).map(|k| {
         let own = members[0][k].end();
         let others = members

@@ -7,7 +7,7 @@
 //! from a formula of normals and lever arms.
 
 use super::numbers::holds;
-use super::verdict::{Finding, Judged};
+use super::verdict::{Checked, Finding};
 use snapload::{Cable, Dual, Motion, Playback, Real, State, TautSet, Trajectory, anchor_height};
 
 /// Cable 1, of the gap g1, and cable 2, of the gap g2, as in the chapter's figures.
@@ -243,11 +243,11 @@ pub(super) fn over<S, I: IntoIterator<Item = f64>>(
     largest(states.iter().flat_map(residual))
 }
 
-/// Judges an equation by its residuals over some states.
+/// Checks an equation by its residuals over some states.
 pub(super) fn identity<S, I: IntoIterator<Item = f64>>(
     states: &[S],
     residual: impl Fn(&S) -> I,
-) -> Judged {
+) -> Checked {
     let most = over(states, residual);
     Ok(Finding::of(holds(most) && !states.is_empty())
         .value("residual", most)

@@ -140,7 +140,7 @@ mod tests {
     }
 
     #[test]
-    fn numbers_are_told_in_words() {
+    fn numbers_are_written_as_text() {
         assert_eq!(list(&[1.0, 0.25], 1), "1.0, 0.2");
         assert_eq!(span([0.31, 0.3, 0.33], 2), "0.30 to 0.33");
         assert_eq!(span([0.311, 0.312], 2), "0.31");

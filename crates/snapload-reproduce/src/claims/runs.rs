@@ -8,7 +8,7 @@ use crate::reading::first_exceeding;
 use crate::study::{CaseRuns, LARGEST, Reading, Study};
 use snapload::analysis::{ForceScan, in_parallel};
 use snapload::{Case, CaseError, Outcome, Parameters, Trajectory, table_6_1};
-use snapload_verify::Run;
+use snapload_verify::RoundedRun;
 
 /// The distance of neighbours from a start.
 const NEAR: f64 = 1e-12;
@@ -108,19 +108,21 @@ pub(super) fn run(parameters: &Parameters) -> Result<Trajectory, CaseError> {
 pub(super) fn of_runs<T: Send>(
     cases: &[Parameters],
     neighbours: usize,
-    what: impl Fn(&Run) -> T + Sync,
+    what: impl Fn(&RoundedRun) -> T + Sync,
 ) -> Result<Vec<Vec<T>>, CaseError> {
-    from_starts(cases, neighbours, |case| Ok(what(&Run::of_doubles(case)?)))
+    from_starts(cases, neighbours, |case| {
+        Ok(what(&RoundedRun::of_doubles(case)?))
+    })
 }
 
 /// The same, with the first runs in 76 digits.
 pub(super) fn of_exact_runs<T: Send>(
     cases: &[Parameters],
     neighbours: usize,
-    what: impl Fn(&Run) -> T + Sync,
+    what: impl Fn(&RoundedRun) -> T + Sync,
 ) -> Result<Vec<Vec<T>>, CaseError> {
     let mut of_starts = of_runs(cases, neighbours, &what)?;
-    of_starts[0] = each(cases, |case| Ok(what(&Run::of_76_digits(case)?)))?;
+    of_starts[0] = each(cases, |case| Ok(what(&RoundedRun::of_76_digits(case)?)))?;
     Ok(of_starts)
 }
 
@@ -180,22 +182,22 @@ pub(super) fn table_codes() -> Vec<&'static str> {
 
 /// The cases of Table 6.1 in many digits, with their neighbours in doubles, in the chapter's
 /// reading. The force is that of the code if the printed one differs.
-pub(super) struct Tabled<'a> {
+pub(super) struct TableRuns<'a> {
     pub(super) study: &'a Study,
     pub(super) codes: Vec<&'static str>,
     pub(super) cases: Vec<Parameters>,
     /// `[start][case]`.
-    runs: Vec<Vec<Run>>,
+    runs: Vec<Vec<RoundedRun>>,
 }
 
-impl<'a> Tabled<'a> {
+impl<'a> TableRuns<'a> {
     pub(super) fn new(study: &'a Study) -> Result<Self, ReportError> {
         let codes = table_codes();
         let runs = codes.iter().map(|code| case(study, code));
         let of_codes: Vec<&CaseRuns> = runs.collect::<Result<_, ReportError>>()?;
         let cases = of_codes.iter().map(|case| chapter(case.parameters));
         let cases: Vec<Parameters> = cases.collect();
-        let mut runs = from_starts(&cases, MANY, Run::of_doubles)?;
+        let mut runs = from_starts(&cases, MANY, RoundedRun::of_doubles)?;
         runs[0] = of_codes.iter().map(|case| case.exact.clone()).collect();
         Ok(Self {
             study,
@@ -206,12 +208,12 @@ impl<'a> Tabled<'a> {
     }
 
     /// The runs of all codes.
-    pub(super) fn own(&self) -> &[Run] {
+    pub(super) fn own(&self) -> &[RoundedRun] {
         &self.runs[0]
     }
 
     /// The runs of all codes from each start, those in many digits first.
-    pub(super) fn members(&self) -> impl Iterator<Item = &[Run]> {
+    pub(super) fn members(&self) -> impl Iterator<Item = &[RoundedRun]> {
         self.runs.iter().map(Vec::as_slice)
     }
 
@@ -219,7 +221,7 @@ impl<'a> Tabled<'a> {
     pub(super) fn of<const N: usize>(
         &self,
         codes: [&str; N],
-    ) -> Result<Vec<[&Run; N]>, ReportError> {
+    ) -> Result<Vec<[&RoundedRun; N]>, ReportError> {
         let mut places = [0; N];
         for (place, code) in places.iter_mut().zip(codes) {
             let found = self.codes.iter().position(|known| *known == code);
@@ -233,8 +235,8 @@ impl<'a> Tabled<'a> {
 /// The finding on a statement about a quantity of each of some runs, from every start.
 pub(super) fn measured<const N: usize>(
     name: &'static str,
-    members: &[[&Run; N]],
-    figure: impl Fn(&Run) -> f64,
+    members: &[[&RoundedRun; N]],
+    figure: impl Fn(&RoundedRun) -> f64,
     holds: impl Fn(&[f64; N]) -> bool,
 ) -> Finding {
     let figures: Vec<[f64; N]> = members.iter().map(|runs| runs.map(&figure)).collect();
@@ -243,8 +245,8 @@ pub(super) fn measured<const N: usize>(
 
 /// The finding on a statement about each case by itself, from all starts.
 pub(super) fn by_case<const N: usize>(
-    members: &[[&Run; N]],
-    holds: impl Fn(&Run) -> bool,
+    members: &[[&RoundedRun; N]],
+    holds: impl Fn(&RoundedRun) -> bool,
 ) -> [Verdict; N] {
     std::array::from_fn(|k| Verdict::robust(members.iter().map(|runs| holds(runs[k]))))
 }
@@ -277,7 +279,7 @@ mod tests {
     }
 
     #[test]
-    fn cases_are_asked_start_by_start() -> Result<(), CaseError> {
+    fn cases_are_computed_start_by_start() -> Result<(), CaseError> {
         let cases = [0.1, 0.2].map(|f_o| Parameters {
             f_o,
             ..Parameters::STANDARD
@@ -293,13 +295,13 @@ mod tests {
     }
 
     #[test]
-    fn a_run_is_read_as_it_went() -> Result<(), CaseError> {
+    fn runs_are_described_as_computed() -> Result<(), CaseError> {
         let standard = chapter(Parameters::STANDARD);
         let strong = Parameters {
             f_o: 0.5,
             ..standard
         };
-        let runs = each(&[standard, strong], Run::of_76_digits)?;
+        let runs = each(&[standard, strong], RoundedRun::of_76_digits)?;
         assert_eq!(runs.iter().map(exceeds).collect::<Vec<_>>(), [false, true]);
         assert_eq!(ending(runs[0].end()), "settles at 7.246");
         assert!(clear(&runs[0]).all(|hit| hit.v_n > CLEAR));

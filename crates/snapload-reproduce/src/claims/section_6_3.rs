@@ -3,15 +3,15 @@
 
 mod stops;
 
-use super::runs::Tabled;
-use super::verdict::{Claim, Finding, Judged, Judges, ask};
+use super::runs::TableRuns;
+use super::verdict::{Checked, Checks, Claim, Finding, run_checks};
 use crate::ReportError;
 use snapload::{Parameters, anchor_height};
 
 /// Table 6.1 as printed.
 const PRINTED: &str = include_str!("../../data/table_6_1.csv");
 
-const JUDGES: &Judges<fn(&Table) -> Judged> = &[
+const CHECKS: &Checks<fn(&Table) -> Checked> = &[
     ("6.3-01", |table| Ok(codes(table))),
     ("6.3-02", |table| Ok(one_parameter(table))),
     ("6.3-03", |_| Ok(standard_code())),
@@ -19,9 +19,9 @@ const JUDGES: &Judges<fn(&Table) -> Judged> = &[
 ];
 
 /// Checks the claims of sections 6.3 to 6.3.2.
-pub(super) fn claims(tabled: &Tabled) -> Result<Vec<Claim>, ReportError> {
-    let mut all = ask(&[JUDGES], &Table::read(PRINTED))?;
-    all.extend(ask(&[stops::JUDGES], tabled)?);
+pub(super) fn claims(table_runs: &TableRuns) -> Result<Vec<Claim>, ReportError> {
+    let mut all = run_checks(&[CHECKS], &Table::read(PRINTED))?;
+    all.extend(run_checks(&[stops::CHECKS], table_runs)?);
     Ok(all)
 }
 
@@ -107,7 +107,7 @@ fn codes(table: &Table) -> Finding {
         .values("right wrong", [right.len(), wrong.len()])
         .values("all only_force", [table.rows.len(), only_force])
         .value("series", series.join(", "))
-        .found("only_force", only_force == wrong.len())
+        .condition("only_force", only_force == wrong.len())
 }
 
 fn one_parameter(table: &Table) -> Finding {
@@ -132,7 +132,7 @@ fn one_parameter(table: &Table) -> Finding {
     let mut parts = wrong.iter().flat_map(|rows| rows.chunk_by(of_one));
     Finding::of(wrong.is_empty() && !found.is_empty())
         .value("varied", found.join("; "))
-        .found("grid", parts.all(|rows| table.varied(rows) == ["r"]))
+        .condition("grid", parts.all(|rows| table.varied(rows) == ["r"]))
 }
 
 fn standard_code() -> Finding {
@@ -145,7 +145,7 @@ fn standard_code() -> Finding {
     };
     let (named, follows) = ("1910001000-559", with_force(Parameters::STANDARD.f_o));
     Finding::of(follows == named)
-        .found("force_of_point", with_force(0.5) == named)
+        .condition("force_of_point", with_force(0.5) == named)
         .value("code", follows)
 }
 
@@ -164,7 +164,7 @@ fn heights(table: &Table) -> Finding {
     Finding::of(wrong.is_empty() && !table.rows.is_empty())
         .values("right all", [right.len(), table.rows.len()])
         .value("misprints", misprints.collect::<Vec<_>>().join(", "))
-        .found("of_another_row", wrong.iter().all(of_another))
+        .condition("of_another_row", wrong.iter().all(of_another))
 }
 
 #[cfg(test)]

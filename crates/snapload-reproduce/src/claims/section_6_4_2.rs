@@ -6,7 +6,7 @@ mod table;
 
 use super::numbers::falling;
 use super::runs::{FEW, NEVER, SAME, chapter, critical_force, from_starts, near, shown, standard};
-use super::verdict::{Claim, Finding, Judged, Judges, Verdict, ask};
+use super::verdict::{Checked, Checks, Claim, Finding, Verdict, run_checks};
 use crate::ReportError;
 use crate::critical_row::NEIGHBOURS;
 use crate::proved::{Proved, over_force};
@@ -17,12 +17,12 @@ use table::{Column, Entry, Table};
 
 /// Checks the claims of the section.
 pub(super) fn claims(study: &Study) -> Result<Vec<Claim>, ReportError> {
-    let mut all = ask(&[JUDGES], &Table::new(study))?;
-    all.extend(ask(&[curves::JUDGES], study)?);
+    let mut all = run_checks(&[CHECKS], &Table::new(study))?;
+    all.extend(run_checks(&[curves::CHECKS], study)?);
     Ok(all)
 }
 
-const JUDGES: &Judges<fn(&Table) -> Judged> = &[
+const CHECKS: &Checks<fn(&Table) -> Checked> = &[
     ("6.4.2-01", reasons),
     ("6.4.2-02", values),
     ("6.4.2-03", growth),
@@ -32,7 +32,7 @@ const JUDGES: &Judges<fn(&Table) -> Judged> = &[
         Ok(Finding::new(to_the_rule(growth(table)?.verdict, &counts))
             .list("exceptions", counts.iter().map(|count| *count as f64))
             .values("steps published", [STEPS, exceptions(&table.published)])
-            .found("no_rule", growth(table)?.verdict == Verdict::NotReproduced))
+            .condition("no_rule", growth(table)?.verdict == Verdict::NotReproduced))
     }),
     ("6.4.2-05", |table| {
         as_often_as_published(table, Table::lower_when_long)
@@ -82,7 +82,7 @@ fn by_rotation(firsts: impl Iterator<Item = Option<Stop>>) -> Verdict {
     Verdict::families(firsts.map(rotates))
 }
 
-fn reasons(table: &Table) -> Judged {
+fn reasons(table: &Table) -> Checked {
     let firsts = table.entries.iter().map(|e| (e, e.row.first()));
     let firsts: Vec<_> = firsts.collect();
     let stop = |(_, first): &(_, Option<(f64, &Proved)>)| first.map(|(_, proved)| proved.reason);
@@ -91,7 +91,7 @@ fn reasons(table: &Table) -> Judged {
         .filter(|first| stop(first) != Some(Stop::RotationLimit));
     let others = others.map(|(e, first)| {
         let end = |(f_o, proved): (f64, &Proved)| {
-            let (reason, t) = (proved.reason.words(), proved.time());
+            let (reason, t) = (proved.reason.label(), proved.time());
             format!(
                 "{}: f_o = {f_o:.2} reaches the {reason} at t = {t:.2}",
                 e.name()
@@ -109,7 +109,7 @@ fn reasons(table: &Table) -> Judged {
         .value("others", others.join("; ")))
 }
 
-fn values(table: &Table) -> Judged {
+fn values(table: &Table) -> Checked {
     let entries = || table.entries.iter();
     let with = |which| entries().filter(move |e| e.verdict() == which);
     let text = |e: &Entry| format!("{} ({:.2})", e.text(), e.row.published);
@@ -131,7 +131,7 @@ fn values(table: &Table) -> Judged {
 }
 
 /// Whether the published amplitudes are proved to exceed the limits.
-fn published_exceed(table: &Table) -> Judged {
+fn published_exceed(table: &Table) -> Checked {
     let ends = table
         .entries
         .iter()
@@ -145,7 +145,7 @@ fn published_exceed(table: &Table) -> Judged {
         .iter()
         .filter(|end| exceeds(end) != Verdict::Reproduced);
     let not = not.map(|(e, stop)| {
-        let words = stop.map_or("open", Stop::words);
+        let words = stop.map_or("open", Stop::label);
         format!("{} at {:.2}: {words}", e.name(), e.row.published)
     });
     let not: Vec<String> = not.collect();
@@ -154,7 +154,7 @@ fn published_exceed(table: &Table) -> Judged {
         .value("not", not.join("; ")))
 }
 
-fn growth(table: &Table) -> Judged {
+fn growth(table: &Table) -> Checked {
     let grows = |column: &Column| {
         2 * table.rising(column) > STEPS && table.with_inertia(column).iter().all(|rho| *rho > 0.0)
     };
@@ -172,11 +172,14 @@ fn growth(table: &Table) -> Judged {
         .value("crossings", words(&table.columns[1..]))
         .value("published", text(&table.published))
         .value("most", most.map(Entry::name).unwrap_or_default())
-        .found("of_the_published", grows(&table.published)))
+        .condition("of_the_published", grows(&table.published)))
 }
 
-/// Judges a tendency by whether it occurs as often as in the published table.
-fn as_often_as_published<'a>(table: &Table<'a>, count: fn(&Table<'a>, &Column) -> usize) -> Judged {
+/// Checks a tendency by whether it occurs as often as in the published table.
+fn as_often_as_published<'a>(
+    table: &Table<'a>,
+    count: fn(&Table<'a>, &Column) -> usize,
+) -> Checked {
     let counts = table.columns.iter().map(|of| count(table, of) as f64);
     let published = count(table, &table.published);
     Ok(
@@ -186,7 +189,7 @@ fn as_often_as_published<'a>(table: &Table<'a>, count: fn(&Table<'a>, &Column) -
 }
 
 /// The critical force of the standard case with cables of this length.
-fn of_standard_case(table: &Table, r: f64, published: f64) -> Judged {
+fn of_standard_case(table: &Table, r: f64, published: f64) -> Checked {
     let entry = table.entry(r, [0.1, 0.0])?;
     let slides_on = entry.row.computed.sliding_on.first.map_or(NEVER, |x| x.f_o);
     let alone = entry.row.limits_alone.map_or(NEVER, |(f_o, _)| f_o);
@@ -209,7 +212,7 @@ fn area(r: f64) -> f64 {
     (0..steps).map(width).sum::<f64>() * h / f64::from(steps)
 }
 
-fn over_cable_length() -> Judged {
+fn over_cable_length() -> Checked {
     let cases = [1.5, 1.75, 2.0, 2.25, 2.5].map(|r| chapter(standard(|p| p.r = r)));
     let members = from_starts(&cases, FEW, critical_force)?;
     let words = |all: &Vec<f64>| all.iter().map(|f| shown(*f)).collect::<Vec<_>>().join(", ");
@@ -264,7 +267,7 @@ fn points_decide([points, inertia]: [usize; 2], pairs: usize) -> bool {
     points as f64 >= AS_A_RULE * pairs as f64 && points > inertia
 }
 
-fn connection_points(table: &Table) -> Judged {
+fn connection_points(table: &Table) -> Checked {
     let bodies = [1.5, 2.5].map(|r| [0.1, 0.2, 0.3].map(|a| (r, a)));
     let bodies = bodies.as_flattened();
     let found = in_parallel(bodies.len(), |k| crossed(table, bodies[k].0, bodies[k].1))?;

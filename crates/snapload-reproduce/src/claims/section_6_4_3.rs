@@ -8,11 +8,11 @@ mod swings;
 use super::motions::swings;
 use super::numbers::{count, falling, max, mean, mean_and_deviation, min, span, spearman};
 use super::runs::{MANY, case, chapter, near, of_exact_runs, run, standard, table_codes};
-use super::verdict::{Claim, Finding, Judged, Judges, Verdict, ask};
+use super::verdict::{Checked, Checks, Claim, Finding, Verdict, run_checks};
 use crate::ReportError;
 use crate::study::Study;
 use snapload::{CaseError, Impact, Norms, Parameters, Stop};
-use snapload_verify::Run;
+use snapload_verify::RoundedRun;
 use std::f64::consts::FRAC_PI_2;
 
 /// Checks the claims of the section.
@@ -25,13 +25,13 @@ pub(super) fn claims(study: &Study) -> Result<Vec<Claim>, ReportError> {
         long,
         points: point_mass::critical_forces()?,
     };
-    ask(
-        &[JUDGES, energy::JUDGES, swings::JUDGES, point_mass::JUDGES],
+    run_checks(
+        &[CHECKS, energy::CHECKS, swings::CHECKS, point_mass::CHECKS],
         &sweeps,
     )
 }
 
-const JUDGES: &Judges<fn(&Sweeps) -> Judged> = &[
+const CHECKS: &Checks<fn(&Sweeps) -> Checked> = &[
     ("6.4.3-01", |sweeps| {
         let at_limit = |run: &Swept| run.norms.theta_max > FRAC_PI_2 - 1e-9;
         let correlation = |sweep: &[Swept]| spearman(&over_force(sweep, |run| run.norms.theta_max));
@@ -47,7 +47,7 @@ const JUDGES: &Judges<fn(&Sweeps) -> Judged> = &[
             let f_cr = starts[0][starts[0].len() - 1].f_o;
             format!("rank correlation {rho}, largest below f_cr = {f_cr:.2} is {before}")
         };
-        let finding = sweeps.judge(grows).value("growth", GROWTH);
+        let finding = sweeps.robust(grows).value("growth", GROWTH);
         Ok(finding.values(
             "short long",
             [&sweeps.short, &sweeps.long].map(|of| text(of)),
@@ -60,7 +60,7 @@ const JUDGES: &Judges<fn(&Sweeps) -> Judged> = &[
             low.last().map_or(0.0, |run| run.f_o)
         };
         Ok(sweeps
-            .judge(low)
+            .robust(low)
             .both_by_start(sweeps, last)
             .value("weak", WEAK))
     }),
@@ -72,7 +72,7 @@ const JUDGES: &Judges<fn(&Sweeps) -> Judged> = &[
     }),
     ("6.4.3-05", |sweeps| {
         let spread = |sweep: &[Swept]| spread(sweep.iter().map(|run| run.norms.rho1));
-        let steady = sweeps.judge(|sweep| spread(sweep) < STEADY);
+        let steady = sweeps.robust(|sweep| spread(sweep) < STEADY);
         let steady = steady.both_by_start(sweeps, |sweep| 100.0 * spread(sweep));
         Ok(steady.value("steady", 100.0 * STEADY))
     }),
@@ -109,7 +109,7 @@ const JUDGES: &Judges<fn(&Sweeps) -> Judged> = &[
             .by_start("rho3", starts.iter().map(rho3))
             .by_start("first", starts.iter().map(|sweep| [first(sweep)]))
             .value("change", 100.0 * CHANGE)
-            .found(
+            .condition(
                 "rises_first",
                 starts.iter().all(|sweep| first(sweep) > 100.0 * CHANGE),
             ))
@@ -128,7 +128,7 @@ const JUDGES: &Judges<fn(&Sweeps) -> Judged> = &[
                 of(1)
             )
         };
-        let finding = sweeps.judge(|sweep| !back(sweep).contains(&0));
+        let finding = sweeps.robust(|sweep| !back(sweep).contains(&0));
         Ok(finding.values(
             "short long",
             [&sweeps.short, &sweeps.long].map(|of| text(of)),
@@ -140,7 +140,7 @@ const JUDGES: &Judges<fn(&Sweeps) -> Judged> = &[
         for code in &codes {
             soon += usize::from(case(sweeps.study, code)?.exact.end().t <= 10.0);
         }
-        let usual = sweeps.judge(|sweep| share(sweep, over) > USUAL);
+        let usual = sweeps.robust(|sweep| share(sweep, over) > USUAL);
         Ok(usual
             .both_by_start(sweeps, |sweep| 100.0 * share(sweep, over))
             .values("soon cases", [soon, codes.len()])
@@ -152,7 +152,7 @@ const JUDGES: &Judges<fn(&Sweeps) -> Judged> = &[
         const ALIKE: f64 = 0.05;
         let alike = |sweep: &[Swept]| share(sweep, |run| differ(run) < ALIKE) >= USUAL;
         let most = |sweep: &[Swept]| 100.0 * max(sweep.iter().map(differ));
-        let finding = sweeps.judge(alike).both_by_start(sweeps, most);
+        let finding = sweeps.robust(alike).both_by_start(sweeps, most);
         Ok(finding.values("alike usual", [100.0 * ALIKE, 100.0 * USUAL]))
     }),
 ];
@@ -179,7 +179,7 @@ struct Swept {
 }
 
 impl Swept {
-    fn new(run: &Run) -> Self {
+    fn new(run: &RoundedRun) -> Self {
         let swings = swings(run);
         let large = swings.iter().filter(|swing| swing.is_large());
         Self {
@@ -227,7 +227,7 @@ impl Sweeps<'_> {
     }
 
     /// The finding on a statement about the runs at either length, from all starts.
-    fn judge(&self, holds: impl Fn(&[Swept]) -> bool) -> Finding {
+    fn robust(&self, holds: impl Fn(&[Swept]) -> bool) -> Finding {
         let all = self.short.iter().chain(&self.long);
         Finding::new(Verdict::robust(all.map(|sweep| holds(sweep))))
     }
@@ -317,7 +317,7 @@ fn height(starts: &[Sweep], holds: impl Fn(usize) -> bool) -> Finding {
 const FIRST: usize = 3;
 const FIGURES: usize = 4;
 
-fn first_is_largest(sweeps: &Sweeps) -> Judged {
+fn first_is_largest(sweeps: &Sweeps) -> Checked {
     let mut figures: Vec<Vec<usize>> = Vec::new();
     // Figs 6.22-6.26.
     for code in ["355", "3575", "359", "3515", "3520"] {

@@ -7,7 +7,7 @@ mod weak;
 
 use super::numbers::{max, min, span};
 use super::runs::{FEW, from_starts, near, past_settling, run, shapes_under, standard};
-use super::verdict::{Claim, Finding, Judged, Judges, ask};
+use super::verdict::{Checked, Checks, Claim, Finding, run_checks};
 use crate::ReportError;
 use crate::study::Study;
 use example::{LOW, Rocking, example, leaves_rocking, rocks_on};
@@ -33,8 +33,8 @@ pub(super) fn claims(study: &Study) -> Result<Vec<Claim>, ReportError> {
         strong: example("sliding-example")?,
         weak: example("rocking-example")?,
     };
-    ask(
-        &[JUDGES, slides::JUDGES, example::JUDGES, weak::JUDGES],
+    run_checks(
+        &[CHECKS, slides::CHECKS, example::CHECKS, weak::CHECKS],
         &material,
     )
 }
@@ -60,7 +60,7 @@ struct Material<'a> {
     weak: Vec<Rocking>,
 }
 
-const JUDGES: &Judges<fn(&Material) -> Judged> = &[
+const CHECKS: &Checks<fn(&Material) -> Checked> = &[
     ("6.5-01", |of| {
         let kinds = ["slack", "sliding", "rocking"];
         let all = |run: &Trajectory| kinds.iter().all(|kind| count(run, &[kind]) > 0);
@@ -74,7 +74,7 @@ const JUDGES: &Judges<fn(&Material) -> Judged> = &[
             |runs: &Vec<Trajectory>| runs.iter().filter(|run| count(run, &kinds) > 0).count();
         let found = Finding::robust(&chains, |chains| *chains > 0.0);
         Ok(of
-            .told(found)
+            .with_counts(found)
             .list("chains", chains)
             .list("with", of.sweeps.iter().map(|runs| with(runs) as f64)))
     }),
@@ -92,7 +92,7 @@ const JUDGES: &Judges<fn(&Material) -> Judged> = &[
         };
         let found = Finding::robust(&counts, |[_, up]| *up > 0);
         Ok(of
-            .told(found)
+            .with_counts(found)
             .value("by_start", words.collect::<Vec<_>>().join(", "))
             .list("all", total(0))
             .list("up", total(1)))
@@ -102,16 +102,16 @@ const JUDGES: &Judges<fn(&Material) -> Judged> = &[
         let sliding = of.count(&["rocking", "sliding"]);
         let found = Finding::robust(&slack, |slack| *slack > 0.0);
         Ok(of
-            .told(found)
+            .with_counts(found)
             .list("ends", slack.iter().zip(&sliding).map(|(p, q)| p + q))
             .list("after", of.count(&["rocking", "sliding", "slack"]))
-            .found("by_sliding", min(sliding.iter().copied()) > 0.0)
+            .condition("by_sliding", min(sliding.iter().copied()) > 0.0)
             .list("slack", slack))
     }),
     ("6.5.2.2-12", |of| {
         let begins = of.rocking_begins();
         Ok(of
-            .told(Finding::robust(&begins, |of| of.long > 0))
+            .with_counts(Finding::robust(&begins, |of| of.long > 0))
             .list("long", begins.iter().map(|of| of.long as f64))
             .list("short", begins.iter().map(|of| of.short as f64))
             .list("all", begins.iter().map(|of| of.all as f64))
@@ -120,7 +120,7 @@ const JUDGES: &Judges<fn(&Material) -> Judged> = &[
     ("6.5.2.2-16", |of| {
         let begins = of.rocking_begins();
         Ok(of
-            .told(Finding::robust(&begins, Begins::usually_settle))
+            .with_counts(Finding::robust(&begins, Begins::usually_settle))
             .list("settling", begins.iter().map(|of| of.settling as f64))
             .list("all", begins.iter().map(|of| of.all as f64))
             .values("low shortest", [LOW, SHORTEST]))
@@ -128,7 +128,7 @@ const JUDGES: &Judges<fn(&Material) -> Judged> = &[
     ("6.5.2.2-17", |of| {
         let begins = of.rocking_begins();
         Ok(of
-            .told(Finding::robust(&begins, Begins::in_two_ways))
+            .with_counts(Finding::robust(&begins, Begins::in_two_ways))
             .list("neither", begins.iter().map(|of| of.neither() as f64))
             .list("all", begins.iter().map(|of| of.all as f64))
             .values("low shortest", [LOW, SHORTEST])
@@ -157,7 +157,7 @@ impl Material<'_> {
     }
 
     /// Adds the numbers of starts and runs to the finding.
-    fn told(&self, finding: Finding) -> Finding {
+    fn with_counts(&self, finding: Finding) -> Finding {
         let (starts, runs) = (self.sweeps.len(), self.sweeps.first().map_or(0, Vec::len));
         let forces = span(forces(), 2);
         let words = format!(
@@ -168,7 +168,7 @@ impl Material<'_> {
     }
 }
 
-fn slack_is_taut(of: &Material) -> Judged {
+fn slack_is_taut(of: &Material) -> Checked {
     let gaps_of = |run: &Trajectory| -> Vec<f64> {
         let mut playback = Playback::new(run);
         let flights = run.modes().iter().filter(|mode| mode.taut.is_empty());
@@ -184,7 +184,7 @@ fn slack_is_taut(of: &Material) -> Judged {
     Ok(Finding::robust(&members, taut)
         .list("intervals", members.iter().map(|gaps| gaps.len() as f64))
         .value("nearest", nearest)
-        .found("slack", nearest < 0.0))
+        .condition("slack", nearest < 0.0))
 }
 
 /// A shorter slide moves the body by nothing visible.
@@ -289,7 +289,7 @@ fn up_to_a_half(nu: f64) -> Vec<Parameters> {
     cases.collect()
 }
 
-fn lasting() -> Judged {
+fn lasting() -> Checked {
     let cases = up_to_a_half(Parameters::STANDARD.nu);
     let on = from_starts(&cases, FEW, |case| Ok(rocks_on(&run(case)?)))?;
     let counts = |on: &Vec<bool>| {
@@ -304,7 +304,7 @@ fn lasting() -> Judged {
 }
 
 /// Whether a body leaves rocking under more amplitudes if the force is on an ellipse.
-fn ellipse_frees() -> Judged {
+fn ellipse_frees() -> Checked {
     let freed = |nu: f64| {
         let found = from_starts(&up_to_a_half(nu), FEW, |case| {
             Ok(leaves_rocking(&run(case)?))

@@ -9,7 +9,7 @@ use super::newton::{
     largest, over, sin_cos,
 };
 use super::numbers::{holds, min};
-use super::verdict::{Claim, Finding, Judged, Judges, ask};
+use super::verdict::{Checked, Checks, Claim, Finding, run_checks};
 use crate::ReportError;
 use crate::study::Study;
 use snapload::{Real, State, TautSet, Trajectory};
@@ -18,7 +18,7 @@ use std::f64::consts::{FRAC_PI_2, PI};
 /// Checks the claims of the section.
 pub(super) fn claims(study: &Study) -> Result<Vec<Claim>, ReportError> {
     let [left, right] = [LEFT, RIGHT].map(random_states);
-    ask(&[JUDGES], &Material { study, left, right })
+    run_checks(&[CHECKS], &Material { study, left, right })
 }
 
 /// Random bodies on their left cable and on their right one.
@@ -28,7 +28,7 @@ struct Material<'a> {
     right: Vec<Sliding>,
 }
 
-const JUDGES: &Judges<fn(&Material) -> Judged> = &[
+const CHECKS: &Checks<fn(&Material) -> Checked> = &[
     ("6.5.1.1-01", |of| {
         identity(&of.left, |q| [q.moment.gap(q.side)])
     }),
@@ -39,7 +39,7 @@ const JUDGES: &Judges<fn(&Material) -> Judged> = &[
         let printed = over(&of.left, |q| [q.potential()]);
         let with_b = over(&of.left, |q| [q.potential() + q.m.b]);
         Ok(Finding::of(holds(printed))
-            .found("b_left_out", holds(with_b))
+            .condition("b_left_out", holds(with_b))
             .values("printed with_b", [printed, with_b]))
     }),
     ("6.5.1.1-06", |of| identity(&of.left, Sliding::virtual_work)),
@@ -50,7 +50,7 @@ const JUDGES: &Judges<fn(&Material) -> Judged> = &[
         let circles = largest(circles.map(|q| q.motion()[1]));
         let with_term = over(&of.left, |q| [q.mended()]);
         Ok(Finding::of(holds(printed))
-            .found("a_term_lacks", holds(with_term) && holds(circles))
+            .condition("a_term_lacks", holds(with_term) && holds(circles))
             .values("printed with_term circles", [printed, with_term, circles]))
     }),
     ("6.5.1.1-09", |of| {
@@ -78,11 +78,15 @@ const JUDGES: &Judges<fn(&Material) -> Judged> = &[
         identity(&of.right, |q| [q.motion()[0], q.mended()])
     }),
     ("6.5.1.1-17", |of| {
-        let lost = of.left.iter().chain(&of.right).filter(|q| q.said_lost());
+        let lost = of
+            .left
+            .iter()
+            .chain(&of.right)
+            .filter(|q| q.has_lost_tension());
         let all = lost.clone().count();
         let pulling = lost.filter(|q| q.lambda < 0.0).count();
         Ok(Finding::of(all > 0 && pulling == all)
-            .found("never_pulling", all > 0 && pulling == 0)
+            .condition("never_pulling", all > 0 && pulling == 0)
             .values("pulling all", [pulling, all]))
     }),
     ("6.5.1.1-18", origin),
@@ -282,7 +286,7 @@ impl Sliding {
     }
 
     /// Whether tension is lost according to 6.44.
-    fn said_lost(&self) -> bool {
+    fn has_lost_tension(&self) -> bool {
         self.bdd * self.bracket() > 0.0
     }
 
@@ -367,7 +371,7 @@ fn first_hit(run: &Trajectory) -> Option<State> {
     Some(hit.before)
 }
 
-fn origin(of: &Material) -> Judged {
+fn origin(of: &Material) -> Checked {
     const CLOSED: f64 = 1e-12;
     let shapes = &of.study.critical;
     let gaps = shapes.iter().flat_map(|row| {

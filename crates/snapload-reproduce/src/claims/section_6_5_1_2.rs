@@ -7,28 +7,28 @@ use super::runs::{
     FEW, MANY, chapter, ensemble, from_starts, near, outcome, run, shapes_under, standard,
     table_codes,
 };
-use super::verdict::{Claim, Finding, Judged, Judges, Verdict, ask};
+use super::verdict::{Checked, Checks, Claim, Finding, Verdict, run_checks};
 use crate::ReportError;
 use crate::critical_row::CriticalRow;
 use crate::proved::Proved;
 use crate::study::{CaseRuns, Study, exact};
 use example::Example;
-use snapload::analysis::{ForceScan, Unfinished, in_parallel, outcomes, unwatched};
+use snapload::analysis::{ForceScan, Unfinished, in_parallel, no_progress, outcomes};
 use snapload::{Case, CaseError, Parameters, Stop, named_case};
 
 /// Checks the claims of the section.
 pub(super) fn claims(study: &Study) -> Result<Vec<Claim>, ReportError> {
     let shapes = in_parallel(study.critical.len(), |k| Shape::of(&study.critical[k]))?;
-    let mut all = ask(&[JUDGES], &(study, shapes))?;
+    let mut all = run_checks(&[CHECKS], &(study, shapes))?;
     let runs = near(&named_case("sliding-example")?.parameters, MANY, run)?;
-    all.extend(ask(&[example::JUDGES], &Example::of(&runs))?);
+    all.extend(run_checks(&[example::CHECKS], &Example::of(&runs))?);
     Ok(all)
 }
 
 /// The study, and the results for each shape of Table 6.2 over all amplitudes.
 type Material<'a> = (&'a Study, Vec<Shape>);
 
-const JUDGES: &Judges<fn(&Material) -> Judged> = &[
+const CHECKS: &Checks<fn(&Material) -> Checked> = &[
     ("6.5.1.2-01", table_6_1),
     ("6.5.1.2-02", |(_, shapes)| {
         // Whether a statement holds somewhere in each class.
@@ -83,7 +83,7 @@ fn slides(parameters: &Parameters) -> Result<bool, CaseError> {
     Ok(ends_sliding(outcome(&chapter(*parameters))?.end.reason))
 }
 
-fn table_6_1((study, _): &Material) -> Judged {
+fn table_6_1((study, _): &Material) -> Checked {
     let codes = table_codes();
     let cases = study.cases.iter();
     let (table, printed): (Vec<_>, Vec<_>) = cases.partition(|case| codes.contains(&case.code));
@@ -124,7 +124,7 @@ impl Shape {
         let cases = starts
             .iter()
             .flat_map(|start| forces.iter().map(|f_o| with(start, *f_o)));
-        let ends = outcomes(&cases.collect::<Result<Vec<_>, CaseError>>()?, &unwatched)?;
+        let ends = outcomes(&cases.collect::<Result<Vec<_>, CaseError>>()?, &no_progress)?;
         let slides: Vec<bool> = ends.iter().map(|of| ends_sliding(of.end.reason)).collect();
         let of_starts: Vec<&[bool]> = slides.chunks(forces.len()).collect();
         Ok(Self {
@@ -144,7 +144,7 @@ fn sliding(slides: &[bool]) -> [usize; 2] {
     ]
 }
 
-fn dying_snaps() -> Judged {
+fn dying_snaps() -> Checked {
     /// A difference of times that is not visible in a plot.
     const SAME: f64 = 1e-3;
     /// Two velocities below which a cable is taken to stick. If the snaps die out, the result does
@@ -171,7 +171,7 @@ fn dying_snaps() -> Judged {
 
 /// When the first cable sticks, in many digits, if one does.
 fn sticks(case: &Parameters) -> Result<Option<f64>, CaseError> {
-    let run = exact(case, Proved::kept(case))?;
+    let run = exact(case, Proved::stored(case))?;
     let stuck = [Stop::Settled, Stop::SlidingStart].contains(&run.end().reason);
     Ok(stuck.then_some(run.end().t))
 }
@@ -213,7 +213,7 @@ fn counted(ends: &[Option<(Stop, usize)>]) -> Ends {
     counts
 }
 
-fn ends((study, _): &Material) -> Judged {
+fn ends((study, _): &Material) -> Checked {
     let forces: Vec<f64> = (1..=18).map(|k| f64::from(k) / 20.0).collect();
     let cases = shapes_under(study, &forces);
     let starts = from_starts(&cases, FEW, end_if_slid)?;
@@ -230,7 +230,7 @@ fn ends((study, _): &Material) -> Judged {
     .list("rock", number(2))
     .list("bound", number(3))
     .list("going", number(4))
-    .found(
+    .condition(
         "others",
         counts.iter().any(|counts| counts[3] + counts[4] > 0),
     )
@@ -244,7 +244,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn an_end_that_is_never_met_is_seen() {
+    fn an_end_that_is_never_reached_is_noticed() {
         assert!(all_met([3, 1, 2]) && !all_met([3, 0, 2]));
         let ends = [
             Some((Stop::Settled, 1)),

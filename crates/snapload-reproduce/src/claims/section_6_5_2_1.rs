@@ -6,7 +6,7 @@ use super::newton::{
 };
 use super::numbers::{holds, max, min};
 use super::runs::{FEW, near, past_settling, run, standard};
-use super::verdict::{Claim, Finding, Judged, Judges, ask};
+use super::verdict::{Checked, Checks, Claim, Finding, run_checks};
 use crate::ReportError;
 use crate::study::Study;
 use snapload::{Playback, Real, TautSet, Trajectory, natural_inertia};
@@ -19,7 +19,7 @@ pub(super) fn claims(study: &Study) -> Result<Vec<Claim>, ReportError> {
         rocking,
         anywhere,
     };
-    ask(&[JUDGES], &material)
+    run_checks(&[CHECKS], &material)
 }
 
 /// Circles that rock, at random angles; and as many in any position, for comparing the gaps.
@@ -29,7 +29,7 @@ struct Material<'a> {
     anywhere: Vec<Moment>,
 }
 
-const JUDGES: &Judges<fn(&Material) -> Judged> = &[
+const CHECKS: &Checks<fn(&Material) -> Checked> = &[
     ("6.5.2.1-01", |of| {
         identity(&of.anywhere, |state| {
             differences(
@@ -262,7 +262,7 @@ fn is_solved([time, widest]: [f64; 2]) -> bool {
 }
 
 /// Whether the rocking of a body with a height can not be computed.
-fn rocking_square() -> Judged {
+fn rocking_square() -> Checked {
     let case = past_settling(standard(|p| {
         (p.a, p.b, p.f_o, p.t_end) = (0.2, 0.2, 0.1, 30.0);
         p.inertia = natural_inertia(p.a, p.b);
@@ -273,10 +273,10 @@ fn rocking_square() -> Judged {
         .values("size until", [case.a, case.t_end])
         .list("time", members.iter().map(|found| found[0]))
         .value("gap", max(members.iter().map(|found| found[1])))
-        .found("solved", solved))
+        .condition("solved", solved))
 }
 
-fn loss(of: &Material) -> Judged {
+fn loss(of: &Material) -> Checked {
     let rocking = past_settling(standard(|p| p.f_o = 0.4));
     let losses = near(&rocking, FEW, |case| Ok(losses_of(&run(case)?)))?;
     let at_losses = |state: &Moment| BOTH.map(|side| at_loss(state, side));

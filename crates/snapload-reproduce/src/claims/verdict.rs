@@ -1,11 +1,11 @@
-//! The findings of judges, and claims with their verdicts.
+//! The findings of checks, and claims with their verdicts.
 
-use super::words::{Value, tell};
+use super::texts::{Value, with_texts};
 use crate::ReportError;
 pub use crate::verdict::Verdict;
 use std::collections::BTreeMap;
 
-/// The finding of a claim's judge: the verdict, the values for the claim's text, and whether the
+/// The finding of a claim's check: the verdict, the values for the claim's text, and whether the
 /// conditions of its remarks hold.
 #[derive(Clone, Debug)]
 pub(super) struct Finding {
@@ -76,29 +76,29 @@ impl Finding {
     }
 
     /// Says whether the condition of the remark of this name holds.
-    pub(super) fn found(mut self, name: &'static str, holds: bool) -> Self {
+    pub(super) fn condition(mut self, name: &'static str, holds: bool) -> Self {
         self.conditions.insert(name, holds);
         self
     }
 }
 
-/// The answer of a judge.
-pub(super) type Judged = Result<Finding, ReportError>;
+/// The answer of a check.
+pub(super) type Checked = Result<Finding, ReportError>;
 
-/// Judges of the kind `F`, each with the id of its claim.
-pub(super) type Judges<F> = [(&'static str, F)];
+/// Checks of the kind `F`, each with the id of its claim.
+pub(super) type Checks<F> = [(&'static str, F)];
 
-/// A judge whose evidence is the material `M`.
-type Judge<M> = fn(&M) -> Judged;
+/// A check whose evidence is the material `M`.
+type Check<M> = fn(&M) -> Checked;
 
-/// Asks the judges of a section, which may be in several tables.
-pub(super) fn ask<M: ?Sized>(
-    tables: &[&Judges<Judge<M>>],
+/// Asks the checks of a section, which may be in several tables.
+pub(super) fn run_checks<M: ?Sized>(
+    tables: &[&Checks<Check<M>>],
     material: &M,
 ) -> Result<Vec<Claim>, ReportError> {
-    let judges = tables.iter().flat_map(|judges| judges.iter());
-    judges
-        .map(|(id, judge)| tell(id, &judge(material)?))
+    let checks = tables.iter().flat_map(|checks| checks.iter());
+    checks
+        .map(|(id, check)| with_texts(id, &check(material)?))
         .collect()
 }
 

@@ -64,7 +64,11 @@ impl Curve {
         let layer = |reading: Reading| {
             let dash = reading.either(Dash::Solid, Dash::Dashed);
             let stroke = Stroke::new(colour(reading), 0.9, dash);
-            Layer::Line(vec![existing(reading)], stroke, reading.words().to_owned())
+            Layer::Line(
+                vec![existing(reading)],
+                stroke,
+                reading.heading().to_owned(),
+            )
         };
         let [from, to] = [points.chapter.first(), points.chapter.last()]
             .map(|point| point.map_or(0.0, |(value, _)| *value));
@@ -200,8 +204,8 @@ fn markers(symbol: &str, shape: Shape, values: [Vec<Point>; 2]) -> impl Iterator
     let [first, second] = Reading::BOTH;
     let sets = [
         (both, Colour::BLACK, "both readings"),
-        (ends, colour(first), first.words()),
-        (sliding_on, colour(second), second.words()),
+        (ends, colour(first), first.heading()),
+        (sliding_on, colour(second), second.heading()),
     ];
     let drawn = sets.into_iter().filter(|(points, ..)| !points.is_empty());
     drawn.map(move |(points, colour, words)| {
@@ -211,7 +215,7 @@ fn markers(symbol: &str, shape: Shape, values: [Vec<Point>; 2]) -> impl Iterator
 
 fn about(caption: String, place: &str, command: impl Fn(Reading) -> String) -> About {
     let source = |reading: Reading| Source {
-        part: reading.words(),
+        part: reading.heading(),
         command: command(reading),
         place: place.to_owned(),
     };

@@ -131,7 +131,7 @@ impl RunFigure {
             p.b,
             p.f_o,
             p.omega,
-            beyond(known)
+            horizon_remark(known)
         );
         let option = Reading::Chapter.option();
         let command = format!("snapload run --case {code}{option} --out {name}");
@@ -186,7 +186,7 @@ impl Example {
             _ => "",
         };
         let mut plot = plots.with_horizon(known.horizon).plot(RunPlot::Trajectory);
-        plot.inset = apart(&plot).map(Box::new);
+        plot.inset = enlargement_of_coinciding_points(&plot).map(Box::new);
         let inset = match plot.inset {
             Some(_) => " The inset enlarges the place of S, G and R.",
             None => "",
@@ -196,7 +196,7 @@ impl Example {
              starts, G the other boundary is hit while one cable is taut, R rocking starts, E the end at \
              t = {}{still}.{inset}{}",
             run.end().t,
-            beyond(known)
+            horizon_remark(known)
         );
         let command = format!("snapload run --case {case} --out {name}");
         let about = About {
@@ -209,7 +209,7 @@ impl Example {
 }
 
 /// An enlargement of the place where S, G and R almost coincide, so that they can be distinguished.
-fn apart(plot: &Plot) -> Option<Inset> {
+fn enlargement_of_coinciding_points(plot: &Plot) -> Option<Inset> {
     /// The margin around that place, as a part of its size: so small that S and G, which follow
     /// each other closely, are two dots.
     const MARGIN: f64 = 0.2;
@@ -243,7 +243,7 @@ fn apart(plot: &Plot) -> Option<Inset> {
 }
 
 /// A remark on a picture that is partly past the horizon of its run.
-fn beyond(known: &Known) -> String {
+fn horizon_remark(known: &Known) -> String {
     match known.horizon {
         Some(t) => format!(
             " In doubles the motion is known up to t = {t:.2}; later parts are marked in grey."

@@ -21,8 +21,8 @@ pub(super) struct StateFigure {
     what: String,
     /// Whether the case is used in place of a box of Table 6.1, because none of them may slide with
     /// this cable taut.
-    #[serde(default)]
-    stands_in: bool,
+    #[serde(default, rename = "stands_in")]
+    is_substitute: bool,
 }
 
 /// The time in the run that is drawn.
@@ -99,7 +99,14 @@ impl StateFigure {
         let number = |name, value: f64, key: &str| {
             let number = Number::new(value, 3, &command, format!(".motion[1].{key}"));
             let known = known.is_known_at(t);
-            (name, if known { number } else { number.doubtful() })
+            (
+                name,
+                if known {
+                    number
+                } else {
+                    number.mark_past_horizon()
+                },
+            )
         };
         let motion = &drawing.motion;
         let mut numbers = vec![number("θ = ", motion.state.theta, "theta")];
@@ -107,7 +114,7 @@ impl StateFigure {
             let (name, key) = [("T₁ = ", "T1"), ("T₂ = ", "T2")][cable.min(1)];
             number(name, motion.tensions[cable], key)
         }));
-        let why = if self.stands_in && !self.tabled(study) {
+        let why = if self.is_substitute && !self.is_in_table(study) {
             " No box of Table 6.1 slides with its left cable taut in our runs, so this is a square of the table under \
              a stronger force."
         } else {
@@ -132,7 +139,7 @@ impl StateFigure {
     }
 
     /// Whether a box of Table 6.1 slides like this in one of our runs.
-    fn tabled(&self, study: &Study) -> bool {
+    fn is_in_table(&self, study: &Study) -> bool {
         let boxes = study.cases.iter().filter(|case| case.parameters.b > 0.0);
         let mut modes = boxes.flat_map(|case| case.runs.sliding_on.run.modes());
         modes.any(|mode| matches!(self.at, Instant::LongestSlide(cable) if mode.taut == TautSet::only(cable)))
@@ -142,7 +149,7 @@ impl StateFigure {
 const BODY: Stroke = Stroke::new(Colour::BLACK, 1.1, Dash::Solid);
 const TAUT: Stroke = Stroke::new(Colour::BLUE, 1.1, Dash::Solid);
 const SLACK: Stroke = Stroke::new(Colour::BLACK, 0.6, Dash::Dashed);
-const HELP: Stroke = Stroke::new(Colour::BLACK, 0.4, Dash::Dotted);
+const AUXILIARY: Stroke = Stroke::new(Colour::BLACK, 0.4, Dash::Dotted);
 const ARROW: Stroke = Stroke::new(Colour::VERMILION, 1.0, Dash::Solid);
 
 /// Length of an arrow per unit of force.
@@ -162,7 +169,7 @@ impl Drawing<'_> {
             // Drawn below the lines that they name.
             layers.extend(self.sizes());
         }
-        layers.push(ink(vec![self.outline()], BODY, "body"));
+        layers.push(plain_line(vec![self.outline()], BODY, "body"));
         let mut letters = vec![Mark::new("c", self.centre())];
         for (cable, letter) in ["V", "W"].into_iter().enumerate() {
             let (anchor, fairlead) = self.ends(cable);
@@ -173,7 +180,7 @@ impl Drawing<'_> {
                 (sagging(anchor, fairlead, length), SLACK, "slack")
             };
             let legend = format!("cable {}, {state}", cable + 1);
-            layers.push(ink(vec![points], stroke, &legend));
+            layers.push(plain_line(vec![points], stroke, &legend));
             let (shape, colour) = (Shape::Cross, Colour::BLACK);
             layers.push(Layer::Markers(vec![anchor], shape, colour, String::new()));
             letters.push(Mark::new(letter, fairlead));
@@ -185,8 +192,8 @@ impl Drawing<'_> {
             layers.extend(self.rotation());
         }
         for (name, from, by) in self.arrows(marks) {
-            layers.push(named(vec![from, plus(from, by, 1.0)], name));
-            layers.push(ink(vec![headed(from, by)], ARROW, ""));
+            layers.push(labelled_line(vec![from, plus(from, by, 1.0)], name));
+            layers.push(plain_line(vec![headed(from, by)], ARROW, ""));
         }
         layers.push(Layer::Letters(letters));
         layers
@@ -266,8 +273,8 @@ impl Drawing<'_> {
         let angle = |(name, at, angle, radius): (&str, Point, f64, f64)| {
             let down = [at[0], at[1] - 1.5 * radius];
             let direction = |part: f64| side * angle * part - FRAC_PI_2;
-            let arc = named(arc(at, radius, direction), name);
-            [ink(vec![vec![at, down]], HELP, ""), arc]
+            let arc = labelled_line(arc(at, radius, direction), name);
+            [plain_line(vec![vec![at, down]], AUXILIARY, ""), arc]
         };
         let angles = [("*α*", anchor, alpha, 0.45), ("*β*", fairlead, beta, 0.2)];
         angles.into_iter().flat_map(angle).collect()
@@ -284,11 +291,11 @@ impl Drawing<'_> {
             vec![plus(from, by, p), plus(from, by, q)]
         };
         let mut sizes = vec![
-            named(part(anchor, fairlead, [0.45, 0.55]), "*r*"),
-            named(part(top, fairlead, [0.0, 0.4]), "*a*"),
+            labelled_line(part(anchor, fairlead, [0.45, 0.55]), "*r*"),
+            labelled_line(part(top, fairlead, [0.0, 0.4]), "*a*"),
         ];
         if b > 0.0 {
-            sizes.push(named(vec![self.centre(), top], "*b*"));
+            sizes.push(labelled_line(vec![self.centre(), top], "*b*"));
         }
         sizes
     }
@@ -299,7 +306,10 @@ impl Drawing<'_> {
         let level = vec![centre, [centre[0] + 0.45, centre[1]]];
         let line = vec![centre, self.placed([0.45, 0.0])];
         let arc = arc(centre, 0.35, |part| theta * part);
-        [ink(vec![level, line], HELP, ""), named(arc, "*θ*")]
+        [
+            plain_line(vec![level, line], AUXILIARY, ""),
+            labelled_line(arc, "*θ*"),
+        ]
     }
 }
 
@@ -321,11 +331,11 @@ fn arc(centre: Point, radius: f64, direction: impl Fn(f64) -> f64) -> Vec<Point>
 }
 
 /// A thin line with its name beside it.
-fn named(points: Vec<Point>, name: &str) -> Layer {
+fn labelled_line(points: Vec<Point>, name: &str) -> Layer {
     Layer::Boundary(points, name.to_owned())
 }
 
-fn ink(pieces: Vec<Vec<Point>>, stroke: Stroke, legend: &str) -> Layer {
+fn plain_line(pieces: Vec<Vec<Point>>, stroke: Stroke, legend: &str) -> Layer {
     Layer::Line(pieces, stroke, legend.to_owned())
 }
 

@@ -14,8 +14,8 @@ impl Page<'_> {
         let study = self.study;
         let [chapter, sliding_on] = Reading::BOTH;
         let same = |case: &CaseRuns| {
-            let [ends, goes_on] = Reading::BOTH.map(|reading| &case.runs.of(reading).run);
-            ends.end() == goes_on.end() && ends.norms() == goes_on.norms()
+            let [ends, with_sliding] = Reading::BOTH.map(|reading| &case.runs.of(reading).run);
+            ends.end() == with_sliding.end() && ends.norms() == with_sliding.norms()
         };
         html! {
             @for series in rows_6_1().chunk_by(|(p, _), (q, _)| p == q) {

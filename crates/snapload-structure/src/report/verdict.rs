@@ -62,7 +62,7 @@ pub fn end_words(stop: Stop) -> &'static str {
         Stop::RotationLimit => "stopped where the body had turned by 90 degrees",
         Stop::UpperBound => "stopped where the body touched the floor",
         Stop::ImpactLimit => "stopped at the largest number of snaps allowed",
-        other => other.meaning(),
+        other => other.reason_text(),
     }
 }
 

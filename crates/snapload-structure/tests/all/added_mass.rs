@@ -1,7 +1,7 @@
 //! The added mass of a body: along each axis, and in rotation.
 
 use crate::verdicts::source;
-use snapload::analysis::unwatched;
+use snapload::analysis::no_progress;
 use snapload::{Playback, Stop};
 use snapload_structure::{
     ElasticRun, Prepared, Structure, assess, both_models, note, run_elastic, springs,
@@ -43,7 +43,7 @@ fn a_rectangle_has_its_added_mass_from_the_table() {
         words.contains("added mass 109.2 t in x and 351.3 t in z") && words.contains("DNV-RP-C205"),
         "{words}"
     );
-    let assessment = assess(structure, 0, &unwatched).unwrap();
+    let assessment = assess(structure, 0, &no_progress).unwrap();
     assert!(assessment.summary("pontoon").contains("DNV-RP-C205"));
     let json = assessment.to_json("pontoon");
     assert_eq!(json["body"]["added_mass_kg"][0], added.surge_kg);
@@ -108,7 +108,7 @@ fn each_freedom_swings_with_its_own_mass() {
         // Lines that stretch let it start higher than those that do not.
         prepared.structure.start_m = Some(start);
         let prepared = prepared.on_springs(&law).unwrap();
-        run_elastic(&prepared, &law, every_s, &unwatched).unwrap()
+        run_elastic(&prepared, &law, every_s, &no_progress).unwrap()
     };
     let scale = Prepared::new(structure.clone()).unwrap().model.scales;
     // In the engine's picture z points down from where the lines are just taut.
@@ -133,7 +133,7 @@ fn a_snap_stops_the_mass_of_its_direction() {
     );
     let [_, up] = structure.body.moving_mass_kg();
     let force = structure.net_buoyancy_n();
-    let assessment = assess(structure, 0, &unwatched).unwrap();
+    let assessment = assess(structure, 0, &no_progress).unwrap();
     let speed = (2.0 * force / up).sqrt();
     for snap in &assessment.snaps[..2] {
         assert!((snap.speed_m_s / speed - 1.0).abs() < 1e-9, "{snap:?}");
@@ -167,7 +167,7 @@ fn one_number_misses_the_peak_of_a_pontoon() {
             line(-1.0)
         );
         let structure = Structure::parse("pontoon", &text).unwrap();
-        let both = both_models(Prepared::new(structure).unwrap(), 1.0, 0.1, &unwatched).unwrap();
+        let both = both_models(Prepared::new(structure).unwrap(), 1.0, 0.1, &no_progress).unwrap();
         let peak = both.elastic.peaks_n.iter().copied().fold(0.0, f64::max);
         (both.elastic.stop, peak)
     };

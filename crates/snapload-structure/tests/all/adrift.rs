@@ -1,7 +1,7 @@
 //! Floating bodies that no line holds in surge, and what damps a body's rotation.
 
 use crate::afloat::{by_hand, case, parsed, structure};
-use snapload::analysis::unwatched;
+use snapload::analysis::no_progress;
 use snapload_hydro::TermRow;
 use snapload_structure::{Prepared, assess, both_models};
 
@@ -27,7 +27,7 @@ fn without_tension_it_rests_as_it_floats() {
         assert!((rest.place_m[0] - 0.3).abs() < 1e-12);
         assert!((rest.place_m[1] + 0.2 - heave).abs() < 1e-9, "{rest:?}");
         assert!((rest.theta_rad + pitch).abs() < 1e-9, "{rest:?} {pitch}");
-        let both = both_models(prepared.clone(), 1.0, f64::INFINITY, &unwatched).unwrap();
+        let both = both_models(prepared.clone(), 1.0, f64::INFINITY, &no_progress).unwrap();
         let sprung = &both.sprung.rest;
         assert!((sprung.place_m[1] - rest.place_m[1]).abs() < 1e-9);
         assert!((sprung.theta_rad - rest.theta_rad).abs() < 1e-9);
@@ -53,7 +53,7 @@ fn a_start_is_not_told_as_a_place_of_rest() {
             line(-1.0)
         )
     };
-    let assessment = assess(structure(&text(0.3)), 0, &unwatched).unwrap();
+    let assessment = assess(structure(&text(0.3)), 0, &no_progress).unwrap();
     assert!(!assessment.prepared.rest.rests);
     let told = assessment.summary("case");
     assert!(
@@ -65,7 +65,7 @@ fn a_start_is_not_told_as_a_place_of_rest() {
     assert!(json["rest"]["z_m"].is_null() && json["lines"][0]["rest_tension_n"].is_null());
     // So far turned nothing rests on elastic lines either.
     let prepared = Prepared::for_springs(structure(&text(1000.0))).unwrap();
-    let refused = both_models(prepared, 1.0, f64::INFINITY, &unwatched).unwrap_err();
+    let refused = both_models(prepared, 1.0, f64::INFINITY, &no_progress).unwrap_err();
     let shown = refused.to_string();
     assert!(
         shown.contains("turned by") && shown.contains("line.stiffness"),
@@ -105,7 +105,7 @@ fn waves_of_no_height_break_no_rule() {
     let wave = "[wave]\nheight = 0\nperiod = 3";
     let text = case(-0.2, 2.0, 11.0, wave, "duration = 20\nstart = [0, 0.1]");
     let soft = text.replace("1.2e8", "1.2e6").replace("80000", "98400");
-    let assessment = assess(structure(&soft), 0, &unwatched).unwrap();
+    let assessment = assess(structure(&soft), 0, &no_progress).unwrap();
     let rules: Vec<&str> = assessment
         .warnings
         .iter()
@@ -116,7 +116,7 @@ fn waves_of_no_height_break_no_rule() {
         "{rules:?}"
     );
     let waves = soft.replace("height = 0\nperiod", "height = 0.1\nperiod");
-    let assessment = assess(structure(&waves), 0, &unwatched).unwrap();
+    let assessment = assess(structure(&waves), 0, &no_progress).unwrap();
     assert!(
         assessment
             .warnings
@@ -130,7 +130,7 @@ fn waves_of_no_height_break_no_rule() {
 #[test]
 fn what_damps_a_rotation_is_known() {
     let seen = |text: &str| {
-        let assessment = assess(parsed(text).unwrap(), 0, &unwatched).unwrap();
+        let assessment = assess(parsed(text).unwrap(), 0, &no_progress).unwrap();
         let found = assessment.warnings.iter().find(|w| w.rule == "turning");
         (
             assessment.outcome.turned_rad,

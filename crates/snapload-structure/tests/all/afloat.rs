@@ -1,7 +1,7 @@
 //! Structures that float: the coefficients of a panel code under the same keys and answers.
 
 use crate::verdicts::source;
-use snapload::analysis::unwatched;
+use snapload::analysis::no_progress;
 use snapload::{
     Body, Entries, Excitation, Exponential, Floating, FloatingUnits, Forcing, Playback, Rules,
     Simulation, State, System,
@@ -70,7 +70,7 @@ pub(crate) fn by_hand() -> (Report, snapload_hydro::Body) {
 fn a_structure_afloat_is_the_system_by_hand() {
     let wave = "[wave]\nheight = 1.2\nperiod = 5";
     let text = case(0.0, 2.4, 9.666, wave, "duration = 25\ntransient = 0");
-    let assessment = assess(structure(&text), 0, &unwatched).unwrap();
+    let assessment = assess(structure(&text), 0, &no_progress).unwrap();
     let (report, body) = by_hand();
     let lines = [1.0, -1.0].map(|side| Line {
         anchor_m: [6.0 * side, -10.0],
@@ -202,7 +202,7 @@ fn slack_lines_leave_the_response_of_the_frequency_domain() {
     }
     assert!(compared > 50);
     let law = springs(&prepared, 1.0).unwrap();
-    let elastic = run_elastic(&prepared, &law, 0.5, &unwatched).unwrap();
+    let elastic = run_elastic(&prepared, &law, 0.5, &no_progress).unwrap();
     let stiff = snapload::Trajectory::record(prepared.begin(1.0).unwrap());
     let mut playback = Playback::new(&stiff);
     for sample in &elastic.samples {
@@ -257,7 +257,7 @@ fn waves_from_either_side_are_mirror_images() {
     let peaks = |direction: &str| {
         let wave = format!("[wave]\nheight = 1\nperiod = 4.6\ndirection = \"{direction}\"");
         let text = case(-0.2, 2.0, 9.666, &wave, "duration = 9\ntransient = 0");
-        let assessment = assess(structure(&text), 0, &unwatched).unwrap();
+        let assessment = assess(structure(&text), 0, &no_progress).unwrap();
         let speed = |line: usize| {
             let of_line = assessment.snaps.iter().filter(|snap| snap.line == line);
             of_line.map(|snap| snap.speed_m_s).fold(0.0, f64::max)
@@ -276,7 +276,7 @@ fn waves_from_either_side_are_mirror_images() {
 fn a_sea_is_answered_with_periods_and_limits() {
     let sea = "[sea]\nhs = 1.6\ntp = 5.5\ncomponents = 60";
     let text = case(-0.2, 2.0, 9.666, sea, "duration = 90");
-    let result = seas(structure(&text), 2, Lines::Inextensible, &unwatched);
+    let result = seas(structure(&text), 2, Lines::Inextensible, &no_progress);
     let result = result.unwrap();
     let summary = result.summary("case");
     assert!(
@@ -359,7 +359,7 @@ fn what_a_floating_body_can_not_be_is_refused() {
 fn the_limits_are_told_of_lines_that_stretch() {
     let sea = "[sea]\nhs = 1.6\ntp = 5.5\ncomponents = 60";
     let text = case(-0.2, 2.0, 9.666, sea, "duration = 90");
-    let result = seas(structure(&text), 2, Lines::Elastic, &unwatched).unwrap();
+    let result = seas(structure(&text), 2, Lines::Elastic, &no_progress).unwrap();
     let seen = |rule: &str| result.warnings.iter().any(|warning| warning.rule == rule);
     let outcomes = || result.records.iter().map(|record| &record.outcome);
     let heave = |outcome: &Outcome| outcome.waterline.unwrap().heave_m;

@@ -4,7 +4,7 @@
 use crate::afloat::{by_hand, case, parsed, structure};
 use nalgebra::{Complex, Matrix3, Vector3};
 use serde_json::Value;
-use snapload::analysis::unwatched;
+use snapload::analysis::no_progress;
 use snapload_structure::{Prepared, Standing, assess, run_elastic, springs};
 use std::f64::consts::PI;
 use std::path::Path;
@@ -78,7 +78,7 @@ fn taut_springs_answer_small_waves_as_the_frequency_domain_does() {
 
     // Terms of the second order in the waves have other frequencies, and are fitted together with
     // the linear response.
-    let run = run_elastic(&sprung, &law, 0.2, &unwatched).unwrap();
+    let run = run_elastic(&sprung, &law, 0.2, &no_progress).unwrap();
     let samples: Vec<_> = run
         .samples
         .iter()
@@ -156,7 +156,7 @@ fn a_body_without_a_file_has_the_water_of_its_section() {
         .unwrap();
     let rise = lift / (c33 + k);
     assert!((sprung.rest.place_m[1] + 0.2 - rise).abs() < 1e-9);
-    let assessment = assess(structure(&text), 0, &unwatched).unwrap();
+    let assessment = assess(structure(&text), 0, &no_progress).unwrap();
     let rules: Vec<_> = assessment.warnings.iter().map(|w| w.rule).collect();
     assert!(
         rules.contains(&"textbook section") && rules.contains(&"ends"),
@@ -227,7 +227,7 @@ fn a_constant_moment_heels_the_body() {
 #[test]
 fn a_place_of_rest_below_the_given_one_is_told_as_below() {
     let text = of_its_section("", "length = 9.6");
-    let assessment = assess(structure(&text), 0, &unwatched).unwrap();
+    let assessment = assess(structure(&text), 0, &no_progress).unwrap();
     let mut warnings = assessment.warnings.iter();
     let found = warnings.find(|w| w.rule == "place of rest");
     let words = &found.expect("a warning").message;
@@ -293,7 +293,7 @@ fn more_lines_than_hold_a_floating_body_share_by_stiffness() {
     let same = doubled
         .replace("9.668", "9.666")
         .replace("stiffness = 1.2e8\n", "");
-    let even = assess(structure(&same), 0, &unwatched).unwrap();
+    let even = assess(structure(&same), 0, &no_progress).unwrap();
     let rest = &even.prepared.rest;
     assert!(rest.indeterminate && rest.taut.len() == 4);
     assert!(
@@ -356,7 +356,7 @@ fn snaps_on_springs_are_those_of_another_program() {
     let prepared = Prepared::new(structure(&text)).unwrap();
     let law = springs(&prepared, 1.0).unwrap();
     let sprung = prepared.on_springs(&law).unwrap();
-    let run = run_elastic(&sprung, &law, f64::INFINITY, &unwatched).unwrap();
+    let run = run_elastic(&sprung, &law, f64::INFINITY, &no_progress).unwrap();
     let known = known["pulls"].as_array().unwrap();
     assert_eq!(run.pulls.len(), known.len());
     for (pull, known) in run.pulls.iter().zip(known) {

@@ -1,7 +1,7 @@
 //! Constant loads: a current, mean drift.
 
 use snapload::Playback;
-use snapload::analysis::unwatched;
+use snapload::analysis::no_progress;
 use snapload_structure::{Prepared, Structure, assess, springs};
 
 const EXAMPLE: &str = include_str!("../../../../docs/examples/cylinder.toml");
@@ -96,7 +96,7 @@ fn a_current_is_told_and_has_a_side() {
                     if side > 0.0 { "+x" } else { "-x" }
                 ),
             );
-        assess(Structure::parse("case", &text).unwrap(), 0, &unwatched).unwrap()
+        assess(Structure::parse("case", &text).unwrap(), 0, &no_progress).unwrap()
     };
     let (right, left) = (run(1.0), run(-1.0));
     assert!((right.prepared.rest.place_m[0] + left.prepared.rest.place_m[0]).abs() < 1e-9);

@@ -1,7 +1,7 @@
 //! Natural periods against closed forms, and checks by the design rule against their formulas.
 
 use crate::verdicts::{source, structure};
-use snapload::analysis::unwatched;
+use snapload::analysis::no_progress;
 use snapload_structure::{
     Answer, Assessment, Criterion, Lines, NaturalPeriods, Prepared, assess, both_models, seas,
     springs,
@@ -130,7 +130,7 @@ fn the_cylinder_swings_as_others_found() {
 
 fn assessed(design: &str) -> Assessment {
     let text = format!("{CYLINDER}\nduration = 120\n[design]\n{design}\n");
-    assess(structure(&text), 2, &unwatched).expect("an answer")
+    assess(structure(&text), 2, &no_progress).expect("an answer")
 }
 
 #[test]
@@ -174,7 +174,7 @@ fn checks_are_what_their_formulas_say() {
 #[test]
 fn only_what_is_asked_for_is_checked() {
     let text = format!("{CYLINDER}\nduration = 60\n");
-    let plain = assess(structure(&text), 0, &unwatched).expect("an answer");
+    let plain = assess(structure(&text), 0, &no_progress).expect("an answer");
     assert!(plain.checks().is_empty());
     let slack = assessed("least_share = 0");
     assert!(
@@ -189,7 +189,7 @@ fn only_what_is_asked_for_is_checked() {
             "{still}\n[design]\nleast_share = 0.9\nforce_share = 1\n"
         )),
         0,
-        &unwatched,
+        &no_progress,
     );
     let still = still.expect("an answer");
     let answers: Vec<Answer> = still
@@ -205,7 +205,7 @@ fn only_what_is_asked_for_is_checked() {
 fn checks_of_soft_lines_are_open() {
     let soft = CYLINDER.replace("type = \"studless chain\"", "type = \"polyester\"");
     let text = format!("{soft}\nduration = 60\n[design]\nleast_share = 0\nforce_share = 0.1\n");
-    let open = assess(structure(&text), 0, &unwatched).expect("an answer");
+    let open = assess(structure(&text), 0, &no_progress).expect("an answer");
     let answers: Vec<Answer> = open
         .checks()
         .iter()
@@ -245,7 +245,7 @@ fn springs_and_records_are_checked_by_the_same_rule() {
         Prepared::for_springs(case).expect("a start"),
         1.0,
         f64::INFINITY,
-        &unwatched,
+        &no_progress,
     );
     let both = both.expect("an answer");
     let checks = both.checks();
@@ -273,7 +273,7 @@ fn springs_and_records_are_checked_by_the_same_rule() {
     let sea = include_str!("../../../../docs/examples/cylinder-sea.toml");
     let sea = structure(&format!("{sea}\nduration = 200\n{rule}force_share = 0.2\n"));
     for lines in [Lines::Inextensible, Lines::Elastic] {
-        let found = seas(sea.clone(), 5, lines, &unwatched).expect("an answer");
+        let found = seas(sea.clone(), 5, lines, &no_progress).expect("an answer");
         let over_all = found.checks();
         assert_eq!(over_all.len(), 5);
         for (index, check) in over_all.iter().enumerate() {

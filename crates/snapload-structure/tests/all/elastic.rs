@@ -2,7 +2,7 @@
 
 use serde_json::Value;
 use snapload::Limit;
-use snapload::analysis::unwatched;
+use snapload::analysis::no_progress;
 use snapload_structure::{
     ElasticRun, Prepared, STRUCTURE, Spring, Standing, Structure, both_models, damping_ratio,
     run_elastic, springs,
@@ -36,7 +36,7 @@ fn structure(text: &str, set: &[&str]) -> Structure {
 const CYLINDER: &str = include_str!("../../../../docs/examples/cylinder.toml");
 
 fn run(prepared: &Prepared, springs: &[Spring]) -> ElasticRun {
-    run_elastic(prepared, springs, 0.05, &unwatched).expect("a run")
+    run_elastic(prepared, springs, 0.05, &no_progress).expect("a run")
 }
 
 /// The state is kept at the times that one writes, whatever steps the integrator makes, and at the
@@ -47,7 +47,7 @@ fn looks_are_at_the_times_asked_for() {
     let law = springs(&prepared, 1.0).expect("springs");
     let rise = prepared.structure.net_buoyancy_n() / 800.0;
     for (every, written) in [(0.3, "3.9"), (0.07, "3.99"), (0.5, "3.5")] {
-        let motion = run_elastic(&prepared, &law, every, &unwatched).expect("a run");
+        let motion = run_elastic(&prepared, &law, every, &no_progress).expect("a run");
         let times: Vec<String> = motion.samples.iter().map(|l| l.t_s.to_string()).collect();
         assert_eq!(times[..2], ["0".to_owned(), every.to_string()]);
         assert_eq!(times[times.len() - 2..], [written, "4"]);
@@ -65,7 +65,7 @@ fn looks_are_at_the_times_asked_for() {
         assert_eq!(free.count(), (taken / every) as usize + 1);
     }
     for every in [0.0, -1.0, f64::NAN, 1e-9] {
-        let refused = run_elastic(&prepared, &law, every, &unwatched).expect_err("a refusal");
+        let refused = run_elastic(&prepared, &law, every, &no_progress).expect_err("a refusal");
         assert!(refused.to_string().contains("every ="), "{refused}");
     }
 }
@@ -385,7 +385,7 @@ fn it_may_start_where_the_lines_have_stretched() {
     let refused = Prepared::new(case.clone()).expect_err("out of reach");
     assert!(refused.to_string().contains("too short"), "{refused}");
     let prepared = Prepared::for_springs(case).expect("a start");
-    let both = both_models(prepared, 1.0, f64::INFINITY, &unwatched).expect("a run");
+    let both = both_models(prepared, 1.0, f64::INFINITY, &no_progress).expect("a run");
     assert!(both.inextensible.is_none());
     for (peak, at_rest) in both.elastic.peaks_n.iter().zip(&both.sprung.rest.tension_n) {
         assert!((peak / at_rest - 1.0).abs() < 1e-7, "{peak} {at_rest}");
@@ -417,7 +417,7 @@ fn the_pulls_are_those_of_moordyn() {
         let set = case["set"].as_array().expect("settings").iter();
         let set: Vec<&str> = set.map(|set| set.as_str().expect("text")).collect();
         let prepared = Prepared::for_springs(structure(CYLINDER, &set)).expect("a start");
-        let both = both_models(prepared, 1.0, f64::INFINITY, &unwatched).expect("a run");
+        let both = both_models(prepared, 1.0, f64::INFINITY, &no_progress).expect("a run");
         let theirs = case["pulls"].as_array().expect("pulls");
         assert_eq!(both.elastic.pulls.len(), theirs.len(), "{name}");
         for (pull, row) in both.elastic.pulls.iter().zip(theirs) {

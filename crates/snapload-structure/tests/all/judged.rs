@@ -2,7 +2,7 @@
 //! largest loads.
 
 use crate::verdicts::{source, structure};
-use snapload::analysis::unwatched;
+use snapload::analysis::no_progress;
 use snapload_structure::note::{page, seas_page};
 use snapload_structure::{Answer, Lines, Prepared, Standing, Warning, assess, both_models, seas};
 
@@ -20,7 +20,7 @@ fn flat(text: &str) -> String {
 fn where_nothing_is_judged_no_numbers_are_told() {
     let text = EXAMPLE.replace("height = 2\n", "height = 12\n");
     assert_ne!(text, EXAMPLE);
-    let assessment = assess(structure(&text), 4, &unwatched).unwrap();
+    let assessment = assess(structure(&text), 4, &no_progress).unwrap();
     assert!(assessment.outcome.end_s < 10.0 && assessment.outcome.is_unjudged());
     let told = flat(&assessment.summary("case"));
     for words in [
@@ -70,7 +70,7 @@ fn where_nothing_is_judged_no_numbers_are_told() {
 fn nothing_judged_is_told_of_springs_and_records() {
     let text = EXAMPLE.replace("height = 2\n", "height = 12\n");
     let prepared = Prepared::for_springs(structure(&text)).unwrap();
-    let both = both_models(prepared, 1.0, f64::INFINITY, &unwatched).unwrap();
+    let both = both_models(prepared, 1.0, f64::INFINITY, &no_progress).unwrap();
     assert!(both.outcome.is_unjudged());
     let told = flat(&both.summary("case"));
     assert!(
@@ -82,7 +82,7 @@ fn nothing_judged_is_told_of_springs_and_records() {
     let high = SEA
         .replace("hs = 1.2", "hs = 9")
         .replace("[run]", "[run]\nduration = 300");
-    let records = seas(structure(&high), 2, Lines::Inextensible, &unwatched).unwrap();
+    let records = seas(structure(&high), 2, Lines::Inextensible, &no_progress).unwrap();
     assert_eq!(records.judged_s(), 0.0);
     let told = flat(&records.summary("case"));
     assert!(
@@ -104,7 +104,7 @@ fn nothing_judged_is_told_of_springs_and_records() {
 /// page. If the beginning is judged, the line breaks.
 #[test]
 fn a_line_that_breaks_before_it_is_judged_leaves_the_verdict_open() {
-    let assessment = assess(structure(EXAMPLE), 2, &unwatched).unwrap();
+    let assessment = assess(structure(EXAMPLE), 2, &no_progress).unwrap();
     let early = assessment.snaps.iter().filter(|snap| snap.t_s < 60.0);
     let hardest = early
         .filter_map(|snap| snap.utilisation)
@@ -128,12 +128,12 @@ fn a_line_that_breaks_before_it_is_judged_leaves_the_verdict_open() {
     let note = page(source("case"), &assessment, None).unwrap();
     assert!(note.contains("class=\"verdict open\"") && !note.contains("class=\"verdict holds\""));
     let all = EXAMPLE.replace("[run]", "[run]\ntransient = 0");
-    let all = assess(structure(&all), 0, &unwatched).unwrap();
+    let all = assess(structure(&all), 0, &no_progress).unwrap();
     assert_eq!(all.verdict().standing, Standing::Breaks);
     // The same is reported of elastic lines.
     let short = EXAMPLE.replace("[run]", "[run]\nduration = 12");
     let prepared = Prepared::for_springs(structure(&short)).unwrap();
-    let both = both_models(prepared, 1.0, f64::INFINITY, &unwatched).unwrap();
+    let both = both_models(prepared, 1.0, f64::INFINITY, &no_progress).unwrap();
     let verdict = both.verdict();
     assert_eq!(verdict.standing, Standing::Open);
     assert!(
@@ -145,7 +145,9 @@ fn a_line_that_breaks_before_it_is_judged_leaves_the_verdict_open() {
     // If it would not break the line, the line holds, and the tension before the judged part is
     // reported.
     let strong = EXAMPLE.replace("diameter = 0.038", "diameter = 0.038\nbreaking_load = 4e6");
-    let strong = assess(structure(&strong), 0, &unwatched).unwrap().verdict();
+    let strong = assess(structure(&strong), 0, &no_progress)
+        .unwrap()
+        .verdict();
     assert_eq!(strong.standing, Standing::Holds);
     assert!(
         strong.words.contains("0.77 of its breaking load."),
@@ -166,7 +168,7 @@ fn records_tell_what_breaks_before_they_are_judged() {
             let sea = SEA.replace("[run]", &run);
             let load = "diameter = 0.038\nbreaking_load = 3e6";
             let structure = structure(&sea.replace("diameter = 0.038", load));
-            seas(structure, 8, lines, &unwatched).unwrap()
+            seas(structure, 8, lines, &no_progress).unwrap()
         };
         let [all, late] = [0, 80].map(judged_from);
         assert_eq!(all.breaking_only_early(), 0);
@@ -209,19 +211,19 @@ fn far_swings_are_warned_of_by_every_answer() {
                     [run]\nrestitution = 1\nduration = 200\n\
                     transient = 100\n";
     let told = |warnings: &[Warning]| warnings.iter().any(|warning| warning.rule == "phase");
-    let assessment = assess(structure(swinging), 0, &unwatched).unwrap();
+    let assessment = assess(structure(swinging), 0, &no_progress).unwrap();
     assert!(told(&assessment.warnings));
     for lines in [Lines::Inextensible, Lines::Elastic] {
-        let records = seas(structure(swinging), 2, lines, &unwatched).unwrap();
+        let records = seas(structure(swinging), 2, lines, &no_progress).unwrap();
         assert!(told(&records.warnings), "{lines:?}");
     }
     let prepared = Prepared::for_springs(structure(swinging)).unwrap();
-    let both = both_models(prepared, 1.0, f64::INFINITY, &unwatched).unwrap();
+    let both = both_models(prepared, 1.0, f64::INFINITY, &no_progress).unwrap();
     assert!(told(&both.warnings()));
     // In a calm sea there is no such warning.
     let calm = swinging.replace("hs = 0.6", "hs = 0.02");
     for lines in [Lines::Inextensible, Lines::Elastic] {
-        let records = seas(structure(&calm), 2, lines, &unwatched).unwrap();
+        let records = seas(structure(&calm), 2, lines, &no_progress).unwrap();
         assert!(!told(&records.warnings), "{lines:?}");
     }
 }
@@ -236,14 +238,14 @@ fn without_snaps_no_tension_of_snaps_is_told() {
         (3, "No line snaps in any of the 3 neighbours in waves"),
         (12, "No line snaps in any of the 12 neighbours in waves"),
     ] {
-        let assessment = assess(structure(&calm), count, &unwatched).unwrap();
+        let assessment = assess(structure(&calm), count, &no_progress).unwrap();
         let told = flat(&assessment.trust_words());
         assert!(told.contains(words), "{told}");
         assert_eq!(told.matches("neighbour").count(), 1, "{told}");
         assert!(!told.contains("0 kN"), "{told}");
     }
     let prepared = Prepared::for_springs(structure(&calm)).unwrap();
-    let both = both_models(prepared, 1.0, f64::INFINITY, &unwatched).unwrap();
+    let both = both_models(prepared, 1.0, f64::INFINITY, &no_progress).unwrap();
     assert!(
         !both.verdict().words.contains("0.00 m/s"),
         "{}",
@@ -256,11 +258,11 @@ fn without_snaps_no_tension_of_snaps_is_told() {
 #[test]
 fn the_hardest_snap_is_told_alike_beside_springs() {
     let short = EXAMPLE.replace("[run]", "[run]\nduration = 12");
-    let assessment = assess(structure(&short), 0, &unwatched).unwrap();
+    let assessment = assess(structure(&short), 0, &no_progress).unwrap();
     let peaks = assessment.snaps.iter().filter_map(|snap| snap.peak_n);
     let hardest = peaks.fold(0.0, f64::max) / 1e3;
     let prepared = Prepared::for_springs(structure(&short)).unwrap();
-    let both = both_models(prepared, 1.0, f64::INFINITY, &unwatched).unwrap();
+    let both = both_models(prepared, 1.0, f64::INFINITY, &no_progress).unwrap();
     let told = flat(&both.summary("case"));
     let words = format!(
         "snapload assess includes the line's own mass: the largest tension in a snap is then {hardest:.0} kN"
@@ -278,7 +280,7 @@ fn the_hardest_snap_is_told_alike_beside_springs() {
 fn the_columns_of_pulls_are_explained() {
     let short = EXAMPLE.replace("[run]", "[run]\nduration = 12");
     let prepared = Prepared::for_springs(structure(&short)).unwrap();
-    let both = both_models(prepared, 1.0, f64::INFINITY, &unwatched).unwrap();
+    let both = both_models(prepared, 1.0, f64::INFINITY, &no_progress).unwrap();
     let summary = both.summary("case");
     let mut rows = summary
         .lines()
@@ -340,7 +342,7 @@ least_share = 0
 /// A small body's numbers keep their digits: lines at an angle of cos 15/17 carry 2 kg g/2 17/15.
 #[test]
 fn a_small_body_is_told_in_digits() {
-    let assessment = assess(structure(MODEL), 0, &unwatched).unwrap();
+    let assessment = assess(structure(MODEL), 0, &no_progress).unwrap();
     let told = flat(&assessment.summary("model"));
     let rest_n = 0.5 * 2.0 * 9.81 * 17.0 / 15.0;
     for words in [
@@ -360,7 +362,7 @@ fn a_small_body_is_told_in_digits() {
 #[test]
 fn slack_before_anything_is_judged_is_told_as_such() {
     let prepared = Prepared::for_springs(structure(MODEL)).unwrap();
-    let both = both_models(prepared, 1.0, f64::INFINITY, &unwatched).unwrap();
+    let both = both_models(prepared, 1.0, f64::INFINITY, &no_progress).unwrap();
     assert!(
         both.checks()
             .iter()

@@ -1,6 +1,6 @@
 //! Forces and tensions against independent computations, and several lines along a run.
 
-use snapload::analysis::unwatched;
+use snapload::analysis::no_progress;
 use snapload::{Impact, Playback, State};
 use snapload_structure::{Prepared, Snap, Structure, assess, snaps};
 use std::f64::consts::PI;
@@ -168,7 +168,7 @@ fn four_lines_are_never_longer_than_they_are() {
         [[line]]\nanchor = [3, -12]\nfairlead = [0.8, -5.2]\nlength = 7.3\ntype = \"polyester\"\ndiameter = 0.08\n\
         [[line]]\nanchor = [-4, -12]\nfairlead = [-1, -5.1]\nlength = 7.6\ntype = \"nylon\"\ndiameter = 0.1\n\
         [[line]]\nanchor = [-7, -12]\nfairlead = [-1.4, -4.5]\nlength = 9.5\nspring_rate = 2e6\n";
-    let assessment = assess(Structure::parse("four", text).unwrap(), 2, &unwatched).unwrap();
+    let assessment = assess(Structure::parse("four", text).unwrap(), 2, &no_progress).unwrap();
     let scales = assessment.prepared.model.scales;
     let structure = &assessment.prepared.structure;
     let mut playback = Playback::new(&assessment.run);
@@ -348,7 +348,7 @@ fn double_lines_run_to_the_end_and_share_evenly() {
         line(-1.0),
         line(-1.0)
     );
-    let assessment = assess(Structure::parse("double", &text).unwrap(), 3, &unwatched).unwrap();
+    let assessment = assess(Structure::parse("double", &text).unwrap(), 3, &no_progress).unwrap();
     for outcome in assessment.neighbours.iter().chain([&assessment.outcome]) {
         assert_eq!(outcome.stop, snapload::Stop::EndTime);
         for pair in outcome.lines.chunks(2) {

@@ -1,7 +1,7 @@
 //! The reports on structures that inextensible lines do not describe, or whose values are probably
 //! mistakes.
 
-use snapload::analysis::unwatched;
+use snapload::analysis::no_progress;
 use snapload_structure::note::Source;
 use snapload_structure::{Lines, Prepared, Standing, Structure, Water, assess, both_models, seas};
 
@@ -28,17 +28,17 @@ fn soft(text: &str) -> String {
 }
 
 fn rules(text: &str) -> Vec<&'static str> {
-    let assessment = assess(structure(text), 0, &unwatched).unwrap();
+    let assessment = assess(structure(text), 0, &no_progress).unwrap();
     assessment.warnings.iter().map(|w| w.rule).collect()
 }
 
 #[test]
 fn soft_lines_leave_the_verdict_open() {
     let calm = EXAMPLE.replace("height = 2\n", "height = 0.5\n");
-    let stiff = assess(structure(&calm), 2, &unwatched).unwrap();
+    let stiff = assess(structure(&calm), 2, &no_progress).unwrap();
     assert_eq!(stiff.verdict().standing, Standing::Holds);
     let soft = soft(EXAMPLE);
-    let open = assess(structure(&soft), 2, &unwatched).unwrap();
+    let open = assess(structure(&soft), 2, &no_progress).unwrap();
     let rule = open.warnings.iter().find(|w| w.rule == "instant snap");
     assert_eq!(rule.unwrap().decided_by, Some("snapload elastic"));
     let verdict = open.verdict();
@@ -55,8 +55,8 @@ fn soft_lines_leave_the_verdict_open() {
 #[test]
 fn a_sea_has_the_warnings_of_a_wave() {
     let text = soft(SEA).replace("[run]", "[run]\nduration = 300");
-    let result = seas(structure(&text), 3, Lines::Inextensible, &unwatched).unwrap();
-    let assessment = assess(structure(&text), 0, &unwatched).unwrap();
+    let result = seas(structure(&text), 3, Lines::Inextensible, &no_progress).unwrap();
+    let assessment = assess(structure(&text), 0, &no_progress).unwrap();
     // The rule of the phase needs a single motion.
     let assessed = assessment.warnings.iter().filter(|w| w.rule != "phase");
     // The rule of short records needs many records.
@@ -76,7 +76,7 @@ fn a_sea_has_the_warnings_of_a_wave() {
 #[test]
 fn what_a_line_holds_is_among_the_largest() {
     let text = SEA.replace("[run]", "[run]\nduration = 600");
-    let result = seas(structure(&text), 4, Lines::Inextensible, &unwatched).unwrap();
+    let result = seas(structure(&text), 4, Lines::Inextensible, &no_progress).unwrap();
     let largest = result.largest_n().unwrap();
     for (record, largest) in result.records.iter().zip(largest) {
         let lines = &record.outcome.lines;
@@ -86,7 +86,7 @@ fn what_a_line_holds_is_among_the_largest() {
     }
     // Without waves that make lines slack there is no snap, and all tensions are held.
     let calm = text.replace("hs = 1.2", "hs = 0.05");
-    let calm = seas(structure(&calm), 4, Lines::Inextensible, &unwatched).unwrap();
+    let calm = seas(structure(&calm), 4, Lines::Inextensible, &no_progress).unwrap();
     let held = calm.largest_n().unwrap();
     let rest = calm
         .prepared
@@ -109,7 +109,7 @@ fn what_a_line_holds_is_among_the_largest() {
 #[test]
 fn too_few_records_are_not_too_few_snaps() {
     let text = SEA.replace("[run]", "[run]\nduration = 300");
-    let words = seas(structure(&text), 2, Lines::Inextensible, &unwatched)
+    let words = seas(structure(&text), 2, Lines::Inextensible, &no_progress)
         .unwrap()
         .words();
     assert!(words.contains("2 records are too few"), "{words}");
@@ -137,7 +137,7 @@ fn what_is_hardly_meant_is_told() {
 #[test]
 fn a_run_that_ends_at_once_says_so() {
     let text = EXAMPLE.replace("[run]", "[run]\nmax_snaps = 1");
-    let verdict = assess(structure(&text), 0, &unwatched).unwrap().verdict();
+    let verdict = assess(structure(&text), 0, &no_progress).unwrap().verdict();
     assert!(
         verdict.words.contains("ended before 60 s"),
         "{}",
@@ -150,7 +150,7 @@ fn a_run_that_ends_at_once_says_so() {
 #[test]
 fn a_sea_on_lines_that_stretch_decides() {
     let text = soft(SEA).replace("[run]", "[run]\nduration = 300");
-    let result = seas(structure(&text), 3, Lines::Elastic, &unwatched).unwrap();
+    let result = seas(structure(&text), 3, Lines::Elastic, &no_progress).unwrap();
     assert!(!result.is_open());
     let one = &result.records[1];
     let mut alone = structure(&text);
@@ -158,7 +158,7 @@ fn a_sea_on_lines_that_stretch_decides() {
         sea.seed = one.seed;
     }
     let prepared = Prepared::new(alone).unwrap();
-    let both = both_models(prepared, 1.0, f64::INFINITY, &unwatched).unwrap();
+    let both = both_models(prepared, 1.0, f64::INFINITY, &no_progress).unwrap();
     for (line, peak) in both.elastic.peaks_n.iter().enumerate() {
         assert_eq!(one.outcome.lines[line].largest_n(), Some(*peak));
     }
@@ -174,7 +174,7 @@ fn slack_troughs_are_told_as_slack() {
     let told = |height: &str| {
         let text = SEA.replace("[run]", "[run]\nduration = 600");
         let text = text.replace("hs = 1.2", &format!("hs = {height}"));
-        let result = seas(structure(&text), 3, Lines::Inextensible, &unwatched).unwrap();
+        let result = seas(structure(&text), 3, Lines::Inextensible, &no_progress).unwrap();
         let [_, troughs] = result.crests_and_troughs_n();
         let slack = troughs.iter().filter(|trough| **trough == 0.0).count();
         let part = slack as f64 / troughs.len() as f64;
@@ -207,7 +207,7 @@ fn slack_troughs_are_told_as_slack() {
 #[test]
 fn every_line_of_a_sea_names_what_it_is_of() {
     let text = SEA.replace("[run]", "[run]\nduration = 600");
-    let result = seas(structure(&text), 10, Lines::Inextensible, &unwatched).unwrap();
+    let result = seas(structure(&text), 10, Lines::Inextensible, &no_progress).unwrap();
     let summary = result.summary("case");
     let mut rows: Vec<String> = Vec::new();
     for line in summary.lines() {
@@ -230,7 +230,7 @@ fn every_line_of_a_sea_names_what_it_is_of() {
         "{summary}"
     );
     let calm = text.replace("hs = 1.2", "hs = 0.05");
-    let calm = seas(structure(&calm), 1, Lines::Inextensible, &unwatched).unwrap();
+    let calm = seas(structure(&calm), 1, Lines::Inextensible, &no_progress).unwrap();
     let told = calm.summary("case");
     assert!(
         told.contains("none of 1 cm/s or more in the one record from 60 s on"),
@@ -242,15 +242,15 @@ fn every_line_of_a_sea_names_what_it_is_of() {
 #[test]
 fn the_restitution_is_varied() {
     let text = EXAMPLE.replace("[run]", "[run]\nduration = 120");
-    let assessment = assess(structure(&text), 0, &unwatched).unwrap();
+    let assessment = assess(structure(&text), 0, &no_progress).unwrap();
     let rows = assessment.by_restitution();
     let es: Vec<f64> = rows.iter().map(|row| row.restitution).collect();
     assert_eq!(es, [0.3, 0.5, 0.7]);
     let alone = text.replace("restitution = 0.5", "restitution = 0.7");
-    let alone = assess(structure(&alone), 0, &unwatched).unwrap();
+    let alone = assess(structure(&alone), 0, &no_progress).unwrap();
     assert_eq!(rows[2].fastest_snap_m_s, Some(alone.outcome.speed_m_s()));
     let rigid = text.replace("restitution = 0.5", "restitution = 1");
-    let rigid = assess(structure(&rigid), 0, &unwatched).unwrap();
+    let rigid = assess(structure(&rigid), 0, &no_progress).unwrap();
     assert_eq!(rigid.by_restitution().len(), 2);
 }
 
@@ -269,7 +269,7 @@ fn the_stretch_of_lines_shares_the_load_at_rest() {
         line(15.0),
         line(15.005)
     );
-    let assessment = assess(structure(&text), 0, &unwatched).unwrap();
+    let assessment = assess(structure(&text), 0, &no_progress).unwrap();
     let rest = &assessment.prepared.rest;
     let force = assessment.prepared.structure.net_buoyancy_n();
     let shared = rest.shared.as_ref().unwrap();
@@ -290,7 +290,7 @@ fn the_stretch_of_lines_shares_the_load_at_rest() {
     );
     // The position of rest does not depend on the restitution.
     let dead = text.replace("restitution = 0.5", "restitution = 0");
-    let dead = assess(structure(&dead), 0, &unwatched).unwrap();
+    let dead = assess(structure(&dead), 0, &no_progress).unwrap();
     assert_eq!(dead.prepared.rest, *rest);
     assert!(dead.periods.unwrap().elastic.is_some());
     let warning = assessment
@@ -308,6 +308,6 @@ fn the_stretch_of_lines_shares_the_load_at_rest() {
     assert_eq!(assessment.verdict().standing, Standing::Open);
     // Lines of equal length share evenly in either model, and there is no warning.
     let even = text.replace("15.005", "15");
-    let even = assess(structure(&even), 0, &unwatched).unwrap();
+    let even = assess(structure(&even), 0, &no_progress).unwrap();
     assert!(even.prepared.rest.shared.is_none());
 }

@@ -1,6 +1,6 @@
 //! A single flipped bit on the disk is detected wherever it is.
 use crate::store::{chunk_name, complete, open, save, study, work};
-use snapload::analysis::unwatched;
+use snapload::analysis::no_progress;
 use snapload_study::{Identity, Opened, Shard, Store, StudyError, checked_identity, merge, sweep};
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -34,7 +34,7 @@ fn a_damaged_chunk_is_computed_again() {
     }
     drop(store);
     let bytes = fs::read(&path).unwrap();
-    assert_eq!(work(&target, &study).safe(), 9);
+    assert_eq!(work(&target, &study).saved(), 9);
     for damaged in damaged(&bytes) {
         fs::write(&path, damaged).unwrap();
         let mut store = work(&target, &study);
@@ -49,7 +49,7 @@ fn a_damaged_chunk_is_computed_again() {
 fn a_chunk_that_is_damaged_meanwhile_is_computed_again() {
     let directory = tempfile::tempdir().unwrap();
     let (study, target) = (study(9), directory.path().join("file"));
-    let wanted = complete(&directory.path().join("whole"), &study);
+    let expected = complete(&directory.path().join("whole"), &study);
     let path = directory
         .path()
         .join("file.parts")
@@ -69,8 +69,8 @@ fn a_chunk_that_is_damaged_meanwhile_is_computed_again() {
             Some(damaged) => fs::write(&path, damaged).unwrap(),
             None => fs::remove_file(&path).unwrap(),
         }
-        sweep(&study, store, &unwatched).unwrap();
-        assert!(fs::read(&target).unwrap() == wanted);
+        sweep(&study, store, &no_progress).unwrap();
+        assert!(fs::read(&target).unwrap() == expected);
         fs::remove_file(&target).unwrap();
     }
 }
@@ -81,7 +81,7 @@ fn part(directory: &Path, text: &str) -> PathBuf {
     let Opened::Work(store) = Store::open(&target, identity, false).unwrap() else {
         panic!("complete");
     };
-    sweep(&study, store, &unwatched).unwrap();
+    sweep(&study, store, &no_progress).unwrap();
     target
 }
 

@@ -20,8 +20,8 @@ type Row = Result<Vec<(&'static str, Value)>, CaseError>;
 /// Some rows of a list.
 fn read(list: List, range: Range<u64>) -> Vec<Row> {
     let study = Study::new([], Plan::List(list), false).unwrap();
-    let drawn = study.draw(range).unwrap();
-    (0..drawn.count()).map(|k| drawn.given(k)).collect()
+    let cases = study.cases(range).unwrap();
+    (0..cases.count()).map(|k| cases.given(k)).collect()
 }
 
 fn csv(text: &str) -> tempfile::NamedTempFile {
@@ -42,12 +42,12 @@ fn a_csv_file_is_read_from_anywhere() {
         let list = List::open(file.path()).unwrap();
         for (row, k) in read(list, range.clone()).into_iter().zip(range) {
             let f_o = format!("0.{k:04}").parse::<f64>().unwrap();
-            let wanted: Row = Ok(vec![
+            let expected: Row = Ok(vec![
                 ("f_o", Value::Number(f_o)),
                 ("e", Value::Integer(1)),
                 ("body", Value::Text("rigid".to_owned())),
             ]);
-            assert_eq!(row, wanted);
+            assert_eq!(row, expected);
         }
     }
 }
@@ -116,17 +116,17 @@ fn a_parquet_file_is_read_from_anywhere() {
     for range in [123..125, 198..203, 399..400, 0..400] {
         let rows = read(List::open(file.path()).unwrap(), range.clone());
         for (row, k) in rows.into_iter().zip(range) {
-            let mut wanted = vec![
+            let mut expected = vec![
                 ("body", "point".into()),
                 ("max_impacts", Value::Integer(k as i64)),
                 ("omega", Value::Number(-(k as f64) / 10.0)),
                 ("nu", Value::Number(0.25)),
             ];
             if k % 3 > 0 {
-                wanted.insert(0, ("f_o", Value::Number(k as f64)));
-                wanted.insert(3, ("e", Value::Number(k as f64 / 1000.0)));
+                expected.insert(0, ("f_o", Value::Number(k as f64)));
+                expected.insert(3, ("e", Value::Number(k as f64 / 1000.0)));
             }
-            assert_eq!(row, Ok(wanted));
+            assert_eq!(row, Ok(expected));
         }
     }
 }
@@ -168,10 +168,10 @@ fn a_count_that_is_too_large_spoils_its_own_row() {
     let file = counts(&[7, u64::MAX, 9], Compression::UNCOMPRESSED);
     let plan = Plan::List(List::open(file.path()).unwrap());
     let study = Study::new([], plan, false).unwrap();
-    let drawn = study.draw(0..3).unwrap();
-    let runs = (0..3).map(|k| drawn.case(k).is_ok());
+    let cases = study.cases(0..3).unwrap();
+    let runs = (0..3).map(|k| cases.case(k).is_ok());
     assert_eq!(runs.collect::<Vec<_>>(), [true, false, true]);
-    let error = drawn.case(1).unwrap_err().error.to_string();
+    let error = cases.case(1).unwrap_err().error.to_string();
     assert!(error.contains("max_impacts = 1.8"), "{error}");
 }
 
@@ -223,16 +223,16 @@ fn bad_rows_are_errors_of_their_own_and_empty_cells_nothing() {
 
 #[test]
 fn a_list_with_other_columns_is_refused() {
-    for (text, wanted) in [
+    for (text, expected) in [
         ("f_o,omgea\n1,2\n", "did you mean omega?"),
         ("f_o,f_o\n1,2\n", "two columns are named f_o"),
         ("f_o\n", "contains no case"),
     ] {
         let error = List::open(csv(text).path()).unwrap_err().to_string();
-        assert!(error.contains(wanted), "{error}");
+        assert!(error.contains(expected), "{error}");
     }
     let far = format!("f_o,body\n1,rigid\n2,{}\n", "x".repeat(2_000_000));
-    for (text, wanted) in [
+    for (text, expected) in [
         (
             "f_o,body\n\r\n1,rigid\n2,\"point\n3,rigid\n",
             "line 4 opens a quote",
@@ -244,7 +244,7 @@ fn a_list_with_other_columns_is_refused() {
         (far.as_str(), "line 3 is longer than 1048576 bytes"),
     ] {
         let error = List::open(csv(text).path()).unwrap_err().to_string();
-        assert!(error.contains(wanted), "{error}");
+        assert!(error.contains(expected), "{error}");
     }
     let folder = tempfile::tempdir().unwrap();
     let error = List::open(folder.path()).unwrap_err().to_string();

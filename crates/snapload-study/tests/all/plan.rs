@@ -1,6 +1,6 @@
 //! The cases of a plan.
 use snapload::Value;
-use snapload_study::{Axis, Grid, Plan, Side, Study, StudyError};
+use snapload_study::{Axis, Grid, Plan, RandomRange, Study, StudyError};
 
 fn even(key: &str, first: &str, last: &str, count: u64) -> Axis {
     Axis::even(key, Grid::new(first, last, count).unwrap()).unwrap()
@@ -9,8 +9,8 @@ fn even(key: &str, first: &str, last: &str, count: u64) -> Axis {
 /// The varied keys, case by case.
 fn entries(plan: Plan) -> Vec<Vec<(&'static str, Value)>> {
     let study = Study::new([], plan, false).unwrap();
-    let drawn = study.draw(0..study.count()).unwrap();
-    let entries = (0..drawn.count()).map(|k| drawn.given(k).unwrap());
+    let cases = study.cases(0..study.count()).unwrap();
+    let entries = (0..cases.count()).map(|k| cases.given(k).unwrap());
     entries.collect()
 }
 
@@ -27,11 +27,11 @@ fn the_first_axis_is_the_slowest() {
 
 #[test]
 fn random_points_stay_in_the_box() {
-    let sides = vec![
-        Side::new("f_o", 0.1, 0.6).unwrap(),
-        Side::new("x", -0.05, 0.05).unwrap(),
+    let ranges = vec![
+        RandomRange::new("f_o", 0.1, 0.6).unwrap(),
+        RandomRange::new("x", -0.05, 0.05).unwrap(),
     ];
-    let plan = Plan::random(sides, 1000, 1).unwrap();
+    let plan = Plan::random(ranges, 1000, 1).unwrap();
     for entries in entries(plan) {
         let (Value::Number(f_o), Value::Number(x)) = (&entries[0].1, &entries[1].1) else {
             panic!("{entries:?}");
@@ -52,7 +52,7 @@ fn slips_are_refused_in_words() {
     assert!(words(twice.unwrap_err()).contains("e varies twice"));
     let many = ["x", "y", "vx"].map(|key| even(key, "0", "1", 1_000_000));
     assert!(words(Plan::grid(many.into()).unwrap_err()).contains("from 1 to 1e12"));
-    let error = Side::new("max_impacts", 10.0, 20.0).unwrap_err();
+    let error = RandomRange::new("max_impacts", 10.0, 20.0).unwrap_err();
     assert!(words(error).contains("max_impacts can not be drawn at random"));
     assert!(Plan::random(Vec::new(), 10, 0).is_err());
 }

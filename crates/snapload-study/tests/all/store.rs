@@ -1,5 +1,5 @@
 //! Saved rows stay saved, and the file depends on the rows alone.
-use snapload::analysis::{Cancelled, Counter, Progress, unwatched};
+use snapload::analysis::{Cancelled, Counter, Progress, no_progress};
 use snapload_study::{
     Axis, Grid, Identity, Opened, Plan, Shard, Store, Study, StudyError, chunk, merge, rows, sweep,
 };
@@ -38,29 +38,29 @@ fn rows_come_from_elsewhere() {
     let mut store = work(&here, &study);
     assert!(
         store
-            .keep(0..2, &chunk(&other, 0..2, &unwatched).unwrap())
+            .save_chunk(0..2, &chunk(&other, 0..2, &no_progress).unwrap())
             .is_err()
     );
     for range in [3..5, 0..3] {
         store
-            .keep(range.clone(), &chunk(&study, range, &unwatched).unwrap())
+            .save_chunk(range.clone(), &chunk(&study, range, &no_progress).unwrap())
             .unwrap();
     }
     assert_eq!(store.gap(), None);
     store.finish().unwrap();
-    sweep(&study, work(&there, &study), &unwatched).unwrap();
+    sweep(&study, work(&there, &study), &no_progress).unwrap();
     assert_eq!(fs::read(here).unwrap(), fs::read(there).unwrap());
 }
 
 pub(crate) fn save(store: &mut Store, study: &Study, range: Range<u64>) {
-    let drawn = study.draw(range.clone()).unwrap();
-    let counter = Counter::new("running", 0, 0, &unwatched);
-    let rows = rows(&drawn, &counter, &|| false).unwrap();
+    let cases = study.cases(range.clone()).unwrap();
+    let counter = Counter::new("running", 0, 0, &no_progress);
+    let rows = rows(&cases, &counter, &|| false).unwrap();
     store.save(range, &rows).unwrap();
 }
 
 pub(crate) fn complete(target: &Path, study: &Study) -> Vec<u8> {
-    sweep(study, work(target, study), &unwatched).unwrap();
+    sweep(study, work(target, study), &no_progress).unwrap();
     fs::read(target).unwrap()
 }
 
@@ -69,14 +69,14 @@ pub(crate) fn complete(target: &Path, study: &Study) -> Vec<u8> {
 fn the_file_depends_on_the_rows_alone() {
     let directory = tempfile::tempdir().unwrap();
     let (study, whole) = (study(700), directory.path().join("whole"));
-    let wanted = complete(&whole, &study);
+    let expected = complete(&whole, &study);
     let target = directory.path().join("torn");
     let parts = directory.path().join("torn.parts");
     let mut store = work(&target, &study);
     for range in [0..1, 1..130, 200..201, 600..700] {
         save(&mut store, &study, range);
     }
-    assert_eq!((store.gap(), store.safe()), (Some(130..200), 231));
+    assert_eq!((store.gap(), store.saved()), (Some(130..200), 231));
     drop(store);
     // A truncated chunk, an invalid one, one that overlaps another, and half of a complete file.
     let torn = parts.join(chunk_name(&(1..130)));
@@ -88,9 +88,9 @@ fn the_file_depends_on_the_rows_alone() {
         parts.join(chunk_name(&(0..2))),
     )
     .unwrap();
-    fs::write(parts.join("scratch"), &wanted[..100]).unwrap();
+    fs::write(parts.join("scratch"), &expected[..100]).unwrap();
     assert!(work(&target, &study).gap() == Some(1..200));
-    assert!(complete(&target, &study) == wanted);
+    assert!(complete(&target, &study) == expected);
     assert!(!parts.exists());
 }
 
@@ -100,7 +100,7 @@ fn the_file_depends_on_the_rows_alone() {
 fn groups_that_are_taken_have_the_bytes_of_those_written_anew() {
     let directory = tempfile::tempdir().unwrap();
     let study = study(70_000);
-    let wanted = complete(&directory.path().join("whole"), &study);
+    let expected = complete(&directory.path().join("whole"), &study);
     let parts = ["1/3", "2/3", "3/3"].map(|text| {
         let shard = Shard::parse(text).unwrap();
         let target = directory.path().join(text.replace('/', "-"));
@@ -108,23 +108,23 @@ fn groups_that_are_taken_have_the_bytes_of_those_written_anew() {
         let Opened::Work(store) = Store::open(&target, identity, false).unwrap() else {
             panic!("complete");
         };
-        sweep(&study, store, &unwatched).unwrap();
+        sweep(&study, store, &no_progress).unwrap();
         target
     });
     let merged = directory.path().join("merged");
     merge(&parts, &merged).unwrap();
-    assert!(fs::read(merged).unwrap() == wanted);
+    assert!(fs::read(merged).unwrap() == expected);
 }
 
 /// Whenever a sweep is cancelled, the cases that were begun are saved, and the rest is done later.
 #[test]
-fn a_sweep_that_is_told_to_end_goes_on_later() {
+fn a_cancelled_sweep_is_resumed_later() {
     let directory = tempfile::tempdir().unwrap();
     let (study, whole) = (study(700), directory.path().join("whole"));
-    let wanted = complete(&whole, &study);
-    for told in [0.0, 1.0, 100.0] {
+    let expected = complete(&whole, &study);
+    for stop_at in [0.0, 1.0, 100.0] {
         let target = directory.path().join("ended");
-        let until = |progress: Progress| match progress.done < told {
+        let until = |progress: Progress| match progress.done < stop_at {
             true => ControlFlow::Continue(()),
             false => ControlFlow::Break(()),
         };
@@ -132,12 +132,12 @@ fn a_sweep_that_is_told_to_end_goes_on_later() {
         let Err(StudyError::Cancelled(Cancelled { done })) = ended else {
             panic!("{ended:?}");
         };
-        assert_eq!(work(&target, &study).safe() as f64, done);
+        assert_eq!(work(&target, &study).saved() as f64, done);
         // Each thread may have been about to begin one more.
-        let more = done - told;
+        let more = done - stop_at;
         assert!((0.0..=rayon::current_num_threads() as f64).contains(&more));
-        assert!(told > 0.0 || done == 0.0);
-        assert!(complete(&target, &study) == wanted);
+        assert!(stop_at > 0.0 || done == 0.0);
+        assert!(complete(&target, &study) == expected);
         fs::remove_file(&target).unwrap();
     }
 }

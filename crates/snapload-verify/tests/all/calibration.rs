@@ -7,7 +7,7 @@
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::{Rng, SeedableRng};
 use rayon::prelude::*;
-use snapload::analysis::{NormErrors, Trust, Uncertainty, Unfinished, trusted_run, unwatched};
+use snapload::analysis::{NormErrors, Trust, Uncertainty, Unfinished, no_progress, trusted_run};
 use snapload::{Case, CaseError, Impact, Parameters, Precise, Real, Simulation, Trajectory, Value};
 use std::fmt::Write;
 
@@ -134,7 +134,7 @@ impl Judged {
                 tolerance,
                 ..Uncertainty::default()
             };
-            trusted_run(&case, &uncertainty, &unwatched).expect("legal")
+            trusted_run(&case, &uncertainty, &no_progress).expect("legal")
         });
         let exact = case.simulation_over(|_, number| Digits::from_decimal(number));
         let (differences, parted) = compared(&run, exact.expect("a legal start"), MOST_EXPANSIONS);
@@ -156,12 +156,12 @@ impl Judged {
     /// none if there is no horizon, or none that was reached.
     fn late(&self, which: usize) -> Option<i64> {
         let followed = self.differences.len() + 1;
-        let (wrong, told) = (self.wrong(TOLERANCES[which]), self.trusts[which].horizon);
-        if wrong.is_none() && told.is_none_or(|horizon| horizon.impact > followed) {
+        let (wrong, horizon) = (self.wrong(TOLERANCES[which]), self.trusts[which].horizon);
+        if wrong.is_none() && horizon.is_none_or(|horizon| horizon.impact > followed) {
             return None;
         }
         let place = |impact: Option<usize>| impact.unwrap_or(followed).min(followed) as i64;
-        Some(place(told.map(|horizon| horizon.impact)) - place(wrong))
+        Some(place(horizon.map(|horizon| horizon.impact)) - place(wrong))
     }
 
     /// Whether the whole run is wrongly called known.
@@ -367,29 +367,29 @@ fn extremes_with_many_digits_are_within_the_errors() -> Result<(), Unfinished> {
         let Ok(case) = Case::new(parameters) else {
             continue;
         };
-        let (run, trust) = trusted_run(&case, &Uncertainty::default(), &unwatched)?;
+        let (run, trust) = trusted_run(&case, &Uncertainty::default(), &no_progress)?;
         let slack = run.modes().iter().all(|mode| mode.taut.is_empty());
         let exact = case.simulation_over(|_, number| Digits::from_decimal(number));
         let (true, true, Ok(mut exact)) = (trust.decides_the_end(), slack, exact) else {
             continue;
         };
         while exact.step().is_some() {}
-        let told = NormErrors::of(&run, &trust);
+        let errors = NormErrors::of(&run, &trust);
         let norms = run.norms();
-        for (ours, exact, told) in [
-            (norms.y_max, exact.y_max(), told.y_max),
-            (norms.theta_max, exact.theta_max(), told.theta_max),
+        for (ours, exact, error) in [
+            (norms.y_max, exact.y_max(), errors.y_max),
+            (norms.theta_max, exact.theta_max(), errors.theta_max),
         ] {
-            let told = told.unwrap_or(f64::NAN);
-            assert!(told.is_finite(), "{parameters:?}");
+            let error = error.unwrap_or(f64::NAN);
+            assert!(error.is_finite(), "{parameters:?}");
             // A maximum that is a limit or the start is known to its rounding.
             let off = (exact - Digits::from_f64(ours)).to_f64().abs();
             assert!(
-                off <= told + 2.0 * f64::EPSILON,
-                "{parameters:?}: {off:e} {told:e}"
+                off <= error + 2.0 * f64::EPSILON,
+                "{parameters:?}: {off:e} {error:e}"
             );
             compared += 1;
-            sharp += usize::from(told < 1e-12 + 1e4 * off);
+            sharp += usize::from(error < 1e-12 + 1e4 * off);
         }
     }
     assert!(compared > 200 && sharp * 2 > compared, "{compared} {sharp}");

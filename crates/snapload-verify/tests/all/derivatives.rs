@@ -3,8 +3,8 @@
 
 use snapload::analysis::{START_KEYS, UNCERTAIN_KEYS};
 use snapload::{
-    Body, Cable, Case, Deviation, Dual, Forcing, Held, Impact, Normal, Parameters, Precise, Real,
-    Rules, Shape, Simulation, State, Step, Steps, System, Tangent, Value,
+    Body, Cable, Case, Deviation, Dual, Forcing, Impact, Normal, Parameters, Precise,
+    PrescribedTaut, Real, Rules, Shape, Simulation, State, Step, Steps, System, Tangent, Value,
 };
 
 type Digits = Precise<4>;
@@ -71,16 +71,16 @@ fn by_the_linearised_motion(
     while all.len() < count {
         let step = simulation.step().expect("it goes on");
         let map = tangent.of_step(&simulation, &step);
-        let told = columns.each_mut().map(|column| {
+        let quantities = columns.each_mut().map(|column| {
             let met = map.meet(&map.along(column));
             *column = map.through(&met);
-            let mut told = [0.0; QUANTITIES];
-            told[..7].copy_from_slice(&met);
-            told[8..].copy_from_slice(&column[..6]);
-            told
+            let mut quantities = [0.0; QUANTITIES];
+            quantities[..7].copy_from_slice(&met);
+            quantities[8..].copy_from_slice(&column[..6]);
+            quantities
         });
         if map.has_impact() {
-            all.push(told);
+            all.push(quantities);
         }
     }
     all
@@ -325,11 +325,11 @@ fn case(entries: &[(&str, f64)], settles: bool) -> Case {
 }
 
 /// ż after a step, of a body of unit mass: its taut cables pull it by T n and turn it by T s/I.
-fn rates(held: &Held, step: &Step) -> [f64; 6] {
-    let (system, state) = (held.system(), &step.after);
+fn rates(prescribed: &PrescribedTaut, step: &Step) -> [f64; 6] {
+    let (system, state) = (prescribed.system(), &step.after);
     let around = system.surroundings(step.t_end);
     let mut acceleration = system.free_acceleration(&around, state, [0.0; 3]);
-    let tensions = held.tensions(step.taut_after, step.t_end, state);
+    let tensions = prescribed.tensions(step.taut_after, step.t_end, state);
     for cable in step.taut_after.iter() {
         let Normal { n, arm } = system.cables[cable].normal(state);
         acceleration[0] -= tensions[cable] * n.x;
@@ -353,7 +353,7 @@ fn worst_difference(case: &Case) -> (f64, usize, usize) {
     });
     let mut dual = dual.expect("a legal start");
     let tangent = Tangent::new(simulation.system());
-    let held = Held::new(simulation.system().clone());
+    let prescribed = PrescribedTaut::new(simulation.system().clone());
     let start = tangent.of_start(&simulation);
     let mut columns: Vec<[f64; 6]> = (0..6).map(|j| start.map(|row| row[j])).collect();
     let (mut worst, mut steps, mut taut) = (0.0_f64, 0, 0);
@@ -362,7 +362,7 @@ fn worst_difference(case: &Case) -> (f64, usize, usize) {
         for column in &mut columns {
             *column = map.fundamental(column);
         }
-        let rates = rates(&held, &step);
+        let rates = rates(&prescribed, &step);
         let largest = columns
             .iter()
             .flatten()

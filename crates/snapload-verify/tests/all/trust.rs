@@ -6,7 +6,9 @@ use proptest::prelude::*;
 use proptest::test_runner::RngSeed;
 use rayon::prelude::*;
 use serde_json::Value as Json;
-use snapload::analysis::{Ensemble, HorizonCause, START_KEYS, Uncertainty, trusted_run, unwatched};
+use snapload::analysis::{
+    Ensemble, HorizonCause, START_KEYS, Uncertainty, no_progress, trusted_run,
+};
 use snapload::{Case, Impact, Parameters, Value, anchor_height, named_cases};
 use snapload_verify::{Verification, verify};
 
@@ -70,7 +72,7 @@ fn horizons_are_where_they_were_predicted() {
         let sliding = ("stop_when_sliding", Value::Bool(true));
         let settled = ("stop_when_settled", Value::Bool(true));
         let case = case(named.entries().into_iter().chain([sliding, settled]));
-        let found = verify(&case, 60, TOLERANCE, &unwatched).expect("a legal start");
+        let found = verify(&case, 60, TOLERANCE, &no_progress).expect("a legal start");
         assert_as_proven(named.code, &found);
     });
 }
@@ -79,7 +81,7 @@ fn horizons_are_where_they_were_predicted() {
 fn horizons_are_where_the_oracle_has_them() {
     oracle("cases.json").par_iter().for_each(|truth| {
         let id = truth["id"].as_str().unwrap_or_default();
-        let found = verify(&of_oracle(truth), 60, TOLERANCE, &unwatched).expect("a legal start");
+        let found = verify(&of_oracle(truth), 60, TOLERANCE, &no_progress).expect("a legal start");
         let theirs = truth["horizon_double"]["first_impact_rel_gt_1e_6"].as_u64();
         let theirs = theirs.map_or(found.impacts.len() + 1, |impact| impact as usize);
         println!(
@@ -164,7 +166,8 @@ fn a_crowd_of_neighbours_spreads_as_predicted() {
             for (key, size) in uncertain {
                 uncertainty.set(key, *size).expect("a key in doubt");
             }
-            let (run, trust) = trusted_run(&case, &uncertainty, &unwatched).expect("a legal case");
+            let (run, trust) =
+                trusted_run(&case, &uncertainty, &no_progress).expect("a legal case");
             let ensemble = Ensemble::about(&case, &uncertainty, 600, 3);
             let crowd: Vec<Vec<Impact>> = (0..ensemble.count)
                 .map(|i| {
@@ -220,7 +223,7 @@ fn a_graze_ends_trust_where_the_doubt_is_larger() {
                     tolerance: 1e9,
                     ..Uncertainty::of_start(uncertainty)
                 },
-                &unwatched,
+                &no_progress,
             )
             .expect("legal");
             trust.horizon.map(|h| h.cause)
@@ -251,7 +254,7 @@ fn cables_that_snap_at_one_instant_end_trust() {
     let (run, trust) = trusted_run(
         &case([("f_o", Value::Number(0.0))]),
         &Uncertainty::default(),
-        &unwatched,
+        &no_progress,
     )
     .expect("legal");
     assert_eq!(run.impacts()[0].t, run.impacts()[1].t);
@@ -283,7 +286,7 @@ fn an_error_is_never_nothing() {
         .map(|(key, value)| (key, Value::Number(value)));
     let case = case(numbers.chain([("stop_when_settled", Value::Bool(false))]));
     let uncertainty = Uncertainty::of_start(1e-13);
-    let (run, trust) = trusted_run(&case, &uncertainty, &unwatched).expect("legal");
+    let (run, trust) = trusted_run(&case, &uncertainty, &no_progress).expect("legal");
     assert_eq!(trust.errors.len(), 8);
     for index in 0..20 {
         let other = Ensemble::about(&case, &uncertainty, 20, 5).member(index);
@@ -307,9 +310,9 @@ fn neighbours_that_end_otherwise_leave_nothing_certain() {
     let in_doubt = |case: &Case, key: &str, size: f64| {
         let mut uncertainty = Uncertainty::default();
         uncertainty.set(key, size).expect("a key in doubt");
-        let (_, trust) = trusted_run(case, &uncertainty, &unwatched).expect("legal");
+        let (_, trust) = trusted_run(case, &uncertainty, &no_progress).expect("legal");
         let ensemble = Ensemble::about(case, &uncertainty, 50, 1);
-        let tally = ensemble.tally(&unwatched).expect("legal");
+        let tally = ensemble.tally(&no_progress).expect("legal");
         (trust.horizon.map(|h| h.cause), tally.shares().len())
     };
     let resting = case([number("y", 0.0), number("t_end", 0.01)]);
@@ -373,9 +376,9 @@ proptest! {
         let numbers = [number("e", e), number("a", a), number("b", b), number("f_o", f_o), number("omega", omega)];
         let case = case(numbers.into_iter().chain(flags));
         let uncertainty = Uncertainty::of_start(10.0_f64.powf(uncertainty));
-        let (run, trust) = trusted_run(&case, &uncertainty, &unwatched).expect("legal");
+        let (run, trust) = trusted_run(&case, &uncertainty, &no_progress).expect("legal");
         if trust.decides_the_end() {
-            let tally = Ensemble::about(&case, &uncertainty, 40, 11).tally(&unwatched).expect("legal");
+            let tally = Ensemble::about(&case, &uncertainty, 40, 11).tally(&no_progress).expect("legal");
             let shares = tally.shares();
             prop_assert_eq!(shares.len(), 1);
             prop_assert_eq!(shares[0].0, run.end().reason);

@@ -1,7 +1,7 @@
 //! The causes that end trust: events that neighbours may not share, each in a case made for it.
 
 use crate::calibration::{Digits, compared};
-use snapload::analysis::{HorizonCause, TrustMonitor, Uncertainty, trusted_run, unwatched};
+use snapload::analysis::{HorizonCause, TrustMonitor, Uncertainty, no_progress, trusted_run};
 use snapload::{
     Case, Limit, LimitBounds, Parameters, Real, Rules, Simulation, Stop, Value, named_case,
 };
@@ -32,7 +32,7 @@ fn a_limit_may_be_met_on_the_way_to_a_later_impact() {
     };
     let mut uncertainty = Uncertainty::default();
     uncertainty.set("y", 1e-5).expect("a key in doubt");
-    let (run, trust) = trusted_run(&turning(0.4), &uncertainty, &unwatched).expect("legal");
+    let (run, trust) = trusted_run(&turning(0.4), &uncertainty, &no_progress).expect("legal");
     assert_ne!(run.end().reason, turning(0.400009).run().end().reason);
     let cause = trust.horizon.map(|horizon| horizon.cause);
     assert_eq!(cause, Some(HorizonCause::StopRule));
@@ -76,7 +76,7 @@ fn a_start_on_a_limit_is_not_certain() {
     let at = |theta| case_of_numbers([("theta", theta), ("y", 0.3)]);
     let cause = |theta| {
         let (_, trust) =
-            trusted_run(&at(theta), &Uncertainty::default(), &unwatched).expect("legal");
+            trusted_run(&at(theta), &Uncertainty::default(), &no_progress).expect("legal");
         trust.horizon.map(|horizon| (horizon.impact, horizon.cause))
     };
     assert_eq!(
@@ -89,7 +89,8 @@ fn a_start_on_a_limit_is_not_certain() {
 fn the_end_of_the_time_asked_for_has_no_error() {
     let end = |t_end| {
         let case = case_of_numbers([("t_end", t_end), ("f_o", 0.31)]);
-        let (run, trust) = trusted_run(&case, &Uncertainty::default(), &unwatched).expect("legal");
+        let (run, trust) =
+            trusted_run(&case, &Uncertainty::default(), &no_progress).expect("legal");
         assert!(trust.horizon.is_none());
         (run.end().reason, trust.end_error)
     };
@@ -121,7 +122,7 @@ fn a_snap_about_as_slow_as_sticks_ends_trust() {
             tolerance: 1.0,
             ..Uncertainty::of_start(1e-9)
         };
-        let trust = trusted_run(&falling(v_stick), &uncertainty, &unwatched)
+        let trust = trusted_run(&falling(v_stick), &uncertainty, &no_progress)
             .expect("legal")
             .1;
         let here = trust.horizon.filter(|horizon| horizon.impact == slow + 1);
@@ -159,18 +160,21 @@ fn nothing_is_certain_that_is_wrong() {
         ("vtheta", -0.0864),
         ("t_end", 60.0),
     ]);
-    let found = verify(&case, 60, 1e-3, &unwatched).expect("legal");
-    let (wrong, told) = (
+    let found = verify(&case, 60, 1e-3, &no_progress).expect("legal");
+    let (wrong, predicted) = (
         found.first_wrong,
         found.trust.horizon.map(|horizon| horizon.impact),
     );
-    assert!(told.is_some() && told <= wrong, "{told:?} {wrong:?}");
+    assert!(
+        predicted.is_some() && predicted <= wrong,
+        "{predicted:?} {wrong:?}"
+    );
 }
 
 /// A point on cables that are hardly longer than necessary: the height of the anchors above it has
 /// lost digits.
 #[test]
-fn digits_that_short_cables_lose_are_not_told() {
+fn digits_that_short_cables_lose_are_not_claimed() {
     for e in [0.0, 0.3, 0.5] {
         let numbers = [
             ("r", 1.0000001),
@@ -185,13 +189,14 @@ fn digits_that_short_cables_lose_are_not_told() {
             ("stop_when_settled", Value::Bool(false)),
         ];
         let case = case(numbers.into_iter().chain(flags));
-        let (run, trust) = trusted_run(&case, &Uncertainty::default(), &unwatched).expect("legal");
+        let (run, trust) =
+            trusted_run(&case, &Uncertainty::default(), &no_progress).expect("legal");
         let exact = case.simulation_over(|_, number| Digits::from_decimal(number));
         let (differences, _) = compared(&run, exact.expect("legal"), 2000);
-        let told: Vec<(f64, f64)> = differences.into_iter().zip(trust.errors).collect();
-        println!("e = {e}: {told:?}");
-        assert!(told.len() > 1 && told[0].1 < 1e-10);
-        for (difference, error) in told {
+        let pairs: Vec<(f64, f64)> = differences.into_iter().zip(trust.errors).collect();
+        println!("e = {e}: {pairs:?}");
+        assert!(pairs.len() > 1 && pairs[0].1 < 1e-10);
+        for (difference, error) in pairs {
             assert!(difference < 3.0 * error, "{difference:e} {error:e}");
         }
     }

@@ -39,7 +39,7 @@ pub const DEFAULT_MEMBERS: u32 = 1000;
 pub const MEMBERS: Key = Key::option("members", Kind::Count(0, MOST_MEMBERS));
 
 /// The same where there has to be one.
-pub const SOME_MEMBERS: Key = Key::option("members", Kind::Count(1, MOST_MEMBERS));
+pub const NONZERO_MEMBERS: Key = Key::option("members", Kind::Count(1, MOST_MEMBERS));
 
 /// Which members may be asked for.
 pub const SEED: Key = Key::option("seed", Kind::Count(0, u64::MAX));
@@ -47,7 +47,7 @@ pub const SEED: Key = Key::option("seed", Kind::Count(0, u64::MAX));
 const MOST_MEMBERS: u64 = 1_000_000_000;
 
 /// Where the first so many members end alike, it is clear enough how a case ends.
-const CLEAR: u32 = 200;
+const CLEAR_AFTER: u32 = 200;
 
 /// A member that is not legal, for example because a cable would have to be longer, is drawn again
 /// at most this often.
@@ -141,7 +141,7 @@ impl Ensemble {
     /// As for [`Ensemble::tally`].
     pub fn tally_until_clear(&self, on_progress: OnProgress) -> Result<EnsembleEnds, Unfinished> {
         let counter = Counter::new("neighbours", 0, self.count.into(), on_progress);
-        let first = self.count.min(CLEAR);
+        let first = self.count.min(CLEAR_AFTER);
         let mut ends = self.ends(0..first, &counter)?;
         let clear = first < self.count && ends.iter().all(|end| *end == ends[0]);
         if !clear {

@@ -44,14 +44,14 @@ impl ExceedanceCurve {
         let mut points = Vec::new();
         for f_o in scan.amplitudes() {
             let progress = Progress::new("force amplitudes", points.len() as f64, all);
-            progress.tell(on_progress)?;
+            progress.report(on_progress)?;
             // Cancelling is checked also within one amplitude.
             let within = |_: Progress| on_progress(progress);
             let case = Case::new(Parameters { f_o, ..*parameters })?;
             let ensemble = Ensemble::about(&case, uncertainty, count, seed);
             points.push(exceeding(&case, &ensemble, &within)?);
         }
-        Progress::new("force amplitudes", all, all).tell(on_progress)?;
+        Progress::new("force amplitudes", all, all).report(on_progress)?;
         Ok(Self { points })
     }
 

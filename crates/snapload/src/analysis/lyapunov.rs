@@ -46,7 +46,7 @@ const RANGE: f64 = 1e100;
 /// bound that follows: the part of the slowest growing direction that is orthogonal to the others
 /// has then lost about eight digits of sixteen.
 const MOST_BOUNCES: u32 = 8;
-const GROWN: f64 = 1e4;
+const GROWTH_LIMIT: f64 = 1e4;
 /// Directions are projected onto the constraints of the same taut cables after this many steps; in
 /// between only rounding takes them off the constraints.
 const MOST_TAUT_STEPS: u32 = 16;
@@ -151,7 +151,7 @@ impl Frame {
     pub(crate) fn follow_bounce(&mut self, map: &BounceMap<f64>) {
         map.at_one_time(&mut self.directions.0);
         self.bounces += 1;
-        if self.bounces == MOST_BOUNCES || self.has_grown() {
+        if self.bounces == MOST_BOUNCES || self.exceeds_growth_limit() {
             self.make_orthogonal(0.0);
         }
     }
@@ -160,7 +160,7 @@ impl Frame {
     /// maximum is found column by column: a single maximum of all would have to wait for
     /// forty-eight comparisons, one after the other.
     #[inline(always)]
-    fn has_grown(&self) -> bool {
+    fn exceeds_growth_limit(&self) -> bool {
         let mut largest = [0.0; 8];
         for row in &self.directions.0[..6] {
             for (largest, entry) in largest.iter_mut().zip(row) {
@@ -170,7 +170,7 @@ impl Frame {
         }
         largest
             .iter()
-            .fold(false, |any, size| any | (*size >= GROWN))
+            .fold(false, |any, size| any | (*size >= GROWTH_LIMIT))
     }
 
     /// Gram and Schmidt's procedure: the component along each direction is removed from all that

@@ -5,8 +5,8 @@ mod critical;
 mod digits;
 mod ensemble;
 mod exceedance;
-mod known;
 mod lyapunov;
+mod norm_errors;
 mod outcomes;
 mod progress;
 mod sensitivity;
@@ -16,14 +16,16 @@ mod trust;
 pub use critical::{CriticalForce, Exceedance, ForceScan};
 pub use digits::digits_within;
 pub use ensemble::{
-    DEFAULT_CLOUD, DEFAULT_MEMBERS, Ensemble, EnsembleEnds, MEMBERS, SEED, SOME_MEMBERS, Share,
+    DEFAULT_CLOUD, DEFAULT_MEMBERS, Ensemble, EnsembleEnds, MEMBERS, NONZERO_MEMBERS, SEED, Share,
 };
 pub use exceedance::{ExceedanceCurve, Exceeding};
-pub use known::NormErrors;
 pub use lyapunov::Frame;
-pub use outcomes::{Made, on_all_threads, on_all_threads_until, outcomes, outcomes_on_one_thread};
+pub use norm_errors::NormErrors;
+pub use outcomes::{
+    ThreadResults, on_all_threads, on_all_threads_until, outcomes, outcomes_on_one_thread,
+};
 pub use progress::{
-    Cancelled, Counter, OnProgress, Progress, Unfinished, outcome, record, unwatched,
+    Cancelled, Counter, OnProgress, Progress, Unfinished, no_progress, outcome, record,
 };
 pub use sensitivity::{Sensitivity, Slope, sensitivity};
 pub use threads::in_parallel;

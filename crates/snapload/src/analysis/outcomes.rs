@@ -2,7 +2,7 @@
 
 use crate::analysis::progress::{Cancelled, Counter, OnProgress};
 use crate::analysis::threads::in_parallel;
-use crate::batch::followers::{Follower, Unfollowed};
+use crate::batch::followers::{Follower, NoFollower};
 use crate::batch::lanes::{LaneResults, Lanes};
 use crate::case::Case;
 use crate::motion::outcome::Outcome;
@@ -11,13 +11,13 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 
 /// The result for each number below some count, in the lists of the threads that computed them.
 #[derive(Debug)]
-pub struct Made<R> {
+pub struct ThreadResults<R> {
     lists: Vec<Vec<R>>,
     /// For each number its list, and its place in the list.
     places: Vec<(u32, u32)>,
 }
 
-impl<R> Made<R> {
+impl<R> ThreadResults<R> {
     /// In the order of the numbers.
     pub fn iter(&self) -> impl ExactSizeIterator<Item = &R> + Clone {
         let of = |(list, place): &(u32, u32)| &self.lists[*list as usize][*place as usize];
@@ -74,7 +74,7 @@ impl Iterator for Numbers<'_> {
 pub fn on_all_threads<R: Send, E: Send>(
     count: usize,
     work: impl Fn(&mut dyn Iterator<Item = usize>) -> Result<Vec<R>, E> + Sync,
-) -> Result<Made<R>, E> {
+) -> Result<ThreadResults<R>, E> {
     on_all_threads_until(&|| false, count, work)
 }
 
@@ -90,7 +90,7 @@ pub fn on_all_threads_until<R: Send, E: Send>(
     no_more: &(dyn Fn() -> bool + Sync),
     count: usize,
     work: impl Fn(&mut dyn Iterator<Item = usize>) -> Result<Vec<R>, E> + Sync,
-) -> Result<Made<R>, E> {
+) -> Result<ThreadResults<R>, E> {
     let next = AtomicUsize::new(0);
     let threads = rayon::current_num_threads().min(count);
     let done = in_parallel(threads, |_| {
@@ -117,7 +117,7 @@ pub fn on_all_threads_until<R: Send, E: Send>(
         }
     }
     let lists = done.into_iter().map(|(_, made)| made).collect();
-    Ok(Made { lists, places })
+    Ok(ThreadResults { lists, places })
 }
 
 /// The outcomes of many cases, in their order: side by side in the lanes of the processor, on all
@@ -130,7 +130,7 @@ pub fn outcomes(cases: &[Case], on_progress: OnProgress) -> Result<Vec<Outcome>,
     let made = on_all_threads(cases.len(), |numbers| {
         outcomes_on_one_thread(numbers.map(|k| cases[k].clone()), &counter)
     });
-    made.map(Made::into_vec)
+    made.map(ThreadResults::into_vec)
 }
 
 /// The same on one thread; each case is counted when it begins.
@@ -150,9 +150,9 @@ fn outcomes_of(
     cases: &mut dyn Iterator<Item = Case>,
     counter: &Counter,
 ) -> Result<Vec<Outcome>, Cancelled> {
-    let runs = cases.map(|case| (case.into_boxed(), Unfollowed));
-    let told = side_by_side(Lanes::best(), runs, counter)?;
-    Ok(told.filter_map(|told| Some(told?.0)).collect())
+    let runs = cases.map(|case| (case.into_boxed(), NoFollower));
+    let results = side_by_side(Lanes::best(), runs, counter)?;
+    Ok(results.filter_map(|result| Some(result?.0)).collect())
 }
 
 /// The outcomes of runs and the verdicts of their followers, in their order. Each run is counted
@@ -170,8 +170,8 @@ pub(crate) fn side_by_side<F: Follower>(
         cancelled = counter.add(1).err();
         cancelled.is_none().then_some(run)
     });
-    let (told, _) = lanes.outcomes_beside(runs);
-    cancelled.map_or(Ok(told), Err)
+    let (results, _) = lanes.outcomes_with_followers(runs);
+    cancelled.map_or(Ok(results), Err)
 }
 
 #[cfg(test)]
@@ -200,18 +200,21 @@ mod tests {
                 .collect();
             made
         });
-        assert_eq!(refused.map(super::Made::into_vec), Err(700));
+        assert_eq!(refused.map(super::ThreadResults::into_vec), Err(700));
     }
 
     #[test]
     fn the_first_numbers_are_done_where_there_are_to_be_no_more() {
-        for wanted in [0, 1, 2, 300] {
-            let asked = AtomicUsize::new(0);
-            let no_more = || asked.fetch_add(1, Ordering::Relaxed) >= wanted;
+        for limit in [0, 1, 2, 300] {
+            let calls = AtomicUsize::new(0);
+            let no_more = || calls.fetch_add(1, Ordering::Relaxed) >= limit;
             let done = super::on_all_threads_until(&no_more, 5000, |numbers| {
                 Ok::<_, Infallible>(numbers.collect())
             });
-            assert_eq!(done.map(super::Made::into_vec), Ok((0..wanted).collect()));
+            assert_eq!(
+                done.map(super::ThreadResults::into_vec),
+                Ok((0..limit).collect())
+            );
         }
     }
 
@@ -227,6 +230,9 @@ mod tests {
                 Ok::<_, Infallible>(first.into_iter().chain(numbers).collect())
             })
         });
-        assert_eq!(done.map(super::Made::into_vec), Ok((0..6).collect()));
+        assert_eq!(
+            done.map(super::ThreadResults::into_vec),
+            Ok((0..6).collect())
+        );
     }
 }

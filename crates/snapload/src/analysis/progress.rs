@@ -28,12 +28,12 @@ pub struct Progress<'a> {
 /// The callback that receives the progress, and answers whether to continue.
 pub type OnProgress<'a> = &'a (dyn Fn(Progress<'_>) -> ControlFlow<()> + Sync);
 
-/// For work that nobody watches: it always continues.
-pub fn unwatched(_: Progress<'_>) -> ControlFlow<()> {
+/// For work whose progress nobody needs: it always continues.
+pub fn no_progress(_: Progress<'_>) -> ControlFlow<()> {
     ControlFlow::Continue(())
 }
 
-/// The work was told to end before it had an answer.
+/// The work had to end before it had an answer.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Cancelled {
     /// How much was done by then.
@@ -90,7 +90,7 @@ impl<'a> Progress<'a> {
     ///
     /// # Errors
     /// [`Cancelled`] if the work is to end.
-    pub fn tell(self, on_progress: OnProgress) -> Result<(), Cancelled> {
+    pub fn report(self, on_progress: OnProgress) -> Result<(), Cancelled> {
         match on_progress(self) {
             ControlFlow::Continue(()) => Ok(()),
             ControlFlow::Break(()) => Err(Cancelled { done: self.done }),
@@ -123,7 +123,7 @@ impl<'a> Counter<'a> {
     /// [`Cancelled`] if the work is to end.
     pub fn add(&self, more: u64) -> Result<(), Cancelled> {
         let done = self.done.fetch_add(more, Ordering::Relaxed) + more;
-        Progress::new(self.doing, done as f64, self.of as f64).tell(self.on_progress)
+        Progress::new(self.doing, done as f64, self.of as f64).report(self.on_progress)
     }
 }
 

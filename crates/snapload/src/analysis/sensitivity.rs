@@ -44,7 +44,7 @@ pub fn sensitivity(
     let mut found = Vec::new();
     for (done, key) in keys.iter().enumerate() {
         let progress = Progress::new("derivatives", done as f64, keys.len() as f64);
-        let Some(slopes) = slopes_by(case, key, count, &|| progress.tell(on_progress))? else {
+        let Some(slopes) = slopes_by(case, key, count, &|| progress.report(on_progress))? else {
             return Ok(Vec::new());
         };
         found.resize_with(slopes.len(), Vec::new);
@@ -63,7 +63,7 @@ fn slopes_by(
     case: &Case,
     key: &'static str,
     count: usize,
-    go_on: &dyn Fn() -> Result<(), Cancelled>,
+    should_continue: &dyn Fn() -> Result<(), Cancelled>,
 ) -> Result<Option<Vec<Slope>>, Cancelled> {
     let lift = |name, number| match name == key {
         true => Dual::<f64, 1>::variable(number, 0),
@@ -74,7 +74,7 @@ fn slopes_by(
     };
     let mut slopes = Vec::new();
     while slopes.len() < count {
-        go_on()?;
+        should_continue()?;
         let Some(step) = simulation.step() else { break };
         slopes.extend(step.impacts().map(|impact| Slope {
             key,

@@ -14,7 +14,7 @@ pub fn in_parallel<T: Send, E: Send>(
 ) -> Result<Vec<T>, E> {
     let results: Vec<Mutex<Option<Result<T, E>>>> = (0..count).map(|_| Mutex::default()).collect();
     let failed = AtomicBool::new(false);
-    share_out(count, &|k| {
+    for_each_in_parallel(count, &|k| {
         if failed.load(Ordering::Relaxed) {
             return;
         }
@@ -33,7 +33,7 @@ pub fn in_parallel<T: Send, E: Send>(
 }
 
 /// The only place that starts threads; not generic, so that it is compiled once.
-fn share_out(count: usize, work: &(dyn Fn(usize) + Sync)) {
+fn for_each_in_parallel(count: usize, work: &(dyn Fn(usize) + Sync)) {
     (0..count).into_par_iter().for_each(work);
 }
 

@@ -8,14 +8,14 @@ use crate::motion::simulation::{Simulation, Step};
 /// Something that is computed along with a run.
 pub(crate) trait Follower: Sized {
     /// The followers of the runs in several lanes.
-    type LaneFollowers<L: Doubles>: LaneFollowers<L, Alone = Self>;
+    type LaneFollowers<L: Doubles>: LaneFollowers<L, RunFollower = Self>;
     /// Its result at the end.
     type Verdict;
 
     /// Takes in a step that the run made outside the lanes.
     fn take(&mut self, simulation: &Simulation, step: &Step);
     /// Whether it follows the run any further.
-    fn goes_on(&self) -> bool;
+    fn is_active(&self) -> bool;
     /// Whether it can follow the run in a lane now.
     fn fits_a_lane(&self) -> bool;
     /// Its result, as far as it has come.
@@ -25,7 +25,7 @@ pub(crate) trait Follower: Sized {
 /// The followers of the runs in all lanes.
 pub(crate) trait LaneFollowers<L: Lane>: Copy {
     /// The follower of one run.
-    type Alone;
+    type RunFollower;
 
     /// Followers of no runs yet.
     fn empty() -> Self;
@@ -35,23 +35,23 @@ pub(crate) trait LaneFollowers<L: Lane>: Copy {
     /// One of two, lane by lane.
     fn select(mask: L::Mask, yes: &Self, no: &Self) -> Self;
     /// Puts the follower of a run into a lane.
-    fn put(&mut self, lane: usize, alone: &Self::Alone);
+    fn put(&mut self, lane: usize, follower: &Self::RunFollower);
     /// Updates the follower of a run from its lane, `impacts` later.
-    fn get(&self, lane: usize, alone: &mut Self::Alone, impacts: u64);
+    fn get(&self, lane: usize, follower: &mut Self::RunFollower, impacts: u64);
 }
 
 /// Runs without a follower.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Unfollowed;
+pub(crate) struct NoFollower;
 
-impl Follower for Unfollowed {
+impl Follower for NoFollower {
     type LaneFollowers<L: Doubles> = Self;
     type Verdict = ();
 
     #[inline(always)]
     fn take(&mut self, _: &Simulation, _: &Step) {}
     #[inline(always)]
-    fn goes_on(&self) -> bool {
+    fn is_active(&self) -> bool {
         true
     }
     #[inline(always)]
@@ -61,8 +61,8 @@ impl Follower for Unfollowed {
     fn verdict(self) {}
 }
 
-impl<L: Lane> LaneFollowers<L> for Unfollowed {
-    type Alone = Self;
+impl<L: Lane> LaneFollowers<L> for NoFollower {
+    type RunFollower = Self;
 
     #[inline(always)]
     fn empty() -> Self {

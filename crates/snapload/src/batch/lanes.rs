@@ -7,9 +7,9 @@
 //! because both perform the same operations.
 
 use crate::arithmetic::processor::dispatch;
-use crate::batch::followers::{Follower, Unfollowed};
+use crate::batch::followers::{Follower, NoFollower};
 pub use crate::batch::scheduler::Usage;
-use crate::batch::scheduler::{LaneScheduler, Runs, Slot, Tell};
+use crate::batch::scheduler::{LaneScheduler, Runs, Slot, TakeResult};
 use crate::case::Case;
 use crate::motion::outcome::Outcome;
 use crate::motion::simulation::Simulation;
@@ -80,21 +80,21 @@ impl Lanes {
     pub fn outcomes(self, cases: &[Case]) -> (Vec<Outcome>, Usage) {
         let runs = cases
             .iter()
-            .map(|case| (Box::new(case.simulation()), Unfollowed));
-        let (told, usage) = self.outcomes_beside(runs);
-        let outcomes: Vec<Outcome> = told.filter_map(|told| Some(told?.0)).collect();
-        assert_eq!(outcomes.len(), cases.len(), "every run is told of once");
+            .map(|case| (Box::new(case.simulation()), NoFollower));
+        let (results, usage) = self.outcomes_with_followers(runs);
+        let outcomes: Vec<Outcome> = results.filter_map(|result| Some(result?.0)).collect();
+        assert_eq!(outcomes.len(), cases.len(), "every run has one result");
         (outcomes, usage)
     }
 
     /// The same for motions that have just begun, each with its follower. A run whose follower has
     /// ended continues without it.
-    pub(crate) fn outcomes_beside<C: Follower>(
+    pub(crate) fn outcomes_with_followers<C: Follower>(
         self,
         runs: impl Iterator<Item = (Box<Simulation>, C)>,
     ) -> (LaneResults<C>, Usage) {
         let many = runs.size_hint().1.unwrap_or(0).min(MOST_AT_ONCE);
-        let mut told: Vec<Option<(Outcome, C::Verdict)>> = Vec::with_capacity(many);
+        let mut results: Vec<Option<(Outcome, C::Verdict)>> = Vec::with_capacity(many);
         let mut left = Vec::new();
         let mut begun = runs
             .enumerate()
@@ -106,44 +106,44 @@ impl Lanes {
                 outcome,
                 follower,
             } = *slot;
-            if told.len() <= index {
-                told.resize_with(index + 1, || None);
+            if results.len() <= index {
+                results.resize_with(index + 1, || None);
             }
-            told[index] = Some((outcome.ended(&simulation), follower.verdict()));
+            results[index] = Some((outcome.ended(&simulation), follower.verdict()));
             if simulation.stop().is_none() {
                 left.push(Box::new(Slot {
                     index,
                     simulation,
                     outcome,
-                    follower: Unfollowed,
+                    follower: NoFollower,
                 }));
             }
         });
         let alone = self.run(&mut left.into_iter(), &mut |slot| {
-            if let Some((outcome, _)) = &mut told[slot.index] {
+            if let Some((outcome, _)) = &mut results[slot.index] {
                 *outcome = slot.outcome.ended(&slot.simulation);
             }
         });
         usage.add(&alone);
-        (told.into_iter(), usage)
+        (results.into_iter(), usage)
     }
 
     /// Runs all of `runs` to their ends, or as far as their followers go, and passes them to
-    /// `tell`. If this processor lacks the registers, one lane is used.
-    fn run<C: Follower>(self, runs: Runs<C>, tell: Tell<C>) -> Usage {
+    /// `take_result`. If this processor lacks the registers, one lane is used.
+    fn run<C: Follower>(self, runs: Runs<C>, take_result: TakeResult<C>) -> Usage {
         match self {
             #[cfg(target_arch = "x86_64")]
-            Self::Avx2 if crate::arithmetic::processor::has_fma() => x86::avx2(runs, tell),
+            Self::Avx2 if crate::arithmetic::processor::has_fma() => x86::avx2(runs, take_result),
             #[cfg(target_arch = "x86_64")]
-            Self::Avx512 if is_x86_feature_detected!("avx512f") => x86::avx512(runs, tell),
+            Self::Avx512 if is_x86_feature_detected!("avx512f") => x86::avx512(runs, take_result),
             #[cfg(feature = "comparisons")]
             Self::Plain => LaneScheduler::<
                 crate::batch::vector::Pair<crate::batch::vector::Pair<f64>>,
                 C,
-            >::new(runs, tell)
+            >::new(runs, take_result)
             .run_all(),
             Self::One | Self::Avx2 | Self::Avx512 => {
-                dispatch(LaneScheduler::<f64, C>::new(runs, tell))
+                dispatch(LaneScheduler::<f64, C>::new(runs, take_result))
             }
         }
     }
@@ -153,29 +153,29 @@ impl Lanes {
 #[cfg(target_arch = "x86_64")]
 mod x86 {
     #![expect(unsafe_code, reason = "functions for one kind of processor; see below")]
-    use super::{Follower, LaneScheduler, Runs, Tell, Usage};
+    use super::{Follower, LaneScheduler, Runs, TakeResult, Usage};
     use crate::arithmetic::processor;
     use crate::batch::vector::Pair;
     use crate::batch::vector::x86::{Avx2, Avx512};
 
-    pub(super) fn avx2<C: Follower>(runs: Runs<C>, tell: Tell<C>) -> Usage {
+    pub(super) fn avx2<C: Follower>(runs: Runs<C>, take_result: TakeResult<C>) -> Usage {
         #[target_feature(enable = "avx2,fma")]
         fn run_all<C: Follower>(scheduler: LaneScheduler<'_, Pair<Avx2>, C>) -> Usage {
             scheduler.run_all()
         }
         assert!(processor::has_fma());
-        let scheduler = LaneScheduler::new(runs, tell);
+        let scheduler = LaneScheduler::new(runs, take_result);
         // SAFETY: the processor has AVX2 and FMA, as was just asked.
         unsafe { run_all(scheduler) }
     }
 
-    pub(super) fn avx512<C: Follower>(runs: Runs<C>, tell: Tell<C>) -> Usage {
+    pub(super) fn avx512<C: Follower>(runs: Runs<C>, take_result: TakeResult<C>) -> Usage {
         #[target_feature(enable = "avx512f")]
         fn run_all<C: Follower>(scheduler: LaneScheduler<'_, Avx512, C>) -> Usage {
             scheduler.run_all()
         }
         assert!(is_x86_feature_detected!("avx512f"));
-        let scheduler = LaneScheduler::new(runs, tell);
+        let scheduler = LaneScheduler::new(runs, take_result);
         // SAFETY: the processor has AVX-512, as was just asked.
         unsafe { run_all(scheduler) }
     }

@@ -14,7 +14,7 @@ use crate::motion::trajectory::RHO2_UNTIL;
 use crate::motion::two_cables::{AfterImpact, TwoCableSystem};
 
 /// Takes a run that has stopped, or whose follower has ended.
-pub(super) type Tell<'a, C> = &'a mut dyn FnMut(Box<Slot<C>>);
+pub(super) type TakeResult<'a, C> = &'a mut dyn FnMut(Box<Slot<C>>);
 
 /// The runs that are to be put into lanes.
 pub(super) type Runs<'a, C> = &'a mut dyn Iterator<Item = Box<Slot<C>>>;
@@ -59,9 +59,9 @@ struct Counts<L> {
 
 /// Whether a run is put into a lane for the first time, or back into the lane that has its system.
 #[derive(Clone, Copy, PartialEq, Eq)]
-enum Comes {
-    Anew,
-    Back,
+enum LaneEntry {
+    First,
+    Return,
 }
 
 /// A run that may have a lane.
@@ -75,12 +75,12 @@ pub(super) struct Slot<C> {
 
 pub(super) struct LaneScheduler<'a, L: Doubles, C: Follower> {
     runs: Runs<'a, C>,
-    tell: Tell<'a, C>,
+    take_result: TakeResult<'a, C>,
     slots: Vec<Option<Box<Slot<C>>>>,
     two_cables: TwoCableSystem<L>,
     after_impact: AfterImpact<L>,
     tally: Counts<L>,
-    beside: C::LaneFollowers<L>,
+    followers: C::LaneFollowers<L>,
     usage: Usage,
 }
 
@@ -93,17 +93,17 @@ impl<L: Doubles, C: Follower> Kernel for LaneScheduler<'_, L, C> {
 }
 
 impl<'a, L: Doubles, C: Follower> LaneScheduler<'a, L, C> {
-    pub(super) fn new(runs: Runs<'a, C>, tell: Tell<'a, C>) -> Self {
+    pub(super) fn new(runs: Runs<'a, C>, take_result: TakeResult<'a, C>) -> Self {
         let zero = |_: f64, _: f64| L::ZERO;
         let (system, motion, tally) = Default::default();
         let mut scheduler = Self {
             runs,
-            tell,
+            take_result,
             slots: (0..L::WIDTH).map(|_| None).collect(),
             two_cables: TwoCableSystem::zip_with(&system, &system, zero),
             after_impact: AfterImpact::zip_with(&motion, &motion, zero),
             tally: Counts::zip_with(&tally, &tally, zero),
-            beside: C::LaneFollowers::empty(),
+            followers: C::LaneFollowers::empty(),
             usage: Usage {
                 width: L::WIDTH,
                 ..Usage::default()
@@ -124,22 +124,22 @@ impl<'a, L: Doubles, C: Follower> LaneScheduler<'a, L, C> {
             let bounce = bounce(&self.two_cables, &self.after_impact);
             let plain = bounce.plain & self.tally.impacts.below(self.two_cables.max_impacts);
             let bounced = Bounced::of(&self.two_cables, &self.after_impact, &bounce);
-            let (beside, plain) = self.beside.bounced(plain, &bounced);
+            let (followers, plain) = self.followers.bounced(plain, &bounced);
             let (tally, bits) = (self.tally.with(&bounce), plain.bits());
             if bits == all {
                 (self.after_impact, self.tally) = (bounce.next, tally);
-                self.beside = beside;
+                self.followers = followers;
             } else {
                 let chosen = |next, present| L::select(plain, next, present);
                 self.after_impact = bounce.next.zip_with(&self.after_impact, chosen);
                 self.tally = tally.zip_with(&self.tally, chosen);
-                self.beside = C::LaneFollowers::select(plain, &beside, &self.beside);
+                self.followers = C::LaneFollowers::select(plain, &followers, &self.followers);
             }
             let plain = bits & !empty;
             self.usage.rounds += 1;
             self.usage.bounces += u64::from(plain.count_ones());
             if plain != all {
-                empty = self.serve(all & !plain);
+                empty = self.resume_alone(all & !plain);
                 if empty == all {
                     return self.usage;
                 }
@@ -150,7 +150,7 @@ impl<'a, L: Doubles, C: Follower> LaneScheduler<'a, L, C> {
     /// Lets the runs of these lanes continue by themselves until they fly freely, and gives free
     /// lanes to other runs. Returns the lanes that are empty.
     #[inline(never)]
-    fn serve(&mut self, lanes: u32) -> u32 {
+    fn resume_alone(&mut self, lanes: u32) -> u32 {
         let mut empty = 0;
         for lane in 0..L::WIDTH {
             if lanes & 1 << lane == 0 {
@@ -160,7 +160,7 @@ impl<'a, L: Doubles, C: Follower> LaneScheduler<'a, L, C> {
                 self.leave(lane, &mut slot);
                 slot.step();
                 self.usage.steps_apart += 1;
-                if !self.fill(lane, slot, Comes::Back) {
+                if !self.fill(lane, slot, LaneEntry::Return) {
                     self.refill(lane);
                 }
             }
@@ -175,7 +175,7 @@ impl<'a, L: Doubles, C: Follower> LaneScheduler<'a, L, C> {
     /// end without a lane.
     fn refill(&mut self, lane: usize) {
         while let Some(slot) = self.runs.next() {
-            if self.fill(lane, slot, Comes::Anew) {
+            if self.fill(lane, slot, LaneEntry::First) {
                 return;
             }
         }
@@ -183,17 +183,17 @@ impl<'a, L: Doubles, C: Follower> LaneScheduler<'a, L, C> {
 
     /// Puts a run into a lane once it flies freely, or passes it on if it ends before that. Returns
     /// whether the lane is taken.
-    fn fill(&mut self, lane: usize, mut slot: Box<Slot<C>>, comes: Comes) -> bool {
+    fn fill(&mut self, lane: usize, mut slot: Box<Slot<C>>, entry: LaneEntry) -> bool {
         loop {
-            if slot.simulation.stop().is_some() || !slot.follower.goes_on() {
-                (self.tell)(slot);
+            if slot.simulation.stop().is_some() || !slot.follower.is_active() {
+                (self.take_result)(slot);
                 return false;
             }
             // The first impact is part of the outcome, and lanes do not record it.
             let begun = slot.outcome.first.is_some() && slot.follower.fits_a_lane();
             if let (true, Some((two_cables, after_impact))) = (begun, slot.simulation.lane_start())
             {
-                if comes == Comes::Anew {
+                if entry == LaneEntry::First {
                     self.two_cables = self.two_cables.zip_with(two_cables, put(lane));
                 }
                 self.enter(lane, &slot, &after_impact);
@@ -219,7 +219,7 @@ impl<'a, L: Doubles, C: Follower> LaneScheduler<'a, L, C> {
         };
         self.after_impact = self.after_impact.zip_with(after_impact, put(lane));
         self.tally = self.tally.zip_with(&tally, put(lane));
-        self.beside.put(lane, &slot.follower);
+        self.followers.put(lane, &slot.follower);
     }
 
     /// Updates a run's simulation with the result of its lane.
@@ -243,7 +243,7 @@ impl<'a, L: Doubles, C: Follower> LaneScheduler<'a, L, C> {
         (norms.rho1, norms.rho2, norms.rho3) = (tally.rho1, tally.rho2, tally.rho3);
         slot.simulation.resume(&after_impact, progress);
         let made = progress.impacts - before;
-        self.beside.get(lane, &mut slot.follower, made);
+        self.followers.get(lane, &mut slot.follower, made);
     }
 }
 
@@ -261,7 +261,7 @@ impl<C: Follower> Slot<C> {
     pub(super) fn new(index: usize, simulation: Box<Simulation>, follower: C) -> Box<Self> {
         Box::new(Self {
             index,
-            outcome: Outcome::begun(&simulation),
+            outcome: Outcome::at_start(&simulation),
             simulation,
             follower,
         })

@@ -222,8 +222,8 @@ impl<'a> Fields<'a> {
     /// The value that is given for a key.
     pub fn given(&self, key: &str) -> Option<&'a Value> {
         let mut entries = self.entries.entries.iter();
-        let wanted = (self.table.name, self.index, key);
-        let found = entries.find(|entry| (entry.table, entry.index, entry.key.name) == wanted);
+        let place = (self.table.name, self.index, key);
+        let found = entries.find(|entry| (entry.table, entry.index, entry.key.name) == place);
         found.map(|entry| &entry.value)
     }
 

@@ -80,10 +80,10 @@ impl CaseError {
         Self::new(Fault::UnknownCase, code, "", nearest.join(", "))
     }
 
-    /// A text that can not be read; `said` is the reason.
-    pub fn syntax(said: impl Into<String>) -> Self {
+    /// A text that can not be read; `reason` is the reason.
+    pub fn syntax(reason: impl Into<String>) -> Self {
         let mut error = Self::new(Fault::Syntax, "", "", String::new());
-        error.value = said.into();
+        error.value = reason.into();
         error
     }
 

@@ -132,8 +132,8 @@ impl Key {
         }
     }
 
-    /// An option of which no more than the range is said once: its default and what it means are
-    /// told where it is offered.
+    /// An option of which only the range is defined once: its default and its meaning are
+    /// given where it is offered.
     pub const fn option(name: &'static str, kind: Kind) -> Self {
         Self::new(name, "1", kind, DefaultValue::Required, "")
     }

@@ -1,11 +1,12 @@
-//! A case: parameters that were checked once, at the border, and the system that they describe.
+//! A case: parameters that were checked once, when they were read, and the system that they
+//! describe.
 
-pub(crate) mod border;
 pub(crate) mod entries;
 pub(crate) mod error;
 pub(crate) mod key;
 pub(crate) mod keys;
 pub(crate) mod named;
+pub(crate) mod parameter_checks;
 pub(crate) mod parameters;
 #[cfg(feature = "toml")]
 pub(crate) mod read;

@@ -140,10 +140,11 @@ pub fn series_of(code: &str) -> impl Iterator<Item = &'static str> + '_ {
 pub fn named_case(code: &str) -> Result<NamedCase, CaseError> {
     named_cases().find(|case| case.code == code).ok_or_else(|| {
         // The distance is quadratic in the length, and a code is short.
-        let wanted: String = code.chars().take(40).collect();
-        let score = |(code, _, about): &Row| match !wanted.is_empty() && about.contains(&wanted) {
+        let searched: String = code.chars().take(40).collect();
+        let score = |(code, _, about): &Row| match !searched.is_empty() && about.contains(&searched)
+        {
             true => 1.0, // the chapter's own code of an example
-            false => strsim::normalized_damerau_levenshtein(&wanted, code),
+            false => strsim::normalized_damerau_levenshtein(&searched, code),
         };
         let mut nearest: Vec<&Row> = ROWS.iter().collect();
         nearest.sort_by(|p, q| score(q).total_cmp(&score(p)));

@@ -144,7 +144,7 @@ impl Get {
 
 /// How the value of a key is stored in its own field; none if it has no field.
 #[derive(Clone, Copy)]
-pub(crate) enum Put {
+pub(crate) enum Store {
     Number(fn(&mut Parameters, f64)),
     Count(fn(&mut Parameters, u64)),
     Flag(fn(&mut Parameters, bool)),
@@ -157,20 +157,20 @@ macro_rules! field {
         (
             stringify!($field),
             Get::Number(|p| Some(p.$field)),
-            Put::Number(|p, value| p.$field = value),
+            Store::Number(|p, value| p.$field = value),
         )
     };
     ($kind:ident $field:ident) => {
         (
             stringify!($field),
             Get::$kind(|p| p.$field),
-            Put::$kind(|p, value| p.$field = value),
+            Store::$kind(|p, value| p.$field = value),
         )
     };
 }
 
 /// The accessors of each key, in the order of the schema.
-pub(crate) static FIELDS: &[(&str, Get, Put)] = &[
+pub(crate) static FIELDS: &[(&str, Get, Store)] = &[
     field!(Number r),
     field!(Number e),
     field!(Number a),
@@ -178,7 +178,7 @@ pub(crate) static FIELDS: &[(&str, Get, Put)] = &[
     (
         "inertia",
         Get::Number(|p| p.inertia),
-        Put::Number(|p, value| p.inertia = p.inertia.and(Some(value))),
+        Store::Number(|p, value| p.inertia = p.inertia.and(Some(value))),
     ),
     field!(Number f_o),
     field!(Number nu),
@@ -197,7 +197,7 @@ pub(crate) static FIELDS: &[(&str, Get, Put)] = &[
     (
         "body",
         Get::Word(|p| BODIES[usize::from(p.is_point())]),
-        Put::None,
+        Store::None,
     ),
 ];
 
@@ -243,10 +243,10 @@ impl Parameters {
     /// Stores the checked value of a key.
     pub(crate) fn store(&mut self, name: &str, value: &Value) {
         let field = FIELDS.iter().find(|(key, ..)| *key == name);
-        match (field.map_or(Put::None, |(_, _, put)| *put), value) {
-            (Put::Number(put), value) => _ = value.number().map(|number| put(self, number)),
-            (Put::Count(put), value) => _ = value.count().map(|count| put(self, count)),
-            (Put::Flag(put), Value::Bool(flag)) => put(self, *flag),
+        match (field.map_or(Store::None, |(_, _, put)| *put), value) {
+            (Store::Number(put), value) => _ = value.number().map(|number| put(self, number)),
+            (Store::Count(put), value) => _ = value.count().map(|count| put(self, count)),
+            (Store::Flag(put), Value::Bool(flag)) => put(self, *flag),
             _ => {}
         }
     }

@@ -33,7 +33,7 @@ impl Entries {
                 }
                 (_, Some(table)) => entries.read(table, 0, word, value.get_ref(), &line(at))?,
                 (Err(unknown), None) => {
-                    return Err(below_its_line(schema, word, unknown).at(line(at)));
+                    return Err(with_heading_hint(schema, word, unknown).at(line(at)));
                 }
             }
         }
@@ -78,7 +78,7 @@ impl Entries {
         let (path, value) = text.split_once('=').ok_or_else(|| self.no_setting(text))?;
         let (path, value) = (path.trim(), value.trim());
         let mut change = || -> Result<(), CaseError> {
-            let (table, mut indices, key) = self.meant(path)?;
+            let (table, mut indices, key) = self.resolve_path(path)?;
             let written = DeValue::parse(value).ok();
             let written = written.and_then(|value| digits_of(value.get_ref()));
             let value = parse_value(value).map_err(|shown| refuse(table, path, key, &shown))?;
@@ -95,7 +95,7 @@ impl Entries {
 
     /// Which key of which tables a path refers to; all tables of the name if the path has no
     /// number.
-    fn meant<'a>(
+    fn resolve_path<'a>(
         &self,
         path: &'a str,
     ) -> Result<(&'static Table, std::ops::Range<usize>, &'a str), CaseError> {
@@ -139,8 +139,8 @@ impl Entries {
         } = self.schema;
         let headed = tables.iter().all(|table| table.heading != Heading::None);
         let form = if headed { "TABLE.KEY" } else { "KEY" };
-        let said = format!("no value; write {SET} {form}=VALUE, such as {SET} {example}");
-        CaseError::syntax(said).at(format!("{SET} {text:?}"))
+        let message = format!("no value; write {SET} {form}=VALUE, such as {SET} {example}");
+        CaseError::syntax(message).at(format!("{SET} {text:?}"))
     }
 }
 
@@ -196,7 +196,7 @@ fn tables<'a, 'i>(
 }
 
 /// Adds to the error of a key above all headings the heading below which it belongs.
-fn below_its_line(schema: &Schema, key: &str, error: CaseError) -> CaseError {
+fn with_heading_hint(schema: &Schema, key: &str, error: CaseError) -> CaseError {
     let with_key = schema.with_key(key).into_iter();
     let headers: Vec<String> = with_key.map(Table::header).collect();
     match headers.is_empty() {
@@ -225,7 +225,7 @@ fn value_of(value: &DeValue<'_>) -> Result<Value, Cow<'static, str>> {
             Value::Integer(number.map_err(|_| digits.as_str().to_owned())?)
         }
         DeValue::Float(digits) => match digits.as_str().parse::<f64>() {
-            // A finite number that no double holds would be told of as one that nobody wrote.
+            // A finite number that no double holds would be reported as one that nobody wrote.
             Ok(number) if number.is_infinite() && !digits.as_str().ends_with("inf") => {
                 return Err(digits.as_str().to_owned().into());
             }
@@ -255,7 +255,7 @@ fn line_of(text: &str, at: usize) -> usize {
 }
 
 /// The message for a key or a heading that occurs twice.
-fn twice(schema: &Schema, name: &str, line: &str) -> String {
+fn duplicate_message(schema: &Schema, name: &str, line: &str) -> String {
     let name = echo(name);
     if !line.trim_start().starts_with('[') {
         return format!("the key {name} occurs twice");
@@ -270,7 +270,7 @@ fn twice(schema: &Schema, name: &str, line: &str) -> String {
 
 /// The message for two common errors in a line: a missing value, or true or false in capital
 /// letters.
-fn slip(line: &str) -> Option<String> {
+fn common_mistake(line: &str) -> Option<String> {
     let (key, value) = line.split_once('=')?;
     let value = value.split('#').next().unwrap_or_default().trim();
     let (key, value) = (echo(key.trim()), echo(value));
@@ -295,13 +295,13 @@ fn malformed(schema: &Schema, name: &str, text: &str, error: &toml::de::Error) -
     let before = text.get(..at).unwrap_or_default();
     let column = before.chars().rev().take_while(|c| *c != '\n').count() + 1;
     let line = text.lines().nth(line_of(text, at) - 1).unwrap_or_default();
-    let said = match text.get(span) {
-        Some(name) if error.message() == "duplicate key" => twice(schema, name, line),
-        _ => slip(line).unwrap_or_else(|| error.message().to_owned()),
+    let message = match text.get(span) {
+        Some(name) if error.message() == "duplicate key" => duplicate_message(schema, name, line),
+        _ => common_mistake(line).unwrap_or_else(|| error.message().to_owned()),
     };
-    let said: String = said.chars().filter(|c| !c.is_control()).collect();
+    let message: String = message.chars().filter(|c| !c.is_control()).collect();
     let form = schema.form;
-    CaseError::syntax(said)
+    CaseError::syntax(message)
         .with_hint(format!(
             "a case file has {form}; words are in quotes, and decimals have a point"
         ))

@@ -89,8 +89,8 @@ impl Table {
 
     /// The key that was probably meant by a name.
     pub fn nearest(&self, name: &str) -> Option<&'static str> {
-        let wanted = name.to_lowercase();
-        let by_symbol = |key: &&Key| !name.is_empty() && key.symbol.to_lowercase() == wanted;
+        let searched = name.to_lowercase();
+        let by_symbol = |key: &&Key| !name.is_empty() && key.symbol.to_lowercase() == searched;
         match self.keys.iter().find(by_symbol) {
             Some(key) => Some(key.name),
             None => nearest(name, self.keys.iter().map(|key| key.name)),
@@ -152,15 +152,15 @@ fn nearest(name: &str, known: impl Iterator<Item = &'static str>) -> Option<&'st
         let letters = letters.filter(|c| !"_- ".contains(*c));
         letters.collect::<String>().to_lowercase()
     };
-    let wanted = plain(name);
+    let searched = plain(name);
     let mut best = (0.5, None);
     for known in known {
-        let score = strsim::normalized_damerau_levenshtein(&wanted, &plain(known));
+        let score = strsim::normalized_damerau_levenshtein(&searched, &plain(known));
         if score > best.0 || (score == best.0 && best.1.is_none()) {
             best = (score, Some(known));
         }
     }
-    best.1.filter(|_| !wanted.is_empty())
+    best.1.filter(|_| !searched.is_empty())
 }
 
 /// All keys of one sort of case.

@@ -69,7 +69,7 @@ impl Stop {
     ];
 
     /// Its name in files and in programs; its name for people; the end of a sentence about it.
-    const fn told(self) -> [&'static str; 3] {
+    const fn texts(self) -> [&'static str; 3] {
         match self {
             Self::Settled => [
                 "settled",
@@ -102,17 +102,17 @@ impl Stop {
 
     /// Its name in files and in programs.
     pub const fn name(self) -> &'static str {
-        self.told()[0]
+        self.texts()[0]
     }
 
     /// The same for people to read.
-    pub const fn words(self) -> &'static str {
-        self.told()[1]
+    pub const fn label(self) -> &'static str {
+        self.texts()[1]
     }
 
     /// What ended the run, as a sentence's end: "the run stopped because ...".
-    pub const fn meaning(self) -> &'static str {
-        self.told()[2]
+    pub const fn reason_text(self) -> &'static str {
+        self.texts()[2]
     }
 
     /// The limit that was reached, if it was one.
@@ -170,7 +170,7 @@ impl Limit {
 
     /// The quantity that it bounds; and the end of a sentence about its bound: "the run ends where
     /// ...".
-    const fn told(self) -> [&'static str; 2] {
+    const fn texts(self) -> [&'static str; 2] {
         match self {
             Self::Rotation => [
                 "rotation",
@@ -185,12 +185,12 @@ impl Limit {
 
     /// The quantity that it bounds, in words.
     pub const fn bounded(self) -> &'static str {
-        self.told()[0]
+        self.texts()[0]
     }
 
     /// The end of a sentence about its bound: "the run ends where ...".
-    pub const fn meaning(self) -> &'static str {
-        self.told()[1]
+    pub const fn bound_text(self) -> &'static str {
+        self.texts()[1]
     }
 }
 
@@ -266,7 +266,7 @@ mod tests {
         // Where only the name is known, as in files, people read it with blanks instead of
         // underscores.
         for stop in Stop::ALL {
-            assert_eq!(stop.words(), stop.name().replace('_', " "));
+            assert_eq!(stop.label(), stop.name().replace('_', " "));
         }
         let limit = |limit| match limit {
             Limit::Rotation => 0,

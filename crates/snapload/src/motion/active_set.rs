@@ -46,11 +46,13 @@ pub(crate) fn taut_next<T: Real>(
         let (w, load) = problem(system, around, state, memory_force, candidates);
         let (tension, pulling) = complementary(candidates, w, &load);
         let stays_closed = |&cable: &usize| {
-            let pulls = |j: usize| w(cable, j) * tension[j];
-            let left = pulling.iter().fold(load[cable], |sum, j| sum - pulls(j));
-            let size = pulling
+            let acceleration_by_tensions = |j: usize| w(cable, j) * tension[j];
+            let left = pulling
                 .iter()
-                .fold(load[cable].abs(), |sum, j| sum + pulls(j).abs());
+                .fold(load[cable], |sum, j| sum - acceleration_by_tensions(j));
+            let size = pulling.iter().fold(load[cable].abs(), |sum, j| {
+                sum + acceleration_by_tensions(j).abs()
+            });
             left.abs() <= size * T::from_decimal(SHARED)
         };
         let others: TautSet = candidates
@@ -246,19 +248,19 @@ pub(crate) fn slopes_of_acceleration(
     let two = TautCable::new(system, state, second.unwrap_or(first));
     let pair = Pair::new(&one.normal, &two.normal, inverse_inertia, second.is_some())?;
     let tension = pair.solved([one.load(force, spin), two.load(force, spin)]);
-    let pull = pair.pulls([&one.normal, &two.normal], tension);
+    let pull = pair.acceleration_by_tensions([&one.normal, &two.normal], tension);
     let mut slopes = [[0.0; 6]; 3];
     for k in 0..6 {
         let mut by = [0.0; 6];
         by[k] = 1.0;
         let (dg, db) = one.change(force, spin, &by);
         let (dg_two, db_two) = two.change(force, spin, &by);
-        let turned = pair.pulls([&dg, &dg_two], tension);
+        let turned = pair.acceleration_by_tensions([&dg, &dg_two], tension);
         let load = [
             db - along(&dg, &pull) - along(&one.normal, &turned),
             db_two - along(&dg_two, &pull) - along(&two.normal, &turned),
         ];
-        let more = pair.pulls([&one.normal, &two.normal], pair.solved(load));
+        let more = pair.acceleration_by_tensions([&one.normal, &two.normal], pair.solved(load));
         for i in 0..3 {
             slopes[i][k] = -(turned[i] + more[i]);
         }
@@ -315,7 +317,7 @@ impl Pair {
 
     /// M⁻¹ Gᵀ T.
     #[inline(always)]
-    fn pulls(&self, [a, b]: [&Normal; 2], tension: [f64; 2]) -> [f64; 3] {
+    fn acceleration_by_tensions(&self, [a, b]: [&Normal; 2], tension: [f64; 2]) -> [f64; 3] {
         [
             a.n.x * tension[0] + b.n.x * tension[1],
             a.n.y * tension[0] + b.n.y * tension[1],

@@ -141,7 +141,7 @@ impl<L: Lane> Attachment<L> {
     /// Bound on the change of the gap a time `s` into the flight by the rounding of the velocities
     /// at its start.
     #[inline(always)]
-    pub(crate) fn blur(&self, s: L) -> L {
+    pub(crate) fn start_noise(&self, s: L) -> L {
         self.length * self.speed * s * L::EPSILON * 16.0
     }
 

@@ -134,8 +134,11 @@ pub(crate) fn bounce<L: Lane>(two_cables: &TwoCableSystem<L>, from: &AfterImpact
 
         let end = start.arrival(second, &trial, from);
         let FlightEnd { s, state, jets, .. } = &end;
-        let blurs = [start.attachments[0].blur(*s), start.attachments[1].blur(*s)];
-        let alone = closes_alone(from.t, *s, second, jets, blurs);
+        let start_noises = [
+            start.attachments[0].start_noise(*s),
+            start.attachments[1].start_noise(*s),
+        ];
+        let alone = closes_alone(from.t, *s, second, jets, start_noises);
         let end_value = [
             L::select(second, jets[0].value, L::ZERO),
             L::select(second, L::ZERO, jets[1].value),
@@ -146,11 +149,11 @@ pub(crate) fn bounce<L: Lane>(two_cables: &TwoCableSystem<L>, from: &AfterImpact
         ];
         let open = openness[0].open & openness[1].open;
         let arrived =
-            found & s.below(horizon) & alone & open & stops_nowhere(two_cables, from, *s, state);
+            found & s.below(horizon) & alone & open & reaches_no_limit(two_cables, from, *s, state);
         let top_known = !rises_above(two_cables, from, *s, state);
         let forces = [start.force_at_start, end.force];
         let known = [arrived, top_known];
-        land(two_cables, from, second, &end, known, (forces, openness))
+        impact_after_flight(two_cables, from, second, &end, known, (forces, openness))
     })
 }
 
@@ -162,19 +165,19 @@ fn closes_alone<L: Lane>(
     s: L,
     second: L::Mask,
     jets: &[GapJet<L>; 2],
-    blurs: [L; 2],
+    start_noises: [L; 2],
 ) -> L::Mask {
     let struck = GapJet::select(second, &jets[1], &jets[0]);
     let other = GapJet::select(second, &jets[0], &jets[1]);
-    let struck_blur = L::select(second, blurs[1], blurs[0]);
-    let other_blur = L::select(second, blurs[0], blurs[1]);
+    let struck_noise = L::select(second, start_noises[1], start_noises[0]);
+    let other_noise = L::select(second, start_noises[0], start_noises[1]);
     // The errors of the times; both sides are multiplied by the rate.
     let spread =
-        ((t.abs() + s) * L::EPSILON * 4.0).mul_add(struck.rate, struck.noise + struck_blur);
+        ((t.abs() + s) * L::EPSILON * 4.0).mul_add(struck.rate, struck.noise + struck_noise);
     let margin = other
         .rate
         .positive()
-        .mul_add(spread, (other.noise + other_blur) * struck.rate);
+        .mul_add(spread, (other.noise + other_noise) * struck.rate);
     L::ZERO.below(struck.rate) & (other.value * struck.rate).below(-(margin * 2.0))
 }
 
@@ -195,7 +198,7 @@ fn height_bound<L: Lane>(
 /// Whether no limit is near: the rotation is largest at an end, as it is linear in time, and the
 /// height exceeds its values at the ends by at most |ÿ|s²/8.
 #[inline(always)]
-fn stops_nowhere<L: Lane>(
+fn reaches_no_limit<L: Lane>(
     two_cables: &TwoCableSystem<L>,
     from: &AfterImpact<L>,
     s: L,
@@ -247,7 +250,7 @@ fn put_back<L: Lane>(
 
 /// The impact at the end of a flight, docs/model.md section 5: p = (1 + e) v_n/w.
 #[inline(always)]
-fn land<L: Lane>(
+fn impact_after_flight<L: Lane>(
     two_cables: &TwoCableSystem<L>,
     from: &AfterImpact<L>,
     second: L::Mask,

@@ -294,7 +294,7 @@ impl BounceMap<f64> {
     /// Whether the normal acceleration n·f + |Ṗ|²/r − θ̇² n·ρ is above zero by far more than
     /// rounding, even without its second summand.
     #[inline(always)]
-    pub(crate) fn surely_quickens(&self) -> bool {
+    pub(crate) fn certainly_accelerates(&self) -> bool {
         let Vector2 { x, y } = self.force;
         let [[_, _, spin], _] = self.velocities;
         let turning = spin * spin * self.swing;

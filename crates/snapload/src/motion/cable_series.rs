@@ -125,7 +125,7 @@ impl<T: Real> CableSeries<T> {
     /// The part of Σ T n and Σ ρ × T n at order k, for cables with tensions, that follows from the
     /// lower orders; keeps each T n, to which [`CableSeries::find_tensions`] adds the rest.
     #[inline(always)]
-    pub(crate) fn known_pulls(&mut self, k: usize) -> [T; 3] {
+    pub(crate) fn known_forces(&mut self, k: usize) -> [T; 3] {
         apart!(T, {
             let mut sums = [T::ZERO; 3];
             for pair in &mut self.pairs {

@@ -48,7 +48,7 @@ pub(crate) struct Jet<T> {
     pub(crate) noise: T,
     /// Bound on the change of `value` by the rounding of the velocities at the motion's start; for
     /// a function at rest, the bound below which it counts as zero.
-    pub(crate) blur: T,
+    pub(crate) start_noise: T,
     /// Whether f = ḟ = 0 is known here, the cable being at rest on its constraint; then `jerk` is
     /// f⃛.
     pub(crate) resting: bool,
@@ -66,7 +66,7 @@ impl<T: Real> Jet<T> {
             third: T::ZERO,
             fourth: T::ZERO,
             noise: T::ZERO,
-            blur: T::ZERO,
+            start_noise: T::ZERO,
             resting: false,
             jerk: T::ZERO,
         }
@@ -188,7 +188,7 @@ fn located<T: Real>(jets: &Jets<T>, t: T, s: T) -> Option<Crossing<T>> {
     // A contact known at the start (value and noise 0) that rises at once is located there, too.
     let touches = |jet: &&Jet<T>| jet.value >= -jet.noise && rises_soon(jet);
     let root = |jet: &Jet<T>| s - jet.value / jet.rate;
-    let spread = |jet: &Jet<T>| (jet.noise + jet.blur) / jet.rate + s * T::EPSILON;
+    let spread = |jet: &Jet<T>| (jet.noise + jet.start_noise) / jet.rate + s * T::EPSILON;
     let first = jets
         .iter()
         .filter(touches)
@@ -270,7 +270,7 @@ fn safe_step_from_rest<T: Real>(jet: &Jet<T>, limit: T) -> T {
     let mut harmless = limit;
     // While the function provably stays within a rounding of zero it may be stepped over, so that
     // the search does not stop at a touch of higher order than the bound resolves.
-    while bound(harmless) > jet.blur {
+    while bound(harmless) > jet.start_noise {
         harmless = harmless * 0.5;
     }
     root.max(harmless).min(limit)

@@ -137,7 +137,7 @@ impl<T: Real> Flight<T> {
             third: (jet.velocity.length() * a * 3.0 + attachment.length * j) * 2.0,
             fourth: a * a * 6.0,
             noise: jet.noise,
-            blur: attachment.blur(s),
+            start_noise: attachment.start_noise(s),
             ..Jet::new(EventFunction::Gap(cable), jet.value, jet.rate, jet.accel)
         }
     }
@@ -151,7 +151,7 @@ impl<T: Real> Flight<T> {
         let speed = attachment.velocity.length() + a;
         Jet {
             resting: true,
-            blur: attachment.length.squared() * T::EPSILON * 4.0,
+            start_noise: attachment.length.squared() * T::EPSILON * 4.0,
             jerk,
             fourth: (a * a * 3.0 + speed * j * 4.0 + attachment.length * k) * 2.0,
             ..jet

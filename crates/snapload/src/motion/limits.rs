@@ -23,7 +23,7 @@ use crate::motion::events::{EventFunction, Jet, Jets};
 pub(crate) const NEVER: f64 = 1e300;
 /// Where a close bound on a quantity is needed, a step is evaluated at the ends of this many equal
 /// parts.
-const LOOKS: usize = 64;
+const EVALUATIONS: usize = 64;
 
 impl Limit {
     /// The quantity that it bounds: |θ|, or y of the highest point of the body.
@@ -71,10 +71,10 @@ pub(crate) trait Along<T> {
 }
 
 /// A bound on how much a quantity whose second derivative is at most `bend` exceeds its values at
-/// the ends of [`LOOKS`] parts of a step.
+/// the ends of [`EVALUATIONS`] parts of a step.
 #[inline(always)]
-fn between_looks<T: Real>(step: &impl Along<T>, bend: T) -> T {
-    let width = step.duration() / LOOKS as f64;
+fn between_evaluations<T: Real>(step: &impl Along<T>, bend: T) -> T {
+    let width = step.duration() / EVALUATIONS as f64;
     bend * width * width * 0.125
 }
 
@@ -92,7 +92,8 @@ fn farthest_turned<T: Real>(step: &impl Along<T>, floor: T) -> T {
     if rough < floor {
         return rough;
     }
-    ends.max(step.largest_seen(LOOKS, |state| state.theta.abs())) + between_looks(step, bend)
+    ends.max(step.largest_seen(EVALUATIONS, |state| state.theta.abs()))
+        + between_evaluations(step, bend)
 }
 
 /// A bound on y of the highest point of the body.
@@ -110,8 +111,8 @@ fn highest<T: Real>(system: &System<T>, step: &impl Along<T>, floor: T) -> T {
     let bend = y_bend + (spin * spin + theta_bend) * reach;
     start
         .y
-        .max(step.largest_seen(LOOKS, |state| system.top(state)))
-        + between_looks(step, bend)
+        .max(step.largest_seen(EVALUATIONS, |state| system.top(state)))
+        + between_evaluations(step, bend)
 }
 
 /// The bounds with which flights side by side compare.

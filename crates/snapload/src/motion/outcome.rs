@@ -37,7 +37,7 @@ pub struct FirstImpact {
 impl Outcome {
     /// The outcome of a simulation, which is run to its end.
     pub fn after(mut simulation: Simulation) -> Self {
-        let mut outcome = Self::begun(&simulation);
+        let mut outcome = Self::at_start(&simulation);
         while let Some(step) = simulation.step() {
             outcome.take(&step);
         }
@@ -50,7 +50,7 @@ impl Outcome {
         mut simulation: Simulation,
         mut watch: impl FnMut(&Simulation) -> ControlFlow<()>,
     ) -> Option<Self> {
-        let mut outcome = Self::begun(&simulation);
+        let mut outcome = Self::at_start(&simulation);
         while let Some(step) = simulation.step() {
             outcome.take(&step);
             if watch(&simulation).is_break() {
@@ -61,7 +61,7 @@ impl Outcome {
     }
 
     /// The outcome of a motion that has just begun.
-    pub(crate) fn begun(simulation: &Simulation) -> Self {
+    pub(crate) fn at_start(simulation: &Simulation) -> Self {
         Self {
             end: End::of(simulation),
             norms: Norms::default(),

@@ -51,7 +51,7 @@ impl Kernel for Reaching<'_, '_> {
     #[inline(always)]
     fn run(self) -> (f64, f64) {
         let Self(playback, index, t) = self;
-        let segment = playback.come_to(index, t);
+        let segment = playback.expand_before(index, t);
         let free = playback.run.system().has_closed_form(segment.active.taut);
         let used = if free {
             f64::INFINITY
@@ -201,7 +201,7 @@ impl<'a> Playback<'a> {
     #[inline(always)]
     fn at_here(&mut self, t: f64) -> Motion {
         let t = t.min(self.run.end().t);
-        let segment = self.come_to(self.segment_at(t), t);
+        let segment = self.expand_before(self.segment_at(t), t);
         let s = (t - segment.t).max(0.0);
         let taut = segment.active.taut;
         let state = if s <= 0.0 {
@@ -232,7 +232,7 @@ impl<'a> Playback<'a> {
     /// Expands the motion about the latest start of an expansion before time `t`, in the chain of a
     /// kept segment.
     #[inline(always)]
-    fn come_to(&mut self, index: usize, t: f64) -> Segment {
+    fn expand_before(&mut self, index: usize, t: f64) -> Segment {
         let kept = self.run.segments();
         let system = self.run.system();
         let next = kept.get(index + 1).map_or(f64::INFINITY, |next| next.t);

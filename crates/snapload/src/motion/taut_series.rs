@@ -182,7 +182,7 @@ impl<T: Real> Series<T> {
                 self.pairs.set_span(cable, tether.span(start));
             }
             self.extend_motions(system);
-            self.know_gaps();
+            self.set_known_gaps();
             self.step = self.choose_step(system);
             self.left_out = self.left_out_of_gaps(system, self.step);
             self.active.taut = active
@@ -267,7 +267,7 @@ impl<T: Real> Series<T> {
         let share = T::ONE / ((k + 1) * (k + 2)) as f64;
 
         let load = [self.force[0][k], self.force[1][k], self.turning[k]];
-        let pulls = self.pairs.known_pulls(k);
+        let pulls = self.pairs.known_forces(k);
         let known = mass.accelerated_by(mass.less_pull(load, pulls));
         let pulls = self.pairs.find_tensions(k, known, [sine, cosine], ready);
         let [x, y, theta] = mass.slowed_by(known, pulls).map(|a| a * share);
@@ -302,7 +302,7 @@ impl<T: Real> Series<T> {
 
     /// Sets the first coefficients of the gaps to their known values.
     #[inline(always)]
-    fn know_gaps(&mut self) {
+    fn set_known_gaps(&mut self) {
         for (line, contact) in self.lines.iter_mut().zip(&self.contacts) {
             line.gap[0] = contact.gap;
             if contact.resting {
@@ -394,7 +394,7 @@ impl<T: Real> Series<T> {
 
     /// Whether a cable that was at rest at the start, such as one that has just lost its tension,
     /// opens throughout up to a time `s`: ġ never increases.
-    pub(crate) fn opens_from_rest(&self, cable: usize, s: T) -> bool {
+    pub(crate) fn gap_opens_from_rest(&self, cable: usize, s: T) -> bool {
         let gap = &self.lines[cable].gap;
         let rate = |s: T| {
             let [_, rate, accel] = gap.jet(s, ORDER);

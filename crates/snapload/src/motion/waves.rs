@@ -53,7 +53,7 @@ impl<T: Real> Waves<T> {
         let stretches = Sinusoids::of(system).map(|sinusoids| {
             Box::new(Stretches {
                 sinusoids: Arc::new(sinusoids),
-                kept: [Stretch::unmade(); KEPT],
+                kept: [Stretch::empty(); KEPT],
                 oldest: 0,
             })
         });

@@ -252,7 +252,7 @@ fn small_rocking_has_the_known_frequency() {
 
 /// Free sliding conserves energy, and each single impact loses (1 − e²) v_n²/(2w).
 #[test]
-fn each_impact_loses_what_its_effective_mass_says() {
+fn each_impact_loses_energy_by_its_effective_mass() {
     for e in [0.0, 0.4, 0.9, 1.0] {
         let it = Breakwater { e, ..STANDARD };
         let run = it.run();

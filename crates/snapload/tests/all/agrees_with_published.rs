@@ -99,7 +99,7 @@ fn a_wider_circle_raises_the_critical_force() {
 }
 
 #[test]
-fn norms_behave_as_the_text_says() {
+fn norms_behave_as_published() {
     let runs: Vec<Trajectory> = (1..=31)
         .map(|k| {
             Breakwater {

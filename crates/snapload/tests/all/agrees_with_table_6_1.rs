@@ -13,10 +13,10 @@ fn read_code(code: &str) -> Vec<(&'static str, f64)> {
     let (body, forcing) = code.split_once('-').unwrap();
     let tenths = |c: char| f64::from(c.to_digit(10).unwrap()) / 10.0;
     let names = ["r", "e", "a", "b", "x", "vx", "y", "vy", "theta", "vtheta"];
-    let mut said: Vec<(&str, f64)> = Vec::new();
+    let mut values: Vec<(&str, f64)> = Vec::new();
     assert_eq!(body.len(), names.len());
     for (name, c) in names.into_iter().zip(body.chars()) {
-        said.push(match (name, c) {
+        values.push(match (name, c) {
             ("r", '1') => ("r", 1.5),
             ("r", '2') => ("r", 2.5),
             ("e", '1') => ("e", 1.0),
@@ -24,8 +24,8 @@ fn read_code(code: &str) -> Vec<(&'static str, f64)> {
         });
     }
     let mut places = forcing.chars();
-    said.push(("f_o", tenths(places.next().unwrap())));
-    said.push(("nu", tenths(places.next().unwrap())));
+    values.push(("f_o", tenths(places.next().unwrap())));
+    values.push(("nu", tenths(places.next().unwrap())));
     let omega = match places.as_str() {
         "5" => 0.5,
         "75" => 0.75,
@@ -34,8 +34,8 @@ fn read_code(code: &str) -> Vec<(&'static str, f64)> {
         "20" => 2.0,
         other => panic!("omega {other}"),
     };
-    said.push(("omega", omega));
-    said
+    values.push(("omega", omega));
+    values
 }
 
 fn number(p: &Parameters, key: &str) -> f64 {
@@ -50,12 +50,12 @@ fn is_code(case: &NamedCase) -> bool {
 }
 
 #[test]
-fn every_code_says_its_parameters() {
+fn every_code_encodes_its_parameters() {
     let codes: Vec<NamedCase> = named_cases().filter(is_code).collect();
     assert_eq!(codes.len(), 27);
     for case in codes {
-        for (key, said) in read_code(case.code) {
-            assert_eq!(number(&case.parameters, key), said, "{}: {key}", case.code);
+        for (key, value) in read_code(case.code) {
+            assert_eq!(number(&case.parameters, key), value, "{}: {key}", case.code);
         }
     }
 }

@@ -63,7 +63,7 @@ fn paths(code: &str, root: &str) -> Vec<Vec<String>> {
         if before.is_some_and(|c| c.is_alphanumeric() || c == '_' || c == ':') {
             continue;
         }
-        spell_out(
+        read_paths(
             &mut Vec::new(),
             &mut code[at + root.len()..].chars().peekable(),
             &mut found,
@@ -73,7 +73,7 @@ fn paths(code: &str, root: &str) -> Vec<Vec<String>> {
 }
 
 /// Reads one path, or the list of them in braces, up to where it ends.
-fn spell_out(
+fn read_paths(
     prefix: &mut Vec<String>,
     rest: &mut std::iter::Peekable<std::str::Chars>,
     found: &mut Vec<Vec<String>>,
@@ -91,7 +91,7 @@ fn spell_out(
             '{' => {
                 rest.next();
                 while rest.peek().is_some_and(|c| *c != '}') {
-                    spell_out(prefix, rest, found);
+                    read_paths(prefix, rest, found);
                     while rest.peek().is_some_and(|c| *c == ',' || c.is_whitespace()) {
                         rest.next();
                     }
@@ -117,7 +117,7 @@ fn spell_out(
 }
 
 /// The items that a crate's root re-exports: the name of each, and its path.
-fn given_out(root: &str) -> BTreeMap<String, Vec<String>> {
+fn reexports(root: &str) -> BTreeMap<String, Vec<String>> {
     let mut names = BTreeMap::new();
     for path in paths(&code(root), "pub use ") {
         if let Some(name) = path.last() {
@@ -139,7 +139,7 @@ fn uses(folder: &Path, depth: usize) -> BTreeMap<String, BTreeSet<String>> {
     let root = files
         .iter()
         .find(|(name, _)| name == "lib.rs" || name == "main.rs");
-    let outside = root.map_or_else(BTreeMap::new, |(_, text)| given_out(text));
+    let outside = root.map_or_else(BTreeMap::new, |(_, text)| reexports(text));
     let places: BTreeSet<String> = files.iter().map(|(name, _)| place(name)).collect();
     let mut uses = BTreeMap::<String, BTreeSet<String>>::new();
     for (name, text) in &files {
@@ -174,26 +174,26 @@ fn uses(folder: &Path, depth: usize) -> BTreeMap<String, BTreeSet<String>> {
 }
 
 /// A cycle among the files, if there is one.
-fn circle(uses: &BTreeMap<String, BTreeSet<String>>) -> Option<Vec<String>> {
+fn cycle(uses: &BTreeMap<String, BTreeSet<String>>) -> Option<Vec<String>> {
     fn visit(
         at: &str,
         uses: &BTreeMap<String, BTreeSet<String>>,
-        way: &mut Vec<String>,
+        path_so_far: &mut Vec<String>,
         done: &mut BTreeSet<String>,
     ) -> Option<Vec<String>> {
-        if let Some(start) = way.iter().position(|place| place == at) {
-            return Some(way[start..].to_vec());
+        if let Some(start) = path_so_far.iter().position(|place| place == at) {
+            return Some(path_so_far[start..].to_vec());
         }
         if !done.insert(at.to_owned()) {
             return None;
         }
-        way.push(at.to_owned());
+        path_so_far.push(at.to_owned());
         let found = uses
             .get(at)
             .into_iter()
             .flatten()
-            .find_map(|next| visit(next, uses, way, done));
-        way.pop();
+            .find_map(|next| visit(next, uses, path_so_far, done));
+        path_so_far.pop();
         found
     }
     let mut done = BTreeSet::new();
@@ -204,7 +204,7 @@ fn circle(uses: &BTreeMap<String, BTreeSet<String>>) -> Option<Vec<String>> {
 #[test]
 fn rooms_of_the_library_use_only_those_before_them() {
     let order = levels("arithmetic");
-    let mut against = Vec::new();
+    let mut violations = Vec::new();
     for (name, text) in sources(&Path::new(env!("CARGO_MANIFEST_DIR")).join("src")) {
         let Some((room, _)) = name.split_once('/') else {
             continue;
@@ -215,14 +215,14 @@ fn rooms_of_the_library_use_only_those_before_them() {
         for path in paths(&code(&text), "crate::") {
             match order.get(&path[0]) {
                 Some(level) if level < own || path[0] == room => {}
-                _ => against.push(format!("{name} uses {}", path.join("::"))),
+                _ => violations.push(format!("{name} uses {}", path.join("::"))),
             }
         }
     }
     assert!(
-        against.is_empty(),
+        violations.is_empty(),
         "against the arrows:\n{}",
-        against.join("\n")
+        violations.join("\n")
     );
 }
 
@@ -233,7 +233,7 @@ fn crates_use_only_those_before_them() {
         Some(name) => name.to_owned(),
         None => "library".to_owned(),
     };
-    let mut against = Vec::new();
+    let mut violations = Vec::new();
     let mut manifests = vec![workspace().join("python/Cargo.toml")];
     for entry in fs::read_dir(workspace().join("crates")).expect("the crates") {
         manifests.push(entry.expect("a crate").path().join("Cargo.toml"));
@@ -252,20 +252,20 @@ fn crates_use_only_those_before_them() {
         // A crate depends on itself only for its tests.
         for used in used.filter(|used| *used != own) {
             if order.get(&used).is_none_or(|other| other >= level) {
-                against.push(format!("{own} uses {used}"));
+                violations.push(format!("{own} uses {used}"));
             }
         }
     }
     assert!(
-        against.is_empty(),
+        violations.is_empty(),
         "against the arrows:\n{}",
-        against.join("\n")
+        violations.join("\n")
     );
 }
 
 #[test]
-fn no_files_use_each_other_in_a_circle() {
-    let mut circles = Vec::new();
+fn no_files_use_each_other_in_a_cycle() {
+    let mut cycles = Vec::new();
     let mut folders = vec![(workspace().join("python/src"), 1)];
     for entry in fs::read_dir(workspace().join("crates")).expect("the crates") {
         let path = entry.expect("a crate").path();
@@ -273,15 +273,15 @@ fn no_files_use_each_other_in_a_circle() {
         folders.push((path.join("src"), depth));
     }
     for (folder, depth) in folders {
-        if let Some(way) = circle(&uses(&folder, depth)) {
-            circles.push(format!("{}: {}", folder.display(), way.join(" -> ")));
+        if let Some(found) = cycle(&uses(&folder, depth)) {
+            cycles.push(format!("{}: {}", folder.display(), found.join(" -> ")));
         }
     }
-    assert!(circles.is_empty(), "circles:\n{}", circles.join("\n"));
+    assert!(cycles.is_empty(), "cycles:\n{}", cycles.join("\n"));
 }
 
 #[test]
-fn what_is_read_from_the_source_is_what_stands_there() {
+fn paths_are_read_from_the_source() {
     let text = "use crate::a::{b, c::{d, e}};\n// crate::not::this\nlet x = crate::f::g(1);\n\
                 pub use crate::h;\n#[cfg(test)]\nmod tests { use crate::tests_only::x; }";
     let found: Vec<String> = paths(&code(text), "crate::")
@@ -295,14 +295,14 @@ fn what_is_read_from_the_source_is_what_stands_there() {
         ("c".to_owned(), BTreeSet::from(["b".to_owned()])),
     ]);
     assert_eq!(
-        circle(&uses).map(|way| way.join(" ")),
+        cycle(&uses).map(|found| found.join(" ")),
         Some("b c".to_owned())
     );
 }
 
 /// A file of tests that its `main.rs` does not name is not compiled, and no test in it is run.
 #[test]
-fn every_file_of_tests_is_one_of_the_program() {
+fn every_test_file_is_compiled() {
     for krate in fs::read_dir(workspace().join("crates")).expect("the crates") {
         let folder = krate.expect("a crate").path().join("tests/all");
         if !folder.is_dir() {
@@ -313,7 +313,7 @@ fn every_file_of_tests_is_one_of_the_program() {
             let module = name.trim_end_matches(".rs");
             if module != "main" && !module.contains('/') {
                 let line = format!("mod {module};");
-                let named = main.lines().any(|told| told.trim() == line);
+                let named = main.lines().any(|declared| declared.trim() == line);
                 assert!(named, "{} has no line {line}", folder.display());
             }
         }

@@ -386,7 +386,7 @@ fn exponents_of_the_bouncing_ball_obey_their_sum_rule() {
 /// The largest difference of a bounce's map from the one derived above, relative to the latter's
 /// size and to the velocity by which both divide.
 fn worst_entry(table: &Table, step: &Step, map: &StepMap) -> f64 {
-    // The map by hand is told V, this engine's the velocity relative to the table.
+    // The map by hand takes V, this engine's the velocity relative to the table.
     let later = [
         0.0,
         0.0,

@@ -176,7 +176,7 @@ fn a_limit_that_neighbours_may_meet_ends_trust() {
     for limit in Limit::ALL {
         for kind in KINDS {
             let mut random = Random(1944);
-            let mut told = [0, 0];
+            let mut counts = [0, 0];
             for case in 0..40 {
                 let (system, start) = body_of(kind, &mut random);
                 let rules = without_limits(random.between(0.5, 2.0));
@@ -190,7 +190,7 @@ fn a_limit_that_neighbours_may_meet_ends_trust() {
                     ..rules
                 };
                 let (certain, end) = followed(&system, rules, start, SIZE);
-                told[usize::from(certain)] += 1;
+                counts[usize::from(certain)] += 1;
                 for _ in 0..if certain { 12 } else { 0 } {
                     let near = start.components().map(|value| value + SIZE * random.next());
                     let near = record(&system, rules, State::from_components(near));
@@ -199,8 +199,8 @@ fn a_limit_that_neighbours_may_meet_ends_trust() {
                 }
             }
             assert!(
-                told.iter().all(|count| *count > 2),
-                "{limit:?}, {kind}: {told:?}"
+                counts.iter().all(|count| *count > 2),
+                "{limit:?}, {kind}: {counts:?}"
             );
         }
     }

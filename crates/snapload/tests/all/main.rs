@@ -10,7 +10,7 @@ mod architecture;
 mod billiards;
 mod bounces;
 mod bouncing_ball;
-mod case_border;
+mod case_parameters;
 mod common;
 mod drag;
 mod floating;

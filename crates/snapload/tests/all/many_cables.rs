@@ -2,7 +2,7 @@
 
 use proptest::prelude::*;
 use proptest::test_runner::RngSeed;
-use snapload::analysis::{Uncertainty, trusted_run, unwatched};
+use snapload::analysis::{Uncertainty, no_progress, trusted_run};
 use snapload::{
     Body, Cable, Case, CaseError, Forcing, Harmonic, Impact, Limit, LimitBounds, Parameters,
     Playback, Rules, Shape, Simulation, State, Stop, System, Trajectory, named_case,
@@ -197,7 +197,7 @@ fn twins_do_what_one_line_does_and_carry_half() -> Result<(), CaseError> {
         let double = Trajectory::record(double);
 
         // Rounding differs, and grows from impact to impact; only certain results are compared.
-        let (_, trust) = trusted_run(&case, &Uncertainty::default(), &unwatched).expect("legal");
+        let (_, trust) = trusted_run(&case, &Uncertainty::default(), &no_progress).expect("legal");
         let sure = trust.horizon.map_or(f64::INFINITY, |h| h.t);
         let mut pairs = double.impacts().chunks_exact(2);
         let mut compared = 0;

@@ -1,11 +1,13 @@
 //! The outcomes of runs and of ensembles of runs.
 
-use snapload::analysis::{CriticalForce, Ensemble, ForceScan, Uncertainty, Unfinished, unwatched};
+use snapload::analysis::{
+    CriticalForce, Ensemble, ForceScan, Uncertainty, Unfinished, no_progress,
+};
 use snapload::{Case, CaseError, Outcome, Parameters, Stop, named_case};
 
 /// Every number of an outcome is that of the full run.
 #[test]
-fn an_outcome_tells_of_the_run() -> Result<(), CaseError> {
+fn an_outcome_summarises_its_run() -> Result<(), CaseError> {
     for code in ["sliding-example", "rocking-example", "1910001000-359"] {
         let case = Case::new(named_case(code)?.parameters)?;
         let (outcome, run) = (Outcome::of(&case), case.run());
@@ -31,7 +33,7 @@ fn an_outcome_tells_of_the_run() -> Result<(), CaseError> {
 
 #[test]
 fn the_standard_case_exceeds_at_0_31_and_settles_at_0_4() -> Result<(), Unfinished> {
-    let found = CriticalForce::scan(&Parameters::STANDARD, ForceScan::default(), &unwatched)?;
+    let found = CriticalForce::scan(&Parameters::STANDARD, ForceScan::default(), &no_progress)?;
     let first = found.first.map(|first| (first.f_o, first.reason));
     assert_eq!(first, Some((0.31, Stop::RotationLimit)));
     let inside = |f_o: f64| {
@@ -52,7 +54,7 @@ fn none_may_exceed() -> Result<(), Unfinished> {
         inertia: Some(0.25),
         ..Parameters::STANDARD
     };
-    let found = CriticalForce::scan(&calm, ForceScan::new(0.01, 0.02)?, &unwatched)?;
+    let found = CriticalForce::scan(&calm, ForceScan::new(0.01, 0.02)?, &no_progress)?;
     assert_eq!((found.first, found.exceeding), (None, vec![]));
     Ok(())
 }
@@ -65,11 +67,14 @@ fn as_many_members_are_run_as_tell() -> Result<(), Unfinished> {
         ..Parameters::STANDARD
     })?;
     let alike = Ensemble::about(&case, &Uncertainty::of_start(1e-6), 1000, 1);
-    let tally = alike.tally_until_clear(&unwatched)?;
+    let tally = alike.tally_until_clear(&no_progress)?;
     assert_eq!(tally.members(), 200);
     assert!(tally.shares()[0].1.interval()[0] < 0.97);
     let few = Ensemble::about(&case, &Uncertainty::of_start(1e-6), 100, 1);
-    assert_eq!(few.tally_until_clear(&unwatched)?, few.tally(&unwatched)?);
+    assert_eq!(
+        few.tally_until_clear(&no_progress)?,
+        few.tally(&no_progress)?
+    );
     let undecided = Case::new(Parameters {
         f_o: 0.5,
         ..Parameters::STANDARD
@@ -77,9 +82,9 @@ fn as_many_members_are_run_as_tell() -> Result<(), Unfinished> {
     let mut uncertainty = Uncertainty::default();
     uncertainty.set("e", 0.02)?;
     let uncertain = Ensemble::about(&undecided, &uncertainty, 210, 1);
-    let tally = uncertain.tally(&unwatched)?;
+    let tally = uncertain.tally(&no_progress)?;
     assert!(tally.shares().len() > 1, "one that ends in several ways");
-    assert_eq!(uncertain.tally_until_clear(&unwatched)?, tally);
+    assert_eq!(uncertain.tally_until_clear(&no_progress)?, tally);
     Ok(())
 }
 
@@ -112,7 +117,7 @@ fn illegal_neighbours_are_drawn_again() -> Result<(), Unfinished> {
         ..Parameters::STANDARD
     })?;
     let ensemble = Ensemble::about(&case, &Uncertainty::of_start(1e-3), 50, 1);
-    let tally = ensemble.tally(&unwatched)?;
+    let tally = ensemble.tally(&no_progress)?;
     assert_eq!(tally.members(), 50);
     let total: usize = tally.shares().iter().map(|(_, share)| share.count).sum();
     assert_eq!(total, 50);

@@ -3,7 +3,7 @@
 
 use snapload::analysis::{
     Cancelled, Certainty, Counter, CriticalForce, Ensemble, ExceedanceCurve, ForceScan, OnProgress,
-    Progress, Uncertainty, Unfinished, outcome, outcomes, record, trusted_run, unwatched,
+    Progress, Uncertainty, Unfinished, no_progress, outcome, outcomes, record, trusted_run,
 };
 use snapload::{
     Case, CaseError, Lanes, Outcome, Parameters, Playback, Simulation, TautSet, Trajectory, Value,
@@ -162,7 +162,7 @@ fn every_width_of_lanes_has_the_bits_of_one_run_by_itself() {
         }
         assert!(usage.bounces > 20_000, "{lanes:?}: {usage:?}");
     }
-    assert_eq!(outcomes(&cases, &unwatched), Ok(alone));
+    assert_eq!(outcomes(&cases, &no_progress), Ok(alone));
 }
 
 #[test]
@@ -171,7 +171,7 @@ fn threads_do_not_matter() {
     let on = |threads: usize| {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads);
         let pool = pool.build().expect("threads");
-        pool.install(|| outcomes(&cases, &unwatched).expect("nobody cancels"))
+        pool.install(|| outcomes(&cases, &no_progress).expect("nobody cancels"))
     };
     let one: Vec<_> = on(1).iter().map(bits).collect();
     for threads in [2, 5] {
@@ -184,7 +184,7 @@ fn threads_do_not_matter() {
 #[test]
 fn trust_in_lanes_is_that_of_one_run_by_itself() {
     let cases = varied();
-    let counter = Counter::new("running", 0, 0, &unwatched);
+    let counter = Counter::new("running", 0, 0, &no_progress);
     let alone: Vec<Certainty> = cases.iter().map(Certainty::of).collect();
     let certain = alone.iter().filter(|one| one.decides_the_end()).count();
     assert!(certain > 100 && alone.len() - certain > 100, "{certain}");
@@ -250,11 +250,11 @@ fn work_that_may_be_ended_is_the_same_or_nothing() -> Result<(), Unfinished> {
     let whole = Trajectory::record_while(case.simulation(), |_, _| Continue(()));
     let whole = whole.expect("a run that was not ended");
     assert_eq!((whole.impacts(), whole.end()), (run.impacts(), run.end()));
-    let whole = record(case.simulation(), &unwatched, |_, _| {})?;
+    let whole = record(case.simulation(), &no_progress, |_, _| {})?;
     assert_eq!((whole.impacts(), whole.end()), (run.impacts(), run.end()));
-    assert_eq!(outcome(&case, &unwatched), Ok(Outcome::of(&case)));
+    assert_eq!(outcome(&case, &no_progress), Ok(Outcome::of(&case)));
     let ensemble = Ensemble::about(&case, &Uncertainty::default(), 20, 1);
-    assert_eq!(ensemble.tally(&unwatched)?.members(), 20);
+    assert_eq!(ensemble.tally(&no_progress)?.members(), 20);
 
     let half = run.end().t / 2.0;
     let until = |t: f64| if t < half { Continue(()) } else { Break(()) };
@@ -310,17 +310,17 @@ fn all_long_work_can_be_watched_and_cancelled() -> Result<(), Unfinished> {
         }),
     ];
     for (name, work) in works {
-        let told = Mutex::new(Vec::new());
+        let reports = Mutex::new(Vec::new());
         work(&|progress: Progress| {
             assert!((0.0..=progress.of).contains(&progress.done), "{name}");
-            let mut told = told.lock().expect("no panic");
-            told.push((progress.doing.to_owned(), progress.done));
+            let mut reports = reports.lock().expect("no panic");
+            reports.push((progress.doing.to_owned(), progress.done));
             Continue(())
         })?;
-        let told = told.into_inner().expect("no panic");
-        assert!(!told.is_empty(), "{name} tells nothing");
+        let reports = reports.into_inner().expect("no panic");
+        assert!(!reports.is_empty(), "{name} reports nothing");
         let grows = |pair: &[(String, f64)]| pair[0].0 != pair[1].0 || pair[0].1 <= pair[1].1;
-        assert!(told.windows(2).all(grows), "{name}: {told:?}");
+        assert!(reports.windows(2).all(grows), "{name}: {reports:?}");
         let cancelled = work(&|_: Progress| Break(()));
         assert!(
             matches!(cancelled, Err(Unfinished::Cancelled(Cancelled { .. }))),

@@ -2,7 +2,7 @@
 
 use crate::agrees_with_closed_forms::string;
 use snapload::analysis::{
-    Certainty, NormErrors, TrustMonitor, Uncertainty, Unfinished, trusted_run, unwatched,
+    Certainty, NormErrors, TrustMonitor, Uncertainty, Unfinished, no_progress, trusted_run,
 };
 use snapload::{Case, Mode, Parameters, Rules, Simulation, State, named_case};
 
@@ -16,11 +16,17 @@ fn neighbours_have_norms_within_the_errors() -> Result<(), Unfinished> {
     };
     let doubt = 1e-9;
     let case = Case::new(certain)?;
-    let (run, trust) = trusted_run(&case, &Uncertainty::of_start(doubt), &unwatched)?;
+    let (run, trust) = trusted_run(&case, &Uncertainty::of_start(doubt), &no_progress)?;
     assert!(trust.decides_the_end());
-    let told = NormErrors::of(&run, &trust);
-    let told = [told.rho1, told.rho2, told.rho3, told.y_max, told.theta_max];
-    let told = told.map(|error| error.unwrap_or(f64::NAN));
+    let errors = NormErrors::of(&run, &trust);
+    let errors = [
+        errors.rho1,
+        errors.rho2,
+        errors.rho3,
+        errors.y_max,
+        errors.theta_max,
+    ];
+    let errors = errors.map(|error| error.unwrap_or(f64::NAN));
     let mut largest = [0.0_f64; 5];
     for (name, value) in [("x", certain.x), ("y", certain.y), ("vx", certain.vx)] {
         for side in [-doubt, doubt] {
@@ -37,10 +43,10 @@ fn neighbours_have_norms_within_the_errors() -> Result<(), Unfinished> {
             largest = std::array::from_fn(|k| largest[k].max(off[k].abs()));
         }
     }
-    for (largest, told) in largest.into_iter().zip(told) {
+    for (largest, error) in largest.into_iter().zip(errors) {
         assert!(
-            largest <= told && told <= 1e3 * largest,
-            "{largest:e} {told:e}"
+            largest <= error && error <= 1e3 * largest,
+            "{largest:e} {error:e}"
         );
     }
     Ok(())
@@ -57,10 +63,10 @@ fn extremes_are_known_where_impacts_come_at_once() -> Result<(), Unfinished> {
             stop_when_settled,
             ..Parameters::STANDARD
         })?;
-        let (run, trust) = trusted_run(&case, &Uncertainty::default(), &unwatched)?;
-        let told = NormErrors::of(&run, &trust);
-        for told in [told.y_max, told.theta_max] {
-            assert!(told.is_some_and(|error| error < 1e-10), "{told:?}");
+        let (run, trust) = trusted_run(&case, &Uncertainty::default(), &no_progress)?;
+        let errors = NormErrors::of(&run, &trust);
+        for error in [errors.y_max, errors.theta_max] {
+            assert!(error.is_some_and(|error| error < 1e-10), "{error:?}");
         }
     }
     Ok(())
@@ -82,9 +88,9 @@ fn neighbours_of_taut_motion_are_within_the_errors() -> Result<(), Unfinished> {
         let doubt = 1e-9;
         let mut uncertainty = Uncertainty::default();
         uncertainty.set("f_o", doubt)?;
-        let (run, trust) = trusted_run(&case, &uncertainty, &unwatched)?;
-        let told = NormErrors::of(&run, &trust);
-        let told = [told.y_max, told.theta_max].map(|error| error.unwrap_or(f64::NAN));
+        let (run, trust) = trusted_run(&case, &uncertainty, &no_progress)?;
+        let errors = NormErrors::of(&run, &trust);
+        let errors = [errors.y_max, errors.theta_max].map(|error| error.unwrap_or(f64::NAN));
         for side in [-doubt, doubt] {
             let f_o = certain.f_o + side;
             let other = Case::new(Parameters { f_o, ..certain })?.run();
@@ -93,8 +99,8 @@ fn neighbours_of_taut_motion_are_within_the_errors() -> Result<(), Unfinished> {
                 (ours.y_max - theirs.y_max).abs(),
                 (ours.theta_max - theirs.theta_max).abs(),
             ];
-            for (off, told) in off.into_iter().zip(told) {
-                assert!(off <= told && told < 1e-5, "{t_end}: {off:e} {told:e}");
+            for (off, error) in off.into_iter().zip(errors) {
+                assert!(off <= error && error < 1e-5, "{t_end}: {off:e} {error:e}");
             }
         }
     }
@@ -106,7 +112,7 @@ fn neighbours_of_taut_motion_are_within_the_errors() -> Result<(), Unfinished> {
 fn what_counts_impacts_past_the_horizon_is_not_known() -> Result<(), Unfinished> {
     let errors = |parameters: Parameters| -> Result<_, Unfinished> {
         let case = Case::new(parameters)?;
-        let (run, trust) = trusted_run(&case, &Uncertainty::default(), &unwatched)?;
+        let (run, trust) = trusted_run(&case, &Uncertainty::default(), &no_progress)?;
         let NormErrors {
             rho1,
             rho2,
@@ -134,7 +140,7 @@ fn what_counts_impacts_past_the_horizon_is_not_known() -> Result<(), Unfinished>
 fn certainty_is_that_of_the_trusted_run() -> Result<(), Unfinished> {
     for code in ["sliding-example", "rocking-example", "1910001000-359"] {
         let case = Case::new(named_case(code)?.parameters)?;
-        let (_, trust) = trusted_run(&case, &Uncertainty::default(), &unwatched)?;
+        let (_, trust) = trusted_run(&case, &Uncertainty::default(), &no_progress)?;
         assert_eq!(Certainty::of(&case).horizon, trust.horizon);
     }
     Ok(())
@@ -181,7 +187,8 @@ fn a_point_mass_has_four_exponents() {
             (parameters.a, parameters.b, parameters.inertia) = (0.0, 0.0, None);
         }
         let case = Case::new(parameters).expect("legal");
-        let (run, trust) = trusted_run(&case, &Uncertainty::default(), &unwatched).expect("a run");
+        let (run, trust) =
+            trusted_run(&case, &Uncertainty::default(), &no_progress).expect("a run");
         let slack = run.modes().iter().all(|interval| interval.taut.is_empty());
         assert!(slack && run.impacts().len() > 3, "{body}");
         assert_eq!(trust.exponents.len(), count);
@@ -204,7 +211,7 @@ fn an_inertia_can_be_in_doubt() {
             ..Parameters::STANDARD
         };
         let case = Case::new(parameters).expect("legal");
-        trusted_run(&case, &uncertainty, &unwatched)
+        trusted_run(&case, &uncertainty, &no_progress)
             .expect("legal")
             .1
             .errors[1]

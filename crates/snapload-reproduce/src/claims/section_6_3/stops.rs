@@ -4,27 +4,27 @@ use crate::ReportError;
 use crate::claims::motions::{ending, exceeds, places};
 use crate::claims::numbers::{max, min, span};
 use crate::claims::runs::{
-    FEW, MANY, SAME, Tabled, case, chapter, critical_force, first_rocking, from_starts, near,
+    FEW, MANY, SAME, TableRuns, case, chapter, critical_force, first_rocking, from_starts, near,
     outcome, past_settling, run, shapes_under, shown_span, standard,
 };
-use crate::claims::verdict::{Finding, Judged, Judges, Verdict};
+use crate::claims::verdict::{Checked, Checks, Finding, Verdict};
 use snapload::analysis::in_parallel;
 use snapload::{Case, CaseError, Outcome, Parameters, Playback, State, Stop, Trajectory};
-use snapload_verify::Run;
+use snapload_verify::RoundedRun;
 
-pub(super) const JUDGES: &Judges<fn(&Tabled) -> Judged> = &[
+pub(super) const CHECKS: &Checks<fn(&TableRuns) -> Checked> = &[
     ("6.3.1-01", rotates_easily),
     ("6.3.1-02", parts_pass_first),
-    ("6.3.1-03", little_energy),
+    ("6.3.1-03", energy_after_settling),
     ("6.3.1-04", |_| rocks_while_settling()),
     ("6.3.1-05", slides_for_a_while),
-    ("6.3.2-01", |tabled| {
-        let strong = case(tabled.study, "1910001000-559")?.parameters;
-        let runs = near(&chapter(strong), MANY, Run::of_doubles)?;
+    ("6.3.2-01", |table_runs| {
+        let strong = case(table_runs.study, "1910001000-559")?.parameters;
+        let runs = near(&chapter(strong), MANY, RoundedRun::of_doubles)?;
         Ok(Finding::robust(&runs, exceeds)
             .value(
                 "ending",
-                ending(case(tabled.study, "1910001000-559")?.exact.end()),
+                ending(case(table_runs.study, "1910001000-559")?.exact.end()),
             )
             .list("impacts", runs.iter().map(|run| run.snaps() as f64)))
     }),
@@ -41,8 +41,8 @@ fn spins(case: &Parameters) -> impl Iterator<Item = Parameters> + use<> {
         .map(move |vtheta| Parameters { vtheta, ..case })
 }
 
-fn rotates_easily(tabled: &Tabled) -> Judged {
-    let forced: Vec<Parameters> = tabled.cases.iter().flat_map(spins).collect();
+fn rotates_easily(table_runs: &TableRuns) -> Checked {
+    let forced: Vec<Parameters> = table_runs.cases.iter().flat_map(spins).collect();
     let free = forced.iter().map(|case| Parameters { f_o: 0.0, ..*case });
     let free: Vec<Parameters> = free.collect();
     let limit = |case: &Parameters| Ok(outcome(case)?.end.reason == Stop::RotationLimit);
@@ -57,7 +57,7 @@ fn rotates_easily(tabled: &Tabled) -> Judged {
     let members = with.iter().zip(&without);
     let members: Vec<[[usize; 2]; 2]> = members.map(|(p, q)| [counts(p), counts(q)]).collect();
     let more = |[with, without]: &[[usize; 2]; 2]| with[0] > without[0] && with[1] > without[1];
-    let cases = tabled.cases.len();
+    let cases = table_runs.cases.len();
     Ok(Finding::robust(&members, more)
         .values("cases spins", [cases, forced.len() - cases])
         .by_start(
@@ -74,9 +74,9 @@ fn rotates_easily(tabled: &Tabled) -> Judged {
         ))
 }
 
-fn parts_pass_first(tabled: &Tabled) -> Judged {
+fn parts_pass_first(table_runs: &TableRuns) -> Checked {
     const FORCES: [f64; 4] = [0.6, 0.7, 0.8, 0.9];
-    let strong = shapes_under(tabled.study, &FORCES);
+    let strong = shapes_under(table_runs.study, &FORCES);
     // The height of the highest point above the centre at any rotation, and the centre's height at
     // the stop.
     let found = from_starts(&strong, FEW, |parameters| {
@@ -109,7 +109,11 @@ const FAR: f64 = 0.1;
 
 /// The behaviour of a settled case in another 20 T: whether it stays low, over its members, and a
 /// description.
-fn gone_on(code: &str, case: Parameters, settled: &Run) -> Result<(Verdict, String), CaseError> {
+fn continued_after_settling(
+    code: &str,
+    case: Parameters,
+    settled: &RoundedRun,
+) -> Result<(Verdict, String), CaseError> {
     let from = settled.end().t;
     let mut case = past_settling(case);
     case.t_end = from + 20.0;
@@ -128,14 +132,15 @@ fn gone_on(code: &str, case: Parameters, settled: &Run) -> Result<(Verdict, Stri
     Ok((Verdict::robust(low), words))
 }
 
-fn little_energy(tabled: &Tabled) -> Judged {
-    let own = tabled.codes.iter().zip(tabled.own());
+fn energy_after_settling(table_runs: &TableRuns) -> Checked {
+    let own = table_runs.codes.iter().zip(table_runs.own());
     let settled: Vec<_> = own
         .filter(|(_, run)| run.end().reason == Stop::Settled)
         .collect();
     let on = in_parallel(settled.len(), |k| {
         let (code, run) = settled[k];
-        let (low, words) = gone_on(code, case(tabled.study, code)?.parameters, run)?;
+        let (low, words) =
+            continued_after_settling(code, case(table_runs.study, code)?.parameters, run)?;
         Ok::<_, ReportError>((low, words, run.system().energy(&run.end().state)))
     })?;
     let with = |verdict| on.iter().filter(move |case| case.0 == verdict);
@@ -151,7 +156,7 @@ fn little_energy(tabled: &Tabled) -> Judged {
     )
 }
 
-fn rocks_while_settling() -> Judged {
+fn rocks_while_settling() -> Checked {
     let forces = (1..=27).map(|k| f64::from(k) / 100.0);
     let cases: Vec<_> = forces
         .map(|f_o| past_settling(standard(|p| p.f_o = f_o)))
@@ -163,11 +168,11 @@ fn rocks_while_settling() -> Judged {
     Ok(Finding::new(Verdict::any(rocks)).values("sure all", [sure, cases.len()]))
 }
 
-fn slides_for_a_while(tabled: &Tabled) -> Judged {
+fn slides_for_a_while(table_runs: &TableRuns) -> Checked {
     const CODE: &str = "1921001000-559";
     /// The shortest time that is visible in a plot.
     const WHILE: f64 = 0.1;
-    let runs = near(&case(tabled.study, CODE)?.parameters, MANY, run)?;
+    let runs = near(&case(table_runs.study, CODE)?.parameters, MANY, run)?;
     let slide = |run: &Trajectory| {
         let first = run.modes().iter().find(|mode| mode.taut.len() == 1);
         first.map(|mode| (mode.t_start, mode.t_end))
@@ -181,7 +186,7 @@ fn slides_for_a_while(tabled: &Tabled) -> Judged {
         .value("while", WHILE))
 }
 
-fn initial_spin() -> Judged {
+fn initial_spin() -> Checked {
     let starts: Vec<Parameters> = spins(&Parameters::STANDARD).collect();
     let exceed = from_starts(&starts, FEW, |case| Ok(outcome(case)?.exceeds()))?;
     let spins = exceed.iter().map(|exceed| {
@@ -199,22 +204,26 @@ fn initial_spin() -> Judged {
 
 /// Whether the runs that settle do so under a force below the critical one of their body and
 /// cables.
-fn below_critical(tabled: &Tabled) -> Judged {
-    let settled: Vec<usize> = (0..tabled.codes.len())
-        .filter(|k| tabled.own()[*k].end().reason == Stop::Settled)
+fn below_critical(table_runs: &TableRuns) -> Checked {
+    let settled: Vec<usize> = (0..table_runs.codes.len())
+        .filter(|k| table_runs.own()[*k].end().reason == Stop::Settled)
         .collect();
     let first = in_parallel(settled.len(), |k| {
-        let case = &tabled.cases[settled[k]];
+        let case = &table_runs.cases[settled[k]];
         near(case, FEW, critical_force)
     })?;
     let below = settled.iter().zip(&first).map(|(k, first)| {
-        Verdict::robust(first.iter().map(|f_cr| tabled.cases[*k].f_o < f_cr - SAME))
+        Verdict::robust(
+            first
+                .iter()
+                .map(|f_cr| table_runs.cases[*k].f_o < f_cr - SAME),
+        )
     });
     let below: Vec<Verdict> = below.collect();
     let rows = settled.iter().zip(&below).zip(&first);
     let above = rows.filter(|((_, below), _)| **below != Verdict::Reproduced);
     let words = above.map(|((k, _), first)| {
-        let (f_o, code) = (tabled.cases[*k].f_o, tabled.codes[*k]);
+        let (f_o, code) = (table_runs.cases[*k].f_o, table_runs.codes[*k]);
         format!(
             "{code} ({f_o} against {})",
             shown_span(first.iter().copied())
@@ -233,7 +242,7 @@ fn below_critical(tabled: &Tabled) -> Judged {
 
 /// Whether a force on an ellipse leads to the rotation limit at more amplitudes than one along the
 /// horizontal.
-fn ellipse_turns() -> Judged {
+fn ellipse_turns() -> Checked {
     let amplitudes = || (1..=100).map(|k| f64::from(k) / 100.0);
     let with = |r: f64, nu: f64| {
         let cases =

@@ -3,12 +3,12 @@
 use crate::ReportError;
 use crate::claims::motions::{endings, exceeds, places};
 use crate::claims::numbers::{max, min};
-use crate::claims::runs::{Tabled, row};
-use crate::claims::verdict::{Finding, Judged, Judges, Verdict};
+use crate::claims::runs::{TableRuns, row};
+use crate::claims::verdict::{Checked, Checks, Finding, Verdict};
 use snapload::{Stop, anchor_height};
-use snapload_verify::Run;
+use snapload_verify::RoundedRun;
 
-pub(super) const JUDGES: &Judges<fn(&Tabled) -> Judged> = &[
+pub(super) const CHECKS: &Checks<fn(&TableRuns) -> Checked> = &[
     ("6.4.1-01", |_| {
         // The shapes of Figs 6.1-6.6.
         let pairs = [[0.1, 0.0], [0.1, 0.1], [0.2, 0.1]].map(by_length);
@@ -16,17 +16,17 @@ pub(super) const JUDGES: &Judges<fn(&Tabled) -> Judged> = &[
             .value("bottoms", pairs.map(|pair| measures(&pair)).join("; ")))
     }),
     ("6.4.1-02", wider),
-    ("6.4.1-03", |tabled| {
-        let members = tabled.of(["2910001000-359", "1910001000-359"])?;
-        let reasons = |runs: &[&Run; 2]| runs.map(|run| run.end().reason);
+    ("6.4.1-03", |table_runs| {
+        let members = table_runs.of(["2910001000-359", "1910001000-359"])?;
+        let reasons = |runs: &[&RoundedRun; 2]| runs.map(|run| run.end().reason);
         let as_said = [Stop::RotationLimit, Stop::Settled];
         Ok(Finding::robust(&members, |runs| reasons(runs) == as_said)
             .value("endings", endings(&members)))
     }),
-    ("6.4.1-04", |tabled| {
-        let first = row(tabled.study, 2.5, [0.1, 0.0])?.first();
+    ("6.4.1-04", |table_runs| {
+        let first = row(table_runs.study, 2.5, [0.1, 0.0])?.first();
         let critical = first.map_or(f64::INFINITY, |(f_o, _)| f_o);
-        let members = tabled.of(["2910001000-359"])?;
+        let members = table_runs.of(["2910001000-359"])?;
         let finding = Finding::robust(&members, |[run]| critical < 0.3 && exceeds(run));
         Ok(finding.value("critical", critical))
     }),
@@ -36,7 +36,7 @@ pub(super) const JUDGES: &Judges<fn(&Tabled) -> Judged> = &[
         let [by_width, by_height] = by_size(&rings, &high);
         Ok(Finding::new(Verdict::families([by_width, by_height]))
             .values("low high", [&rings, &high].map(|of| measures(of)))
-            .found("of_the_width", by_width == Verdict::Reproduced && narrower))
+            .condition("of_the_width", by_width == Verdict::Reproduced && narrower))
     }),
     ("6.4.1-06", |_| {
         let all = [(1.5, 0.0), (1.5, 0.1), (2.5, 0.0), (2.5, 0.1)];
@@ -44,23 +44,23 @@ pub(super) const JUDGES: &Judges<fn(&Tabled) -> Judged> = &[
         let finding = Finding::of(all.iter().all(|(r, b)| flattens(&by_width(*r, *b))));
         Ok(finding.value("bottoms", words.join("; ")))
     }),
-    ("6.4.1-07", |tabled| {
-        let rows = tabled.study.critical.iter().filter(|row| row.r == 1.5);
+    ("6.4.1-07", |table_runs| {
+        let rows = table_runs.study.critical.iter().filter(|row| row.r == 1.5);
         let flatter: Vec<bool> = rows.map(|row| flattens(&by_length(row.size))).collect();
         let count = flatter.iter().filter(|flatter| **flatter).count();
         Ok(Finding::of(count == flatter.len() && count > 0)
             .values("flatter shapes", [count, flatter.len()])
             .value("height", HEIGHT))
     }),
-    ("6.4.1-08", |tabled| {
-        let frames = frames(tabled)?;
+    ("6.4.1-08", |table_runs| {
+        let frames = frames(table_runs)?;
         let finding = Finding::robust(&frames, |[others, last]| !within(*last, *others));
         Ok(finding
             .by_start("others", frames.iter().map(|f| f[0]))
             .by_start("last", frames.iter().map(|f| f[1])))
     }),
-    ("6.4.1-40", |tabled| {
-        let frames = frames(tabled)?;
+    ("6.4.1-40", |table_runs| {
+        let frames = frames(table_runs)?;
         Ok(
             Finding::robust(&frames, |[others, last]| doubled(*others, *last).is_some())
                 .by_start("least", frames.iter().filter_map(|[p, q]| doubled(*p, *q)))
@@ -139,13 +139,13 @@ fn measures(bottoms: &[Bottom]) -> String {
 }
 
 /// The points of a run up to a time.
-fn points(run: &Run, until: f64) -> Vec<[f64; 2]> {
+fn points(run: &RoundedRun, until: f64) -> Vec<[f64; 2]> {
     places(|t| run.at(t), (0.0, until), 0.005)
 }
 
-fn wider(tabled: &Tabled) -> Judged {
-    let members = tabled.of(["1910001000-359", "2910001000-359"])?;
-    let until = |runs: &[&Run; 2]| min(runs.map(|run| run.end().t));
+fn wider(table_runs: &TableRuns) -> Checked {
+    let members = table_runs.of(["1910001000-359", "2910001000-359"])?;
+    let until = |runs: &[&RoundedRun; 2]| min(runs.map(|run| run.end().t));
     // The range of x of both runs, and the range of y in parts of it.
     let ranges = members.iter().map(|runs| {
         let points = runs.map(|run| points(run, until(runs)));
@@ -166,9 +166,9 @@ fn wider(tabled: &Tabled) -> Judged {
 
 /// Half-width and height of the smallest frame around the motions of Figs 6.1-6.5, and of the one
 /// around that of Fig. 6.6, by start.
-fn frames(tabled: &Tabled) -> Result<Vec<[[f64; 2]; 2]>, ReportError> {
+fn frames(table_runs: &TableRuns) -> Result<Vec<[[f64; 2]; 2]>, ReportError> {
     // Figs 6.1-6.6.
-    let members = tabled.of([
+    let members = table_runs.of([
         "1910001000-359",
         "2910001000-359",
         "1911001000-359",
@@ -176,7 +176,7 @@ fn frames(tabled: &Tabled) -> Result<Vec<[[f64; 2]; 2]>, ReportError> {
         "1921001000-359",
         "2921001000-359",
     ])?;
-    let extent = |run: &Run| {
+    let extent = |run: &RoundedRun| {
         let points = points(run, run.end().t);
         let x = points.iter().map(|p| p[0].abs());
         [max(x), max(points.iter().map(|p| p[1]))]

@@ -6,12 +6,12 @@ use crate::claims::numbers::{mean, span, spearman};
 use crate::claims::runs::{
     FEW, NEVER, SAME, chapter, critical_force, each, ensemble, of_runs, shown_span, standard,
 };
-use crate::claims::verdict::{Finding, Judged, Judges, Verdict};
+use crate::claims::verdict::{Checked, Checks, Finding, Verdict};
 use crate::study::{CriticalCurve, LARGEST, Reading, Study};
 use snapload::{CaseError, Parameters};
-use snapload_verify::Run;
+use snapload_verify::RoundedRun;
 
-pub(super) const JUDGES: &Judges<fn(&Study) -> Judged> = &[
+pub(super) const CHECKS: &Checks<fn(&Study) -> Checked> = &[
     ("6.4.2-11", |study| trend(study, "e", 1.5, -1.0)),
     ("6.4.2-12", |study| trend(study, "omega", 1.5, -1.0)),
     ("6.4.2-13", |study| trend(study, "e", 2.5, -1.0)),
@@ -39,7 +39,7 @@ fn of_table_6_1(key: &str) -> [f64; 2] {
 }
 
 /// The part of a curve over which the key varies in Table 6.1.
-fn tabled(curve: &CriticalCurve, reading: Reading) -> Points {
+fn points_in_table(curve: &CriticalCurve, reading: Reading) -> Points {
     between(curve, reading, of_table_6_1(curve.key))
 }
 
@@ -82,12 +82,12 @@ fn neighbours(curve: &CriticalCurve, values: &[f64]) -> Result<Vec<Points>, Case
 const TREND: f64 = 0.5;
 
 /// Whether there is a curve, which is not the case if no amplitude exceeds in a whole part.
-fn exists(points: &Points) -> bool {
+fn has_values(points: &Points) -> bool {
     points.iter().any(|p| p.1 < NEVER)
 }
 
 /// Whether points rise (1) or fall (-1).
-fn goes(points: &Points, sign: f64) -> bool {
+fn has_trend(points: &Points, sign: f64) -> bool {
     match (points.first(), points.last()) {
         (Some(first), Some(last)) => {
             sign * spearman(points) >= TREND && sign * (last.1 - first.1) > 0.0
@@ -97,7 +97,7 @@ fn goes(points: &Points, sign: f64) -> bool {
 }
 
 /// Whether a curve rises (1) or falls (-1), in each of its parts.
-fn trend(study: &Study, key: &str, r: f64, sign: f64) -> Judged {
+fn trend(study: &Study, key: &str, r: f64, sign: f64) -> Checked {
     let mut curves = study.curves.iter();
     let curve = curves
         .find(|curve| curve.key == key && curve.r == r)
@@ -112,12 +112,14 @@ fn trend(study: &Study, key: &str, r: f64, sign: f64) -> Judged {
         let without = Reading::BOTH
             .iter()
             .zip(&all)
-            .filter(|(_, points)| !exists(points))
-            .map(|(reading, _)| format!(", no curve where {}", reading.words()))
+            .filter(|(_, points)| !has_values(points))
+            .map(|(reading, _)| format!(", no curve where {}", reading.heading()))
             .collect::<String>();
         all.extend(neighbours(curve, &coarse)?);
-        all.retain(exists);
-        verdicts.push(Verdict::robust(all.iter().map(|points| goes(points, sign))));
+        all.retain(has_values);
+        verdicts.push(Verdict::robust(
+            all.iter().map(|points| has_trend(points, sign)),
+        ));
         let ends = |k: fn(&Points) -> Option<&(f64, f64)>| {
             shown_span(all.iter().filter_map(k).map(|p| p.1))
         };
@@ -139,12 +141,12 @@ fn trend(study: &Study, key: &str, r: f64, sign: f64) -> Judged {
 const EARLY: f64 = 5.0;
 
 /// Clear impacts per unit time, early in the motion.
-fn impact_rate(run: &Run) -> f64 {
+fn impact_rate(run: &RoundedRun) -> f64 {
     let until = run.end().t.min(EARLY);
     clear(run).filter(|hit| hit.t <= until).count() as f64 / until
 }
 
-fn impact_rates() -> Judged {
+fn impact_rates() -> Checked {
     let mut verdicts = Vec::new();
     let mut texts = Vec::new();
     for f_o in [0.05, 0.09] {
@@ -184,13 +186,13 @@ fn height(points: &[(f64, f64)], sign: f64) -> f64 {
 
 /// The local maxima (1) or minima (-1) of a curve, each with its neighbours on the curve.
 fn extremes(curve: &CriticalCurve, sign: f64) -> Vec<(&CriticalCurve, Points)> {
-    let mut points = tabled(curve, Reading::Chapter);
+    let mut points = points_in_table(curve, Reading::Chapter);
     points.dedup_by(|b, a| (a.1 - b.1).abs() < SAME);
     let found = points.windows(3).filter(|three| height(three, sign) > SAME);
     found.map(|three| (curve, three.to_vec())).collect()
 }
 
-fn local_extremes(study: &Study) -> Judged {
+fn local_extremes(study: &Study) -> Checked {
     let mut verdicts = Vec::new();
     let mut texts = Vec::new();
     for (sign, name) in [(1.0, "maxima"), (-1.0, "minima")] {
@@ -221,7 +223,7 @@ fn local_extremes(study: &Study) -> Judged {
         .value("same", SAME))
 }
 
-fn jumps(study: &Study) -> Judged {
+fn jumps(study: &Study) -> Checked {
     /// The least change of the critical force that counts as large: a third of that of the standard
     /// case.
     const MUCH: f64 = 0.1;
@@ -234,7 +236,7 @@ fn jumps(study: &Study) -> Judged {
         }
     };
     let steps = |curve| {
-        let points = tabled(curve, Reading::Chapter);
+        let points = points_in_table(curve, Reading::Chapter);
         let pairs: Vec<Points> = points.windows(2).map(<[_]>::to_vec).collect();
         pairs.into_iter().map(move |pair| (curve, pair))
     };
@@ -277,7 +279,7 @@ mod tests {
         assert_eq!(parts.len(), 2);
         let falls = parts
             .iter()
-            .map(|part| goes(&between(&curve, Reading::Chapter, *part), -1.0));
+            .map(|part| has_trend(&between(&curve, Reading::Chapter, *part), -1.0));
         let verdicts: Vec<Verdict> = falls.map(Verdict::of).collect();
         assert_eq!(verdicts, [Verdict::Reproduced, Verdict::NotReproduced]);
         assert_eq!(Verdict::families(verdicts), Verdict::Mixed);

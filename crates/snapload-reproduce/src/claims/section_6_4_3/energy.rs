@@ -3,10 +3,10 @@
 use super::{Sweep, Sweeps, Swept, USUAL, below_critical, place};
 use crate::claims::numbers::{count, max, min, span};
 use crate::claims::runs::{FEW, chapter, from_starts, past_settling, run, standard};
-use crate::claims::verdict::{Finding, Judged, Judges, Verdict};
+use crate::claims::verdict::{Checked, Checks, Finding, Verdict};
 use snapload::{CaseError, Parameters, Playback, Stop};
 
-pub(super) const JUDGES: &Judges<fn(&Sweeps) -> Judged> =
+pub(super) const CHECKS: &Checks<fn(&Sweeps) -> Checked> =
     &[("6.4.3-18", dissipated), ("6.4.3-20", optimum)];
 
 /// A measure of how effectively energy is dissipated; larger is better.
@@ -24,7 +24,7 @@ fn greatest(runs: &[&Swept], of: fn(&Swept) -> f64) -> Option<(bool, f64)> {
     Some((k > 0 && k + 1 < values.len(), runs[k].f_o))
 }
 
-fn optimum(sweeps: &Sweeps) -> Judged {
+fn optimum(sweeps: &Sweeps) -> Checked {
     let settled = |sweep: &'_ Sweep| -> Vec<Swept> {
         let settled = sweep.iter().filter(|run| run.reason == Stop::Settled);
         settled.cloned().collect()
@@ -85,7 +85,7 @@ fn is_dissipated((exceeds, energy): &Left) -> bool {
     exceeds.is_none_or(|t| t > SOON) && *energy <= (1.0 - GONE) * Parameters::STANDARD.y
 }
 
-fn dissipated(sweeps: &Sweeps) -> Judged {
+fn dissipated(sweeps: &Sweeps) -> Checked {
     let of_length = |r: f64, sweep: &Sweep| {
         let cases = below_critical(sweep).iter();
         let cases = cases.map(|run| chapter(standard(|p| (p.r, p.f_o) = (r, run.f_o))));
@@ -124,7 +124,7 @@ fn dissipated(sweeps: &Sweeps) -> Judged {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use snapload_verify::Run;
+    use snapload_verify::RoundedRun;
 
     #[test]
     fn a_stop_is_no_dissipation() {
@@ -135,7 +135,7 @@ mod tests {
 
     #[test]
     fn an_optimum_lies_inside() -> Result<(), CaseError> {
-        let run = Run::of_doubles(&Parameters {
+        let run = RoundedRun::of_doubles(&Parameters {
             e: 0.5,
             ..Parameters::STANDARD
         })?;

@@ -4,11 +4,11 @@ use super::{STEADY, Sweeps, spread};
 use crate::ReportError;
 use crate::claims::numbers::{min, span, spearman};
 use crate::claims::runs::{FEW, chapter, each, near, row, run, standard};
-use crate::claims::verdict::{Finding, Judged, Judges, Verdict};
+use crate::claims::verdict::{Checked, Checks, Finding, Verdict};
 use snapload::analysis::ForceScan;
 use snapload::{Case, CaseError, Limit, Parameters, Playback, Rules, Simulation, Stop, Trajectory};
 
-pub(super) const JUDGES: &Judges<fn(&Sweeps) -> Judged> = &[
+pub(super) const CHECKS: &Checks<fn(&Sweeps) -> Checked> = &[
     ("6.4.3-06", |sweeps| {
         let points = largest_snaps((0..=19).map(|k| f64::from(k) / 20.0), point)?;
         let (rank, at) = (spearman(&points), [0, 10, 18].map(|k| points[k].1));
@@ -20,7 +20,7 @@ pub(super) const JUDGES: &Judges<fn(&Sweeps) -> Judged> = &[
             .values("rank same steady", [rank, 100.0 * same, 100.0 * STEADY]))
     }),
     ("6.4.3-08", |_| slack_at_start()),
-    ("6.4.3-09", |_| way_to_first_impact()),
+    ("6.4.3-09", |_| path_to_first_impact()),
     ("6.4.3-17", |sweeps| {
         let proved = |r: f64| {
             let first = row(sweeps.study, r, [0.1, 0.0])?.first();
@@ -60,8 +60,8 @@ pub(super) const JUDGES: &Judges<fn(&Sweeps) -> Judged> = &[
         let held = largest_snaps(same_forces(sweeps), heavy)?;
         let held = spread(held.iter().map(|p| p.1));
         let turning = spread(sweeps.short[0].iter().map(|run| run.norms.rho1));
-        Ok(Finding::of(owed_to_turning(held, turning))
-            .found("constant_anyway", held < STEADY && turning < STEADY)
+        Ok(Finding::of(constant_because_of_rotation(held, turning))
+            .condition("constant_anyway", held < STEADY && turning < STEADY)
             .values(
                 "held turning steady",
                 [held, turning, STEADY].map(|part| 100.0 * part),
@@ -70,7 +70,7 @@ pub(super) const JUDGES: &Judges<fn(&Sweeps) -> Judged> = &[
 ];
 
 /// Whether ρ1 is constant for a body that can turn and not for one that can not.
-fn owed_to_turning(held: f64, turning: f64) -> bool {
+fn constant_because_of_rotation(held: f64, turning: f64) -> bool {
     held >= STEADY && turning < STEADY
 }
 
@@ -146,7 +146,7 @@ fn pair(parameters: Parameters) -> Result<[Case; 2], CaseError> {
     ])
 }
 
-fn slack_at_start() -> Judged {
+fn slack_at_start() -> Checked {
     let slack = |case: &Case| {
         let simulation = case.simulation();
         let cables = simulation.system().cables.iter();
@@ -173,16 +173,16 @@ fn slack_at_start() -> Judged {
         ));
     }
     Ok(Finding::of(found.iter().all(|f| f.0))
-        .found("both_fall_equally", found.iter().all(|f| f.1))
+        .condition("both_fall_equally", found.iter().all(|f| f.1))
         .value("lengths", texts.join("; ")))
 }
 
-fn way_to_first_impact() -> Judged {
+fn path_to_first_impact() -> Checked {
     let mut found = Vec::new();
     let mut texts = Vec::new();
     for f_o in [0.1, 0.3, 0.5, 1.0] {
         let runs = pair(standard(|p| p.f_o = f_o))?.map(|case| case.run());
-        let [rigid, point] = runs.each_ref().map(way);
+        let [rigid, point] = runs.each_ref().map(path_length);
         let first = |run: &Trajectory| run.impacts().first().map(|hit| (hit.t, hit.v_n));
         let [p, q] = runs
             .each_ref()
@@ -196,13 +196,13 @@ fn way_to_first_impact() -> Judged {
     // The path is longer, and the more so the stronger the force.
     let more = found.windows(2).all(|pair| pair[1].0 > pair[0].0);
     Ok(Finding::of(more && found.iter().all(|f| f.0 > 0.0))
-        .found("earlier", found.iter().all(|f| f.0 < 0.0 && f.1))
+        .condition("earlier", found.iter().all(|f| f.0 < 0.0 && f.1))
         .value("ways", texts.join(", ")))
 }
 
 /// The length of the centre's path up to the first impact, from its speed at the middle of each of
 /// many steps.
-fn way(run: &Trajectory) -> f64 {
+fn path_length(run: &Trajectory) -> f64 {
     let steps = 400;
     let until = run.impacts().first().map_or(run.end().t, |impact| impact.t);
     let mut playback = Playback::new(run);
@@ -223,8 +223,10 @@ mod tests {
     }
 
     #[test]
-    fn what_is_constant_anyway_is_not_owed_to_turning() {
-        assert!(owed_to_turning(0.2, 0.04));
-        assert!(!owed_to_turning(0.07, 0.04) && !owed_to_turning(0.2, 0.2));
+    fn a_constant_without_rotation_is_not_because_of_rotation() {
+        assert!(constant_because_of_rotation(0.2, 0.04));
+        assert!(
+            !constant_because_of_rotation(0.07, 0.04) && !constant_because_of_rotation(0.2, 0.2)
+        );
     }
 }

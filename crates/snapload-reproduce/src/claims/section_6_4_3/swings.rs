@@ -6,18 +6,18 @@ use super::{
 };
 use crate::claims::motions::LARGE;
 use crate::claims::numbers::{max, min, span, spearman};
-use crate::claims::verdict::{Finding, Judged, Judges};
+use crate::claims::verdict::{Checked, Checks, Finding};
 
-pub(super) const JUDGES: &Judges<fn(&Sweeps) -> Judged> = &[
+pub(super) const CHECKS: &Checks<fn(&Sweeps) -> Checked> = &[
     ("6.4.3-11", |sweeps| {
-        Ok(told(sweeps, |run| run.largest_swing))
+        Ok(change_with_force(sweeps, |run| run.largest_swing))
     }),
     ("6.4.3-23", |sweeps| {
         let rates = sweeps.short.iter().map(|sweep| {
             let [low, high] = halves(sweep, |run| run.turns);
             [low.0, high.0]
         });
-        let number = told(sweeps, |run| run.large_swings.len() as f64);
+        let number = change_with_force(sweeps, |run| run.large_swings.len() as f64);
         Ok(number.value("angle", LARGE).by_start("rates", rates))
     }),
     ("6.4.3-12", |sweeps| {
@@ -39,7 +39,7 @@ pub(super) const JUDGES: &Judges<fn(&Sweeps) -> Judged> = &[
         let changes = |sweep: &Sweep| ups_and_downs(&swings(sweep)).unwrap_or_default();
         let changes: Vec<[f64; 3]> = sweeps.long.iter().map(changes).collect();
         Ok(Finding::robust(&changes, |all| min(*all) > SEEN)
-            .found(
+            .condition(
                 "but_the_last",
                 changes.iter().all(|[p, q, _]| p.min(*q) > SEEN),
             )
@@ -60,7 +60,7 @@ fn constant_then_grows(([low, high], rho): &Growth) -> bool {
 }
 
 /// The finding on a quantity of the swings under weak forces and under strong ones.
-fn told(sweeps: &Sweeps, figure: fn(&Swept) -> f64) -> Finding {
+fn change_with_force(sweeps: &Sweeps, figure: fn(&Swept) -> f64) -> Finding {
     let of = |sweep: &Sweep| {
         let rho = spearman(&over_force(below_critical(sweep), figure));
         (halves(sweep, figure), rho)

@@ -3,26 +3,26 @@
 use super::{Material, kind};
 use crate::claims::numbers::{max, min};
 use crate::claims::runs::{MANY, near, run};
-use crate::claims::verdict::{Finding, Judged, Judges};
+use crate::claims::verdict::{Checked, Checks, Finding};
 use snapload::{CaseError, ModeInterval, Motion, Playback, Stop, Trajectory, named_case};
 
-pub(super) const JUDGES: &Judges<fn(&Material) -> Judged> = &[
+pub(super) const CHECKS: &Checks<fn(&Material) -> Checked> = &[
     ("6.5.2.2-03", |of| {
         let members = &of.strong;
         let slides = |of: &Rocking| from_rocking(&of.run).iter().any(|m| kind(m) == "sliding");
-        let on = members.iter().filter(|of| of.goes_on()).count();
+        let on = members.iter().filter(|of| of.keeps_rocking()).count();
         Ok(Finding::robust(members, slides)
             .list("from", members.iter().map(|of| of.start))
             .list("tension", members.iter().map(Rocking::least_tension))
             .values("on starts", [on, members.len()])
-            .found("all_go_on", on == members.len()))
+            .condition("all_go_on", on == members.len()))
     }),
     ("6.5.2.2-04", |of| {
         let height = |of: &Rocking| of.largest_late(|now| now.state.y);
         let heights = of.strong.iter().map(height);
         Ok(Finding::measured("heights", heights, |y| y < LOW)
             .value("low", LOW)
-            .found("all_go_on", of.strong.iter().all(Rocking::goes_on)))
+            .condition("all_go_on", of.strong.iter().all(Rocking::keeps_rocking)))
     }),
     ("6.5.2.2-14", |of| {
         /// A motion dies out if its remaining part is below the first number, and does not above
@@ -36,7 +36,7 @@ pub(super) const JUDGES: &Judges<fn(&Material) -> Judged> = &[
             .list("weak", weak)
             .list("strong", strong)
             .value("dying", DYING)
-            .found("lasting", all.iter().all(|left| *left > LASTING)))
+            .condition("lasting", all.iter().all(|left| *left > LASTING)))
     }),
 ];
 
@@ -83,7 +83,7 @@ impl Rocking {
         Self { run, start, motion }
     }
 
-    pub(super) fn goes_on(&self) -> bool {
+    pub(super) fn keeps_rocking(&self) -> bool {
         rocks_on(&self.run)
     }
 

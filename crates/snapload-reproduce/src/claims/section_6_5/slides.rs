@@ -2,10 +2,10 @@
 
 use super::{Material, kind};
 use crate::claims::motions::{push, weight_push};
-use crate::claims::verdict::{Finding, Judged, Judges};
+use crate::claims::verdict::{Checked, Checks, Finding};
 use snapload::{Impact, ModeInterval, Motion, Playback, Trajectory};
 
-pub(super) const JUDGES: &Judges<fn(&Material) -> Judged> = &[
+pub(super) const CHECKS: &Checks<fn(&Material) -> Checked> = &[
     ("6.5.1-01", |of| {
         let by_wave = nearly_all(of, |slides| slides.more);
         let weight = of
@@ -13,13 +13,13 @@ pub(super) const JUDGES: &Judges<fn(&Material) -> Judged> = &[
             .iter()
             .all(|slides| slides.are_nearly_all(slides.all - slides.more));
         let pushed = of.slides.iter().map(|slides| slides.pushed as f64);
-        Ok(by_wave.list("pushed", pushed).found("weight", weight))
+        Ok(by_wave.list("pushed", pushed).condition("weight", weight))
     }),
     ("6.5.1-02", |of| {
         let turned = nearly_all(of, |slides| slides.turned);
         let first = of.slides.iter().all(|slides| 2 * slides.hit > slides.all);
         let hit = of.slides.iter().map(|slides| slides.hit as f64);
-        Ok(turned.list("hit", hit).found("hit_first", first))
+        Ok(turned.list("hit", hit).condition("hit_first", first))
     }),
 ];
 
@@ -29,7 +29,7 @@ const NEARLY_ALL: f64 = 0.8;
 /// The finding on a statement that should hold for nearly all slides.
 fn nearly_all(of: &Material, part: fn(&Slides) -> usize) -> Finding {
     let holds = Finding::robust(&of.slides, |slides| slides.are_nearly_all(part(slides)));
-    of.told(holds)
+    of.with_counts(holds)
         .list("part", of.slides.iter().map(|slides| part(slides) as f64))
         .list("all", of.slides.iter().map(|slides| slides.all as f64))
         .values("shortest nearly", [SHORTEST, 100.0 * NEARLY_ALL])

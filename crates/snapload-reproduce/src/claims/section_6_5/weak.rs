@@ -6,10 +6,10 @@ use crate::ReportError;
 use crate::claims::motions::CLEAR;
 use crate::claims::numbers::{max, mean, min, spearman};
 use crate::claims::runs::case;
-use crate::claims::verdict::{Finding, Judged, Judges};
+use crate::claims::verdict::{Checked, Checks, Finding};
 use snapload::{Impact, Motion, State, System};
 
-pub(super) const JUDGES: &Judges<fn(&Material) -> Judged> = &[
+pub(super) const CHECKS: &Checks<fn(&Material) -> Checked> = &[
     ("6.5.2.2-05", |of| {
         let low = |of: &Rocking| of.motion.iter().all(|now| now.state.y < LOW);
         let widest = |of: &Rocking| {
@@ -18,14 +18,16 @@ pub(super) const JUDGES: &Judges<fn(&Material) -> Judged> = &[
                 largest(of, |now| now.state.theta.abs()),
             ]
         };
-        Ok(Finding::robust(&of.weak, |of| of.goes_on() && low(of))
-            .list("from", of.weak.iter().map(|of| of.start))
-            .by_start("widest", of.weak.iter().map(widest))
-            .value("low", LOW))
+        Ok(
+            Finding::robust(&of.weak, |of| of.keeps_rocking() && low(of))
+                .list("from", of.weak.iter().map(|of| of.start))
+                .by_start("widest", of.weak.iter().map(widest))
+                .value("low", LOW),
+        )
     }),
     ("6.5.2.2-06", |of| {
-        let on = of.weak.iter().filter(|of| of.goes_on()).count();
-        let held = |of: &Rocking| of.goes_on() && of.least_tension() > 0.0;
+        let on = of.weak.iter().filter(|of| of.keeps_rocking()).count();
+        let held = |of: &Rocking| of.keeps_rocking() && of.least_tension() > 0.0;
         Ok(Finding::robust(&of.weak, held)
             .values("on starts", [on, of.weak.len()])
             .list("tension", of.weak.iter().map(Rocking::least_tension)))
@@ -56,7 +58,7 @@ pub(super) const JUDGES: &Judges<fn(&Material) -> Judged> = &[
         let ratio = |of: &Forces| of.weight / of.horizontal;
         Ok(Finding::robust(&forces, |of| of.horizontal_controls())
             .list("ratio", forces.iter().map(ratio))
-            .found("weight_counts", forces.iter().all(|of| ratio(of) >= 1.0)))
+            .condition("weight_counts", forces.iter().all(|of| ratio(of) >= 1.0)))
     }),
     ("6.5.2.2-09", |of| {
         let members = bouncing(of)?;
@@ -73,7 +75,9 @@ pub(super) const JUDGES: &Judges<fn(&Material) -> Judged> = &[
     ("6.5.2.2-10", |of| {
         /// The least rank correlation that counts as a relation.
         const GOES_WITH: f64 = 0.5;
-        let rho = bouncing(of)?.into_iter().map(|of| turned_away(&clear(&of)));
+        let rho = bouncing(of)?
+            .into_iter()
+            .map(|of| rotation_against_height(&clear(&of)));
         let finding = Finding::measured("rho", rho, |rho| rho > GOES_WITH);
         Ok(finding.values("goes_with plain", [GOES_WITH, CLEAR]))
     }),
@@ -152,7 +156,7 @@ fn clear(impacts: &[Above]) -> Vec<Above> {
 }
 
 /// Rank correlation of the height above the arc and the rotation relative to that on it.
-fn turned_away(impacts: &[Above]) -> f64 {
+fn rotation_against_height(impacts: &[Above]) -> f64 {
     let points = impacts.iter().map(|hit| (hit.height, hit.turned));
     spearman(&points.collect::<Vec<_>>())
 }
@@ -264,7 +268,7 @@ mod tests {
                 height: k as f64,
                 turned: turned[k],
             };
-            turned_away(&[0, 1, 2].map(impact))
+            rotation_against_height(&[0, 1, 2].map(impact))
         };
         assert!(with([0.1, 0.2, 0.3]) > 0.5 && with([0.3, 0.2, 0.1]) < 0.0);
     }

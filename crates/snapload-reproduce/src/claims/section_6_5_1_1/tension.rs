@@ -3,9 +3,9 @@
 use super::{BODIES, FORCE, Material, SEED, Sliding};
 use crate::claims::newton::{LEFT, Numbers, length, over, tension_residual};
 use crate::claims::numbers::holds;
-use crate::claims::verdict::{Finding, Judged};
+use crate::claims::verdict::{Checked, Finding};
 
-pub(super) fn compression(of: &Material) -> Judged {
+pub(super) fn compression(of: &Material) -> Checked {
     let size = |q: &Sliding| length(q.terms().into_iter().take(2));
     let residual = over(&of.left, |q| [size(q) - 2.0 * q.lambda.abs() * q.m.r]);
     // A force along the span, from the anchor to the body, pushes the body away.
@@ -20,10 +20,10 @@ pub(super) fn compression(of: &Material) -> Judged {
         .values("residual tension", [residual, tension]))
 }
 
-pub(super) fn loss(of: &Material) -> Judged {
+pub(super) fn loss(of: &Material) -> Checked {
     let count =
         |states: &[Sliding], holds: fn(&&Sliding) -> bool| states.iter().filter(holds).count();
-    let agree = |states| count(states, |q| q.said_lost() == (q.lambda > 0.0));
+    let agree = |states| count(states, |q| q.has_lost_tension() == (q.lambda > 0.0));
     let lost = |states| count(states, |q| q.lambda > 0.0);
     let (left, right, blind) = (&of.left[..], &of.right[..], &pointing_to_the_centre()[..]);
     let all = agree(left) == left.len() && agree(right) == right.len();
@@ -37,7 +37,7 @@ pub(super) fn loss(of: &Material) -> Judged {
             [right.len(), agree(right), lost(right)],
         )
         .values("blind blind_lost", [blind.len(), lost(blind)])
-        .value("seen", count(blind, |q| q.said_lost())))
+        .value("seen", count(blind, |q| q.has_lost_tension())))
 }
 
 /// Circles whose cable points to their centre, β = α, for which 6.44 is not defined.

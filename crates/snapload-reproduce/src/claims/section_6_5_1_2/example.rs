@@ -2,14 +2,14 @@
 
 use crate::claims::motions::{CLEAR, attachment_speed, places};
 use crate::claims::numbers::{max, min};
-use crate::claims::verdict::{Finding, Judged, Judges, Verdict};
-use crate::story::slides;
+use crate::claims::verdict::{Checked, Checks, Finding, Verdict};
+use crate::example_steps::slides;
 use snapload::{Impact, ModeInterval, Motion, Playback, TautSet, Trajectory};
 
-pub(super) const JUDGES: &Judges<fn(&Example) -> Judged> = &[
+pub(super) const CHECKS: &Checks<fn(&Example) -> Checked> = &[
     ("6.5.1.2-05", |of| {
-        let ways = |s: &Story| [s.goes(1.0), s.goes(-1.0)];
-        let count = |way: usize| of.stories.iter().filter(|s| ways(s)[way]).count();
+        let ways = |s: &RunEvents| [s.moves(1.0), s.moves(-1.0)];
+        let count = |way: usize| of.sliding_runs.iter().filter(|s| ways(s)[way]).count();
         Ok(of
             .robust(|s| ways(s) == [true; 2])
             .values("members up down", [of.members, count(0), count(1)]))
@@ -18,45 +18,45 @@ pub(super) const JUDGES: &Judges<fn(&Example) -> Judged> = &[
         /// The largest ratio of the connection point's speed to the centre's at which the point
         /// counts as resting.
         const TURNS: f64 = 0.5;
-        let least = || of.stories.iter().map(Story::least_turning);
+        let least = || of.sliding_runs.iter().map(RunEvents::least_turning);
         Ok(of
             .robust(|s| s.least_turning() < TURNS)
             .list("least", least())
             .values("turns shortest", [TURNS, SHORTEST])
-            .found("never_turns", least().all(|least| least >= TURNS)))
+            .condition("never_turns", least().all(|least| least >= TURNS)))
     }),
     ("6.5.1.2-06", |of| {
         Ok(of
             .robust(on_the_left)
-            .list("from", of.stories.iter().map(|s| s.start.t))
-            .values("slide members", [of.stories.len(), of.members]))
+            .list("from", of.sliding_runs.iter().map(|s| s.start.t))
+            .values("slide members", [of.sliding_runs.len(), of.members]))
     }),
     ("6.5.1.2-07", |of| {
         /// The height from which on a stuck cable means sliding.
         const SLIDING_ABOVE: f64 = 0.05;
-        let heights = || of.stories.iter().map(|s| s.start.state.y);
+        let heights = || of.sliding_runs.iter().map(|s| s.start.state.y);
         Ok(of
             .robust(|s| s.start.state.y >= SLIDING_ABOVE)
             .list("heights", heights())
-            .found("below", heights().all(|y| y < SLIDING_ABOVE)))
+            .condition("below", heights().all(|y| y < SLIDING_ABOVE)))
     }),
     ("6.5.1.2-08", |of| {
-        let first = || of.stories.iter().filter_map(|s| s.hits.first());
+        let first = || of.sliding_runs.iter().filter_map(|s| s.hits.first());
         Ok(of
             .robust(|s| !s.hits.is_empty())
             .list("times", first().map(|hit| hit.t))
             .list("velocities", first().map(|hit| hit.v_n)))
     }),
     ("6.5.1.2-09", |of| {
-        let slides_on = |s: &Story| {
+        let slides_on = |s: &RunEvents| {
             let hit = s.hits.first();
             hit.and_then(|hit| s.taut_after(hit.t)) == Some(TautSet::only(LEFT))
         };
-        let going_on = of.stories.iter().filter(|s| slides_on(s)).count();
+        let going_on = of.sliding_runs.iter().filter(|s| slides_on(s)).count();
         Ok(of
             .robust(slides_on)
             .values("going_on members", [going_on, of.members])
-            .found("never", going_on == 0))
+            .condition("never", going_on == 0))
     }),
     ("6.5.1.2-10", |of| {
         // The proved slides of the example itself, then those of its neighbours.
@@ -64,7 +64,7 @@ pub(super) const JUDGES: &Judges<fn(&Example) -> Judged> = &[
             .into_iter()
             .filter_map(|(_, v_n)| v_n)
             .collect();
-        let neighbours = of.stories.iter().skip(1);
+        let neighbours = of.sliding_runs.iter().skip(1);
         let hits = neighbours.map(|s| s.hits.iter().map(|hit| hit.v_n).collect());
         let members: Vec<Vec<f64>> = std::iter::once(proved).chain(hits).collect();
         let clear = |hits: &Vec<f64>| hits.iter().filter(|v_n| **v_n > CLEAR).count();
@@ -77,16 +77,25 @@ pub(super) const JUDGES: &Judges<fn(&Example) -> Judged> = &[
             .list("clear", members.iter().map(|hits| clear(hits) as f64))
             .value("above", CLEAR)
             .value("many", MANY_HITS)
-            .found("small_ones", members.iter().all(|hits| is_many(hits.len()))))
+            .condition("small_ones", members.iter().all(|hits| is_many(hits.len()))))
     }),
     ("6.5.1.2-11", |of| {
-        let turning = |s: &Story| s.seen().filter(|slide| turns_back(slide)).count();
-        let moves: Vec<[f64; 2]> = of.stories.iter().filter_map(Story::rise_and_fall).collect();
-        let none = of.stories.iter().all(|s| turning(s) == 0);
+        let turning = |s: &RunEvents| s.visible_slides().filter(|slide| turns_back(slide)).count();
+        let moves: Vec<[f64; 2]> = of
+            .sliding_runs
+            .iter()
+            .filter_map(RunEvents::rise_and_fall)
+            .collect();
+        let none = of.sliding_runs.iter().all(|s| turning(s) == 0);
         Ok(of
             .robust(|s| turning(s) > 0)
-            .list("turning", of.stories.iter().map(|s| turning(s) as f64))
-            .list("slides", of.stories.iter().map(|s| s.seen().count() as f64))
+            .list("turning", of.sliding_runs.iter().map(|s| turning(s) as f64))
+            .list(
+                "slides",
+                of.sliding_runs
+                    .iter()
+                    .map(|s| s.visible_slides().count() as f64),
+            )
             .value(
                 "proved",
                 slides(CASE)
@@ -97,52 +106,56 @@ pub(super) const JUDGES: &Judges<fn(&Example) -> Judged> = &[
             .list("up", moves.iter().map(|m| m[0]))
             .list("down", moves.iter().map(|m| m[1]))
             .value("shortest", SHORTEST)
-            .found("in_flight", none && !moves.is_empty()))
+            .condition("in_flight", none && !moves.is_empty()))
     }),
     ("6.5.1.2-17", |of| {
-        let rise = |s: &Story| {
+        let rise = |s: &RunEvents| {
             let end = s.run.at(s.first.t_end.next_down()).state.y;
             end - s.start.state.y
         };
-        let lasts = |s: &Story| s.first.t_end - s.first.t_start;
+        let lasts = |s: &RunEvents| s.first.t_end - s.first.t_start;
         Ok(of
             .robust(|s| rise(s) < 0.0)
-            .list("rise", of.stories.iter().map(rise))
-            .list("lasts", of.stories.iter().map(lasts)))
+            .list("rise", of.sliding_runs.iter().map(rise))
+            .list("lasts", of.sliding_runs.iter().map(lasts)))
     }),
     ("6.5.1.2-19", |of| {
-        let at_its_end = |s: &Story| s.hits.first().is_some_and(|hit| hit.t == s.first.t_end);
+        let at_its_end = |s: &RunEvents| s.hits.first().is_some_and(|hit| hit.t == s.first.t_end);
         Ok(of
             .robust(at_its_end)
-            .list("ends", of.stories.iter().map(|s| s.first.t_end)))
+            .list("ends", of.sliding_runs.iter().map(|s| s.first.t_end)))
     }),
     ("6.5.1.2-12", |of| {
-        let places = || of.stories.iter().map(|s| s.start.state.x);
-        let sliding = of.stories.iter().flat_map(Story::sliding);
+        let places = || of.sliding_runs.iter().map(|s| s.start.state.x);
+        let sliding = of.sliding_runs.iter().flat_map(RunEvents::sliding);
         let on_left = of.robust(on_the_left).verdict == Verdict::Reproduced;
         Ok(of
             .robust(|s| s.start.state.x < 0.0 && s.sliding().any(|m| m.state.x > 0.0))
             .list("start", places())
             .list("all", sliding.map(|now| now.state.x))
             .value("shortest", SHORTEST)
-            .list("theta", of.stories.iter().map(|s| s.start.state.theta))
-            .found("on_the_right", on_left && places().all(|x| x > 0.0)))
+            .list("theta", of.sliding_runs.iter().map(|s| s.start.state.theta))
+            .condition("on_the_right", on_left && places().all(|x| x > 0.0)))
     }),
     ("6.5.1.2-13", |of| {
-        let common = of.stories.iter().filter_map(Story::overlap).flatten();
+        let common = of
+            .sliding_runs
+            .iter()
+            .filter_map(RunEvents::overlap)
+            .flatten();
         Ok(of.robust(|s| s.overlap().is_some()).list("common", common))
     }),
     ("6.5.1.2-14", |of| {
-        let rocks = of.stories.iter().filter_map(|s| s.rocks);
+        let rocks = of.sliding_runs.iter().filter_map(|s| s.rocks);
         let ends = of.robust(|s| s.rocks_after_slide());
         Ok(ends.list("times", rocks.map(|(now, _)| now.t)))
     }),
     ("6.5.1.2-15", |of| {
         /// The least kinetic energy that does not count as rest.
         const MOVING: f64 = 1e-3;
-        let kinetic = |s: &Story| s.rocks.map(|(now, _)| now.energy - now.state.y);
-        let moves = |s: &Story| s.rocks_after_slide() && kinetic(s) > Some(MOVING);
-        let energies = of.stories.iter().filter_map(kinetic);
+        let kinetic = |s: &RunEvents| s.rocks.map(|(now, _)| now.energy - now.state.y);
+        let moves = |s: &RunEvents| s.rocks_after_slide() && kinetic(s) > Some(MOVING);
+        let energies = of.sliding_runs.iter().filter_map(kinetic);
         Ok(of
             .robust(moves)
             .list("kinetic", energies)
@@ -172,22 +185,22 @@ fn turns_back(motion: &[Motion]) -> bool {
 
 /// The example and its neighbours: those that slide, and the number of all.
 pub(super) struct Example<'a> {
-    stories: Vec<Story<'a>>,
+    sliding_runs: Vec<RunEvents<'a>>,
     members: usize,
 }
 
 impl<'a> Example<'a> {
     pub(super) fn of(runs: &'a [Trajectory]) -> Self {
         Self {
-            stories: runs.iter().filter_map(Story::of).collect(),
+            sliding_runs: runs.iter().filter_map(RunEvents::of).collect(),
             members: runs.len(),
         }
     }
 
     /// The finding on a statement about all members; it does not hold for one without a slide.
-    fn robust(&self, holds: impl Fn(&Story) -> bool) -> Finding {
-        let absent = std::iter::repeat_n(false, self.members - self.stories.len());
-        let members = self.stories.iter().map(holds).chain(absent);
+    fn robust(&self, holds: impl Fn(&RunEvents) -> bool) -> Finding {
+        let absent = std::iter::repeat_n(false, self.members - self.sliding_runs.len());
+        let members = self.sliding_runs.iter().map(holds).chain(absent);
         Finding::new(Verdict::robust(members))
     }
 }
@@ -199,7 +212,7 @@ struct Slide {
 }
 
 /// The events of one run, in the chapter's order.
-struct Story<'a> {
+struct RunEvents<'a> {
     run: &'a Trajectory,
     /// The first slide.
     first: ModeInterval,
@@ -213,7 +226,7 @@ struct Story<'a> {
     rocks: Option<(Motion, bool)>,
 }
 
-impl<'a> Story<'a> {
+impl<'a> RunEvents<'a> {
     fn of(run: &'a Trajectory) -> Option<Self> {
         /// The number of times at which a slide is evaluated.
         const TIMES: usize = 200;
@@ -266,18 +279,18 @@ impl<'a> Story<'a> {
     }
 
     /// Its visible slides.
-    fn seen(&self) -> impl Iterator<Item = &[Motion]> {
+    fn visible_slides(&self) -> impl Iterator<Item = &[Motion]> {
         let long = self.slides.iter().filter(|slide| slide.lasts > SHORTEST);
         long.map(|slide| slide.motion.as_slice())
     }
 
     /// All times of these.
     fn sliding(&self) -> impl Iterator<Item = &Motion> {
-        self.seen().flatten()
+        self.visible_slides().flatten()
     }
 
     /// Whether it goes up (1) or down (-1) in a slide, however short.
-    fn goes(&self, sign: f64) -> bool {
+    fn moves(&self, sign: f64) -> bool {
         let mut motion = self.slides.iter().flat_map(|slide| &slide.motion);
         motion.any(|now| sign * now.state.vy > 0.0)
     }
@@ -316,8 +329,8 @@ impl<'a> Story<'a> {
     }
 }
 
-fn on_the_left(story: &Story) -> bool {
-    story.first.taut == TautSet::only(LEFT)
+fn on_the_left(run_events: &RunEvents) -> bool {
+    run_events.first.taut == TautSet::only(LEFT)
 }
 
 #[cfg(test)]

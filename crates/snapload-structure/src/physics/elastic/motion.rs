@@ -274,7 +274,7 @@ fn run<const N: usize>(
     record.see(t, &state, pulling);
     let end = prepared.model.rules.t_end;
     while t < end && exceeded(prepared, &state).is_none() {
-        Progress::new("elastic lines", t, end).tell(on_progress)?;
+        Progress::new("elastic lines", t, end).report(on_progress)?;
         let longest_step = STEP / body.quickest(&state, pulling);
         let until = end.min(t + AT_A_TIME.min(TOGETHER * longest_step));
         let phase = Phase {

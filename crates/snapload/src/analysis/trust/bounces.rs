@@ -12,8 +12,8 @@
     reason = "a deviation is an entry of every row"
 )]
 
-use crate::analysis::trust::causes::REACH;
-use crate::analysis::trust::parts::{COLUMNS, Parts, square, squares};
+use crate::analysis::trust::causes::SIGMA_REACH;
+use crate::analysis::trust::parts::{COLUMNS, FactorParts, square, squares};
 use crate::analysis::trust::rounding::{BOUND_OF_GAP, ROUNDING};
 use crate::analysis::trust::spread::ERROR;
 use crate::arithmetic::lane::{Lane, Mask};
@@ -28,7 +28,7 @@ const SAFE: f64 = 1.001;
 /// The data of a run that are carried through bounces.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Followed<L> {
-    pub(super) parts: Parts<L>,
+    pub(super) parts: FactorParts<L>,
     /// See [`crate::analysis::trust::rounding::slant`].
     pub(super) slant: L,
     pub(super) tolerance: L,
@@ -86,7 +86,7 @@ impl<L: Lane> Followed<L> {
         let within_tolerance = known.below(self.tolerance * self.tolerance)
             & reach.meets_all(bounced)
             & reach.leaves_the_other_open(bounced)
-            & reach.stops_nowhere(bounced);
+            & reach.reaches_no_limit(bounced);
         self.parts.rotate();
         Through {
             met,
@@ -336,14 +336,14 @@ impl<L: Lane> Reach<L> {
         [along, at_end]: [L; 2],
     ) -> Self {
         let before = bounced.before;
-        let told = |square: L, rate: L| (rate * rate).mul_add(later, square) * 2.0;
+        let doubled = |square: L, rate: L| (rate * rate).mul_add(later, square) * 2.0;
         Self {
             met,
             later,
             closing,
             other: along.larger(at_end),
-            theta: told(met[2], before.vtheta),
-            height: told(met[1], before.vy),
+            theta: doubled(met[2], before.vtheta),
+            height: doubled(met[1], before.vy),
         }
     }
 
@@ -364,7 +364,7 @@ impl<L: Lane> Reach<L> {
     /// Whether all neighbours have the impact before the end of time, and rebound from it.
     #[inline(always)]
     fn meets_all(&self, bounced: &Bounced<L>) -> L::Mask {
-        const SQUARE: f64 = REACH * REACH * SAFE;
+        const SQUARE: f64 = SIGMA_REACH * SIGMA_REACH * SAFE;
         let (two_cables, before) = (bounced.two_cables, bounced.before);
         let [one, two] = two_cables.reach;
         let reach = one.larger(two);
@@ -395,15 +395,15 @@ impl<L: Lane> Reach<L> {
         let largest = within
             .larger(bounced.facts.late)
             .larger(bounced.other_gap[0]);
-        const FACTOR: f64 = 4.0 * REACH * REACH * SAFE;
+        const FACTOR: f64 = 4.0 * SIGMA_REACH * SIGMA_REACH * SAFE;
         let margin = length * length * self.other * FACTOR;
         largest.below(L::ZERO) & margin.below(largest * largest)
     }
 
     /// Whether no neighbour reaches a limit.
     #[inline(always)]
-    fn stops_nowhere(&self, bounced: &Bounced<L>) -> L::Mask {
-        const SQUARE: f64 = REACH * REACH * SAFE;
+    fn reaches_no_limit(&self, bounced: &Bounced<L>) -> L::Mask {
+        const SQUARE: f64 = SIGMA_REACH * SIGMA_REACH * SAFE;
         let two_cables = bounced.two_cables;
         let (start, end) = (&bounced.from.state, bounced.before);
         let s = bounced.t - bounced.from.t;

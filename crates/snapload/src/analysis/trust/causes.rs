@@ -10,7 +10,7 @@ use crate::motion::start::START_TOLERANCE;
 use crate::motion::step_map::Deviation;
 
 /// Neighbours are assumed to be within this many standard deviations.
-pub(super) const REACH: f64 = 3.0;
+pub(super) const SIGMA_REACH: f64 = 3.0;
 
 /// The spread of the neighbours at some instant.
 pub(super) struct Spread<'a> {
@@ -31,7 +31,7 @@ impl<'a> Spread<'a> {
     /// The largest deviation of the neighbours along a linear function of the state.
     #[inline(always)]
     fn reach(&self, direction: &[f64; 6]) -> f64 {
-        REACH * self.covariance.along(direction)
+        SIGMA_REACH * self.covariance.along(direction)
     }
 
     /// A bound on the reach along every function whose derivatives are at most these.
@@ -42,7 +42,7 @@ impl<'a> Spread<'a> {
             // Zero slopes are skipped, as 0 × ∞ would be NaN.
             sum += if *slope > 0.0 { slope * size } else { 0.0 };
         }
-        REACH * sum
+        SIGMA_REACH * sum
     }
 }
 
@@ -70,7 +70,7 @@ impl Neighbours<'_> {
     #[inline(always)]
     fn reach_in_time(&self, approach: &Approach) -> f64 {
         let (along, late) = (self.along.covariance.along(&approach.delay), self.late);
-        REACH * (along * along + late * late).sqrt()
+        SIGMA_REACH * (along * along + late * late).sqrt()
     }
 }
 
@@ -122,13 +122,13 @@ pub(super) fn cause_at_start(
         let normal = tether.normal(simulation.state());
         let Normal { n, arm } = normal;
         let gap = 2.0 * tether.length() * covariance.along(&[n.x, n.y, arm, 0.0, 0.0, 0.0]);
-        let speed = REACH * covariance.along(&[0.0, 0.0, 0.0, n.x, n.y, arm]);
+        let speed = SIGMA_REACH * covariance.along(&[0.0, 0.0, 0.0, n.x, n.y, arm]);
         let turns = if resting.contains(*cable) {
             speed > START_TOLERANCE
         } else {
             speed >= normal.velocity(simulation.state()).abs()
         };
-        REACH * gap > START_TOLERANCE || turns
+        SIGMA_REACH * gap > START_TOLERANCE || turns
     };
     let cable = simulation.closed().iter().find(open)?;
     Some(HorizonCause::Start { cable })
@@ -146,7 +146,7 @@ pub(super) fn may_stop_at_start(simulation: &Simulation, spread: &Spread) -> boo
         near(limit.quantity(system, state) - bound, margin)
     });
     let heights = [rules.settled_below, rules.sliding_above];
-    let margin = REACH * spread.sizes[1];
+    let margin = SIGMA_REACH * spread.sizes[1];
     let settles = heights
         .into_iter()
         .flatten()
@@ -159,7 +159,7 @@ pub(super) fn may_stop_at_start(simulation: &Simulation, spread: &Spread) -> boo
 #[inline(always)]
 fn may_run_out_of_time(simulation: &Simulation, step: &Step, met: &Spread) -> bool {
     let left = simulation.rules().t_end - step.t_end;
-    step.event.reached != Reached::default() && REACH * met.sizes[6] >= left
+    step.event.reached != Reached::default() && SIGMA_REACH * met.sizes[6] >= left
 }
 
 /// How a gap closes, just before the one impact of a step.
@@ -287,7 +287,7 @@ fn may_stop(simulation: &Simulation, step: &Step, neighbours: &Neighbours) -> bo
         .flatten()
         .any(|height| {
             let spread = neighbours.along.sizes[1].max(neighbours.met.sizes[1]);
-            sticks && (before.y - height).abs() <= REACH * spread
+            sticks && (before.y - height).abs() <= SIGMA_REACH * spread
         });
     exceeds || settles
 }

@@ -4,7 +4,7 @@ use crate::analysis::outcomes::side_by_side;
 use crate::analysis::progress::{Cancelled, Counter};
 use crate::analysis::trust::Horizon;
 use crate::analysis::trust::bounces::Followed;
-use crate::analysis::trust::parts::Parts;
+use crate::analysis::trust::parts::FactorParts;
 use crate::analysis::trust::spread::SpreadMonitor;
 use crate::arithmetic::elementary::Doubles;
 use crate::arithmetic::processor::{Kernel, dispatch};
@@ -34,7 +34,7 @@ impl Follower for SpreadMonitor {
         dispatch(Following(self, simulation, step));
     }
 
-    fn goes_on(&self) -> bool {
+    fn is_active(&self) -> bool {
         self.horizon.is_none()
     }
 
@@ -50,11 +50,11 @@ impl Follower for SpreadMonitor {
 }
 
 impl<L: Doubles> LaneFollowers<L> for Followed<L> {
-    type Alone = SpreadMonitor;
+    type RunFollower = SpreadMonitor;
 
     fn empty() -> Self {
         Self {
-            parts: Parts::none(),
+            parts: FactorParts::none(),
             slant: L::ONE,
             tolerance: L::ZERO,
         }
@@ -74,14 +74,14 @@ impl<L: Doubles> LaneFollowers<L> for Followed<L> {
         chosen
     }
 
-    fn put(&mut self, lane: usize, alone: &SpreadMonitor) {
-        self.pairwise(&alone.followed(), |all, one| all.set(lane, *one));
+    fn put(&mut self, lane: usize, follower: &SpreadMonitor) {
+        self.pairwise(&follower.followed(), |all, one| all.set(lane, *one));
     }
 
-    fn get(&self, lane: usize, alone: &mut SpreadMonitor, impacts: u64) {
-        let mut one = alone.followed();
+    fn get(&self, lane: usize, follower: &mut SpreadMonitor, impacts: u64) {
+        let mut one = follower.followed();
         one.pairwise(self, |one, all| *one = all.get(lane));
-        alone.go_on(one, impacts);
+        follower.continue_from(one, impacts);
     }
 }
 
@@ -117,11 +117,11 @@ impl Certainty {
         mut cases: impl Iterator<Item = Case>,
         counter: &Counter,
     ) -> Result<Vec<(Outcome, Self)>, Cancelled> {
-        Self::beside_outcomes(lanes, &mut cases, counter)
+        Self::outcomes_and_certainties(lanes, &mut cases, counter)
     }
 
     /// Not generic, so that it is compiled once, here.
-    fn beside_outcomes(
+    fn outcomes_and_certainties(
         lanes: Lanes,
         cases: &mut dyn Iterator<Item = Case>,
         counter: &Counter,
@@ -130,9 +130,9 @@ impl Certainty {
             let monitor = SpreadMonitor::of_exact_case(&case, case.start());
             (case.into_boxed(), monitor)
         });
-        let told = side_by_side(lanes, runs, counter)?;
-        let mut all = Vec::with_capacity(told.len());
-        all.extend(told.flatten());
+        let results = side_by_side(lanes, runs, counter)?;
+        let mut all = Vec::with_capacity(results.len());
+        all.extend(results.flatten());
         Ok(all)
     }
 

@@ -1,6 +1,6 @@
 //! The spread of deviations: independent ones, added up.
 
-use crate::analysis::trust::parts::{COLUMNS, LAST, Parts, square, squares};
+use crate::analysis::trust::parts::{COLUMNS, FactorParts, LAST, square, squares};
 use crate::motion::step_map::{Block, Deviation, combined};
 
 /// The number of parts that describe a deviation: as many as it has components.
@@ -11,7 +11,7 @@ pub(super) const PARTS: usize = 7;
 #[derive(Clone, Debug)]
 pub(super) struct CovarianceFactor {
     /// For the start and for rounding.
-    pub(super) parts: Parts<f64>,
+    pub(super) parts: FactorParts<f64>,
     /// For each uncertain parameter.
     pub(super) columns: Vec<Deviation>,
     /// The rows of the parts for the water's memory, if the body floats: the real and the imaginary
@@ -21,12 +21,12 @@ pub(super) struct CovarianceFactor {
 
 /// A spread beyond this is not carried further: its directions no longer mean anything, and its
 /// squares would leave the range of doubles.
-pub(super) const LOST: f64 = 1e30;
+pub(super) const LARGEST_SPREAD: f64 = 1e30;
 
 impl CovarianceFactor {
     /// One part along each component, of the given size.
     pub(super) fn along_components(sizes: &Deviation) -> Self {
-        let mut parts = Parts::none();
+        let mut parts = FactorParts::none();
         for (i, (row, size)) in parts.rows.iter_mut().zip(sizes).enumerate() {
             row[i] = *size;
         }
@@ -88,7 +88,7 @@ impl CovarianceFactor {
     /// Adds independent parts; seven remain.
     #[inline(always)]
     pub(super) fn add_parts(&mut self, more: &Block<COLUMNS>) {
-        if self.is_lost() {
+        if self.exceeds_limit() {
             return;
         }
         if !self.memory.is_empty() {
@@ -120,8 +120,8 @@ impl CovarianceFactor {
 
     /// Whether the spread is too large to be carried further.
     #[inline(always)]
-    pub(super) fn is_lost(&self) -> bool {
-        let small = |component: &f64| component.abs() < LOST;
+    pub(super) fn exceeds_limit(&self) -> bool {
+        let small = |component: &f64| component.abs() < LARGEST_SPREAD;
         let parts = self
             .parts
             .rows
@@ -277,11 +277,11 @@ mod tests {
             }
         }
         covariance.add_parts(&diagonal(&[0.0; 7]));
-        assert!(!covariance.is_lost());
+        assert!(!covariance.exceeds_limit());
         for size in [1e31, 1e200, f64::INFINITY, f64::NAN] {
             let mut lost = CovarianceFactor::along_components(&[size; 7]);
             lost.add_parts(&diagonal(&noise));
-            assert!(lost.is_lost());
+            assert!(lost.exceeds_limit());
         }
     }
 

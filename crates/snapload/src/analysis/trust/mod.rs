@@ -2,7 +2,7 @@
 //!
 //! An uncertainty of the start or of a key, and in any case the rounding of the arithmetic, is
 //! carried along the run by the linearised motion ([`crate::motion::tangent::Tangent`]) as the
-//! spread of (w, τ), the deviation of state and time told at the events. An *error* is two standard
+//! spread of (w, τ), the deviation of state and time at the events. An *error* is two standard
 //! deviations of that: one neighbour in twenty is further off. The *horizon* is the first event
 //! where the error passes a tolerance, or where neighbours within three standard deviations may
 //! have another event than the run: there the linearisation ends, and with it the knowledge of what
@@ -248,10 +248,10 @@ impl Trust {
 /// Runs a case and says how far it can be trusted.
 ///
 /// ```
-/// use snapload::analysis::{Uncertainty, trusted_run, unwatched};
+/// use snapload::analysis::{Uncertainty, trusted_run, no_progress};
 /// use snapload::{Case, Parameters};
 /// let case = Case::new(Parameters { f_o: 0.31, ..Parameters::STANDARD })?;
-/// let (run, trust) = trusted_run(&case, &Uncertainty::default(), &unwatched)?;
+/// let (run, trust) = trusted_run(&case, &Uncertainty::default(), &no_progress)?;
 /// assert_eq!(run.impacts().len(), 12);
 /// assert!(trust.decides_the_end() && trust.errors[11] < 1e-12);
 /// # Ok::<(), snapload::analysis::Unfinished>(())

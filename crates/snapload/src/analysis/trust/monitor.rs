@@ -11,7 +11,7 @@ use crate::motion::simulation::{Simulation, Step};
 use crate::motion::step_map::StepMap;
 
 /// An impact that magnifies deviations by more than this is reported as a graze.
-const MAGNIFIES: f64 = 100.0;
+const GRAZE_MAGNIFICATION: f64 = 100.0;
 
 /// Follows a run, step by step, and says in the end how far it can be trusted.
 #[derive(Clone, Debug)]
@@ -125,20 +125,20 @@ struct Records<'a> {
 
 impl Observer for Records<'_> {
     #[inline(always)]
-    fn see_bounce(&mut self, map: &BounceMap<f64>) {
+    fn observe_bounce(&mut self, map: &BounceMap<f64>) {
         self.note(&LinearMap::Bounce(map));
         self.frame.follow_bounce(map);
     }
 
-    fn see_step(&mut self, map: &StepMap) {
-        dispatch(SeeingStep(self, map));
+    fn observe_step(&mut self, map: &StepMap) {
+        dispatch(ObservingStep(self, map));
     }
 }
 
 /// What a step does, to be taken in by the best instructions for it.
-struct SeeingStep<'a, 'r>(&'a mut Records<'r>, &'a StepMap);
+struct ObservingStep<'a, 'r>(&'a mut Records<'r>, &'a StepMap);
 
-impl Kernel for SeeingStep<'_, '_> {
+impl Kernel for ObservingStep<'_, '_> {
     type Output = ();
     #[inline(always)]
     fn run(self) {
@@ -155,8 +155,8 @@ impl Records<'_> {
     fn note(&mut self, map: &LinearMap) {
         let square = map.magnification_squared();
         let (simulation, step) = self.latest;
-        if square > MAGNIFIES * MAGNIFIES
-            && !map.surely_quickens()
+        if square > GRAZE_MAGNIFICATION * GRAZE_MAGNIFICATION
+            && !map.certainly_accelerates()
             && let Some(closing) = map.closing(simulation, step)
             && closing.alpha < 0.0
         {

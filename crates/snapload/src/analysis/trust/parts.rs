@@ -29,12 +29,12 @@ pub(super) const LAST: usize = COLUMNS - 1;
 /// Deviations one standard deviation long, as columns. A row fills one line of a processor's cache.
 #[derive(Clone, Copy, Debug)]
 #[repr(C, align(64))]
-pub(super) struct Parts<L> {
+pub(super) struct FactorParts<L> {
     pub(super) rows: Rows<L, COLUMNS>,
     signs: Signs<L>,
 }
 
-impl<L: Lane> Parts<L> {
+impl<L: Lane> FactorParts<L> {
     /// Parts that are all zero.
     #[inline(always)]
     pub(super) fn none() -> Self {
@@ -70,7 +70,7 @@ impl<L: Lane> Parts<L> {
 
     /// Applies a function to each of its numbers and the other's.
     #[inline(always)]
-    pub(super) fn pairwise<M>(&mut self, other: &Parts<M>, mut each: impl FnMut(&mut L, &M)) {
+    pub(super) fn pairwise<M>(&mut self, other: &FactorParts<M>, mut each: impl FnMut(&mut L, &M)) {
         for (row, others) in self.rows.iter_mut().zip(&other.rows) {
             for (one, other) in row.iter_mut().zip(others) {
                 each(one, other);
@@ -174,9 +174,9 @@ mod tests {
             for _ in 0..STEPS {
                 signs = signs.next();
             }
-            let mut parts = Parts {
+            let mut parts = FactorParts {
                 signs,
-                ..Parts::none()
+                ..FactorParts::none()
             };
             for step in 0..STEPS {
                 parts.rows = carried(&parts.rows, step);
@@ -204,7 +204,7 @@ mod tests {
     /// Signs are not correlated with those before: they neither come in runs nor alternate.
     #[test]
     fn signs_have_no_order() {
-        let mut parts = Parts::<f64>::none();
+        let mut parts = FactorParts::<f64>::none();
         let (count, mut before) = (1 << 16, [1.0; 2]);
         let mut sums = [0.0; 5];
         for _ in 0..count {

@@ -160,7 +160,7 @@ fn stored(
     ];
     let mut parts = diagonal(sizes, step.t_end);
     closed.keep_parts(&mut parts, 0);
-    keep_known_gap(simulation, step, &mut closed, &mut parts);
+    limit_to_known_gap(simulation, step, &mut closed, &mut parts);
     Constraints::of(system, after, step.taut_after, Metric::of_masses(system))
         .keep_parts(&mut parts, 3);
     add_residual(system, step, &mut parts);
@@ -220,7 +220,7 @@ fn diagonal(sizes: [f64; 6], t: f64) -> Block<COLUMNS> {
 /// carried forward since the cable was closed, displacements are limited to those that change this
 /// gap by no more than its error. Of several cables it is the one whose gap is known best.
 #[inline(always)]
-fn keep_known_gap(
+fn limit_to_known_gap(
     simulation: &Simulation,
     step: &Step,
     constraints: &mut Constraints,

@@ -4,7 +4,7 @@ use crate::analysis::trust::bounces::Followed;
 use crate::analysis::trust::causes::{
     Approach, Closing, Neighbours, Spread, cause, cause_at_start, may_stop_at_start,
 };
-use crate::analysis::trust::covariance::{CovarianceFactor, LOST};
+use crate::analysis::trust::covariance::{CovarianceFactor, LARGEST_SPREAD};
 use crate::analysis::trust::parts::{COLUMNS, squares};
 use crate::analysis::trust::rounding::{self, Rounding};
 use crate::analysis::trust::uncertain_key::{UncertainKey, uniform};
@@ -43,7 +43,7 @@ pub(super) struct SpreadMonitor {
     steps: u32,
     pub(super) horizon: Option<Horizon>,
     /// Whether the spread is too large to be carried further.
-    lost: bool,
+    too_large: bool,
     pub(super) end_error: f64,
 }
 
@@ -68,9 +68,9 @@ impl LinearMap<'_> {
     /// Whether it is certain, from these numbers alone, that the closing of the gap does not slow
     /// down.
     #[inline(always)]
-    pub(super) fn surely_quickens(&self) -> bool {
+    pub(super) fn certainly_accelerates(&self) -> bool {
         match self {
-            Self::Bounce(map) => map.surely_quickens(),
+            Self::Bounce(map) => map.certainly_accelerates(),
             Self::Step(_) => false,
         }
     }
@@ -100,18 +100,18 @@ impl LinearMap<'_> {
 /// compiled without the processor's own instructions.
 pub(super) trait Observer {
     /// Receives the effect of a bounce.
-    fn see_bounce(&mut self, map: &BounceMap<f64>)
+    fn observe_bounce(&mut self, map: &BounceMap<f64>)
     where
         Self: Sized;
     /// Receives the effect of any step. The observer is called through a pointer, so that the
     /// following of a step is compiled once for all observers.
-    fn see_step(&mut self, map: &StepMap);
+    fn observe_step(&mut self, map: &StepMap);
 }
 
 impl Observer for () {
     #[inline(always)]
-    fn see_bounce(&mut self, _: &BounceMap<f64>) {}
-    fn see_step(&mut self, _: &StepMap) {}
+    fn observe_bounce(&mut self, _: &BounceMap<f64>) {}
+    fn observe_step(&mut self, _: &StepMap) {}
 }
 
 /// Any step to be carried through, by the best instructions for it.
@@ -181,7 +181,7 @@ impl SpreadMonitor {
             cause,
         });
         Self {
-            lost: covariance.is_lost(),
+            too_large: covariance.exceeds_limit(),
             tolerance,
             tangent: None,
             covariance,
@@ -236,15 +236,15 @@ impl SpreadMonitor {
         observer: &mut impl Observer,
     ) -> f64 {
         let bounced = simulation.bounced(step);
-        let lost = self.is_lost();
-        if lost {
-            self.lose(step, HorizonCause::Tolerance);
+        let unknown = self.error_is_unknown();
+        if unknown {
+            self.set_horizon(step, HorizonCause::Tolerance);
         }
         let error = match bounced {
-            Some(bounced) if lost || self.adds_by_signs() => {
+            Some(bounced) if unknown || self.adds_by_signs() => {
                 let map = BounceMap::of(&bounced);
-                observer.see_bounce(&map);
-                match lost {
+                observer.observe_bounce(&map);
+                match unknown {
                     true => f64::INFINITY,
                     false => self.carry_bounce(simulation, step, &bounced, &map),
                 }
@@ -269,11 +269,11 @@ impl SpreadMonitor {
 
     /// Past the horizon, and where the spread is too large, the error is unknown.
     #[inline(always)]
-    fn is_lost(&self) -> bool {
+    fn error_is_unknown(&self) -> bool {
         let other_events = self
             .horizon
             .is_some_and(|h| h.cause != HorizonCause::Tolerance);
-        other_events || self.lost
+        other_events || self.too_large
     }
 
     /// The data that are carried through bounces.
@@ -287,7 +287,7 @@ impl SpreadMonitor {
     }
 
     /// Continues from the result of bounces that were followed in a lane, `impacts` impacts later.
-    pub(super) fn go_on(&mut self, followed: Followed<f64>, impacts: u64) {
+    pub(super) fn continue_from(&mut self, followed: Followed<f64>, impacts: u64) {
         self.covariance.parts = followed.parts;
         self.impacts += impacts as usize;
     }
@@ -343,7 +343,7 @@ impl SpreadMonitor {
         };
         let closing = Closing::of(simulation, step, &approach);
         if let Some(cause) = cause(simulation, step, &approach, &neighbours, closing) {
-            self.lose(step, cause);
+            self.set_horizon(step, cause);
         }
     }
 
@@ -351,8 +351,8 @@ impl SpreadMonitor {
     #[inline(always)]
     fn carry(&mut self, simulation: &Simulation, step: &Step, observer: &mut dyn Observer) -> f64 {
         let map = self.tangent(simulation).of_step(simulation, step);
-        observer.see_step(&map);
-        if self.is_lost() {
+        observer.observe_step(&map);
+        if self.error_is_unknown() {
             return f64::INFINITY;
         }
         let columns: Vec<[Deviation; 3]> = self.keys.iter_mut().map(|key| key.step(&map)).collect();
@@ -373,14 +373,14 @@ impl SpreadMonitor {
         if self.horizon.is_none()
             && let Some(cause) = cause(simulation, step, &approach, &neighbours, closing)
         {
-            self.lose(step, cause);
+            self.set_horizon(step, cause);
         }
         let mut after = met.carried(|w, _| map.carry_through(w), column(2));
         after.add_parts(&rounding.parts);
         let squared = |sizes: Deviation| sizes.map(|size| size * size);
         let squares = [squared(neighbours.met.sizes), squared(after.sizes())];
         self.covariance = after;
-        self.lost = self.covariance.is_lost();
+        self.too_large = self.covariance.exceeds_limit();
         self.judge(step, &squares)
     }
 
@@ -398,16 +398,20 @@ impl SpreadMonitor {
             ERROR * after[6].sqrt()
         };
         let all: f64 = before.iter().chain(after).sum();
-        self.lost |= !all.is_finite() || all >= LOST * LOST;
-        if error > self.tolerance || self.lost {
-            self.lose(step, HorizonCause::Tolerance);
+        self.too_large |= !all.is_finite() || all >= LARGEST_SPREAD * LARGEST_SPREAD;
+        if error > self.tolerance || self.too_large {
+            self.set_horizon(step, HorizonCause::Tolerance);
         }
-        if self.is_lost() { f64::INFINITY } else { error }
+        if self.error_is_unknown() {
+            f64::INFINITY
+        } else {
+            error
+        }
     }
 
     /// Records where trust ends; only the first call has an effect.
     #[inline(always)]
-    fn lose(&mut self, step: &Step, cause: HorizonCause) {
+    fn set_horizon(&mut self, step: &Step, cause: HorizonCause) {
         self.horizon.get_or_insert(Horizon {
             t: step.t_end,
             impact: self.impacts + 1,

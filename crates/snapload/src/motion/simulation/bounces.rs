@@ -73,7 +73,7 @@ impl<T: Real> Simulation<T> {
             vtheta,
             ..after_impact.state
         };
-        self.know(&after_impact.gaps);
+        self.set_known_gaps(&after_impact.gaps);
         self.extremes = Extremes {
             y_max: after_impact.y_max,
             theta_max: after_impact.theta_max,
@@ -106,7 +106,7 @@ impl<T: Real> Simulation<T> {
         })
     }
 
-    fn know(&mut self, gaps: &[[T; 2]; 2]) {
+    fn set_known_gaps(&mut self, gaps: &[[T; 2]; 2]) {
         for (contact, [gap, error]) in self.contacts.iter_mut().zip(*gaps) {
             *contact = Contact {
                 gap,
@@ -130,7 +130,7 @@ impl<T: Real> Simulation<T> {
             self.t = next.t;
             self.before = bounce.before;
             let struck = usize::from(bounce.second);
-            self.know(&next.gaps);
+            self.set_known_gaps(&next.gaps);
             let closed = TautSet::only(struck);
             let reached = Reached {
                 gaps: closed,

@@ -13,7 +13,7 @@ use crate::motion::projection::project_velocity;
 use crate::motion::simulation::{CONVERGING, Event, LastImpacts, Simulation};
 
 /// A tension below this is negative by more than rounding: the cable would have to push \[F\].
-const PUSHES: f64 = -1e-7;
+const NEGATIVE_TENSION: f64 = -1e-7;
 /// After a tension is lost the motion is first evaluated 2^−LATER of a step later, then at each
 /// doubling of that, up to half a step.
 const LATER: i32 = 28;
@@ -60,15 +60,15 @@ impl<T: Real> Simulation<T> {
             } else {
                 self.end_slow_row();
             }
-            let caught = self.caught(&result, closed);
-            let candidates = slow.union(at_rest).union(caught);
+            let cables_at_rest_at_once = self.cables_at_rest_at_once(&result, closed);
+            let candidates = slow.union(at_rest).union(cables_at_rest_at_once);
             let mut halted = result.after;
             project_velocity(&self.system, &mut halted, candidates);
             let memory_force = self.memory_force();
             self.active = self.taut_next(self.t, &halted, memory_force, candidates);
-            let at_rest = if caught.is_empty() {
+            let at_rest = if cables_at_rest_at_once.is_empty() {
                 project_velocity(&self.system, &mut self.state, self.active.taut);
-                self.still_at_rest(at_rest, slow)
+                self.remaining_at_rest(at_rest, slow)
             } else {
                 self.state = halted;
                 candidates
@@ -90,7 +90,7 @@ impl<T: Real> Simulation<T> {
     /// `v_stick`, the closed cables that open more slowly than that: those snaps accumulate, and
     /// all of them come to rest at once.
     #[inline(always)]
-    fn caught(&self, result: &ImpactResult<T>, closed: TautSet) -> TautSet {
+    fn cables_at_rest_at_once(&self, result: &ImpactResult<T>, closed: TautSet) -> TautSet {
         if self.slow_snaps < CONVERGING || self.slow_cables.len() < 2 {
             return TautSet::SLACK;
         }
@@ -120,7 +120,7 @@ impl<T: Real> Simulation<T> {
     /// Of the cables at rest after an impact, those that still are after the slow ones have stuck:
     /// a cable whose load a sticking cable takes over opens with the velocity that this takes away.
     #[inline(always)]
-    fn still_at_rest(&self, at_rest: TautSet, slow: TautSet) -> TautSet {
+    fn remaining_at_rest(&self, at_rest: TautSet, slow: TautSet) -> TautSet {
         if slow.intersection(self.active.taut).is_empty() {
             return at_rest;
         }
@@ -198,7 +198,7 @@ impl<T: Real> Simulation<T> {
                 let tension = |cable| series.tension(cable, since + later);
                 released
                     .iter()
-                    .any(|cable| tension(cable) < T::from_decimal(PUSHES))
+                    .any(|cable| tension(cable) < T::from_decimal(NEGATIVE_TENSION))
             };
             let steps = (0..LATER).map(|k| series.step() * 0.5_f64.powi(LATER - k));
             let last = series.step() * 0.5;

@@ -125,12 +125,12 @@ impl<T: Real> Stretch<'_, T> {
 
 /// The latest step. The motion along it, which may have to be computed again, is computed only
 /// where it is needed.
-struct Latest<'a, T: Real> {
+struct LatestStep<'a, T: Real> {
     simulation: &'a Simulation<T>,
     step: &'a Step<T>,
 }
 
-impl<T: Real> Along<T> for Latest<'_, T> {
+impl<T: Real> Along<T> for LatestStep<'_, T> {
     #[inline(always)]
     fn duration(&self) -> T {
         self.step.t_end - self.step.t_start
@@ -274,7 +274,7 @@ impl<T: Real> Simulation<T> {
             return false;
         }
         let bend = match self.expanded(step.taut) {
-            Some(series) if series.opens_from_rest(cable, s) => return false,
+            Some(series) if series.gap_opens_from_rest(cable, s) => return false,
             Some(series) => series.gap_bend(cable),
             None => self.gap_bend(step, cable),
         };
@@ -310,7 +310,7 @@ impl<T: Real> Simulation<T> {
     /// A bound, along the latest step, on the quantity of a limit, close where it is above `floor`.
     #[inline(always)]
     pub(crate) fn largest_within(&self, step: &Step<T>, limit: Limit, floor: T) -> T {
-        let latest = Latest {
+        let latest = LatestStep {
             simulation: self,
             step,
         };

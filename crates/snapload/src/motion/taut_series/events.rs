@@ -8,10 +8,10 @@ use crate::motion::limits::{TautMotion, Watched};
 use crate::motion::taut_series::Series;
 
 /// A tension that stays below this along a whole step counts as zero \[F\].
-const NOTHING: f64 = 1e-7;
+const ZERO_TENSION: f64 = 1e-7;
 /// The tolerance for the length of a taut cable without tension, as a multiple of that of a resting
 /// one.
-const HELD: f64 = 64.0;
+const TAUT_TOLERANCE: f64 = 64.0;
 
 impl<T: Real> Series<T> {
     /// Whether a taut cable stays taut within the step: it carries, or its gap is zero up to
@@ -20,7 +20,7 @@ impl<T: Real> Series<T> {
     pub(super) fn holds(&self, cable: usize) -> bool {
         let gap = &self.lines[cable].gap;
         self.active.carrying.contains(cable)
-            || gap.derivative_bound(0, self.step, ORDER) <= self.touch[cable] * HELD
+            || gap.derivative_bound(0, self.step, ORDER) <= self.touch[cable] * TAUT_TOLERANCE
     }
 
     /// Chooses the event functions of the step; those that provably are not reached are left out.
@@ -50,7 +50,8 @@ impl<T: Real> Series<T> {
             // If not all taut cables carry, one whose tension is zero throughout has no event.
             let nothing = taut != carrying
                 && carrying.contains(cable)
-                && event.series.derivative_bound(0, step, event.order) <= T::from_decimal(NOTHING);
+                && event.series.derivative_bound(0, step, event.order)
+                    <= T::from_decimal(ZERO_TENSION);
             if !nothing && !event.stays_negative(step) {
                 self.watched.push(event);
             }
@@ -87,7 +88,7 @@ impl<T: Real> Series<T> {
         }
         Jet {
             noise: contact.error,
-            blur: self.touch[cable],
+            start_noise: self.touch[cable],
             resting: contact.resting,
             jerk: gap[3] * 6.0,
             fourth: if contact.resting {

@@ -185,7 +185,7 @@ mod tests {
     use crate::model::taut_set::TautSet;
     use crate::motion::active_set::ActiveSet;
     use crate::motion::contact::Contact;
-    use crate::motion::held::Held;
+    use crate::motion::prescribed_motion::PrescribedTaut;
     use crate::motion::taut_series::Series;
     use crate::motion::waves::Waves;
 
@@ -235,7 +235,7 @@ mod tests {
                 let around = waves.expanded(&system, 0.0);
                 series.begin(&system, &around, &state, &[], &contacts, active);
                 let s = series.step();
-                let there = Held::new(free.clone()).carried(slack, 0.0, &state, s);
+                let there = PrescribedTaut::new(free.clone()).carried(slack, 0.0, &state, s);
                 for cable in 0..2 {
                     let found = series.contact(cable, s);
                     let off = found.gap - free.cables[cable].gap(&there);

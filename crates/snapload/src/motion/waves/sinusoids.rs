@@ -224,7 +224,7 @@ const SHARES: [f64; TERMS] = {
 
 impl<T: Real> Stretch<T> {
     /// A stretch that is not summed up yet.
-    pub(super) fn unmade() -> Self {
+    pub(super) fn empty() -> Self {
         Self {
             index: None,
             middle: T::ZERO,

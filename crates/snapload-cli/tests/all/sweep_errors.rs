@@ -17,7 +17,7 @@ fn flip(path: &Path) {
 }
 
 #[test]
-fn a_damaged_chunk_is_told_and_computed_again() {
+fn a_damaged_chunk_is_reported_and_computed_again() {
     let d = directory();
     sweep(d.path(), &LONG, "whole.parquet").success();
     let mut child = begin(d.path(), &LONG, "file.parquet");
@@ -98,7 +98,7 @@ fn a_list_of_bad_rows_is_bad_input() {
 
 #[test]
 #[cfg(target_os = "linux")]
-fn what_never_ends_is_no_list() {
+fn an_endless_file_is_no_list() {
     let d = directory();
     sweep(d.path(), &["--list", "/dev/zero"], "a.parquet")
         .code(2)
@@ -106,7 +106,7 @@ fn what_never_ends_is_no_list() {
 }
 
 #[test]
-fn what_is_there_is_not_written_over() {
+fn an_existing_file_is_not_overwritten() {
     let d = directory();
     let plot = [&SHORT[..], &["--plot", "map.svg"]].concat();
     fs::write(d.path().join("map.svg"), "mine").unwrap();
@@ -144,20 +144,20 @@ fn what_is_there_is_not_written_over() {
 #[test]
 fn a_name_keeps_its_promise() {
     let d = directory();
-    let wanted = || {
+    let expected = || {
         contains("can not write x.csv: rows are written as Parquet")
             .and(contains("choose a name that ends in .parquet"))
     };
-    sweep(d.path(), &SHORT, "x.csv").code(2).stderr(wanted());
+    sweep(d.path(), &SHORT, "x.csv").code(2).stderr(expected());
     snapload(d.path())
         .args(["merge", "a.parquet", "--out", "x.csv"])
         .assert()
         .code(2)
-        .stderr(wanted());
+        .stderr(expected());
 }
 
 #[test]
-fn what_varies_is_said() {
+fn the_summary_lists_what_varies() {
     let d = directory();
     let point = ["--set", "t_end=0.1", "--no-trust", "--vary"];
     let vary =
@@ -186,7 +186,7 @@ fn what_varies_is_said() {
 }
 
 #[test]
-fn what_can_not_be_swept_is_told_as_it_was_written() {
+fn a_refused_value_is_shown_as_it_was_written() {
     let d = directory();
     for (asked, words) in [
         (

@@ -10,9 +10,9 @@
 //! A key `judged` gives the measure, threshold and range of the judgement, where these are a
 //! choice.
 //!
-//! `{rotations:.3}` shows the value that the judge of the claim gives under that name, with three
+//! `{rotations:.3}` shows the value that the check of the claim gives under that name, with three
 //! decimals. The last line is a remark: it is shown with the verdict "not reproduced", and only if
-//! the judge found that the condition `ends` holds. So no remark remains if the numbers change from
+//! the check found that the condition `ends` holds. So no remark remains if the numbers change from
 //! which it was written. A remark called `always` depends on the verdict alone.
 
 use super::numbers::{between, residual};
@@ -57,7 +57,7 @@ type Entries = BTreeMap<String, Entry>;
 static ENTRIES: LazyLock<Result<Entries, toml::de::Error>> =
     LazyLock::new(|| toml::from_str(&FILES.join("\n")));
 
-/// A value that a judge gives.
+/// A value that a check gives.
 #[derive(Clone, Debug)]
 pub(super) enum Value {
     Text(String),
@@ -124,13 +124,13 @@ impl From<String> for Value {
 ///
 /// # Errors
 /// [`ReportError::Claim`] if texts and finding do not match.
-pub(super) fn tell(id: &str, finding: &Finding) -> Result<Claim, ReportError> {
+pub(super) fn with_texts(id: &str, finding: &Finding) -> Result<Claim, ReportError> {
     let fault = |what: String| ReportError::Claim(format!("claim {id}: {what}"));
     let entries = ENTRIES.as_ref().map_err(|error| fault(error.to_string()))?;
     let (id, entry) = entries
         .get_key_value(id)
         .ok_or_else(|| fault("it has no text".to_owned()))?;
-    let [evidence, judged, remark] = entry.tell(finding).map_err(fault)?;
+    let [evidence, judged, remark] = entry.fill_texts(finding).map_err(fault)?;
     Ok(Claim {
         id,
         section: id.rsplit_once('-').map_or(id, |(section, _)| section),
@@ -160,7 +160,7 @@ pub(super) fn check_all(judged: &[&str]) -> Result<(), ReportError> {
 
 impl Entry {
     /// The evidence of a finding, how it was judged, and the remarks.
-    fn tell(&self, finding: &Finding) -> Result<[String; 3], String> {
+    fn fill_texts(&self, finding: &Finding) -> Result<[String; 3], String> {
         self.check(finding)?;
         let is_so = |name: &str| name == ALWAYS || finding.conditions.get(name) == Some(&true);
         let remarks = self.remarks.get(&finding.verdict).into_iter().flatten();
@@ -171,15 +171,15 @@ impl Entry {
         Ok([evidence?, judged?, remarks.join(" ")])
     }
 
-    /// Checks that every value of the judge is used in the texts, and that the condition of every
+    /// Checks that every value of the check is used in the texts, and that the condition of every
     /// remark, except those that always apply, is decided.
     fn check(&self, finding: &Finding) -> Result<(), String> {
         let remarks = || self.remarks.values().flatten();
         let text = remarks().map(|(_, text)| &**text).collect::<String>();
         let text = text + &self.evidence + &self.judged;
         let place = |name: &str, end: &str| text.contains(&format!("{{{name}{end}"));
-        let told = |name: &str| place(name, "}") || place(name, ":");
-        if let Some(name) = finding.values.keys().find(|name| !told(name)) {
+        let used = |name: &str| place(name, "}") || place(name, ":");
+        if let Some(name) = finding.values.keys().find(|name| !used(name)) {
             return Err(format!(
                 "its judge gives `{name}`, which its text does not use"
             ));
@@ -230,14 +230,14 @@ mod tests {
     use Verdict::{NotDecidable, NotReproduced, Reproduced};
 
     fn entry() -> Result<Entry, String> {
-        let words = "
+        let text = "
             claim = 'both hold'
             evidence = '{holding} of {all:.1}'
             judged = 'by one'
             not_reproduced = { fails = '{one} fails', rains = 'it rains' }
             not_decidable.always = 'by chance'
         ";
-        toml::from_str(words).map_err(|error| error.to_string())
+        toml::from_str(text).map_err(|error| error.to_string())
     }
 
     fn finding(verdict: Verdict) -> Finding {
@@ -245,8 +245,8 @@ mod tests {
             .value("holding", 1_usize)
             .list("all", [2.0, 3.0])
             .value("one", "one".to_owned())
-            .found("fails", true)
-            .found("rains", false)
+            .condition("fails", true)
+            .condition("rains", false)
     }
 
     #[test]
@@ -256,22 +256,25 @@ mod tests {
             (NotReproduced, "one fails"),
             (NotDecidable, "by chance"),
         ] {
-            let told = entry()?.tell(&finding(verdict))?;
-            assert_eq!(told, ["1 of 2.0, 3.0", "by one", remark].map(str::to_owned));
+            let texts = entry()?.fill_texts(&finding(verdict))?;
+            assert_eq!(
+                texts,
+                ["1 of 2.0, 3.0", "by one", remark].map(str::to_owned)
+            );
         }
         Ok(())
     }
 
     #[test]
-    fn words_and_findings_that_do_not_fit_are_refused() -> Result<(), String> {
+    fn texts_and_findings_that_do_not_fit_are_refused() -> Result<(), String> {
         let entry = entry()?;
-        let refused = |finding: Finding| entry.tell(&finding).unwrap_err();
+        let refused = |finding: Finding| entry.fill_texts(&finding).unwrap_err();
         let more = finding(Reproduced).value("two", 2_usize);
         assert_eq!(
             refused(more),
             "its judge gives `two`, which its text does not use"
         );
-        let more = finding(Reproduced).found("snows", true);
+        let more = finding(Reproduced).condition("snows", true);
         assert_eq!(
             refused(more),
             "its judge decides `snows`, on which no remark depends"
@@ -291,7 +294,7 @@ mod tests {
     }
 
     #[test]
-    fn a_claim_without_a_judge_or_with_two_is_seen() -> Result<(), ReportError> {
+    fn a_claim_without_a_check_or_with_two_is_noticed() -> Result<(), ReportError> {
         let all: Vec<&str> = ENTRIES
             .iter()
             .flatten()
@@ -307,7 +310,7 @@ mod tests {
     }
 
     #[test]
-    fn numbers_are_shown_as_their_place_asks() {
+    fn numbers_are_shown_in_the_format_of_their_place() {
         let numbers = Value::Numbers(vec![0.25, 0.5]);
         let shown = ["", ".2", ".0e", "span.1", "span", ".x", "wide.2"].map(|f| numbers.show(f));
         let [plain, two, powers, span, bare, odd, unknown] = shown.map(Option::unwrap_or_default);

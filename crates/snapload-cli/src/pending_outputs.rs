@@ -1,7 +1,7 @@
 //! Files that appear complete or not at all: they are written in a temporary directory on the same
 //! file system, then renamed.
 use crate::failure::Failure;
-use crate::interrupt::leftovers;
+use crate::interrupt::temporary_paths;
 use snapload_study::parent_of;
 use std::fs::{self, File, OpenOptions};
 use std::io::{self, BufWriter, ErrorKind, Write};
@@ -9,39 +9,39 @@ use std::path::{Path, PathBuf};
 
 /// Temporary directories with the files in them, which are to be renamed to their places.
 #[derive(Default)]
-pub(crate) struct Stage {
+pub(crate) struct PendingOutputs {
     scratch: Vec<PathBuf>,
     files: Vec<(PathBuf, PathBuf)>,
 }
 
 /// A directory in which output will be placed.
 #[derive(Clone, Copy)]
-pub(crate) struct Room(usize);
+pub(crate) struct TargetFolder(usize);
 
-impl Stage {
+impl PendingOutputs {
     /// Opens an existing directory for output.
-    pub(crate) fn open(&mut self, directory: &Path) -> Result<Room, Failure> {
+    pub(crate) fn open(&mut self, directory: &Path) -> Result<TargetFolder, Failure> {
         // Locked throughout, so that an interruption finds the directory in the list.
-        let mut leftovers = leftovers();
+        let mut temporary_paths = temporary_paths();
         let scratch = tempfile::Builder::new()
             .prefix(".snapload-")
             .tempdir_in(directory)
-            .map_err(|error| Failure::no_place(directory, &error))?
+            .map_err(|error| Failure::cannot_write_to(directory, &error))?
             .keep();
-        leftovers.scratch.push(scratch.clone());
+        temporary_paths.scratch.push(scratch.clone());
         self.scratch.push(scratch);
-        Ok(Room(self.scratch.len() - 1))
+        Ok(TargetFolder(self.scratch.len() - 1))
     }
 
     /// Opens a directory for output and creates it, with its parents, if necessary.
-    pub(crate) fn create_and_open(&mut self, directory: &Path) -> Result<Room, Failure> {
+    pub(crate) fn create_and_open(&mut self, directory: &Path) -> Result<TargetFolder, Failure> {
         for ancestor in missing(directory) {
-            let mut leftovers = leftovers();
+            let mut temporary_paths = temporary_paths();
             match fs::create_dir(&ancestor) {
-                Ok(()) => leftovers.new.push(ancestor),
+                Ok(()) => temporary_paths.new.push(ancestor),
                 // `results/../other` creates the same directory twice.
                 Err(error) if error.kind() == ErrorKind::AlreadyExists => {}
-                Err(error) => return Err(Failure::no_place(directory, &error)),
+                Err(error) => return Err(Failure::cannot_write_to(directory, &error)),
             }
         }
         if !directory.is_dir() {
@@ -54,12 +54,12 @@ impl Stage {
     /// Writes one file for a directory, to be moved to `target` later.
     pub(crate) fn write(
         &mut self,
-        room: Room,
+        folder: TargetFolder,
         target: PathBuf,
         fill: impl FnOnce(&mut dyn Write) -> io::Result<()>,
     ) -> Result<(), Failure> {
-        self.refuse_twice(&target)?;
-        let scratch = self.scratch[room.0].join(self.files.len().to_string());
+        self.refuse_duplicate(&target)?;
+        let scratch = self.scratch[folder.0].join(self.files.len().to_string());
         let written = File::create_new(&scratch).and_then(|file| {
             let mut file = BufWriter::new(file);
             fill(&mut file)?;
@@ -71,8 +71,12 @@ impl Stage {
     }
 
     /// An error if another output has the same path.
-    fn refuse_twice(&self, target: &Path) -> Result<(), Failure> {
-        if self.files.iter().any(|(_, staged)| is_same(staged, target)) {
+    fn refuse_duplicate(&self, target: &Path) -> Result<(), Failure> {
+        if self
+            .files
+            .iter()
+            .any(|(_, pending)| is_same(pending, target))
+        {
             let shown = target.display();
             let message = format!("two outputs are named {shown}; allowed are two files");
             return Err(Failure::BadInput(message));
@@ -83,11 +87,11 @@ impl Stage {
     /// The same for a writer that needs the temporary file's name, and syncs it to the disk itself.
     pub(crate) fn place(
         &mut self,
-        room: Room,
+        folder: TargetFolder,
         target: PathBuf,
         fill: impl FnOnce(&Path) -> Result<(), Failure>,
     ) -> Result<(), Failure> {
-        let scratch = self.scratch[room.0].join(self.files.len().to_string());
+        let scratch = self.scratch[folder.0].join(self.files.len().to_string());
         fill(&scratch)?;
         self.files.push((scratch, target));
         Ok(())
@@ -95,29 +99,30 @@ impl Stage {
 
     /// Moves every file to its place and returns their paths.
     pub(crate) fn commit(mut self) -> Result<Vec<PathBuf>, Failure> {
-        let mut leftovers = leftovers();
+        let mut temporary_paths = temporary_paths();
         let mut placed = Vec::new();
         for (scratch, target) in std::mem::take(&mut self.files) {
-            put(&scratch, &target).map_err(|error| Failure::write(target.display(), &error))?;
+            move_into_place(&scratch, &target)
+                .map_err(|error| Failure::write(target.display(), &error))?;
             placed.push(target);
         }
-        leftovers.new.clear();
+        temporary_paths.new.clear();
         Ok(placed)
     }
 }
 
-impl Drop for Stage {
+impl Drop for PendingOutputs {
     /// Removes the temporary directories and, unless files were placed in them, the new
     /// directories.
     fn drop(&mut self) {
-        leftovers().clear();
+        temporary_paths().clear();
     }
 }
 
 /// Moves a file to its place. A link is followed, so that its target is replaced and not the link;
 /// the contents are copied into a device or a pipe, and into a file on another disk, to which
 /// nothing can be renamed.
-fn put(scratch: &Path, target: &Path) -> io::Result<()> {
+fn move_into_place(scratch: &Path, target: &Path) -> io::Result<()> {
     let target = match target.is_symlink() {
         // A link whose target does not exist yet.
         true => target.canonicalize().or_else(|_| {

@@ -8,7 +8,7 @@ use crate::case::value::Value;
 
 /// The least moment of inertia that may be given, as a part of a^2 + b^2: a lighter body would turn
 /// a thousand times faster than it moves.
-const LIGHTEST: f64 = 1e-6;
+const LEAST_INERTIA_RATIO: f64 = 1e-6;
 
 impl Parameters {
     /// A case from keys and values; keys left out take their defaults, and of a key given twice the
@@ -120,7 +120,7 @@ impl Parameters {
         let Some(inertia) = self.inertia else {
             return self.check_point();
         };
-        let least = LIGHTEST * (self.a * self.a + self.b * self.b);
+        let least = LEAST_INERTIA_RATIO * (self.a * self.a + self.b * self.b);
         if inertia >= least {
             return Ok(());
         }

@@ -363,7 +363,7 @@ fn a_struct_filled_in_by_hand_is_checked_too() {
 }
 
 #[test]
-fn the_schema_is_complete_and_says_what_it_does() {
+fn the_schema_is_complete_and_explains_its_keys() {
     let promised = "r e a b inertia f_o nu omega x y theta vx vy vtheta t_end v_stick \
                     stop_when_settled stop_when_sliding max_impacts body";
     let mut keys = KEYS.iter();

@@ -3,9 +3,9 @@
 use crate::claims::motions::{CLEAR, attachment_speed, clear, endings, exceeds, push, rotation};
 use crate::claims::numbers::{list, marked_over_others, max, mean, min, rising, span, spearman};
 use crate::claims::runs::{by_case, measured};
-use crate::claims::verdict::{Finding, Judged, Judges, Verdict};
+use crate::claims::verdict::{Checked, Checks, Finding, Verdict};
 use snapload::Impact;
-use snapload_verify::Run;
+use snapload_verify::RoundedRun;
 
 /// Figs 6.22-6.26: Ω = 0.5, 0.75, 0.9, 1.5, 2.0.
 pub(super) const FREQUENCIES: [&str; 5] = [
@@ -15,13 +15,13 @@ pub(super) const FREQUENCIES: [&str; 5] = [
     "1910001000-3515",
     "1910001000-3520",
 ];
-type Runs<'a> = [&'a Run; 5];
+type Runs<'a> = [&'a RoundedRun; 5];
 /// The figures among these that have stretches of one mark.
 const STRETCHES: [usize; 3] = [0, 2, 4];
 /// The figures that the chapter compares with braids.
 const BRAIDS: [usize; 2] = [1, 2];
 
-pub(super) const JUDGES: &Judges<fn(&[Runs]) -> Judged> = &[
+pub(super) const CHECKS: &Checks<fn(&[Runs]) -> Checked> = &[
     ("6.4.1-26", |members| {
         let only_last = |runs: &Runs| runs.map(exceeds) == [false, false, false, false, true];
         Ok(Finding::robust(members, only_last).value("endings", endings(members)))
@@ -31,7 +31,7 @@ pub(super) const JUDGES: &Judges<fn(&[Runs]) -> Judged> = &[
         let back = own.windows(2).filter(|pair| !rising(pair)).count();
         Ok(measured("rotations", members, rotation, |all| rising(all))
             .value("back", back)
-            .found("ends", own[0] < own[4]))
+            .condition("ends", own[0] < own[4]))
     }),
     ("6.4.1-28", |members| {
         /// The least snap velocity that is easy to see in a plot.
@@ -88,14 +88,14 @@ pub(super) const JUDGES: &Judges<fn(&[Runs]) -> Judged> = &[
 ];
 
 /// Sequences of impacts above some velocity on one cable.
-fn stretches(run: &Run, above: f64) -> Vec<Vec<&Impact>> {
+fn stretches(run: &RoundedRun, above: f64) -> Vec<Vec<&Impact>> {
     let hits: Vec<&Impact> = run.impacts().iter().filter(|hit| hit.v_n > above).collect();
     hits.chunk_by(|p, q| p.cable == q.cable)
         .map(<[_]>::to_vec)
         .collect()
 }
 
-fn longest(run: &Run, above: f64) -> usize {
+fn longest(run: &RoundedRun, above: f64) -> usize {
     let lengths = stretches(run, above).into_iter().map(|hits| hits.len());
     lengths.max().unwrap_or(0)
 }
@@ -104,7 +104,7 @@ fn longest(run: &Run, above: f64) -> usize {
 const SEVERAL: usize = 5;
 
 /// The rise of the body over each stretch of clear snaps.
-fn rises(run: &Run) -> Vec<f64> {
+fn rises(run: &RoundedRun) -> Vec<f64> {
     let long = stretches(run, CLEAR)
         .into_iter()
         .filter(|hits| hits.len() >= SEVERAL);
@@ -112,7 +112,7 @@ fn rises(run: &Run) -> Vec<f64> {
         .collect()
 }
 
-fn down_a_boundary(members: &[Runs]) -> Judged {
+fn down_a_boundary(members: &[Runs]) -> Checked {
     /// The least rise that is visible in a plot.
     const SEEN: f64 = 0.05;
     // The body falls in more of these stretches than it rises in.
@@ -127,12 +127,12 @@ fn down_a_boundary(members: &[Runs]) -> Judged {
         .value("rises", own.map(|rises| list(&rises, 3)).join("; "))
         .value("sure", Verdict::Reproduced.count(verdicts))
         .values("up clear several", [up, CLEAR, SEVERAL as f64])
-        .found("rises_too", up >= SEEN))
+        .condition("rises_too", up >= SEEN))
 }
 
 /// Difference of the snap velocities of cables 1 and 2, each interpolated linearly between its
 /// clear impacts, at times evenly spaced over their common span; and that span.
-fn difference(run: &Run) -> (Vec<f64>, f64) {
+fn difference(run: &RoundedRun) -> (Vec<f64>, f64) {
     let line = |cable: usize| -> Vec<(f64, f64)> {
         let own = clear(run).filter(|hit| hit.cable == cable);
         own.map(|hit| (hit.t, hit.v_n)).collect()
@@ -186,7 +186,7 @@ fn braids(rates: &[f64; 5]) -> bool {
 }
 
 /// Crossings of the two lines per unit time.
-fn crossing_rate(run: &Run) -> f64 {
+fn crossing_rate(run: &RoundedRun) -> f64 {
     let (values, span) = difference(run);
     if span > 0.0 {
         crossings(&values) as f64 / span
@@ -196,14 +196,14 @@ fn crossing_rate(run: &Run) -> f64 {
 }
 
 /// Share of the time, in per cent, in which cable 1 snaps harder.
-fn share(run: &Run) -> f64 {
+fn share(run: &RoundedRun) -> f64 {
     let (values, _) = difference(run);
     100.0 * mean(values.iter().map(|d| f64::from(u8::from(*d > 0.0))))
 }
 
 /// Mean snap velocity, and its mean share of the attachment's speed, at the clear impacts of the
 /// cable that snaps harder, then of the other.
-fn harder_and_other(run: &Run) -> [[f64; 2]; 2] {
+fn harder_and_other(run: &RoundedRun) -> [[f64; 2]; 2] {
     let of = |cable: usize| {
         let own = clear(run).filter(|hit| hit.cable == cable);
         let share = own.clone();
@@ -231,7 +231,7 @@ fn extremes(values: &[f64]) -> Vec<f64> {
 
 /// Ratio of the mean snap velocity where the force pushes towards the struck cable to that where it
 /// does not; by the force at the instant of the impact, and by its mean since the previous impact.
-fn with_over_against(run: &Run) -> [f64; 2] {
+fn with_over_against(run: &RoundedRun) -> [f64; 2] {
     let system = run.system();
     let pairs = run.impacts().windows(2).filter(|pair| pair[1].v_n > CLEAR);
     let pushes: Vec<([f64; 2], f64)> = pairs
@@ -247,7 +247,7 @@ fn with_over_against(run: &Run) -> [f64; 2] {
 }
 
 /// Rank correlation of a snap velocity with the one before it on the same cable.
-fn memory(run: &Run) -> f64 {
+fn memory(run: &RoundedRun) -> f64 {
     let pairs = [0, 1].map(|cable| {
         let own = clear(run).filter(move |hit| hit.cable == cable);
         let later = own.clone().skip(1);
@@ -258,7 +258,7 @@ fn memory(run: &Run) -> f64 {
     spearman(&pairs.concat())
 }
 
-fn towards_the_boundary(members: &[Runs]) -> Judged {
+fn towards_the_boundary(members: &[Runs]) -> Checked {
     // By definition of the force at a snap, figure and start.
     let ratios = [0, 1].map(|which| {
         BRAIDS.map(|k| {
@@ -277,7 +277,7 @@ fn towards_the_boundary(members: &[Runs]) -> Judged {
     Ok(Finding::new(Verdict::any(verdicts))
         .values("at_the_snap on_the_mean", words)
         .value("clear", CLEAR)
-        .found("remembered", memories.iter().all(|rho| *rho > 0.5))
+        .condition("remembered", memories.iter().all(|rho| *rho > 0.5))
         .list("memories", memories))
 }
 

@@ -23,11 +23,11 @@ use crate::motion::waves::Waves;
 
 /// The motions of a system with given sets of taut cables; the water's memory is not included.
 #[derive(Clone, Debug)]
-pub struct Held<T: Real = f64> {
+pub struct PrescribedTaut<T: Real = f64> {
     system: System<T>,
 }
 
-impl<T: Real> Held<T> {
+impl<T: Real> PrescribedTaut<T> {
     /// Of a system.
     pub fn new(system: System<T>) -> Self {
         Self { system }
@@ -42,7 +42,7 @@ impl<T: Real> Held<T> {
     /// held, none of which may depend on the others.
     pub fn carried(&self, taut: TautSet, t: T, state: &State<T>, s: T) -> State<T> {
         dispatch_over::<T, _>(Carrying {
-            held: self,
+            prescribed: self,
             taut,
             from: (t, state),
             s,
@@ -50,13 +50,13 @@ impl<T: Real> Held<T> {
         })
     }
 
-    /// The same motion at every time from 0 to `s`: equal to [`Held::carried`] up to rounding,
-    /// without computing the motion again for each time.
+    /// The same motion at every time from 0 to `s`: equal to [`PrescribedTaut::carried`] up to
+    /// rounding, without computing the motion again for each time.
     pub fn path(&self, taut: TautSet, t: T, state: &State<T>, s: T) -> Path<'_, T> {
         let mut pieces = Vec::new();
         if !self.system.has_closed_form(taut) {
             dispatch_over::<T, _>(Carrying {
-                held: self,
+                prescribed: self,
                 taut,
                 from: (t, state),
                 s,
@@ -64,7 +64,7 @@ impl<T: Real> Held<T> {
             });
         }
         Path {
-            held: self,
+            prescribed: self,
             from: (t, *state),
             pieces,
         }
@@ -72,7 +72,7 @@ impl<T: Real> Held<T> {
 
     /// Slack flight in closed form (docs/model.md section 4).
     #[inline(always)]
-    fn flown(&self, t: T, state: &State<T>, s: T) -> State<T> {
+    fn slack_flight(&self, t: T, state: &State<T>, s: T) -> State<T> {
         let forcing = &self.system.forcing;
         let mut flight = Instant::at(s, forcing.constant, state.vtheta);
         for harmonic in &forcing.harmonics {
@@ -83,7 +83,7 @@ impl<T: Real> Held<T> {
 
     /// A chain of Taylor series, which are kept if that is asked for.
     #[inline(always)]
-    fn driven(
+    fn by_series(
         &self,
         taut: TautSet,
         (begun, state): (T, &State<T>),
@@ -169,7 +169,7 @@ impl<T: Real> Held<T> {
 
 /// One motion to be carried on, by the best instructions for it.
 struct Carrying<'a, T: Real> {
-    held: &'a Held<T>,
+    prescribed: &'a PrescribedTaut<T>,
     taut: TautSet,
     from: (T, &'a State<T>),
     s: T,
@@ -181,10 +181,11 @@ impl<T: Real> Kernel for Carrying<'_, T> {
     #[inline(always)]
     fn run(self) -> State<T> {
         let (t, state) = self.from;
-        if self.held.system.has_closed_form(self.taut) {
-            self.held.flown(t, state, self.s)
+        if self.prescribed.system.has_closed_form(self.taut) {
+            self.prescribed.slack_flight(t, state, self.s)
         } else {
-            self.held.driven(self.taut, (t, state), self.s, self.kept)
+            self.prescribed
+                .by_series(self.taut, (t, state), self.s, self.kept)
         }
     }
 }
@@ -199,7 +200,7 @@ struct Piece<T> {
 /// A motion with a given set of taut cables, which can be evaluated at many times.
 #[derive(Clone, Debug)]
 pub struct Path<'a, T: Real = f64> {
-    held: &'a Held<T>,
+    prescribed: &'a PrescribedTaut<T>,
     from: (T, State<T>),
     /// In the order of the motion; empty where it has a closed form.
     pieces: Vec<Piece<T>>,
@@ -208,14 +209,14 @@ pub struct Path<'a, T: Real = f64> {
 impl<T: Real> Path<'_, T> {
     /// The state a time `s` after the beginning.
     pub fn state(&self, s: T) -> State<T> {
-        dispatch_over::<T, _>(Asking(self, s))
+        dispatch_over::<T, _>(StateOnPath(self, s))
     }
 }
 
 /// A state that is asked for, by the best instructions for it.
-struct Asking<'a, T: Real>(&'a Path<'a, T>, T);
+struct StateOnPath<'a, T: Real>(&'a Path<'a, T>, T);
 
-impl<T: Real> Kernel for Asking<'_, T> {
+impl<T: Real> Kernel for StateOnPath<'_, T> {
     type Output = State<T>;
     #[inline(always)]
     fn run(self) -> State<T> {
@@ -228,7 +229,7 @@ impl<T: Real> Kernel for Asking<'_, T> {
             Some(Piece { from, motion }) => {
                 state_at([&motion[0], &motion[1], &motion[2]], s - *from)
             }
-            None => path.held.flown(*t, state, s),
+            None => path.prescribed.slack_flight(*t, state, s),
         }
     }
 }

@@ -9,7 +9,7 @@ use snapload::{Case, Trajectory};
 const SENSITIVE_IMPACTS: usize = 3;
 
 /// A run with its trust and the ends of its neighbours.
-pub struct Trusted {
+pub struct RunWithTrust {
     /// The run.
     pub run: Trajectory,
     /// How far it can be trusted.
@@ -24,7 +24,7 @@ pub struct Trusted {
     pub sensitivity: Vec<Sensitivity>,
 }
 
-impl Trusted {
+impl RunWithTrust {
     /// Runs a case, and `members` of its neighbours if its end is not certain; if no number is
     /// given, as many as are needed to determine how they end, up to [`DEFAULT_MEMBERS`].
     ///
@@ -46,7 +46,7 @@ impl Trusted {
     /// longer.
     ///
     /// # Errors
-    /// As for [`Trusted::run`].
+    /// As for [`RunWithTrust::run`].
     pub fn run_alone(
         case: &Case,
         uncertainty: Uncertainty,
@@ -63,11 +63,11 @@ impl Trusted {
         })
     }
 
-    /// The result of [`Trusted::run`], completed with the derivatives and the neighbours if the end
-    /// is not certain.
+    /// The result of [`RunWithTrust::run`], completed with the derivatives and the neighbours if the
+    /// end is not certain.
     ///
     /// # Errors
-    /// As for [`Trusted::run`].
+    /// As for [`RunWithTrust::run`].
     pub fn completed(
         mut self,
         case: &Case,
@@ -77,7 +77,7 @@ impl Trusted {
     ) -> Result<Self, Unfinished> {
         self.sensitivity = sensitivity(case, SENSITIVE_IMPACTS, on_progress)?;
         self.seed = seed;
-        if self.takes_neighbours(members) {
+        if self.needs_neighbours(members) {
             let count = members.unwrap_or(DEFAULT_MEMBERS);
             let ensemble = Ensemble::about(case, &self.uncertainty, count, seed);
             self.tally = Some(match members {
@@ -88,7 +88,7 @@ impl Trusted {
         Ok(self)
     }
 
-    fn takes_neighbours(&self, members: Option<u32>) -> bool {
+    fn needs_neighbours(&self, members: Option<u32>) -> bool {
         members != Some(0) && !self.trust.decides_the_end()
     }
 
@@ -100,8 +100,8 @@ impl Trusted {
 
 /// `rotation limit: certain`, or a line for each end: `rotation limit: 63 % of 1,000 neighbours (95
 /// %: 60-66 %)`.
-pub fn outcome_in_words(trusted: &Trusted) -> String {
-    let end = trusted.run.end().reason.words();
+pub fn outcome_in_words(trusted: &RunWithTrust) -> String {
+    let end = trusted.run.end().reason.label();
     let Some(tally) = &trusted.tally else {
         return if trusted.trust.decides_the_end() {
             format!("{end}: certain")
@@ -119,7 +119,7 @@ pub fn outcome_in_words(trusted: &Trusted) -> String {
         let [low, high] = share.interval();
         parts.push(format!(
             "{}: {} %{of} (95 %: {}-{} %)",
-            reason.words(),
+            reason.label(),
             percent(share.part(), f64::round),
             percent(low, f64::floor),
             percent(high, f64::ceil),
@@ -129,7 +129,7 @@ pub fn outcome_in_words(trusted: &Trusted) -> String {
 }
 
 /// Where trust ends, and on a second line why.
-pub fn trust_in_words(trusted: &Trusted) -> String {
+pub fn trust_in_words(trusted: &RunWithTrust) -> String {
     let impacts = trusted.run.impacts().len();
     horizon_in_words(
         trusted.trust.horizon,

@@ -1,9 +1,9 @@
 //! Complete files of rows: writing, joining in one pass, and reading.
 
+use crate::checksum::{blank_entry, damage, write_checksum};
 use crate::metadata::{Identity, Shard};
-use crate::parquet_file::{Holds, Reader, Values, is_parquet};
+use crate::parquet_file::{ColumnType, Reader, Values, is_parquet};
 use crate::parquet_writer::{Field, Writer};
-use crate::seal::{blank, flaw, seal};
 use crate::table::{columns_of, fields};
 use crate::{Column, Row, StudyError};
 use parquet::basic::{Compression, ZstdLevel};
@@ -32,7 +32,7 @@ pub(crate) fn to_bytes(identity: &Identity, rows: &[&Row]) -> io::Result<Vec<u8>
         writer.into_inner()
     };
     let mut bytes = write().map_err(to_io)?;
-    seal(Cursor::new(&mut bytes[..]))?;
+    write_checksum(Cursor::new(&mut bytes[..]))?;
     Ok(bytes)
 }
 
@@ -41,7 +41,7 @@ pub(crate) fn to_bytes(identity: &Identity, rows: &[&Row]) -> io::Result<Vec<u8>
 /// the time for making a dictionary. Statistics are those of a row group, which is small enough.
 fn properties(identity: &Identity) -> ParquetResult<WriterProperties> {
     let mut notes = identity.to_metadata();
-    notes.push(blank());
+    notes.push(blank_entry());
     let described = WriterProperties::builder()
         .set_compression(Compression::ZSTD(ZstdLevel::try_new(LEVEL)?))
         .set_statistics_enabled(EnabledStatistics::Chunk)
@@ -50,7 +50,9 @@ fn properties(identity: &Identity) -> ParquetResult<WriterProperties> {
         .set_created_by(format!("snapload {}", identity.version))
         .set_key_value_metadata(Some(notes));
     let fields = fields();
-    let words = fields.iter().filter(|field| field.holds == Holds::Words);
+    let words = fields
+        .iter()
+        .filter(|field| field.column_type == ColumnType::Words);
     let with = |properties: WriterPropertiesBuilder, field: &Field| {
         properties.set_column_dictionary_enabled(field.name.into(), true)
     };
@@ -75,7 +77,7 @@ pub(crate) fn join(parts: &[PathBuf], out: &Path, identity: &Identity) -> Result
     let properties = properties(identity).map_err(wrong)?;
     let fields = fields();
     let mut writer = Writer::new(BufWriter::new(file), &fields, properties).map_err(wrong)?;
-    let nothing = || fields.iter().map(|field| Values::none(field.holds));
+    let nothing = || fields.iter().map(|field| Values::none(field.column_type));
     let mut waiting: Vec<Values> = nothing().collect();
     for part in parts {
         let columns = Columns::all(part)?;
@@ -101,7 +103,7 @@ pub(crate) fn join(parts: &[PathBuf], out: &Path, identity: &Identity) -> Result
     let mut buffer = writer.into_inner().map_err(wrong)?;
     buffer
         .flush()
-        .and_then(|()| seal(buffer.get_ref()))
+        .and_then(|()| write_checksum(buffer.get_ref()))
         .and_then(|()| buffer.get_ref().sync_all())
         .map_err(|error| StudyError::write(out, error))
 }
@@ -152,7 +154,7 @@ pub fn merge(files: &[PathBuf], out: &Path) -> Result<(), StudyError> {
     };
     let mut next = 0;
     for (identity, path) in &parts {
-        if !identity.goes_with(first) {
+        if !identity.is_same_study_as(first) {
             return Err(StudyError::Input(format!(
                 "{} and {} are parts of different studies, or of different versions of snapload",
                 first_path.display(),
@@ -190,7 +192,7 @@ fn identity_of_part(path: &Path) -> Result<Identity, StudyError> {
         let words = format!("{shown}: there is no such file, or it can not be read");
         return Err(StudyError::Input(words));
     }
-    if let Some(why) = flaw(path) {
+    if let Some(why) = damage(path) {
         return Err(StudyError::Input(format!(
             "{shown} can not be used: {why}\nhint: if it was copied here, copy it again; else remove it and compute \
              that part again, with the snapload sweep --shard that made it"
@@ -285,7 +287,7 @@ pub fn ends(path: &Path) -> Result<StudyEnds, StudyError> {
 
 /// The value of a column in one row.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Shown<'a> {
+pub enum ShownValue<'a> {
     /// A number.
     Number(f64),
     /// A word, or `true` or `false`.
@@ -304,7 +306,7 @@ pub enum Shown<'a> {
 pub fn read_shown(
     path: &Path,
     column: &Column,
-    mut visit: impl FnMut(u64, Shown, bool),
+    mut visit: impl FnMut(u64, ShownValue, bool),
 ) -> Result<(), StudyError> {
     let mut row = 0;
     let columns = Columns::named(path, &[column.name, "error", "certain"])?;
@@ -314,26 +316,26 @@ pub fn read_shown(
         };
         for (k, error) in errors.iter().enumerate() {
             let shown = match values {
-                _ if error.is_some() => Some(Shown::Fault),
-                Values::Numbers(list) => list[k].map(Shown::Number),
-                Values::Counts(list) => list[k].map(|n| Shown::Number(n as f64)),
+                _ if error.is_some() => Some(ShownValue::Fault),
+                Values::Numbers(list) => list[k].map(ShownValue::Number),
+                Values::Counts(list) => list[k].map(|n| ShownValue::Number(n as f64)),
                 Values::Flags(list) => {
-                    list[k].map(|flag| Shown::Word(if flag { "true" } else { "false" }))
+                    list[k].map(|flag| ShownValue::Word(if flag { "true" } else { "false" }))
                 }
-                Values::Words(list) => list[k].as_deref().map(Shown::Word),
+                Values::Words(list) => list[k].as_deref().map(ShownValue::Word),
             };
             let doubtful = certain[k] == Some(false);
-            visit(row, shown.unwrap_or(Shown::Nothing), doubtful);
+            visit(row, shown.unwrap_or(ShownValue::Nothing), doubtful);
             row += 1;
         }
     })
 }
 
 /// The names and types of the columns of a study's file, in their order.
-pub fn columns_of_files() -> Vec<(&'static str, Holds)> {
+pub fn columns_of_files() -> Vec<(&'static str, ColumnType)> {
     fields()
         .iter()
-        .map(|field| (field.name, field.holds))
+        .map(|field| (field.name, field.column_type))
         .collect()
 }
 
@@ -348,7 +350,7 @@ pub fn checked_identity(path: &Path) -> Result<Option<Identity>, StudyError> {
     let Some(identity) = identity(&open(path)?) else {
         return Ok(None);
     };
-    match flaw(path) {
+    match damage(path) {
         Some(why) => Err(StudyError::damaged(path, why)),
         None => Ok(Some(identity)),
     }
@@ -368,9 +370,9 @@ pub fn read_rows(
     let columns = Columns::named(path, &[name])?;
     let mut begin = 0;
     for (group, count) in columns.reader.groups().enumerate() {
-        let wanted = rows.start.max(begin)..rows.end.min(begin + count);
-        if wanted.start < wanted.end {
-            let here = wanted.start - begin..wanted.end - begin;
+        let overlap = rows.start.max(begin)..rows.end.min(begin + count);
+        if overlap.start < overlap.end {
+            let here = overlap.start - begin..overlap.end - begin;
             columns.read(group, here)?.into_iter().for_each(&mut visit);
         }
         begin += count;

@@ -23,43 +23,43 @@ const BETWEEN: [u8; 2] = [0x18, 0x40];
 const END: &[u8; 4] = b"PAR1";
 
 /// The entry of a file whose checksum is not known yet; it has to be the last one.
-pub(crate) fn blank() -> KeyValue {
+pub(crate) fn blank_entry() -> KeyValue {
     KeyValue::new(NAME.to_owned(), "0".repeat(DIGITS))
 }
 
 /// Writes the checksum into a file that has a blank entry.
-pub(crate) fn seal(mut file: impl Read + Write + Seek) -> io::Result<()> {
-    let note = Note::find(&mut file)?;
-    let note = note.ok_or_else(|| io::Error::other("there is no room for its checksum"))?;
-    let digits = note.computed(&mut file)?;
-    file.seek(SeekFrom::Start(note.place))?;
+pub(crate) fn write_checksum(mut file: impl Read + Write + Seek) -> io::Result<()> {
+    let stored = StoredChecksum::find(&mut file)?;
+    let stored = stored.ok_or_else(|| io::Error::other("there is no room for its checksum"))?;
+    let digits = stored.computed(&mut file)?;
+    file.seek(SeekFrom::Start(stored.place))?;
     file.write_all(digits.as_bytes())
 }
 
 /// Why a file differs from what was written; none if it does not.
-pub(crate) fn flaw(path: &Path) -> Option<String> {
-    match File::open(path).and_then(flaw_of) {
-        Ok(flaw) => flaw.map(str::to_owned),
+pub(crate) fn damage(path: &Path) -> Option<String> {
+    match File::open(path).and_then(damage_of) {
+        Ok(damage) => damage.map(str::to_owned),
         Err(error) => Some(without_number(&error)),
     }
 }
 
 /// The same for bytes or an open file.
-pub(crate) fn flaw_of(mut file: impl Read + Seek) -> io::Result<Option<&'static str>> {
-    let Some(note) = Note::find(&mut file)? else {
+pub(crate) fn damage_of(mut file: impl Read + Seek) -> io::Result<Option<&'static str>> {
+    let Some(stored) = StoredChecksum::find(&mut file)? else {
         return Ok(Some("it is damaged, or not a file of snapload sweep"));
     };
-    let whole = note.computed(&mut file)?.as_bytes() == note.there;
-    Ok((!whole).then_some("it is damaged: its checksum is not that of its bytes"))
+    let intact = stored.computed(&mut file)?.as_bytes() == stored.there;
+    Ok((!intact).then_some("it is damaged: its checksum is not that of its bytes"))
 }
 
 /// A checksum in a file: its position, and its digits.
-struct Note {
+struct StoredChecksum {
     place: u64,
     there: [u8; DIGITS],
 }
 
-impl Note {
+impl StoredChecksum {
     fn find(file: &mut (impl Read + Seek)) -> io::Result<Option<Self>> {
         let size = file.seek(SeekFrom::End(0))?;
         let Some(end) = size.checked_sub(8) else {

@@ -1,13 +1,13 @@
 //! A run with its horizon and known digits, which are quick to compute.
 use crate::NormsKnown;
-use crate::trusted::horizon_in_words;
+use crate::run_with_trust::horizon_in_words;
 use snapload::analysis::{
     Cancelled, Horizon, NormErrors, OnProgress, TrustMonitor, Uncertainty, record,
 };
 use snapload::{Case, Trajectory};
 
 /// A run with exact values, and how far it can be trusted.
-pub struct Followed {
+pub struct RunWithHorizon {
     /// The run.
     pub run: Trajectory,
     /// Where trust ends; none if the whole run can be trusted.
@@ -18,7 +18,7 @@ pub struct Followed {
     pub norms_known: NormsKnown,
 }
 
-impl Followed {
+impl RunWithHorizon {
     /// Runs a case.
     ///
     /// # Errors

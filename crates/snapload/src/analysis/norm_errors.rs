@@ -25,7 +25,7 @@ pub struct NormErrors {
 
 impl Trust {
     /// Whether a time is before the horizon.
-    fn knows(&self, t: f64) -> bool {
+    fn is_before_horizon(&self, t: f64) -> bool {
         self.horizon.is_none_or(|horizon| t < horizon.t)
     }
 
@@ -37,7 +37,7 @@ impl Trust {
     ) -> impl Iterator<Item = Option<f64>> + 'a {
         let rows = run.impacts().iter().zip(&self.errors);
         rows.map(move |(impact, error)| {
-            let known = impact.v_n > 0.0 && self.knows(impact.t);
+            let known = impact.v_n > 0.0 && self.is_before_horizon(impact.t);
             known.then(|| error_of_v_n(run, impact, *error))
         })
     }
@@ -67,7 +67,7 @@ impl NormErrors {
         let [y_max, theta_max] = extreme_errors(run, trust);
         Self {
             rho1: whole((most - rho1).max(rho1 - least)),
-            rho2: Some(early).filter(|_| trust.knows(RHO2_UNTIL * (1.0 + LATER))),
+            rho2: Some(early).filter(|_| trust.is_before_horizon(RHO2_UNTIL * (1.0 + LATER))),
             rho3: whole(all),
             y_max,
             theta_max: match run.end().reason {
@@ -118,9 +118,9 @@ fn extreme_errors(run: &Trajectory, trust: &Trust) -> [Option<f64>; 2] {
     });
     let (mut from, mut before, _) = rows[0];
     for &(to, after, late) in &rows[1..] {
-        let (span, told) = ([from, to], after.max(before));
+        let (span, error) = ([from, to], after.max(before));
         let along = Along::of(&mut playback, span);
-        let off = |k: usize| along.growth(run, k, span) * told + along.speeds[k] * late;
+        let off = |k: usize| along.growth(run, k, span) * error + along.speeds[k] * late;
         let offs = [off(0), off(1)];
         let floor = |k: usize| largest[k] - offs[k] - PLAYED_BACK * largest[k].abs().max(1.0);
         let floors = [floor(0), floor(1)];
@@ -148,7 +148,7 @@ struct Along {
     reached: [f64; 2],
     bound: [f64; 2],
     /// Bounds on the path lengths ∫ |q̇| dt, and the speeds at the end.
-    ways: [f64; 2],
+    path_lengths: [f64; 2],
     speeds: [f64; 2],
 }
 
@@ -157,7 +157,7 @@ impl Along {
         let mut along = Self {
             reached: [f64::NEG_INFINITY; 2],
             bound: [f64::NEG_INFINITY; 2],
-            ways: [0.0; 2],
+            path_lengths: [0.0; 2],
             speeds: [0.0; 2],
         };
         playback.each_piece(span, |piece| {
@@ -170,7 +170,7 @@ impl Along {
                 let speed = speeds[0][k].max(speeds[1][k]) + bends[k] * width * 0.5;
                 along.reached[k] = along.reached[k].max(top);
                 along.bound[k] = along.bound[k].max(top + bends[k] * width * width * 0.125);
-                along.ways[k] += speed * width;
+                along.path_lengths[k] += speed * width;
             }
         });
         along
@@ -179,7 +179,9 @@ impl Along {
     /// The factor by which a deviation at the start may grow in y or in θ.
     fn growth(&self, run: &Trajectory, k: usize, [from, to]: [f64; 2]) -> f64 {
         let ([_, rate, _], s) = (run.system().forcing.bounds(), to - from);
-        self.bound[k].abs().max(1.0) + self.ways[k].max(s) + 0.5 * s * s * to.max(1.0) * rate
+        self.bound[k].abs().max(1.0)
+            + self.path_lengths[k].max(s)
+            + 0.5 * s * s * to.max(1.0) * rate
     }
 
     /// The largest of each within the stretch; if that is below its floor, some value below the

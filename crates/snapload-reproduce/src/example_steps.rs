@@ -7,7 +7,7 @@ use std::ops::ControlFlow;
 
 /// A proved stretch of motion with taut cables.
 #[derive(Clone, Debug, PartialEq)]
-struct Stretch {
+struct TautInterval {
     /// The taut cables, by number: `1`, `2` or `1+2`.
     taut: String,
     from: String,
@@ -75,18 +75,18 @@ fn proved(code: &str, until: f64) -> Result<String, CaseError> {
 }
 
 /// The stored stretches of an example.
-fn kept(code: &str) -> Vec<Stretch> {
+fn stored(code: &str) -> Vec<TautInterval> {
     let lines = include_str!("../data/stretches.csv").lines();
     lines
         .filter_map(|line| read(line.strip_prefix(code)?))
         .collect()
 }
 
-fn read(line: &str) -> Option<Stretch> {
+fn read(line: &str) -> Option<TautInterval> {
     let fields: Vec<&str> = line.split(',').collect();
     let [_, taut, from, until, event, v_n, place, snaps] = fields.try_into().ok()?;
     let [taut, from, until, event] = [taut, from, until, event].map(str::to_owned);
-    Some(Stretch {
+    Some(TautInterval {
         taut,
         from,
         until,
@@ -97,14 +97,14 @@ fn read(line: &str) -> Option<Stretch> {
     })
 }
 
-impl Stretch {
+impl TautInterval {
     fn lasts(&self) -> f64 {
         let time = |text: &str| text.parse().unwrap_or(f64::NAN);
         time(&self.until) - time(&self.from)
     }
 
     /// A description of the stretch and its end; `next` is the one after it.
-    fn told(&self, next: Option<&Self>) -> String {
+    fn description(&self, next: Option<&Self>) -> String {
         let lasts = self.lasts();
         let what = match self.taut.as_str() {
             "1" => "slides with the right cable taut",
@@ -127,7 +127,7 @@ impl Stretch {
 /// The proved slides of an example, up to its rocking: the duration of each, and the velocity of
 /// the other cable's snap that ends it.
 pub(crate) fn slides(code: &str) -> Vec<(f64, Option<f64>)> {
-    let slides = kept(code)
+    let slides = stored(code)
         .into_iter()
         .filter(|stretch| stretch.taut.len() == 1);
     slides
@@ -135,9 +135,9 @@ pub(crate) fn slides(code: &str) -> Vec<(f64, Option<f64>)> {
         .collect()
 }
 
-/// The steps of a story: when each begins, except the first, and what happens.
-pub(crate) fn story(code: &str) -> Vec<(Option<Number>, String)> {
-    let (stretches, command) = (kept(code), proof(code));
+/// The steps of an example: when each begins, except the first, and what happens.
+pub(crate) fn steps(code: &str) -> Vec<(Option<Number>, String)> {
+    let (stretches, command) = (stored(code), proof(code));
     let begins = |k: usize| {
         let (stretch, key) = (
             &stretches[k],
@@ -147,11 +147,11 @@ pub(crate) fn story(code: &str) -> Vec<(Option<Number>, String)> {
     };
     let mut steps = vec![(
         None,
-        flies(stretches.first().map_or(0, |first| first.snaps)),
+        slack_text(stretches.first().map_or(0, |first| first.snaps)),
     )];
     let mut k = 0;
     while k < stretches.len() {
-        let short = |stretch: &&Stretch| stretch.lasts() < SHORT;
+        let short = |stretch: &&TautInterval| stretch.lasts() < SHORT;
         let together = stretches[k..].iter().take_while(short).count();
         let number = begins(k);
         let (what, next) = if together > 1 {
@@ -167,9 +167,9 @@ pub(crate) fn story(code: &str) -> Vec<(Option<Number>, String)> {
             let snaps = next.map_or(0, |next| next.snaps - stretches[k].snaps);
             let then = match snaps {
                 0 | 1 => String::new(),
-                _ => format!("; then {}", flies(snaps)),
+                _ => format!("; then {}", slack_text(snaps)),
             };
-            (stretches[k].told(next) + &then, k + 1)
+            (stretches[k].description(next) + &then, k + 1)
         };
         steps.push((Some(number), what));
         k = next;
@@ -177,7 +177,7 @@ pub(crate) fn story(code: &str) -> Vec<(Option<Number>, String)> {
     steps
 }
 
-fn flies(snaps: usize) -> String {
+fn slack_text(snaps: usize) -> String {
     format!("moves with both cables slack, with {snaps} snaps")
 }
 
@@ -188,10 +188,10 @@ mod tests {
     #[test]
     fn the_first_stretches_are_proved_again() -> Result<(), CaseError> {
         let again = proved(CASES[1], 8.15594)?;
-        let (kept, again) = (kept(CASES[1]), again.lines().collect::<Vec<_>>());
+        let (stored, again) = (stored(CASES[1]), again.lines().collect::<Vec<_>>());
         assert!(again.len() > 3);
-        for (line, kept) in again[..again.len() - 1].iter().zip(kept) {
-            assert_eq!(line.strip_prefix(CASES[1]).and_then(read), Some(kept));
+        for (line, stored) in again[..again.len() - 1].iter().zip(stored) {
+            assert_eq!(line.strip_prefix(CASES[1]).and_then(read), Some(stored));
         }
         Ok(())
     }
@@ -199,18 +199,18 @@ mod tests {
     #[test]
     fn both_examples_end_in_rocking() {
         for code in CASES {
-            let stretches = kept(code);
+            let stretches = stored(code);
             assert!(stretches.len() > 10);
             let last = stretches.last().expect("a stretch");
             assert_eq!(
                 (last.taut.as_str(), last.event.as_str()),
                 ("1+2", "end_time")
             );
-            let snaps = |stretch: &Stretch| stretch.event.starts_with(SNAP);
+            let snaps = |stretch: &TautInterval| stretch.event.starts_with(SNAP);
             let velocities = stretches.iter().filter(|s| snaps(s) != s.v_n.is_some());
             assert_eq!(velocities.count(), 0);
             // In order, and none begins before the previous one ends.
-            let in_order = |pair: &[Stretch]| pair[0].until <= pair[1].from;
+            let in_order = |pair: &[TautInterval]| pair[0].until <= pair[1].from;
             assert!(stretches.windows(2).all(in_order));
         }
     }

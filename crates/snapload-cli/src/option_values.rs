@@ -8,7 +8,7 @@ use std::error::Error;
 use std::num::ParseFloatError;
 
 /// Reads a whole number that an option may be.
-pub(crate) fn whole<T>(option: Key) -> ValueParser
+pub(crate) fn whole_number<T>(option: Key) -> ValueParser
 where
     T: TryFrom<u64> + Clone + Send + Sync + 'static,
 {
@@ -36,7 +36,7 @@ fn allowed(error: &CaseError) -> String {
 }
 
 /// Reads the value of an option that is described as a key.
-pub(crate) fn described(key: &'static Key) -> ValueParser {
+pub(crate) fn key_value(key: &'static Key) -> ValueParser {
     ValueParser::from(move |text: &str| {
         let number = text.trim();
         let value = match key.kind {
@@ -64,7 +64,7 @@ pub(crate) fn refusal(error: &clap::Error) -> Option<String> {
     let value = text(ContextKind::InvalidValue)?;
     let source = error.source()?;
     let allowed = match source.to_string() {
-        said if said.starts_with("allowed: ") => said,
+        message if message.starts_with("allowed: ") => message,
         _ if source.is::<ParseFloatError>() => "allowed: a number".to_owned(),
         _ => return None,
     };
