@@ -111,7 +111,8 @@ fn proved(case: &ExactCase, supposed: &Supposed<'_>) -> Result<ProvedOrbit, Proo
     } = *supposed;
     let no_number = || {
         ProofFailure::False(
-            "the phase or the state of the orbit is not finite, or its number of periods is 0".to_owned(),
+            "the phase or the state of the orbit is not finite, or its number of periods is 0"
+                .to_owned(),
         )
     };
     let phase = Decimal::shortest(phase).ok_or_else(no_number)?.ball(LIMBS);

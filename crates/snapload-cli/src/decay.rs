@@ -73,13 +73,7 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
     let times = [args.duration, args.step];
     let fit = &report.fit;
     let from = args.from;
-    if from == [0.0; 3] || from.iter().any(|q| !q.is_finite()) {
-        let [surge, heave, pitch] = from;
-        return Err(Failure::bad_input(format!(
-            "--from = {surge},{heave},{pitch} is not allowed; allowed: three finite numbers, not all of them 0, such \
-             as 0,1,0"
-        )));
-    }
+    check_release(from)?;
     let motion = decay(
         &floating.body,
         &fit.memory,
@@ -124,6 +118,18 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
         swings: rows,
     };
     outputs.finish_with_text(&answer, text)
+}
+
+/// A body that is released where it rests does not swing.
+fn check_release(from: [f64; 3]) -> Result<(), Failure> {
+    if from != [0.0; 3] && from.iter().all(|q| q.is_finite()) {
+        return Ok(());
+    }
+    let [surge, heave, pitch] = from;
+    Err(Failure::bad_input(format!(
+        "--from = {surge},{heave},{pitch} is not allowed; allowed: three finite numbers, not all of them 0, such as \
+         0,1,0"
+    )))
 }
 
 /// The note if a swing is larger than the one before.

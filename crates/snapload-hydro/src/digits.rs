@@ -1,5 +1,7 @@
 //! Numbers in words, with as many digits as they need.
 
+use std::borrow::Borrow;
+
 /// Larger numbers are written with a power of ten.
 const LONGEST: f64 = 1e12;
 
@@ -51,7 +53,8 @@ pub fn tenths(value: &f64) -> String {
 }
 
 /// A number of things, such as `1 snap` or `2 snaps`.
-pub fn count(number: u64, noun: &str) -> String {
+pub fn count(number: impl Borrow<u64>, noun: &str) -> String {
+    let number = *number.borrow();
     let plural = if number == 1 { "" } else { "s" };
     format!("{number} {noun}{plural}")
 }
@@ -62,7 +65,10 @@ mod tests {
 
     #[test]
     fn one_thing_has_no_plural() {
-        assert_eq!([0, 1, 2].map(|n| count(n, "snap")), ["0 snaps", "1 snap", "2 snaps"]);
+        assert_eq!(
+            [0, 1, 2].map(|n| count(n, "snap")),
+            ["0 snaps", "1 snap", "2 snaps"]
+        );
     }
 
     #[test]

@@ -44,7 +44,8 @@ pub fn from_nemoh(
     let motions = zones(name, radiation, 1 + 2 * SIX)?;
     if motions.len() != SIX {
         let found = format!("it has {} zones", motions.len());
-        let wanted = "one body with its six degrees of freedom is expected, one zone for each motion";
+        let wanted =
+            "one body with its six degrees of freedom is expected, one zone for each motion";
         return Err(HydroError::layout(name, found, wanted));
     }
     let name = "ExcitationForce.tec";
@@ -142,7 +143,8 @@ fn zones<'a>(name: &'static str, text: &'a str, width: usize) -> Result<Vec<Zone
             _ => {
                 let start: String = line.trim().chars().take(60).collect();
                 let found = format!("line {} is {start:?}", index + 1);
-                let wanted = format!("{width} numbers are expected, for one body's six degrees of freedom");
+                let wanted =
+                    format!("{width} numbers are expected, for one body's six degrees of freedom");
                 return Err(HydroError::layout(name, found, wanted));
             }
         }

@@ -322,7 +322,7 @@ impl Assessment {
             trust: &self.trust,
             snapless: spread.is_some() && self.neighbours.iter().all(|n| n.peak_n().is_none()),
             horizon_s: self.horizon_s(),
-            length_m: self.prepared.scales.length_m,
+            length_m: self.prepared.model.scales.length_m,
             spread_kn: spread.map(|spread| spread.map(|newtons| newtons / 1e3)),
             count: self.neighbours.len(),
             failing: self.neighbours.iter().filter(|n| n.stop.exceeds()).count(),

@@ -296,10 +296,7 @@ fn springs_and_records_are_checked_by_the_same_rule() {
                 .all(|pair| pair[0] != pair[1])
         );
         let page = snapload_structure::note::seas_page(source("case"), &found).expect("a page");
-        assert!(
-            page.contains("Design checks")
-                && found.summary("case").contains("of 5 records")
-        );
+        assert!(page.contains("Design checks") && found.summary("case").contains("of 5 records"));
     }
 }
 
