@@ -106,7 +106,7 @@ impl Outputs {
     #[cfg(feature = "structure")]
     pub(crate) fn finish_told(self, json: &impl Serialize, words: String) -> Result<(), Failure> {
         self.finish_with(json, words, |path| {
-            snapload_structure::told("written", path)
+            snapload_structure::labelled_row("written", path)
         })
     }
 

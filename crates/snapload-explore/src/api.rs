@@ -1,5 +1,5 @@
 //! The routes of the server.
-use crate::guard::{Names, guard};
+use crate::host_check::{Names, host_check};
 use crate::refusal::{LARGEST_BODY, Refusal};
 use crate::request::Body;
 use crate::schema::{Start, schema};
@@ -76,7 +76,7 @@ pub(crate) fn router(start: Start, opened: Option<Opened>, port: u16) -> Router 
         .fallback_service(get(page::file).fallback(wrong_method))
         .method_not_allowed_fallback(wrong_method)
         .layer(DefaultBodyLimit::max(LARGEST_BODY))
-        .layer(from_fn_with_state(Arc::new(Names::at(port)), guard))
+        .layer(from_fn_with_state(Arc::new(Names::at(port)), host_check))
         .with_state(Arc::new(shared))
 }
 

@@ -122,19 +122,19 @@ impl File {
         out: &mut Vec<u8>,
     ) -> Result<(), Refusal> {
         let allowance = allowance.within(BUDGET);
-        let go_on = |progress: Progress| allowance.go_on(progress);
+        let on_progress = |progress: Progress| allowance.check(progress);
         let refuse = |unfinished| match unfinished {
             Unfinished::Case(error) => error.into(),
             Unfinished::Cancelled(_) => for_the_command(case, TOO_SLOW),
         };
-        let run = Trusted::run_alone(case, Uncertainty::default(), &go_on).map_err(refuse)?;
+        let run = Trusted::run_alone(case, Uncertainty::default(), &on_progress).map_err(refuse)?;
         if matches!(self, Self::Impacts) {
             let written = tables::impacts(&run.run, run.trust.digits(), out);
             return written.map_err(Refusal::failed);
         }
-        let run = run.completed(case, None, SEED, &go_on);
+        let run = run.completed(case, None, SEED, &on_progress);
         let run = run.map_err(refuse)?;
-        let report = Report::new(case.parameters(), &run, None, &go_on);
+        let report = Report::new(case.parameters(), &run, None, &on_progress);
         write_json(&report, out).map_err(Refusal::failed)
     }
 }

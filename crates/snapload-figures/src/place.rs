@@ -1,7 +1,7 @@
 //! Places texts inside a plot: beside the object that they name, where the least is drawn.
 
 use crate::polyline::holds;
-use crate::svg::{Anchor, FRAME, Sheet};
+use crate::svg::{Anchor, FRAME, SvgCanvas};
 use crate::text::{CAP_HEIGHT, SMALL, width};
 use kurbo::{Point, Rect, Size, Vec2};
 
@@ -9,7 +9,7 @@ use kurbo::{Point, Rect, Size, Vec2};
 const DOT: f64 = 1.6;
 /// Dots closer than this on paper coincide.
 const SAME_PLACE: f64 = 2.5 * DOT;
-/// The ink of a text or a dot, in units of that of a line: lines may be crossed, texts may not.
+/// The weight of a text or a dot, in units of that of a line: lines may be crossed, texts may not.
 const WORD: u32 = 50;
 /// The distance between texts.
 const APART: f64 = 4.0;
@@ -41,14 +41,14 @@ const DIRECTIONS: [Vec2; 8] = [
     Vec2::new(0.0, 1.0),
 ];
 
-/// The amount drawn on each square point of a plot.
-pub(crate) struct Ink {
+/// The weight of what is drawn on each square point of a plot.
+pub(crate) struct OccupiedAreas {
     frame: Rect,
     columns: usize,
     cells: Vec<u32>,
 }
 
-impl Ink {
+impl OccupiedAreas {
     pub(crate) fn new(frame: Rect) -> Self {
         let [columns, rows] = [frame.width(), frame.height()].map(|side| side.ceil() as usize + 1);
         let cells = vec![0; columns * rows];
@@ -81,29 +81,29 @@ impl Ink {
         holds(self.frame, at).then_some(row * self.columns + column)
     }
 
-    /// The ink under a rectangle; none if it is too close to the frame.
+    /// The weight of what is drawn under a rectangle; none if it is too close to the frame.
     fn under(&self, rect: Rect) -> Option<u32> {
-        let ink = |at| self.index(at).and_then(|at| self.cells.get(at));
+        let weight = |at| self.index(at).and_then(|at| self.cells.get(at));
         let with_rim = rect.inflate(RIM, RIM);
         let inside = self.frame.inflate(1e-6, 1e-6).contains_rect(with_rim);
-        inside.then(|| cells_of(rect).filter_map(ink).sum())
+        inside.then(|| cells_of(rect).filter_map(weight).sum())
     }
 
-    /// Writes a text at the candidate with the least ink under it; of equal ones, at the first.
+    /// Writes a text at the candidate with the least weight under it; of equal ones, at the first.
     /// Returns its position.
     fn write(
         &mut self,
-        sheet: &mut Sheet,
+        canvas: &mut SvgCanvas,
         word: &str,
         candidates: impl Iterator<Item = (Rect, f64)>,
     ) -> Option<Rect> {
         let costs = candidates.filter_map(|(rect, cost)| {
-            let ink = self.under(rect)?;
-            Some((rect, f64::from(ink) + cost))
+            let weight = self.under(rect)?;
+            Some((rect, f64::from(weight) + cost))
         });
         let (rect, _) = costs.min_by(|a, b| a.1.total_cmp(&b.1))?;
         self.add_rect(rect.inflate(APART, 0.0));
-        sheet.text_with_halo(word, Point::new(rect.x0, rect.y1), SMALL, Anchor::Start);
+        canvas.text_with_halo(word, Point::new(rect.x0, rect.y1), SMALL, Anchor::Start);
         Some(rect)
     }
 }
@@ -143,7 +143,11 @@ fn nearest(rect: Rect, to: Point) -> Point {
 }
 
 /// Draws dots, and their letters beside them; letters of coinciding dots are joined.
-pub(crate) fn place_letters(sheet: &mut Sheet, ink: &mut Ink, marks: &[(Point, &str)]) {
+pub(crate) fn place_letters(
+    canvas: &mut SvgCanvas,
+    occupied: &mut OccupiedAreas,
+    marks: &[(Point, &str)],
+) {
     let mut places: Vec<(Point, String)> = Vec::new();
     for &(at, letter) in marks {
         match places
@@ -155,8 +159,8 @@ pub(crate) fn place_letters(sheet: &mut Sheet, ink: &mut Ink, marks: &[(Point, &
         }
     }
     for &(at, _) in &places {
-        ink.add_rect(Rect::from_center_size(at, (2.0 * DOT, 2.0 * DOT)));
-        sheet.dot(at, DOT);
+        occupied.add_rect(Rect::from_center_size(at, (2.0 * DOT, 2.0 * DOT)));
+        canvas.dot(at, DOT);
     }
     for (own, (at, letters)) in places.iter().enumerate() {
         let others = || places[..own].iter().chain(&places[own + 1..]);
@@ -168,10 +172,10 @@ pub(crate) fn place_letters(sheet: &mut Sheet, ink: &mut Ink, marks: &[(Point, &
             let is_taken = other < NEARER * nearest(rect, *at).distance(*at);
             (rect, AWAY * cost + if is_taken { TAKEN } else { 0.0 })
         });
-        if let Some(rect) = ink.write(sheet, letters, candidates) {
+        if let Some(rect) = occupied.write(canvas, letters, candidates) {
             let near = nearest(rect, *at);
             if near.distance(*at) > FAR {
-                sheet.segment(*at, near.lerp(*at, 2.0 / near.distance(*at)), FRAME);
+                canvas.segment(*at, near.lerp(*at, 2.0 / near.distance(*at)), FRAME);
             }
         }
     }
@@ -179,8 +183,8 @@ pub(crate) fn place_letters(sheet: &mut Sheet, ink: &mut Ink, marks: &[(Point, &
 
 /// Writes the names of boundaries, each beside its own and away from the others.
 pub(crate) fn name_boundaries(
-    sheet: &mut Sheet,
-    ink: &mut Ink,
+    canvas: &mut SvgCanvas,
+    occupied: &mut OccupiedAreas,
     boundaries: &[(Vec<Vec<Point>>, &str)],
 ) {
     let traces = boundaries
@@ -197,6 +201,6 @@ pub(crate) fn name_boundaries(
             let ambiguity = 2.0 * (UNMISTAKABLE - distances.fold(UNMISTAKABLE, f64::min));
             beside(at, name, 2.5).map(move |(rect, cost)| (rect, cost + ambiguity))
         });
-        ink.write(sheet, name, candidates);
+        occupied.write(canvas, name, candidates);
     }
 }

@@ -124,9 +124,9 @@ pub struct Map {
     pub value_label: String,
     /// The names of the classes.
     pub classes: Vec<String>,
-    /// Which cells are doubtful, in the order of the cells; these are hatched. Cells for which the
+    /// Which cells are uncertain, in the order of the cells; these are hatched. Cells for which the
     /// list has no entry are not.
-    pub doubtful: Vec<bool>,
+    pub uncertain: Vec<bool>,
 }
 
 /// The contents of a cell of a [`Map`].
@@ -140,7 +140,7 @@ pub enum Cell {
     #[default]
     Empty,
     /// A value that could not be computed; hatched.
-    Fault,
+    Illegal,
 }
 
 /// The appearance of a line.

@@ -12,7 +12,7 @@ const COLUMN: f64 = 0.1;
 /// The number of points from which on a line is reduced to its columns' extremes.
 const LONG: usize = 5_000;
 /// The simplification works on parts of this length, which limits its time.
-const STRETCH: usize = 1_000;
+const SEGMENT_POINTS: usize = 1_000;
 
 /// Whether a point is in a frame; one on the edge is, whatever the rounding of its position.
 pub(crate) fn holds(frame: Rect, point: Point) -> bool {
@@ -100,9 +100,9 @@ fn simplify(points: &[Point]) -> Vec<Point> {
     }
     let last = points.len() - 1;
     let mut keep = vec![false; points.len()];
-    let stretches = (0..last).step_by(STRETCH);
+    let stretches = (0..last).step_by(SEGMENT_POINTS);
     let mut open: Vec<(usize, usize)> = stretches
-        .map(|start| (start, (start + STRETCH).min(last)))
+        .map(|start| (start, (start + SEGMENT_POINTS).min(last)))
         .collect();
     while let Some((from, to)) = open.pop() {
         keep[from] = true;

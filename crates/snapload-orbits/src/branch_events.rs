@@ -151,7 +151,7 @@ impl Test {
 
 /// A test function smaller than this is taken as identically zero, as on a family of neutral
 /// orbits.
-const NOTHING: f64 = 1e-9;
+const NOT_CROSSING: f64 = 1e-9;
 /// The largest value of a test function that is accepted as a zero.
 const ZERO: f64 = 1e-6;
 
@@ -167,7 +167,7 @@ fn value(test: Test, orbit: &Orbit, tangent: &DVector<f64>) -> f64 {
     let extreme = |extreme: Option<Extreme>, none| extreme.map_or(none, |e: Extreme| e.value);
     let multipliers = &orbit.multipliers.values;
     let cleared = |value: f64| {
-        if value.abs() < NOTHING {
+        if value.abs() < NOT_CROSSING {
             f64::NAN
         } else {
             value

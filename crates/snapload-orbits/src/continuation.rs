@@ -171,7 +171,7 @@ impl<F: Family> Continuation<'_, F> {
     /// last one the next section; and the shift of the events' numbers.
     pub(crate) fn renumbered(&self, u: &Unknowns) -> Option<(Self, Unknowns, isize)> {
         let lap = self.lap(u.at);
-        let (begun, length) = lap.times();
+        let (t_start, length) = lap.times();
         let count = u.durations.len();
         if *u.durations.first()? >= 0.0 && lap.last_leg(&u.durations) >= 0.0 {
             return None;
@@ -195,7 +195,10 @@ impl<F: Family> Continuation<'_, F> {
             } else {
                 durations[0] = length + early;
             }
-            (system.flow(leg.held, leg.t, &leg.start, begun - leg.t), -1)
+            (
+                system.flow(leg.held, leg.t, &leg.start, t_start - leg.t),
+                -1,
+            )
         } else {
             // The last event is now the first one after the section.
             moved.sequence.events.rotate_right(1);
@@ -207,7 +210,7 @@ impl<F: Family> Continuation<'_, F> {
             if count > 1 {
                 durations[1] -= late;
             }
-            let z = system.flow(leg.held, leg.t, &leg.start, begun + length - leg.t);
+            let z = system.flow(leg.held, leg.t, &leg.start, t_start + length - leg.t);
             (z, 1)
         };
         let here = Unknowns {

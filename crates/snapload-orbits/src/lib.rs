@@ -37,10 +37,9 @@ mod erosion;
 mod exponents;
 mod hybrid;
 mod impact_map;
-mod in_words;
 mod lap;
 mod moored;
-mod moored_questions;
+mod moored_searches;
 mod multipliers;
 mod newton;
 mod normal_form;
@@ -54,42 +53,43 @@ mod rows;
 mod scan;
 mod section;
 mod sequence;
+mod summary;
 mod survey;
 mod switch;
 
-pub use attraction::{Attraction, Attractor, Fate};
+pub use attraction::{Attraction, Attractor, CellOutcome};
 pub use attractor::{ATTRACTOR_PERIODS, Starts, TRANSIENT, attracts, find_orbits, of_attractor};
 pub use basin::{Basin, Cell, Measures, Window};
-pub use branch::{Along, Branch, BranchEnd, BranchPoint};
+pub use branch::{Branch, BranchEnd, BranchOptions, BranchPoint};
 pub use branch_events::{BranchEvent, Kind};
-pub use branch_rows::{BranchRow, branch_in_words};
-pub use curve::{Across, Curve, CurveEnd, CurvePoint};
-pub use curve_rows::{CurveRow, curve_in_words};
-pub use diagram::{At, diagram};
+pub use branch_rows::{BranchRow, branch_summary};
+pub use curve::{Curve, CurveEnd, CurveOptions, CurvePoint};
+pub use curve_rows::{CurveRow, curve_summary};
+pub use diagram::{DiagramPoint, diagram};
 pub use erosion::{Erosion, KNEE};
 pub use hybrid::{
     DURATION, Family, Hybrid, Jet, Limits, PARAMETER, Point, Simulated, TIME, constant, distance,
     values, variable,
 };
 pub use impact_map::{ImpactPoint, Impacts, MOST_KEPT};
-pub use in_words::{
-    attraction_in_words, basin_in_words, diagram_in_words, erosion_in_words, orbit_in_words,
-    section_in_words, without_points_in_words,
-};
 pub use lap::{Lap, Leg, Linearised};
 pub use moored::{Cables, Moored};
-pub use moored_questions::OnLap;
+pub use moored_searches::OnLap;
 pub use multipliers::{Multipliers, Stability, multipliers};
 pub use newton::{Closed, close};
 pub use options::{
-    BASIN_TRANSIENT, KEEP, ORBIT_PERIODS, PERIODS, POINTS, STARTS, across, along, check_start,
-    check_start_of_system, checked_phase, followed, stretch,
+    BASIN_TRANSIENT, KEEP, ORBIT_PERIODS, PERIODS, POINTS, STARTS, branch_options, check_start,
+    check_start_of_system, checked_phase, curve_options, followed_key, section_options,
 };
-pub use orbit::{EventRow, NoOrbit, Orbit, Proof, Wanted};
+pub use orbit::{EventRow, NoOrbit, Orbit, OrbitRequest, Proof};
 pub use orbit_row::OrbitRow;
 pub use proof::{Proofs, prove_all};
 pub use rows::{AttractionRow, BasinRow, DiagramRow, ErosionRow, SectionRow};
 pub use scan::scan;
-pub use section::{LONGEST_PERIOD, Section, Stretch, period_of, start_of};
-pub use sequence::{Event, Happening, Sequence, Timed, words};
+pub use section::{LONGEST_PERIOD, Section, SectionOptions, period_of, start_of};
+pub use sequence::{Event, EventKind, Sequence, Timed, symbol_text};
+pub use summary::{
+    attraction_summary, basin_summary, diagram_summary, erosion_summary, orbit_summary,
+    section_summary, without_points_summary,
+};
 pub use survey::{Extreme, Survey, survey};

@@ -48,8 +48,8 @@ pub fn decay(
 ) -> Result<Decay, HydroError> {
     let steps = duration_s / step_s;
     if !(step_s > 0.0 && steps.is_finite() && (0.0..=1e6).contains(&steps)) {
-        let wanted = "the step must be above 0, and the duration at most a million steps";
-        return Err(HydroError::value("the step in s", step_s, wanted));
+        let expected = "the step must be above 0, and the duration at most a million steps";
+        return Err(HydroError::value("the step in s", step_s, expected));
     }
     let identity = DMatrix::identity(3, 3);
     let matrix = state_matrix(body, &body.stiffness, memory, added_mass_inf, &identity)?;

@@ -1,6 +1,6 @@
 //! The drawing of a structure: body, lines, anchors and water, to scale.
 
-use crate::physics::prepared::Prepared;
+use crate::physics::model_at_rest::ModelAtRest;
 use crate::structure::Outline;
 use snapload_figures::{
     Axis, Colour, Dash, FigureError, Layer, Mark, Picture, Plot, Point, Range, Stroke, Width, draw,
@@ -16,7 +16,7 @@ const MARGIN: f64 = 0.08;
 const AIR: f64 = 0.06;
 
 /// The structure at rest in still water, in metres.
-pub(super) fn of(prepared: &Prepared) -> Result<Picture, FigureError> {
+pub(super) fn of(prepared: &ModelAtRest) -> Result<Picture, FigureError> {
     let description = "The structure at rest: body, lines with their numbers at the anchors, still water and floor";
     let axis = |label: &str| Axis {
         label: label.to_owned(),
@@ -38,7 +38,7 @@ pub(super) fn of(prepared: &Prepared) -> Result<Picture, FigureError> {
     draw("layout", Width::Column, &[plot])
 }
 
-fn layers(prepared: &Prepared) -> Vec<Layer> {
+fn layers(prepared: &ModelAtRest) -> Vec<Layer> {
     let (structure, rest) = (&prepared.structure, &prepared.rest);
     let outline: Vec<Point> = outline(prepared);
     let outline = outline.into_iter().map(|point| placed(prepared, point));
@@ -77,7 +77,7 @@ fn layers(prepared: &Prepared) -> Vec<Layer> {
 }
 
 /// The position at rest of a point of the unturned body, given about its centre.
-fn placed(prepared: &Prepared, [x, z]: Point) -> Point {
+fn placed(prepared: &ModelAtRest, [x, z]: Point) -> Point {
     let rest = &prepared.rest;
     let (sine, cosine) = rest.theta_rad.sin_cos();
     let [x0, z0] = rest.place_m;
@@ -85,7 +85,7 @@ fn placed(prepared: &Prepared, [x, z]: Point) -> Point {
 }
 
 /// Anchor and fairlead of each line at rest.
-fn spans(prepared: &Prepared) -> Vec<Vec<Point>> {
+fn spans(prepared: &ModelAtRest) -> Vec<Vec<Point>> {
     let position = prepared.structure.body.position_m;
     let lines = prepared.structure.lines.iter();
     lines
@@ -98,7 +98,7 @@ fn spans(prepared: &Prepared) -> Vec<Vec<Point>> {
 }
 
 /// The outline about the centre of the unturned body, closed.
-fn outline(prepared: &Prepared) -> Vec<Point> {
+fn outline(prepared: &ModelAtRest) -> Vec<Point> {
     let body = &prepared.structure.body;
     let [half_width, half_height] = [body.width_m / 2.0, body.height_m / 2.0];
     match body.outline {
