@@ -30,7 +30,7 @@ def test_it_opens_with_the_standard_case(open_page, command_json):
     assert page.title() == "snapload explore"
     assert "standard case" in page.locator("#case option:checked").inner_text()
     shown_is(page, command_json("run", "--ensemble", "0"))
-    assert "Settled at t = 7.246" in page.locator("#said").inner_text()
+    assert "Settled at t = 7.246" in page.locator("#message").inner_text()
 
 
 def test_a_slider_answers_with_the_numbers_of_the_command(open_page, command_json, capsys):
@@ -228,14 +228,14 @@ def test_the_map_fills_and_a_cell_is_its_run(open_page, command_json):
     place = {"x": 56 + 0.5 * (area["width"] - 68), "y": 10 + 1.5 / 41 * (area["height"] - 50)}
     page.locator("#map").click(position=place)
     # What is said is of the cell that was clicked, not of that of the run before.
-    expect(page.locator("#map-said")).to_contain_text("f_o = 0.5, ")
+    expect(page.locator("#map-message")).to_contain_text("f_o = 0.5, ")
     settled(page, before)
     assert page.locator("#field-f_o").input_value() == "0.5"
     e = page.locator("#field-e").input_value()
     run = command_json("run", "--ensemble", "0", "--set", "f_o=0.5", "--set", f"e={e}")
     shown_is(page, run)
     page.locator("#map").focus()
-    said = page.locator("#map-said")
+    said = page.locator("#map-message")
     expect(said).to_contain_text(f"f_o = 0.5, e = {e}: {run['end']['reason'].replace('_', ' ')}")
     expect(said).to_contain_text(f"{len(run['impacts'])} impacts")
     page.keyboard.press("ArrowRight")
@@ -251,15 +251,15 @@ def test_the_ghost_is_a_neighbour_that_parts(open_page):
     before = count(page)
     page.keyboard.press("g")
     settled(page, before)
-    expect(page.locator("#said")).to_contain_text("The ghost, started 1e−6 away in x, is 1e−3 away at t =")
-    parts_at = read(page.locator("#said").inner_text().split("is 1e−3 away at t = ")[1])
+    expect(page.locator("#message")).to_contain_text("The ghost, started 1e−6 away in x, is 1e−3 away at t =")
+    parts_at = read(page.locator("#message").inner_text().split("is 1e−3 away at t = ")[1])
     assert 0.5 < parts_at < 7.25
     before = count(page)
     page.locator("#ghost-size").fill("1e-12")
     page.locator("#ghost-size").press("Enter")
     settled(page, before)
-    expect(page.locator("#said")).to_contain_text("1e−12")
-    later = read((page.locator("#said").inner_text() + " is 1e−3 away at t = 99").split("is 1e−3 away at t = ")[1])
+    expect(page.locator("#message")).to_contain_text("1e−12")
+    later = read((page.locator("#message").inner_text() + " is 1e−3 away at t = 99").split("is 1e−3 away at t = ")[1])
     assert later > parts_at
 
 
@@ -275,7 +275,7 @@ def test_a_wrong_ghost_is_refused_in_words(open_page):
     size = page.locator("#ghost-size")
     page.locator("#ghost").check()
     for text, words in WRONG_GHOSTS:
-        expect(page.locator("#said")).to_contain_text("The ghost, started 1e−6 away")
+        expect(page.locator("#message")).to_contain_text("The ghost, started 1e−6 away")
         size.fill(text)
         size.press("Enter")
         expect(page.locator("#error-ghost")).to_contain_text(words)
@@ -284,7 +284,7 @@ def test_a_wrong_ghost_is_refused_in_words(open_page):
             size.fill(good)
             size.press("Enter")
             expect(page.locator("#error-ghost")).to_be_hidden()
-            expect(page.locator("#said")).to_contain_text(f"The ghost, started {told} away")
+            expect(page.locator("#message")).to_contain_text(f"The ghost, started {told} away")
             assert size.get_attribute("aria-invalid") is None
 
 
@@ -330,7 +330,7 @@ def test_the_scene_and_the_animation_are_saved(open_page, tmp_path: Path):
     page.locator("#speed").select_option("0.1")
     page.locator("#animation").click()
     page.locator("#animation-cancel").click()
-    expect(page.locator("#export-said")).to_have_text("The animation was cancelled.")
+    expect(page.locator("#export-message")).to_have_text("The animation was cancelled.")
 
 
 def test_lines_to_copy_make_the_same_run(open_page, command_json):

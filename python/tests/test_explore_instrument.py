@@ -208,7 +208,7 @@ def test_the_map_is_beside_the_scene_and_tells_what_is_sure(open_page, command_j
     boxes = [page.locator(one).bounding_box() for one in ["#scene", "#map"]]
     assert all(box["y"] + 200 < 900 for box in boxes) and boxes[0]["x"] + boxes[0]["width"] < boxes[1]["x"]
     page.locator("#map").focus()
-    said, told = page.locator("#map-said"), set()
+    said, told = page.locator("#map-message"), set()
     for _ in range(11):
         words = said.inner_text()
         f_o, e = (re.search(rf"{key} = ([\d.]+)", words)[1] for key in ["f_o", "e"])

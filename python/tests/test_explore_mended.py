@@ -19,21 +19,21 @@ SLIDE = "(slider, value) => { slider.value = value; slider.dispatchEvent(new Eve
 
 def test_the_verdict_is_that_of_the_picture(open_page):
     page = open_page("t=0")
-    expect(page.locator("#said")).to_contain_text("Settled at t = 7.246")
+    expect(page.locator("#message")).to_contain_text("Settled at t = 7.246")
     expect(page.locator("#announced")).to_contain_text("Settled at t = 7.246")
     before = count(page)
     page.locator("#slider-f_o").evaluate(SLIDE, 0.31)
     settled(page, before)
-    assert "Settled" not in page.locator("#said").inner_text()
+    assert "Settled" not in page.locator("#message").inner_text()
     assert "Settled" in page.locator("#announced").inner_text(), "a screen reader is told once it rests"
-    expect(page.locator("#announced")).to_have_text(page.locator("#said").inner_text())
+    expect(page.locator("#announced")).to_have_text(page.locator("#message").inner_text())
 
 
 TOLD = """() => {
     window.told = [];
     const note = () => window.told.push({
-        words: document.getElementById('said').textContent,
-        stale: ['summary', 'said', 'seal', 'section-said']
+        words: document.getElementById('message').textContent,
+        stale: ['summary', 'message', 'seal', 'section-message']
             .map(id => document.getElementById(id).classList.contains('stale')),
     });
     new MutationObserver(note).observe(document.getElementById('summary'), { attributes: true, childList: true });
@@ -42,14 +42,14 @@ TOLD = """() => {
 
 def test_words_of_the_run_before_are_pale_beside_a_newer_picture(open_page):
     page = open_page("t=0")
-    expect(page.locator("#said")).to_contain_text("Settled at t = 7.246")
+    expect(page.locator("#message")).to_contain_text("Settled at t = 7.246")
     # Nobody looks at the page: it has no frames.
     page.evaluate("() => (window.requestAnimationFrame = () => 1)")
     page.evaluate(TOLD)
     picture = "canvas => canvas.toDataURL()"
     before = page.locator("#strip").evaluate(picture)
     page.locator("#slider-f_o").evaluate(SLIDE, 0.31)
-    expect(page.locator("#said")).not_to_contain_text("Settled")
+    expect(page.locator("#message")).not_to_contain_text("Settled")
     assert page.locator("#strip").evaluate(picture) != before
     told = page.evaluate("() => window.told")
     assert "Settled" in told[0]["words"] and all(told[0]["stale"]), told
@@ -99,7 +99,7 @@ def test_a_file_is_written_while_the_page_goes_on(open_page):
     button = page.locator('[data-file="impacts.csv"]')
     button.click()
     expect(button).to_be_disabled()
-    expect(page.locator("#export-said")).to_have_text("impacts.csv of your own values: writing")
+    expect(page.locator("#export-message")).to_have_text("impacts.csv of your own values: writing")
     before = count(page)
     page.locator("#field-f_o").fill("0.29")
     settled(page, before)

@@ -71,10 +71,10 @@ def test_a_proof_can_be_stopped(open_page):
     page.route("**/api/proof", lambda route: waits.append(route))
     page.locator("#prove").click()
     expect(page.locator("#prove")).to_have_text("Stop")
-    expect(page.locator("#prove-said")).to_have_text("Proving …")
+    expect(page.locator("#prove-message")).to_have_text("Proving …")
     page.locator("#prove").click()
     expect(page.locator("#prove")).to_have_text("Prove")
-    expect(page.locator("#prove-said")).to_have_text("")
+    expect(page.locator("#prove-message")).to_have_text("")
     assert len(waits) == 1
     expect(page.locator("#seal")).to_be_hidden()
 

@@ -46,7 +46,7 @@ def row(page: Page, line: int) -> list[str]:
 
 def told_is(page: Page, answer: dict[str, Any]) -> None:
     """The page tells what the command does, in its words and digits."""
-    expect(page.locator("#said")).to_have_text(answer["verdict"]["words"], timeout=30_000)
+    expect(page.locator("#message")).to_have_text(answer["verdict"]["words"], timeout=30_000)
     expect(page.locator("#verdict")).to_have_attribute("data-standing", answer["verdict"]["standing"])
     for line in answer["lines"]:
         cells = row(page, line["line"])
@@ -120,10 +120,10 @@ def test_a_sea_takes_the_place_of_the_wave(open_structure, command_json, tmp_pat
     expect(page.locator("#preview")).not_to_contain_text("first 300 s", timeout=60_000)
     download(page, '[data-file="case.toml"]', tmp_path / "case.toml")
     told_is(page, command_json("assess", str(tmp_path / "case.toml"), "--neighbours", "0"))
-    first = page.locator("#said").inner_text()
+    first = page.locator("#message").inner_text()
     page.locator(".another-sea").click()
     expect(page.locator('[id="field-sea.seed"]')).to_have_value("2")
-    comes_true(page, lambda: page.locator("#said").inner_text() != first)
+    comes_true(page, lambda: page.locator("#message").inner_text() != first)
 
 
 def test_a_note_tells_how_far_it_has_come(open_structure, tmp_path: Path):
@@ -131,7 +131,7 @@ def test_a_note_tells_how_far_it_has_come(open_structure, tmp_path: Path):
     page.evaluate(
         """() => {
             window.told = [];
-            const said = document.getElementById('export-said');
+            const said = document.getElementById('export-message');
             new MutationObserver(() => window.told.push(said.textContent)).observe(said, { childList: true });
         }"""
     )
@@ -145,13 +145,13 @@ def test_a_note_tells_how_far_it_has_come(open_structure, tmp_path: Path):
     for stage in stages:
         percent = [int(found[2]) for found in stage]
         assert len(set(percent)) > 1 and percent == sorted(percent), percent
-    expect(page.locator("#export-said")).to_contain_text("is saved")
+    expect(page.locator("#export-message")).to_contain_text("is saved")
     for one in ["#file-progress", "#file-cancel"]:
         expect(page.locator(one)).to_be_hidden()
     page.locator('[id="field-wave.height"]').fill("2.4")
     page.locator('[data-file="note.html"]').click()
     page.locator("#file-cancel").click()
-    expect(page.locator("#export-said")).to_contain_text("was cancelled")
+    expect(page.locator("#export-message")).to_contain_text("was cancelled")
     expect(page.locator('[data-file="note.html"]')).to_be_enabled()
 
 
@@ -266,7 +266,7 @@ def test_a_body_that_floats_is_opened_unless_it_names_a_file(open_at, url, tmp_p
     page.locator("#open-case").set_input_files(barge)
     expect(page.locator("#file")).to_have_text("barge.toml", timeout=30_000)
     answer = command_json("assess", str(barge))
-    expect(page.locator("#said")).to_have_text(answer["verdict"]["words"], timeout=30_000)
+    expect(page.locator("#message")).to_have_text(answer["verdict"]["words"], timeout=30_000)
 
 
 @pytest.mark.parametrize(("viewport", "scheme"), [(DESKTOP, "light"), (PHONE, "dark")], ids=["desktop", "phone"])

@@ -116,4 +116,4 @@ def test_the_page_says_what_is_wrong_with_an_option(open_page):
     page.locator("#question-digits").fill("many")
     page.locator("#question-ask").click()
     words = 'digits = "many" is not allowed; allowed: a whole number, 1 <= digits <= 307'
-    expect(page.locator("#question-said")).to_have_text(words)
+    expect(page.locator("#question-message")).to_have_text(words)

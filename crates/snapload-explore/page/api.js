@@ -45,22 +45,22 @@ export class Runner {
     if (!current) return this.#next();
     // Never twice in a row: where every answer takes longer than that, one would see nothing while one drags.
     if (current.afterOneCutShort) return;
-    const cut = () => {
+    const cutShort = () => {
       if (this.current === current && this.waiting) current.controller.abort();
     };
-    setTimeout(cut, Math.max(current.begun + UNINTERRUPTED_MS - performance.now(), 0));
+    setTimeout(cutShort, Math.max(current.startedAt + UNINTERRUPTED_MS - performance.now(), 0));
   }
 
   async #next(afterOneCutShort = false) {
     const { question, since } = this.waiting;
     const controller = new AbortController();
     this.waiting = null;
-    this.current = { controller, begun: performance.now(), afterOneCutShort };
+    this.current = { controller, startedAt: performance.now(), afterOneCutShort };
     let answer = null;
     try {
       answer = await (await post(this.path, question, controller.signal)).json();
     } catch (error) {
-      if (error.name !== "AbortError") this.onError(inWords(error), question);
+      if (error.name !== "AbortError") this.onError(readableError(error), question);
     }
     this.current = null;
     if (this.waiting) this.#next(controller.signal.aborted);
@@ -73,7 +73,7 @@ export async function fetchRun(question) {
   return (await post("api/run", question)).json();
 }
 
-/** The keys of a structure, and the one that the program was begun with. */
+/** The keys of a structure, and the one that the program was started with. */
 export async function fetchStructures() {
   return (await fetch("api/structure")).json();
 }
@@ -88,7 +88,7 @@ export async function fetchLong(path, question, signal) {
   try {
     return await (await post(path, question, signal)).json();
   } catch (error) {
-    throw error.name === "AbortError" ? error : inWords(error);
+    throw error.name === "AbortError" ? error : readableError(error);
   }
 }
 
@@ -101,13 +101,13 @@ export async function fetchCase(file) {
 export const fetchProof = (question, signal) => fetchLong("api/proof", question, signal);
 
 /** The answer to a question about one case, in words and for programs. */
-export const fetchAnswer = (name, asked, signal) => fetchLong(`api/question/${name}`, asked, signal);
+export const fetchAnswer = (name, question, signal) => fetchLong(`api/question/${name}`, question, signal);
 
 /** Where a motion stands once a period, in the long run. */
 export const fetchSection = (question, signal) => fetchLong("api/section", question, signal);
 
 /** A refusal says why; whatever else goes wrong on the way means that nobody answers. */
-function inWords(error) {
+function readableError(error) {
   return error instanceof Refused
     ? error
     : new Error("the program does not answer. Is snapload explore still running?");
@@ -134,7 +134,7 @@ export async function fetchWithProgress(path, question, signal, onProgress) {
       onProgress(line);
     }
   } catch (error) {
-    throw error.name === "AbortError" ? error : inWords(error);
+    throw error.name === "AbortError" ? error : readableError(error);
   }
   throw new Error("The answer is incomplete. Is snapload explore still running?");
 }

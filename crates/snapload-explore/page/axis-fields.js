@@ -1,6 +1,6 @@
 // The fields of an axis of a map: a key, from where to where, in how many cells.
 
-import { $, mark } from "./dom.js";
+import { $, setAttributes } from "./dom.js";
 import { MOST_CELLS, finite, isAxis, isCount, same } from "./state.js";
 import { fieldText } from "./formatting.js";
 
@@ -9,15 +9,15 @@ const ENDS = ["low", "high", "count"];
 export class AxisFields {
   /**
    * Builds the fields in the fieldset with the id `id`; their own ids begin with it, such as `map-x-key`. `legend` is what
-   * stands over them, `counted` what an axis has a number of. `value(name)` is that of a key, `now()` the axis as it is;
-   * `onChange` is told of another axis, `onWrong` in words of what can be none, or that all is well again.
+   * stands over them, `counted` what an axis has a number of. `value(name)` is that of a key, `currentAxis()` the axis as it is;
+   * `onChange` is told of another axis, `onInvalid` in words of what can be none, or that all is well again.
    */
-  constructor(id, keys, { legend, counted = "cells", value, now, onChange, onWrong }) {
+  constructor(id, keys, { legend, counted = "cells", value, currentAxis, onChange, onInvalid }) {
     this.id = id;
-    this.now = now;
-    this.onWrong = onWrong;
+    this.currentAxis = currentAxis;
+    this.onInvalid = onInvalid;
     this.shown = null;
-    this.wrong = false;
+    this.invalid = false;
     const field = (name, words, mode) =>
       `<label>${words} <input type="text" inputmode="${mode}" class="field" id="${id}-${name}"></label>`;
     $(id).innerHTML =
@@ -30,13 +30,13 @@ export class AxisFields {
       const own = value(key.value);
       const about = Number.isFinite(own) ? own : 1;
       const range = usual ?? { low: about * 0.5, high: about * 2 || 1 };
-      onChange({ ...now(), key: key.value, ...range });
+      onChange({ ...currentAxis(), key: key.value, ...range });
     });
     const words = `${legend}: "from" must be less than "to", with 2 to ${MOST_CELLS} ${counted}`;
     for (const name of ENDS) {
       this.#field(name).addEventListener("change", () => {
         const axis = this.#typed();
-        this.#judge(axis, words);
+        this.#validate(axis, words);
         if (isAxis(axis)) onChange(axis);
       });
     }
@@ -48,31 +48,31 @@ export class AxisFields {
 
   /** The axis as its fields have it: what was refused in one of them may be allowed with another one. */
   #typed() {
-    return { ...this.now(), ...Object.fromEntries(ENDS.map((name) => [name, finite(this.#field(name).value)])) };
+    return { ...this.currentAxis(), ...Object.fromEntries(ENDS.map((name) => [name, finite(this.#field(name).value)])) };
   }
 
   /** Marks the fields that can not be, and says so. */
-  #judge(axis, words) {
+  #validate(axis, words) {
     const { low, high, count } = axis;
     const crossed = high <= low;
-    const wrong = { low: crossed || low === undefined, high: crossed || high === undefined, count: !isCount(count) };
-    for (const name of ENDS) mark(this.#field(name), { "aria-invalid": String(wrong[name]) });
-    this.wrong = !isAxis(axis);
-    this.onWrong(this.wrong ? words : "");
+    const invalid = { low: crossed || low === undefined, high: crossed || high === undefined, count: !isCount(count) };
+    for (const name of ENDS) setAttributes(this.#field(name), { "aria-invalid": String(invalid[name]) });
+    this.invalid = !isAxis(axis);
+    this.onInvalid(this.invalid ? words : "");
   }
 
   /** Shows an axis that is another one than before; what is being typed stays, and so does what was refused. */
   show() {
-    const now = this.now();
-    if (same(now, this.shown)) return;
-    this.shown = now;
+    const axis = this.currentAxis();
+    if (same(axis, this.shown)) return;
+    this.shown = axis;
     for (const name of ["key", ...ENDS]) {
       const field = this.#field(name);
-      if (document.activeElement !== field || name === "key") field.value = fieldText(now[name]);
-      mark(field, { "aria-invalid": null });
+      if (document.activeElement !== field || name === "key") field.value = fieldText(axis[name]);
+      setAttributes(field, { "aria-invalid": null });
     }
-    if (this.wrong) this.onWrong("");
-    this.wrong = false;
+    if (this.invalid) this.onInvalid("");
+    this.invalid = false;
   }
 }
 

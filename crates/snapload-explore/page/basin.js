@@ -4,7 +4,7 @@
 import { fetchWithProgress } from "./api.js";
 import { AxisFields, withAxis } from "./axis-fields.js";
 import { axisWords, cellOf, crosshair, drawCellAxes, frameOf, outline, paintCells } from "./cells.js";
-import { $, put } from "./dom.js";
+import { $, setProperties } from "./dom.js";
 import { drawErosion } from "./erosion.js";
 import { lines } from "./long-run.js";
 import { rangeText, studyLine } from "./map-files.js";
@@ -47,9 +47,9 @@ export class SafeBasin {
           legend,
           counted,
           value: own,
-          now: () => state.basin[side],
+          currentAxis: () => state.basin[side],
           onChange: (axis) => state.set({ basin: withAxis(state.basin, side, axis) }),
-          onWrong: (words) => ($("basin-pointed").textContent = words),
+          onInvalid: (words) => ($("basin-pointed").textContent = words),
         }),
     );
     this.box.addEventListener("toggle", () => {
@@ -87,11 +87,11 @@ export class SafeBasin {
     for (const axis of this.axes) axis.show();
     const other = (answer, erodes) => answer !== null && answer.asked !== JSON.stringify(this.#question(erodes));
     for (const [shown, words, answer, erodes] of [
-      [["basin", "basin-legend", "basin-pointed", "basin-said"], "basin-run", this.answer, false],
-      [["erosion", "erosion-said"], "erosion-run", this.eroded, true],
+      [["basin", "basin-legend", "basin-pointed", "basin-message"], "basin-run", this.answer, false],
+      [["erosion", "erosion-message"], "erosion-run", this.eroded, true],
     ]) {
       for (const id of shown) $(id).classList.toggle("stale", other(answer, erodes));
-      put($(words), { textContent: `${erodes ? "Erosion" : "Compute"}${answer ? " again" : ""}` });
+      setProperties($(words), { textContent: `${erodes ? "Erosion" : "Compute"}${answer ? " again" : ""}` });
     }
     this.#repaint();
   }
@@ -113,7 +113,7 @@ export class SafeBasin {
       if (erodes) Object.assign(this, { eroded: answer, erosionDrawn: false });
       else this.#setAnswer(answer);
       // Of an erosion the picture shows what its words have as a table, up to an empty line.
-      $(erodes ? "erosion-said" : "basin-said").textContent = lines(answer.words.split("\n\n").at(-1));
+      $(erodes ? "erosion-message" : "basin-message").textContent = lines(answer.words.split("\n\n").at(-1));
       if (this.asking === asking) $("basin-progress").textContent = "";
     } catch (error) {
       if (this.asking === asking) $("basin-progress").textContent = error.name === "AbortError" ? "stopped" : error.message;
@@ -214,7 +214,7 @@ export class SafeBasin {
   #paint() {
     const { ends, escapes, decided, question, legal, safe, undecided } = this.answer;
     const colours = this.colours();
-    put(this.canvas, { hidden: false });
+    setProperties(this.canvas, { hidden: false });
     const { context, width, height } = prepare(this.canvas);
     const frame = (this.frame = frameOf(width, height, question));
     const fill = (k) => (ends[k] === null ? colours.faint : escapes[k] ? colours.escaped : colours.safe);

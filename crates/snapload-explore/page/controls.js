@@ -1,6 +1,6 @@
 // A slider and a field for every key, from the schema.
 
-import { mark, put } from "./dom.js";
+import { setAttributes, setProperties } from "./dom.js";
 import { fieldText, withSymbols, symbolHtml, unitText } from "./formatting.js";
 import { readValue } from "./state.js";
 
@@ -37,14 +37,14 @@ export const notOfAPoint = (name, state) => (state.value("body") === "point" ? N
 
 export class Controls {
   /**
-   * Builds `groups` of keys, each with its title and whether it begins open, into `root`. `whyNot(name, state)` says why
+   * Builds `groups` of keys, each with its title and whether it begins open, into `root`. `reasonUnavailable(name, state)` says why
    * a key can not be given. `onChange({ since, settled, gesture })` follows a change of a value; settled: not being
    * dragged; gesture: the same number while one types, or goes on with the arrow keys, in one place.
    */
-  constructor(root, state, { groups, whyNot, onChange }) {
+  constructor(root, state, { groups, reasonUnavailable, onChange }) {
     this.root = root;
     this.state = state;
-    this.whyNot = whyNot;
+    this.reasonUnavailable = reasonUnavailable;
     this.onChange = onChange;
     this.rows = new Map();
     this.latest = null;
@@ -229,17 +229,17 @@ export class Controls {
       const follows = given === undefined && key.default_in_words !== "" && effective[name] !== undefined;
       const value = follows ? effective[name] : this.state.value(name);
       const text = follows ? rounded(value) : fieldText(value);
-      if (value === null && key.default_in_words) put(field, { placeholder: key.default_in_words });
-      if (key.kind.type === "flag") put(field, { checked: value });
-      else if (this.typing !== name) put(field, { value: text });
-      if (reset) put(reset, { hidden: !(name in this.state.values) });
-      if (slider && document.activeElement !== slider) put(slider, { value: String(value ?? slider.min) });
-      if (slider) mark(slider, { "aria-valuetext": `${text} ${unitText(key.unit)}`.trim() });
+      if (value === null && key.default_in_words) setProperties(field, { placeholder: key.default_in_words });
+      if (key.kind.type === "flag") setProperties(field, { checked: value });
+      else if (this.typing !== name) setProperties(field, { value: text });
+      if (reset) setProperties(reset, { hidden: !(name in this.state.values) });
+      if (slider && document.activeElement !== slider) setProperties(slider, { value: String(value ?? slider.min) });
+      if (slider) setAttributes(slider, { "aria-valuetext": `${text} ${unitText(key.unit)}`.trim() });
       // What is given all the same is refused by the server, and has to be open to be mended.
-      const reason = given === undefined ? this.whyNot(name, this.state) : undefined;
-      put(field, { disabled: reason !== undefined });
-      if (slider) put(slider, { disabled: field.disabled });
-      put(why, { textContent: reason ?? "", hidden: !reason });
+      const reason = given === undefined ? this.reasonUnavailable(name, this.state) : undefined;
+      setProperties(field, { disabled: reason !== undefined });
+      if (slider) setProperties(slider, { disabled: field.disabled });
+      setProperties(why, { textContent: reason ?? "", hidden: !reason });
     }
   }
 
@@ -257,8 +257,8 @@ export class Controls {
 
   clearError() {
     for (const { error, field } of this.rows.values()) {
-      put(error, { hidden: true });
-      mark(field, { "aria-invalid": null });
+      setProperties(error, { hidden: true });
+      setAttributes(field, { "aria-invalid": null });
     }
   }
 }

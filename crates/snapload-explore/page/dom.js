@@ -12,7 +12,7 @@ export const $ = (id) => document.getElementById(id);
  * @param {any} element
  * @param {object} properties
  */
-export function put(element, properties) {
+export function setProperties(element, properties) {
   for (const [name, value] of Object.entries(properties)) if (element[name] !== value) element[name] = value;
 }
 
@@ -21,7 +21,7 @@ export function put(element, properties) {
  * @param {Element} element
  * @param {object} attributes
  */
-export function mark(element, attributes) {
+export function setAttributes(element, attributes) {
   for (const [name, value] of Object.entries(attributes)) {
     if (value === null) element.removeAttribute(name);
     else if (element.getAttribute(name) !== value) element.setAttribute(name, value);

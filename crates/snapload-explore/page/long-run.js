@@ -12,9 +12,9 @@ const MARGIN = { left: 62, right: 12, top: 12, bottom: 40 };
 
 /** One question at a time, by one button, which ends it, too. */
 export class CancellableRequest {
-  constructor(button, said, ask) {
+  constructor(button, message, ask) {
     this.button = $(button);
-    this.said = $(said);
+    this.message = $(message);
     this.words = this.button.textContent;
     this.ask = ask;
     this.button.addEventListener("click", () => (this.running ? this.stop() : this.#go()));
@@ -28,13 +28,13 @@ export class CancellableRequest {
   #end(words) {
     this.running = null;
     this.button.textContent = this.words;
-    this.said.textContent = words;
+    this.message.textContent = words;
   }
 
   async #go() {
     const running = (this.running = new AbortController());
     this.button.textContent = "Stop";
-    this.said.textContent = "Computing …";
+    this.message.textContent = "Computing …";
     let words;
     try {
       words = await this.ask(running.signal);
@@ -61,7 +61,7 @@ export class LongRun {
       $(id).replaceChildren(...STATE.map((key) => new Option(SYMBOLS[key], key, key === chosen, key === chosen)));
       $(id).addEventListener("change", () => this.#draw());
     }
-    this.section = new CancellableRequest("section-run", "section-said", async (signal) => {
+    this.section = new CancellableRequest("section-run", "section-message", async (signal) => {
       const answer = await fetchSection({ values: page.values() }, signal);
       if (signal.aborted) return "";
       this.points = answer.points.map(({ state }) => state);

@@ -2,7 +2,7 @@
 
 import { Runner, fetchCase, fetchSchema } from "./api.js";
 import { Charts } from "./charts.js";
-import { $, put } from "./dom.js";
+import { $, setProperties } from "./dom.js";
 import { EventTable } from "./events.js";
 import { Handles } from "./handles.js";
 import { Keyboard } from "./keyboard.js";
@@ -12,7 +12,7 @@ import { ExportPanel } from "./export.js";
 import { Controls, caseGroups, notOfAPoint } from "./controls.js";
 import { Link } from "./link.js";
 import { LongRun } from "./long-run.js";
-import { acceptCaseFiles, note, openStructure, paintedSince, purposeAndSkip, themeButton } from "./page.js";
+import { acceptCaseFiles, note, openStructure, reportPaintTime, purposeAndSkip, themeButton } from "./page.js";
 import { onResize } from "./plot.js";
 import { Playback } from "./playback.js";
 import { PinnedRuns } from "./pinned-runs.js";
@@ -24,7 +24,7 @@ import { SceneView } from "./scene-view.js";
 import { State } from "./state.js";
 import { chooseTheme, chosenTheme, colours, reducedMotion } from "./theme.js";
 import { PLANES, Trajectory } from "./trajectory.js";
-import { Transport } from "./transport.js";
+import { PlaybackControls } from "./playback-controls.js";
 import { fixed, modeName } from "./formatting.js";
 
 /** Rows of the motion that are asked for: few enough to come at once, and more for a long run that stays. */
@@ -37,7 +37,7 @@ const TABLES_MS = 100;
 /** So long at the most a picture has no words. */
 const DESCRIBE_MS = 250;
 /** What says something of the run. */
-const DESCRIPTIONS = ["summary", "said", "seal", "prove-said", "section-plot", "section-said", "question-words"];
+const DESCRIPTIONS = ["summary", "message", "seal", "prove-message", "section-plot", "section-message", "question-words"];
 
 chooseTheme(chosenTheme());
 
@@ -59,15 +59,15 @@ class Page {
       onChange: (change) => this.changed(change),
       onRelease: () => this.playback.play(),
     });
-    this.transport = new Transport(this.state, this.playback);
+    this.playbackControls = new PlaybackControls(this.state, this.playback);
     this.playback.onPlaying = (playing) => {
-      this.transport.showPlaying(playing);
+      this.playbackControls.showPlaying(playing);
       // What fades while it plays is no part of a picture that stands.
       this.drawMoment();
     };
     this.controls = new Controls($("controls"), this.state, {
       groups: caseGroups(schema),
-      whyNot: notOfAPoint,
+      reasonUnavailable: notOfAPoint,
       onChange: (change) => this.changed(change),
     });
     const jump = (t) => {
@@ -88,7 +88,7 @@ class Page {
     this.exports = new ExportPanel({
       state: this.state,
       sceneView: this.sceneView,
-      now: () => this.run,
+      currentRun: () => this.run,
       question: () => ({ values: this.state.values, ghost: null, samples: SAMPLES.first }),
       address: () => this.link.address,
       picture: {
@@ -111,7 +111,7 @@ class Page {
     this.state.listen((changed) => this.follow(changed));
     this.keyboard = new Keyboard({
       playback: this.playback,
-      transport: this.transport,
+      playbackControls: this.playbackControls,
       state: this.state,
       map: this.map,
       pins: this.pins,
@@ -161,12 +161,12 @@ class Page {
     this.shown = keyOf(question);
     const latest = this.asked === keyOf(question);
     if (latest) {
-      put($("failed"), { hidden: true });
+      setProperties($("failed"), { hidden: true });
       this.controls.clearError();
       if (question.ghost === this.state.ghost) this.sceneView.refuseGhost("");
     }
     this.sceneView.setRun(this.run);
-    this.transport.setRun(this.run);
+    this.playbackControls.setRun(this.run);
     this.#keepTime();
     if (this.state.window?.[0] >= this.run.tEnd) this.state.set({ window: null });
     this.drawAll();
@@ -210,7 +210,7 @@ class Page {
 
   /** What follows the picture: how long it took, its words, what is looked up in it, and more rows of a long run. */
   afterwards(since, latest) {
-    paintedSince(since, () => this.describe());
+    reportPaintTime(since, () => this.describe());
     // Where pictures come faster than they are painted, or nobody looks at the page and none is.
     this.describing ??= setTimeout(() => this.describe(), DESCRIBE_MS);
     this.#fillTables();
@@ -284,9 +284,9 @@ class Page {
     if (this.run && (changed.has("window") || (changed.has("t") && this.run.at(this.state.t).rough))) this.#refine();
     if (changed.has("values") || changed.has("map")) this.map.follow();
     if (changed.has("values") || changed.has("basin")) this.basin.follow();
-    put($("axes"), { value: this.state.plane });
+    setProperties($("axes"), { value: this.state.plane });
     this.sceneView.showChoices();
-    this.transport.show();
+    this.playbackControls.show();
     this.link.write();
   }
 
@@ -307,7 +307,7 @@ class Page {
     const { kept } = this.pins;
     this.charts.draw(this.run, this.state.window, kept);
     this.trajectory.draw(this.run, this.state, kept);
-    this.transport.draw();
+    this.playbackControls.draw();
     this.pins.show();
     this.drawMoment();
   }
@@ -325,7 +325,7 @@ class Page {
     this.sceneView.draw();
     this.charts.cursor(this.state.t, this.hover);
     this.trajectory.cursor(this.state.t, this.hover);
-    this.transport.show();
+    this.playbackControls.show();
     this.#showEvents(!this.playback.playing);
   }
 
@@ -357,8 +357,8 @@ class Page {
 
   showCase() {
     const name = this.state.caseName;
-    put($("case"), { value: name ?? "" });
-    put($("case").lastElementChild, { hidden: name !== null });
+    setProperties($("case"), { value: name ?? "" });
+    setProperties($("case").lastElementChild, { hidden: name !== null });
   }
 
   /** A case file is opened here; that of a structure has a page of its own. */

@@ -15,7 +15,7 @@ import {
   paintCells,
   rangeOf,
 } from "./cells.js";
-import { $, put } from "./dom.js";
+import { $, setProperties } from "./dom.js";
 import { mapCsv, sweepLine } from "./map-files.js";
 import { prepare } from "./plot.js";
 import { copy, save } from "./export.js";
@@ -46,9 +46,9 @@ export class SweepMap {
         new AxisFields(`map-${side}`, this.numeric, {
           legend,
           value: own,
-          now: () => state.map[side],
+          currentAxis: () => state.map[side],
           onChange: (axis) => state.set({ map: withAxis(state.map, side, axis) }),
-          onWrong: (words) => ($("map-said").textContent = words),
+          onInvalid: (words) => ($("map-message").textContent = words),
         }),
     );
     for (const column of state.schema.map.filter(({ name, kind }) => name === "reason" || kind === "number")) {
@@ -150,7 +150,7 @@ export class SweepMap {
   }
 
   #running(running) {
-    for (const id of ["map-stop", "map-bar"]) put($(id), { hidden: !running });
+    for (const id of ["map-stop", "map-bar"]) setProperties($(id), { hidden: !running });
   }
 
   /** Where the run that is shown lies. */
@@ -259,7 +259,7 @@ export class SweepMap {
   #point(cell) {
     if (!this.cells) return;
     this.pointed = cell;
-    $("map-said").textContent = cell ? this.#words(cell) : "";
+    $("map-message").textContent = cell ? this.#words(cell) : "";
     this.draw();
   }
 

@@ -11,7 +11,7 @@ export function note(text) {
 }
 
 /** Says how long it took from an event to the picture that follows from it, and goes on with what can wait for that. */
-export function paintedSince(since, then = () => {}) {
+export function reportPaintTime(since, then = () => {}) {
   requestAnimationFrame(() => {
     // After the frame's paint, and not before it.
     const channel = new MessageChannel();

@@ -11,10 +11,10 @@ const SAMPLES = 1200;
 const COLOURS = ["#009e73", "#cc79a7", "#7a6a00"];
 
 export class PinnedRuns {
-  /** `now` gives the run that is shown; `onChange` follows a change of what there is to draw. */
-  constructor(state, now, { onChange }) {
+  /** `currentRun` gives the run that is shown; `onChange` follows a change of what there is to draw. */
+  constructor(state, currentRun, { onChange }) {
     this.state = state;
-    this.now = now;
+    this.currentRun = currentRun;
     this.onChange = onChange;
     this.kept = [];
     this.asked = "";
@@ -30,7 +30,7 @@ export class PinnedRuns {
   }
 
   add() {
-    if (!this.now()) return;
+    if (!this.currentRun()) return;
     const { pins, values } = this.state;
     this.state.set({ pins: [...pins, { ...values }].slice(-MOST_PINS) });
   }
@@ -50,7 +50,7 @@ export class PinnedRuns {
 
   /** What each differs in from the run that is shown, and what comes of it. */
   show() {
-    const run = this.now();
+    const run = this.currentRun();
     $("pin").disabled = this.kept.length >= MOST_PINS;
     const html = this.kept.map((pin, i) => this.#line(pin, i, run)).join("");
     if ($("pins").innerHTML !== html) $("pins").innerHTML = html;

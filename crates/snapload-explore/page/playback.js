@@ -3,10 +3,10 @@
 import { SPEEDS } from "./state.js";
 
 export class Playback {
-  /** `now` gives the run that is shown. */
-  constructor(state, now) {
+  /** `currentRun` gives the run that is shown. */
+  constructor(state, currentRun) {
     this.state = state;
-    this.now = now;
+    this.currentRun = currentRun;
     this.playing = false;
     this.frame = null;
     /** @type {(playing: boolean) => void} */
@@ -14,7 +14,7 @@ export class Playback {
   }
 
   get run() {
-    return this.now();
+    return this.currentRun();
   }
 
   toggle() {

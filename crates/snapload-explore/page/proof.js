@@ -30,27 +30,27 @@ export class Proof {
   #stop() {
     this.asking?.abort();
     this.asking = null;
-    this.#say("", "Prove");
+    this.#showMessage("", "Prove");
   }
 
   async #ask() {
     const asking = (this.asking = new AbortController());
-    this.#say("Proving …", "Stop");
-    let said = "";
+    this.#showMessage("Proving …", "Stop");
+    let message = "";
     try {
       const proof = await fetchProof({ values: this.values }, asking.signal);
       if (this.asking === asking) this.#seal(proof);
     } catch (error) {
-      said = `Not proved: ${error.message}`;
+      message = `Not proved: ${error.message}`;
     }
     // Whoever has stopped it does not wait for its words.
     if (this.asking !== asking) return;
     this.asking = null;
-    this.#say(said, "Prove");
+    this.#showMessage(message, "Prove");
   }
 
-  #say(said, button) {
-    $("prove-said").textContent = said;
+  #showMessage(message, button) {
+    $("prove-message").textContent = message;
     $("prove").textContent = button;
   }
 

@@ -11,7 +11,7 @@ export class Questions {
     this.questions = questions;
     $("question").replaceChildren(...questions.map(({ name }) => new Option(name, name)));
     $("question").addEventListener("change", () => this.#choose());
-    this.asking = new CancellableRequest("question-ask", "question-said", async (signal) => {
+    this.asking = new CancellableRequest("question-ask", "question-message", async (signal) => {
       this.#show("");
       const asked = { values: page.values(), options: this.#options() };
       const { words } = await fetchAnswer(this.chosen.name, asked, signal);

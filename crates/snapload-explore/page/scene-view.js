@@ -1,6 +1,6 @@
 // The scene on its canvas, what is said of the run, and how the scene is to be shown.
 
-import { $, mark, put } from "./dom.js";
+import { $, setAttributes, setProperties } from "./dom.js";
 import { eventWords } from "./events.js";
 import { prepare } from "./plot.js";
 import { readValue } from "./state.js";
@@ -42,8 +42,8 @@ export class SceneView {
 
   /** Shows at its field why the ghost can not be run; with no text, that nothing is wrong with it. */
   refuseGhost(text) {
-    put($("error-ghost"), { textContent: text, hidden: !text });
-    mark($("ghost-size"), { "aria-invalid": text ? "true" : null });
+    setProperties($("error-ghost"), { textContent: text, hidden: !text });
+    setAttributes($("ghost-size"), { "aria-invalid": text ? "true" : null });
   }
 
   setRun(run) {
@@ -56,7 +56,7 @@ export class SceneView {
     this.#summarise();
     clearTimeout(this.saying);
     const words = this.#words();
-    $("said").textContent = words;
+    $("message").textContent = words;
     this.saying = setTimeout(() => ($("announced").textContent = words), $("announced").textContent ? REST_MS : 0);
     $("ramp-key").hidden = !(run.timeTaut > 0);
     $("ramp-words").textContent = `tension, up to ${number(run.mostTension, 3)} F`;
@@ -133,17 +133,17 @@ export class SceneView {
       ? `, ${moment.taut.map((cable) => number(moment.tensions[cable - 1], 3)).join(" and ")} F`
       : "";
     const happens = this.playback.playing ? "" : eventWords(this.run, t);
-    put($("caption"), { textContent: `${happens ? `${happens}; ` : ""}${modeName(moment.taut)}${taut}${past}` });
-    if (!this.playback.playing) mark(this.canvas, { "aria-label": sceneWords(this.run, t) });
+    setProperties($("caption"), { textContent: `${happens ? `${happens}; ` : ""}${modeName(moment.taut)}${taut}${past}` });
+    if (!this.playback.playing) setAttributes(this.canvas, { "aria-label": sceneWords(this.run, t) });
   }
 
   /** Shows how the scene is chosen to be shown. */
   showChoices() {
     const { picture, view, ghost } = this.state;
     for (const [name, value] of Object.entries({ picture, view })) {
-      for (const radio of radios(name)) put(radio, { checked: radio.value === value });
+      for (const radio of radios(name)) setProperties(radio, { checked: radio.value === value });
     }
-    put($("ghost"), { checked: ghost !== null });
-    if (ghost !== null) put($("ghost-size"), { value: fieldText(ghost) });
+    setProperties($("ghost"), { checked: ghost !== null });
+    if (ghost !== null) setProperties($("ghost-size"), { value: fieldText(ghost) });
   }
 }

@@ -23,7 +23,7 @@ const BEGINNING = {
 };
 
 /** Fields that are set together, with whoever listens to them. */
-export class Watched {
+export class ObservableState {
   listeners = [];
 
   /** Calls back with the names of what changed. */
@@ -40,7 +40,7 @@ export class Watched {
 }
 
 /** The state with whoever listens to it. */
-export class State extends Watched {
+export class State extends ObservableState {
   /** What the page shows of the run: the fields of BEGINNING. */
   t = BEGINNING.t;
   speed = BEGINNING.speed;

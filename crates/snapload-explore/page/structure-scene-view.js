@@ -25,7 +25,7 @@ export class StructureSceneView {
     const { verdict, trust } = run.assessment;
     $("verdict").dataset.standing = verdict.standing;
     $("standing").textContent = run.standing;
-    $("said").textContent = verdict.words;
+    $("message").textContent = verdict.words;
     $("trust").textContent = trust.words;
     const whole = `the whole record of ${round(run.lasts_s)} s follows when the values stop changing`;
     $("preview").textContent = run.preview ? `These results are for the first ${round(run.tEnd)} s; ${whole}.` : "";

@@ -1,6 +1,6 @@
 // The state of the page of a structure: the case that is open, what is changed in it, and what is looked at.
 
-import { SPEEDS, Watched, decode, finite, readValue } from "./state.js";
+import { SPEEDS, ObservableState, decode, finite, readValue } from "./state.js";
 import { fieldText } from "./formatting.js";
 
 const BEGINNING = {
@@ -26,7 +26,7 @@ function keysOf(schema, lines) {
   );
 }
 
-export class StructureState extends Watched {
+export class StructureState extends ObservableState {
   /** What is changed, by path. @type {object} */
   values = {};
   /** What moves the water, where that is another than in the case. @type {string | null} */

@@ -44,14 +44,14 @@ export class StructureWaves {
   async compute() {
     const asked = this.#key;
     this.abort = new AbortController();
-    $("waves-said").textContent = "computing a hundred waves…";
+    $("waves-message").textContent = "computing a hundred waves…";
     this.follow();
     try {
       const answer = await fetchLong("api/structure/waves", { case: this.state.asked }, this.abort.signal);
       this.asked = asked;
       this.#show(answer);
     } catch (error) {
-      $("waves-said").textContent = error.message;
+      $("waves-message").textContent = error.message;
     }
     this.abort = null;
     this.follow();
@@ -59,7 +59,7 @@ export class StructureWaves {
 
   #show({ periods_s, heights_m, cells, utilisation, length }) {
     const what = utilisation ? "Largest utilisation" : "Fastest snap [m/s]";
-    $("waves-said").textContent =
+    $("waves-message").textContent =
       `${what} in waves run for ${length} periods each; ×: the run fails, or the wave can not be run. ` +
       "Motions are chaotic, so that single cells may differ from those beside them. Click a cell to run its wave.";
     const plainly = (value) => Number(value.toPrecision(3));

@@ -10,7 +10,7 @@ import {
   note,
   openStructure,
   openedStructure,
-  paintedSince,
+  reportPaintTime,
   purposeAndSkip,
   themeButton,
 } from "./page.js";
@@ -18,7 +18,7 @@ import { onResize } from "./plot.js";
 import { Playback } from "./playback.js";
 import { chooseTheme, chosenTheme, colours, lineColour, reducedMotion } from "./theme.js";
 import { StructureCharts, breakingLoads } from "./structure-charts.js";
-import { structureGroups, whyNot } from "./structure-groups.js";
+import { structureKeyGroups, reasonUnavailable } from "./structure-key-groups.js";
 import { StructureHandles } from "./structure-handles.js";
 import { PinnedAnswers } from "./structure-pinned-answers.js";
 import { StructureRun } from "./structure-run.js";
@@ -26,7 +26,7 @@ import { structureShapes } from "./structure-scene.js";
 import { StructureSceneView } from "./structure-scene-view.js";
 import { StructureState } from "./structure-state.js";
 import { showChecks, showLines, showSnaps } from "./structure-tables.js";
-import { StructureTransport } from "./structure-transport.js";
+import { StructurePlaybackControls } from "./structure-playback-controls.js";
 import { StructureWaves } from "./structure-waves.js";
 import { ExportPanel } from "./export.js";
 import { fixed, round } from "./formatting.js";
@@ -50,17 +50,17 @@ class Page {
     });
     this.playback = new Playback(this.state, () => this.run);
     this.sceneView = new StructureSceneView(this.state, this.playback);
-    this.transport = new StructureTransport(this.state, this.playback, {
+    this.playbackControls = new StructurePlaybackControls(this.state, this.playback, {
       onInterval: (from) => this.showInterval(from),
     });
     this.playback.onPlaying = (playing) => {
-      this.transport.showPlaying(playing);
+      this.playbackControls.showPlaying(playing);
       this.drawMoment();
     };
     this.link.read();
     this.controls = new Controls($("controls"), this.state, {
-      groups: structureGroups(this.state),
-      whyNot,
+      groups: structureKeyGroups(this.state),
+      reasonUnavailable,
       onChange: (change) => this.changed(change),
     });
     this.handles = new StructureHandles(this.sceneView, this.state, {
@@ -76,7 +76,7 @@ class Page {
     this.exports = new ExportPanel({
       state: this.state,
       sceneView: this.sceneView,
-      now: () => this.run,
+      currentRun: () => this.run,
       question: () => ({ case: this.state.asked }),
       address: () => this.link.address,
       path: "api/structure/export",
@@ -148,7 +148,7 @@ class Page {
     this.show();
     if (this.playsAtOnce) this.playback.play();
     this.playsAtOnce = false;
-    paintedSince(since);
+    reportPaintTime(since);
     if (!latest) return;
     $("failed").hidden = true;
     this.controls.clearError();
@@ -160,7 +160,7 @@ class Page {
   show() {
     const { run, state } = this;
     this.sceneView.setRun(run);
-    this.transport.setRun(run);
+    this.playbackControls.setRun(run);
     // The interval that the server chose is kept while values change, so that one thing changes at a time.
     const [from, to] = run.window;
     const t = state.t >= from && state.t <= to ? state.t : from;
@@ -207,17 +207,17 @@ class Page {
   }
 
   async #computeElastic(question, abort) {
-    $("elastic-said").textContent = "computing…";
+    $("elastic-message").textContent = "computing…";
     try {
       const answer = await fetchLong("api/structure/elastic", question, abort.signal);
       if (this.background !== abort) return;
       this.run.setElastic(answer);
-      $("elastic-said").textContent = "";
+      $("elastic-message").textContent = "";
       showLines(this.run);
       this.drawAll();
     } catch (error) {
       if (error.name === "AbortError") return;
-      $("elastic-said").textContent = error.message.split("\n")[0];
+      $("elastic-message").textContent = error.message.split("\n")[0];
     }
   }
 
@@ -237,14 +237,14 @@ class Page {
     if (changed.has("window")) queueMicrotask(() => this.ask());
     if (changed.has("elastic")) {
       if (!this.state.elastic) this.run?.setElastic(null);
-      $("elastic-said").textContent = "";
+      $("elastic-message").textContent = "";
       if (this.run) showLines(this.run);
       if (this.state.elastic && this.run) this.computeFurther();
     }
     if (["zoom", "window", "elastic"].some((name) => changed.has(name))) this.drawAll();
     else if (changed.has("t") || changed.has("speed")) this.drawMoment();
     this.showChoices();
-    this.transport.show();
+    this.playbackControls.show();
     this.link.write();
   }
 
@@ -308,7 +308,7 @@ class Page {
   drawAll() {
     if (!this.run) return;
     this.charts.draw(this.run, this.run.window);
-    this.transport.draw();
+    this.playbackControls.draw();
     this.pins.show();
     this.showChoices();
     this.#legend();
@@ -322,7 +322,7 @@ class Page {
       this.framed = null;
       this.sceneView.draw();
       this.charts.cursor(this.state.t, this.hover);
-      this.transport.show();
+      this.playbackControls.show();
     });
   }
 

@@ -157,16 +157,16 @@ export class TimeCharts {
       const frame = this.frames.get(part.chart.id);
       const drag = this.drag?.zoom ? this.drag : null;
       const upright = (mark, time) =>
-        put(mark, time !== undefined && frame.holdsX(time), frame.x(time), frame.top, 0, frame.height);
+        placeMark(mark, time !== undefined && frame.holdsX(time), frame.x(time), frame.top, 0, frame.height);
       upright(part.upright, t);
       upright(part.hovered, hover?.t);
       const [a, b] = drag ? [frame.x(drag.from), frame.x(drag.to)].sort((one, other) => one - other) : [0, 0];
-      put(part.brush, drag !== null, a, frame.top, b - a, frame.height);
+      placeMark(part.brush, drag !== null, a, frame.top, b - a, frame.height);
       const value = part.chart.value?.(read);
-      put(part.dot, value !== undefined && frame.holdsX(read.t), frame.x(read.t), frame.y(value));
+      placeMark(part.dot, value !== undefined && frame.holdsX(read.t), frame.x(read.t), frame.y(value));
       const near = hover?.at?.part === part ? this.#nearest(part.chart, hover.at.x, hover.at.y) : null;
       const marks = near === null ? null : part.chart.marks(this.run);
-      put(part.ring, near !== null, frame.x(marks?.t[near]), frame.y(marks?.y[near]));
+      placeMark(part.ring, near !== null, frame.x(marks?.t[near]), frame.y(marks?.y[near]));
       const words = near === null ? part.chart.read(this.run, read) : part.chart.markWords(this.run, near);
       if (part.reading.value !== words) part.reading.value = words;
     }
@@ -192,7 +192,7 @@ export function rows(t, [from, to]) {
 }
 
 /** Puts a mark at a place of its chart, or away. */
-function put(mark, there, x, y, width, height) {
+function placeMark(mark, there, x, y, width, height) {
   mark.hidden = !there;
   if (!there) return;
   mark.style.transform = `translate(${x}px, ${y}px)`;

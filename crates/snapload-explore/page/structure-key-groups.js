@@ -9,7 +9,7 @@ const OF_ONE_LINE = ["anchor", "fairlead", "length", "diameter"];
 const AROUND = [0.5, 1.5];
 
 /** Groups of keys for the controls. Files that the case names are not changed here. */
-export function structureGroups(state) {
+export function structureKeyGroups(state) {
   const { keys } = state.schema;
   const under = (path) => keys.filter((key) => key.under === path).map((key) => ranged(state, key));
   const waves = Object.entries(WAVES).map(([name, title]) => ({
@@ -59,14 +59,14 @@ function anotherSea(state) {
 }
 
 /** Why a key can not be given as things are. */
-export function whyNot(name, state) {
+export function reasonUnavailable(name, state) {
   if (name.startsWith("body.added_mass") && state.floats) return "[float] gives the added mass";
   if (name === "body.height" && state.value("body.shape") !== "rectangle") return "a circle has only a width";
   return undefined;
 }
 
 /** What is changed in words, such as `wave.height = 2.5`. */
-export const changesInWords = (values) =>
+export const changesText = (values) =>
   Object.entries(values)
     .map(([name, value]) => `${name} = ${fieldText(value)}`)
     .join(", ");

@@ -1,12 +1,12 @@
 // The buttons of playback, the strip of events, the clock, and the part of time that the charts show.
 
-import { $, mark, put } from "./dom.js";
+import { $, setAttributes, setProperties } from "./dom.js";
 import { NEAR_PX, prepare } from "./plot.js";
 import { SPEEDS } from "./state.js";
 import { colours } from "./theme.js";
 import { fixed, modeName, number } from "./formatting.js";
 
-export class Transport {
+export class PlaybackControls {
   /** `speedWords` tells of a speed. */
   constructor(state, playback, speedWords = (speed) => `${speed} T/s`) {
     this.state = state;
@@ -64,17 +64,17 @@ export class Transport {
     if (!this.run) return;
     const { t, speed, window } = this.state;
     const [from, to] = window ?? [0, this.run.tEnd];
-    put($("scrub"), { min: String(from), max: String(to) });
-    put($("scrub"), { value: String(t) });
+    setProperties($("scrub"), { min: String(from), max: String(to) });
+    setProperties($("scrub"), { value: String(t) });
     const words = this.words(t, this.run);
-    if (!this.playback.playing) mark($("scrub"), { "aria-valuetext": words.value });
-    mark($("clock"), { "data-t": String(t) });
-    put($("clock"), { value: words.clock });
-    put($("counted"), { textContent: words.counted });
-    put($("speed"), { value: String(speed) });
-    put($("loop"), { checked: this.state.loop });
-    put($("window-words"), { value: window ? `t ${number(from, 4)} to ${number(to, 4)}` : "" });
-    put($("zoom-all"), { disabled: window === null });
+    if (!this.playback.playing) setAttributes($("scrub"), { "aria-valuetext": words.value });
+    setAttributes($("clock"), { "data-t": String(t) });
+    setProperties($("clock"), { value: words.clock });
+    setProperties($("counted"), { textContent: words.counted });
+    setProperties($("speed"), { value: String(speed) });
+    setProperties($("loop"), { checked: this.state.loop });
+    setProperties($("window-words"), { value: window ? `t ${number(from, 4)} to ${number(to, 4)}` : "" });
+    setProperties($("zoom-all"), { disabled: window === null });
   }
 
   /** The time as it is read aloud and shown, and what happened before it. */
