@@ -19,9 +19,9 @@ def typed(page: Page, field: str, text: str) -> None:
 
 def test_bounds_that_are_typed_one_after_the_other_are_an_axis(open_page):
     page = open_page(MAP)
-    said, low, high = (page.locator(one) for one in ["#map-message", "#map-x-low", "#map-x-high"])
+    message, low, high = (page.locator(one) for one in ["#map-message", "#map-x-low", "#map-x-high"])
     typed(page, "#map-x-low", "1")
-    expect(said).to_have_text('Horizontal: "from" must be less than "to", with 2 to 200 cells')
+    expect(message).to_have_text('Horizontal: "from" must be less than "to", with 2 to 200 cells')
     for field in [low, high]:
         expect(field).to_have_attribute("aria-invalid", "true")
     # Other values are no reason to take back what was typed.
@@ -32,7 +32,7 @@ def test_bounds_that_are_typed_one_after_the_other_are_an_axis(open_page):
     typed(page, "#map-x-high", "2")
     comes_true(page, lambda: "map=f_o,1,2,3,e" in page.evaluate("() => location.hash"))
     expect(low).to_have_value("1")
-    expect(said).to_have_text("")
+    expect(message).to_have_text("")
     assert page.locator('#map-box [aria-invalid="true"]').count() == 0
 
 
@@ -48,7 +48,7 @@ def test_an_axis_from_elsewhere_ends_what_was_wrong(open_page):
     expect(page.locator("#map-message")).to_have_text("")
 
 
-def test_what_is_wrong_is_told_with_the_words_beside_it(open_page):
+def test_errors_are_reported_with_the_labels_of_their_fields(open_page):
     page = open_page(BASIN)
     typed(page, "#basin-over-high", "-1")
     words = 'Third key: "from" must be less than "to", with 2 to 200 values'
@@ -101,7 +101,7 @@ DRAWN = """() => {
 }"""
 
 
-def test_an_erosion_is_told_in_words_and_has_gaps_where_nothing_begins(open_page):
+def test_an_erosion_has_a_text_and_gaps_without_legal_starts(open_page):
     page = open_page(BASIN)
     page.evaluate(DRAWN)
     eroded(page)
@@ -122,7 +122,7 @@ def test_an_erosion_is_told_in_words_and_has_gaps_where_nothing_begins(open_page
             return [tell([0, 1, 2].map(k => point(k, 9))), tell([0, 1, 2].map(k => point(k, k === 1 ? 0 : 9)))];
         }"""
     )
-    # A value that says nothing has neither an interval nor a line through it.
+    # A value without legal starts has neither an interval nor a line through it.
     assert pieces[1] == pieces[0] - 2, pieces
 
 
@@ -145,8 +145,8 @@ def test_a_pointer_repaints_no_more_than_has_changed(open_page):
     assert "basin" not in cleared(), "it is the same cell"
     page.mouse.move(x + box["width"] / 4, y)
     page.wait_for_timeout(100)
-    told = cleared()
-    assert "basin" in told and "erosion" not in told, told
+    cleared_parts = cleared()
+    assert "basin" in cleared_parts and "erosion" not in cleared_parts, cleared_parts
     page.locator("#theme").click()
     page.wait_for_timeout(200)
     assert {"basin", "erosion"} <= set(cleared())

@@ -41,15 +41,15 @@ def test_a_safe_basin_is_that_of_the_command_and_a_cell_a_start(open_page, comma
     assert line == (
         "snapload basin --set f_o=0.29 --set t_end=60 --vary x=-0.4:0.4:21 --vary y=0.02:0.72:18 --out basin.parquet"
     )
-    told = command_json(*line.removesuffix(" --out basin.parquet").split()[1:])
+    expected = command_json(*line.removesuffix(" --out basin.parquet").split()[1:])
     legend = page.locator("#basin-legend")
-    expect(legend).to_contain_text(f"safe ({told['safe']})")
-    expect(legend).to_contain_text(f"reaches a limit ({told['legal'] - told['safe']})")
-    expect(legend).to_contain_text(f"no legal start ({21 * 18 - told['legal']})")
-    assert told["undecided"] > 0
-    expect(legend).to_contain_text(f"undecided: neighbours end differently ({told['undecided']})")
-    low, high = told["interval95"]
-    expect(page.locator("#basin-message")).to_contain_text(f"{told['fraction']:.4f} ({low:.4f} to {high:.4f})")
+    expect(legend).to_contain_text(f"safe ({expected['safe']})")
+    expect(legend).to_contain_text(f"reaches a limit ({expected['legal'] - expected['safe']})")
+    expect(legend).to_contain_text(f"no legal start ({21 * 18 - expected['legal']})")
+    assert expected["undecided"] > 0
+    expect(legend).to_contain_text(f"undecided: neighbours end differently ({expected['undecided']})")
+    low, high = expected["interval95"]
+    expect(page.locator("#basin-message")).to_contain_text(f"{expected['fraction']:.4f} ({low:.4f} to {high:.4f})")
     # What is not certain, not safe and no start differs from cell to cell; the words are those of the run.
     page.locator("#basin").focus()
     for _ in range(9):
@@ -103,15 +103,15 @@ def test_keys_of_a_basin_change_places(open_page):
     expect(page.locator("#note")).to_contain_text("Not understood in the link")
 
 
-def test_a_safe_basin_is_eroded_as_the_command_says(open_page, command):
+def test_the_erosion_agrees_with_that_of_the_command(open_page, command):
     page = open_page(f"t_end=60&t=0&basin={WINDOW}")
     page.locator("#erosion-run").click()
     expect(page.locator("#erosion-message")).to_contain_text("Knee at fₒ", timeout=60_000)
     page.locator("#erosion-copy").click()
     line = page.evaluate("() => navigator.clipboard.readText()")
-    told = command(*line.split()[1:]).replace("f_o", "fₒ").split()
-    said = page.locator("#erosion-message").inner_text()
-    assert said.split() == told[-len(said.split()) :] and "neighbours were not run" in said
+    expected = command(*line.split()[1:]).replace("f_o", "fₒ").split()
+    message = page.locator("#erosion-message").inner_text()
+    assert message.split() == expected[-len(message.split()) :] and "neighbours were not run" in message
     expect(page.locator("#erosion")).to_be_visible()
 
 

@@ -1,4 +1,4 @@
-// The fields of an axis of a map: a key, from where to where, in how many cells.
+// The fields of an axis of a map: its key, its range and its number of cells.
 
 import { $, setAttributes } from "./dom.js";
 import { MOST_CELLS, finite, isAxis, isCount, same } from "./state.js";
@@ -8,9 +8,9 @@ const ENDS = ["low", "high", "count"];
 
 export class AxisFields {
   /**
-   * Builds the fields in the fieldset with the id `id`; their own ids begin with it, such as `map-x-key`. `legend` is what
-   * stands over them, `counted` what an axis has a number of. `value(name)` is that of a key, `currentAxis()` the axis as it is;
-   * `onChange` is told of another axis, `onInvalid` in words of what can be none, or that all is well again.
+   * Builds the fields in the fieldset with the id `id`; their own ids begin with it, such as `map-x-key`. `legend` is
+   * their heading, `counted` names what is counted along the axis. `value(name)` returns the value of a key,
+   * `currentAxis()` the current axis; `onChange` receives a changed axis, `onInvalid` a message, empty if all is valid.
    */
   constructor(id, keys, { legend, counted = "cells", value, currentAxis, onChange, onInvalid }) {
     this.id = id;
@@ -46,12 +46,12 @@ export class AxisFields {
     return $(`${this.id}-${name}`);
   }
 
-  /** The axis as its fields have it: what was refused in one of them may be allowed with another one. */
+  /** The axis in the fields: a value that was refused may be allowed once another field has changed. */
   #typed() {
     return { ...this.currentAxis(), ...Object.fromEntries(ENDS.map((name) => [name, finite(this.#field(name).value)])) };
   }
 
-  /** Marks the fields that can not be, and says so. */
+  /** Marks invalid fields and reports them. */
   #validate(axis, words) {
     const { low, high, count } = axis;
     const crossed = high <= low;
@@ -61,7 +61,7 @@ export class AxisFields {
     this.onInvalid(this.invalid ? words : "");
   }
 
-  /** Shows an axis that is another one than before; what is being typed stays, and so does what was refused. */
+  /** Shows a changed axis; text that is being typed stays. */
   show() {
     const axis = this.currentAxis();
     if (same(axis, this.shown)) return;
@@ -76,13 +76,13 @@ export class AxisFields {
   }
 }
 
-/** The same axes with another one of a side; a key that one of the others had changes places with it. */
+/** The axes with one of them replaced; if another one has the same key, the two are exchanged. */
 export function withAxis(axes, side, axis) {
   const other = ["x", "y", "over"].find((one) => one !== side && axes[one]?.key === axis.key);
   return { ...axes, [side]: axis, ...(other ? { [other]: axes[side] } : {}) };
 }
 
-/** The usual range of a key in so many cells. */
+/** The usual range of a key with a number of cells. */
 export function usualAxis(keys, name, count) {
   const { low, high } = keys.find((key) => key.name === name).usual;
   return { key: name, low, high, count };

@@ -1,14 +1,14 @@
-// The page's elements: by their ids, and what is written into them.
+// The page's elements by their ids, and updates of them.
 
 /**
  * @param {string} id
- * @returns {any} Which kind of element it is is known where it is asked for.
+ * @returns {any} The caller knows the kind of element.
  */
 export const $ = (id) => document.getElementById(id);
 
 /**
- * Sets properties of an element that are others than they were: what is written anew has the page laid out again, even
- * where it is the same.
+ * Sets the properties of an element that differ from their current values: writing a property causes a new layout, even
+ * with the same value.
  * @param {any} element
  * @param {object} properties
  */
@@ -17,7 +17,7 @@ export function setProperties(element, properties) {
 }
 
 /**
- * The same of attributes; null takes one away.
+ * The same for attributes; null removes one.
  * @param {Element} element
  * @param {object} attributes
  */

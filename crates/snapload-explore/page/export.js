@@ -1,19 +1,19 @@
-// What can be taken away: files as the command writes them, the scene, the animation, and lines to copy.
+// Exports: files as the command writes them, the scene, the animation, and lines to copy.
 
 import { fetchFile, fetchWithProgress } from "./api.js";
 import { $ } from "./dom.js";
 import { AnimationRecording } from "./animation-recording.js";
 import { paint, svg } from "./shapes.js";
 
-/** Size of the scene as a picture of its own [px], and how much finer its pixels are. */
+/** Size of the scene as an exported picture [px], and its pixels per point. */
 const SIZE = { width: 960, height: 676 };
 const FINENESS = 2;
 const MAY_MS = 4000;
 
 export class ExportPanel {
   /**
-   * `question` gives what is asked of the server now, under `path`; `currentRun` the run that is shown; `picture` makes shapes
-   * and a caption of a run at a time. Files that take long tell how far they have come.
+   * `question` returns the current request to the server, under `path`; `currentRun` the run that is shown; `picture`
+   * makes the shapes and the caption of a run at a time. Slow files report their progress.
    */
   constructor({ state, sceneView, currentRun, question, address, picture, path = "api/export", slowFiles = [] }) {
     this.state = state;
@@ -48,7 +48,7 @@ export class ExportPanel {
     $("python").textContent = run.python;
   }
 
-  /** Says in words what goes wrong. */
+  /** Shows the message of an error. */
   async #try(action) {
     this.showMessage("");
     try {
@@ -62,7 +62,7 @@ export class ExportPanel {
     $("export-message").textContent = text;
   }
 
-  /** The file is of the values as they are now, whatever they become while it is written. */
+  /** The file belongs to the current values, even if they change while it is written. */
   async #file(button) {
     const name = button.dataset.file;
     const of = `${name} of ${this.state.caseName ?? "your own values"}`;
@@ -78,7 +78,7 @@ export class ExportPanel {
     this.showMessage(`${of} is saved.`);
   }
 
-  /** A file that takes long; one at a time, as each has all processors. */
+  /** A slow file; one at a time, as each uses all processors. */
   async #slowFile(path, name, of) {
     this.writing?.abort();
     const writing = (this.writing = new AbortController());
@@ -94,7 +94,7 @@ export class ExportPanel {
       this.showMessage(`${of} is saved.`);
     } catch (error) {
       if (error.name !== "AbortError") throw error;
-      // The next file may be what it was given up for: what is said is of that one by now.
+      // If it was cancelled for the next file, the message already belongs to that one.
       if (this.writing === writing) this.showMessage(`${of} was cancelled.`);
     } finally {
       if (this.writing === writing) {
@@ -110,7 +110,7 @@ export class ExportPanel {
   }
 
   #sceneSvg() {
-    // On paper a picture is light, whatever the page is.
+    // An exported picture always has the light theme.
     const title = `${this.currentRun().shell}, t = ${this.state.t}`;
     save(
       new Blob([svg(this.#shapes("light"), SIZE.width, SIZE.height, title)], { type: "image/svg+xml" }),
@@ -180,7 +180,7 @@ export async function copy(button, text) {
     await navigator.clipboard.writeText(text);
     button.textContent = "Copied";
   } catch {
-    // Where a page may not write there, the text is shown to be copied by hand.
+    // If the page may not write to the clipboard, the text is shown to be copied by hand.
     prompt("Copy this:", text);
   }
   setTimeout(() => (button.textContent = before), 1600);

@@ -1,9 +1,9 @@
-// The page by keyboard: one table of keys, which the help shows too.
+// Keyboard shortcuts: one table, which the help shows, too.
 
 import { $ } from "./dom.js";
 
 /**
- * Keys, how they are shown, what they do in words, and what they do.
+ * Keys, their labels, their descriptions and their actions.
  * @returns {[string[], string, string, ((event: KeyboardEvent) => void) | null][]}
  */
 function keyTable({ playback, playbackControls, state, map, pins }) {
@@ -21,7 +21,7 @@ function keyTable({ playback, playbackControls, state, map, pins }) {
 }
 
 /**
- * Those of time, which every page has.
+ * The shortcuts of playback, which every page has.
  * @returns {[string[], string, string, ((event: KeyboardEvent) => void) | null][]}
  */
 export function timeKeys({ playback, playbackControls }) {
@@ -48,7 +48,7 @@ function needed(target, key) {
 }
 
 export class Keyboard {
-  /** `table` has the keys of a page: as `keyTable` has those of the thesis's case. */
+  /** `table` has the shortcuts of a page, in the form of `keyTable`. */
   constructor(parts, table = keyTable(parts)) {
     const dialog = $("help-dialog");
     $("help-keys").innerHTML = table

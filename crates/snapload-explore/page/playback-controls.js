@@ -1,4 +1,4 @@
-// The buttons of playback, the strip of events, the clock, and the part of time that the charts show.
+// The playback buttons, the strip of events, the clock, and the time window of the charts.
 
 import { $, setAttributes, setProperties } from "./dom.js";
 import { NEAR_PX, prepare } from "./plot.js";
@@ -7,7 +7,7 @@ import { colours } from "./theme.js";
 import { fixed, modeName, number } from "./formatting.js";
 
 export class PlaybackControls {
-  /** `speedWords` tells of a speed. */
+  /** `speedWords` returns the text of a speed. */
   constructor(state, playback, speedWords = (speed) => `${speed} T/s`) {
     this.state = state;
     this.playback = playback;
@@ -30,7 +30,7 @@ export class PlaybackControls {
     });
   }
 
-  /** The first and the last time that can be gone to. */
+  /** The first and the last time of the slider. */
   get ends() {
     return [0, this.run.tEnd];
   }
@@ -40,7 +40,7 @@ export class PlaybackControls {
     this.playback.seek(t);
   }
 
-  /** Shows so many times as much time about the cursor. */
+  /** Multiplies the length of the time window about the cursor. */
   zoom(factor) {
     const end = this.run.tEnd;
     const [from, to] = this.state.window ?? [0, end];
@@ -77,7 +77,7 @@ export class PlaybackControls {
     setProperties($("zoom-all"), { disabled: window === null });
   }
 
-  /** The time as it is read aloud and shown, and what happened before it. */
+  /** The time as spoken and shown text, and the number of events before it. */
   words(t, run) {
     return {
       value: `${fixed(t, 3)} of ${fixed(run.tEnd, 3)} T, ${modeName(run.tautAt(t))}`,
@@ -108,7 +108,7 @@ export class PlaybackControls {
       const high = 2.5 * Math.min(taut.length, 2);
       if (high) band(modes.t_start[i], modes.t_end[i], paints.strained, height - high, high);
     });
-    // As snaps accumulate there are thousands in one place: the highest so far hides the others.
+    // An accumulation has thousands of snaps in one place: the highest so far hides the others.
     const highest = new Map();
     impacts.t.forEach((t, i) => {
       if (t < from || t > to) return;

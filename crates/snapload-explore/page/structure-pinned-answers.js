@@ -1,4 +1,4 @@
-// Answers that are kept to compare others with: what each differs in, and what comes of it, in words.
+// Pinned answers for comparison: the differences and outcomes of each, as text.
 
 import { $ } from "./dom.js";
 import { changesText } from "./structure-key-groups.js";
@@ -6,7 +6,7 @@ import { fixed, number } from "./formatting.js";
 
 const MOST_PINS = 5;
 
-/** What an answer comes to, in the order in which it is told. */
+/** The outcome of an answer, in the order in which it is shown. */
 function outcome(run) {
   const known = run.lines.map(({ utilisation }) => utilisation);
   const largest = known.includes(null) ? null : Math.max(...known);
@@ -17,7 +17,7 @@ function outcome(run) {
 }
 
 export class PinnedAnswers {
-  /** `currentRun` gives the run that is shown; `onBack` is told of a pin that is to be shown again. */
+  /** `currentRun` returns the run that is shown; `onBack` receives a pin that is to be shown again. */
   constructor(state, currentRun, { onBack }) {
     this.state = state;
     this.currentRun = currentRun;

@@ -1,4 +1,4 @@
-// Playback of a structure's run: the strip of the interval that is shown, and the whole record with where that is.
+// Playback of a structure's run: a strip with the interval that is shown, and one with the whole record.
 
 import { $ } from "./dom.js";
 import { prepare } from "./plot.js";
@@ -8,11 +8,11 @@ import { PlaybackControls } from "./playback-controls.js";
 import { fixed, round } from "./formatting.js";
 
 const INSET_PX = 8;
-/** Of a swarm of snaps the hardest in so many pixels is enough. */
+/** Of many snaps only the hardest within this many pixels is drawn. */
 const APART_PX = 1.5;
 
 export class StructurePlaybackControls extends PlaybackControls {
-  /** `onInterval` is told where the interval that is shown is to begin. */
+  /** `onInterval` receives the start of the interval that is to be shown. */
   constructor(state, playback, { onInterval }) {
     super(state, playback, (speed) => (speed === 1 ? "real time" : `${speed} times`));
     $("interval-start").addEventListener("input", () => {
@@ -21,7 +21,7 @@ export class StructurePlaybackControls extends PlaybackControls {
     });
   }
 
-  /** Only the motion of the interval that is shown is here. */
+  /** Only the motion of the interval that is shown is available. */
   get ends() {
     return this.run.window;
   }
@@ -54,7 +54,7 @@ export class StructurePlaybackControls extends PlaybackControls {
     $("record").setAttribute("aria-label", `${run.snapsInWords} in ${round(run.tEnd)} s; the height shows the strength`);
   }
 
-  /** Snaps as ticks in the colours of their lines; taut lines as bands in the interval, and the interval in the record. */
+  /** Snaps as ticks in the colours of their lines, taut lines as bands, and the interval within the record. */
   #strip(canvas, [from, to], close) {
     const { context, width, height } = prepare(canvas);
     const { run } = this;

@@ -31,9 +31,9 @@ import { StructureWaves } from "./structure-waves.js";
 import { ExportPanel } from "./export.js";
 import { fixed, round } from "./formatting.js";
 
-/** Values that rest for so long are worth their neighbours, and elastic lines. */
+/** Neighbours and elastic lines are computed this long after the last change of values. */
 const REST_MS = 300;
-/** Neighbours of a longer record [s] are for the command: forty of them would keep the machine busy for minutes. */
+/** The longest record whose neighbours are computed here [s]: forty longer ones would take minutes. */
 const LONGEST_WITH_NEIGHBOURS = 1200;
 const PURPOSE_READ = "snapload-structure-purpose-read";
 
@@ -121,7 +121,7 @@ class Page {
     if (settled) this.link.write({ now: true, gesture });
   }
 
-  /** Asks for the run of the values as they are; once, however often one asks. */
+  /** Requests the run of the current values; only once for the same values. */
   ask(since = performance.now()) {
     const asked = JSON.stringify(this.question);
     if (asked === this.asked) return;
@@ -130,7 +130,7 @@ class Page {
     this.runner.ask(this.question, since);
   }
 
-  /** What was going on beside is of other values now. */
+  /** Cancels further work, which belongs to earlier values. */
   stopBackground() {
     clearTimeout(this.resting);
     this.background?.abort();
@@ -141,7 +141,7 @@ class Page {
   receive(answer, since, question) {
     const before = this.run;
     this.run = new StructureRun(answer);
-    // What was computed of elastic lines stays for another interval of the same run.
+    // Results for elastic lines stay valid for another interval of the same run.
     this.sameCase = before !== null && keyOf(this.ofCase) === keyOf(question.case);
     this.ofCase = question.case;
     const latest = this.asked === JSON.stringify(question);
@@ -156,12 +156,12 @@ class Page {
     this.resting = setTimeout(() => this.computeFurther(), this.sameCase ? 0 : REST_MS);
   }
 
-  /** Shows the run that there is. */
+  /** Shows the current run. */
   show() {
     const { run, state } = this;
     this.sceneView.setRun(run);
     this.playbackControls.setRun(run);
-    // The interval that the server chose is kept while values change, so that one thing changes at a time.
+    // The interval chosen by the server is kept while values change, so that only one thing changes at a time.
     const [from, to] = run.window;
     const t = state.t >= from && state.t <= to ? state.t : from;
     this.asked = JSON.stringify({ case: state.asked, window: run.window });
@@ -174,7 +174,7 @@ class Page {
     this.drawAll();
   }
 
-  /** Values rest: the whole of a long record, neighbours, and elastic lines, one after the other. */
+  /** After the last change: the whole of a long record, neighbours, and elastic lines, one after the other. */
   async computeFurther() {
     this.stopBackground();
     const { question, state } = this;
@@ -201,7 +201,7 @@ class Page {
     }
   }
 
-  /** How far what follows the picture has come. */
+  /** Shows the progress of the work after the picture. */
   #showProgress(words) {
     $("coming").textContent = words;
   }
@@ -228,7 +228,7 @@ class Page {
     $("failed").hidden = false;
   }
 
-  /** Redraws what a change of the state concerns. */
+  /** Redraws what depends on a change of the state. */
   follow(changed) {
     if (changed.has("values") || changed.has("water")) {
       this.controls.show(this.run?.effective(this.state));
@@ -261,7 +261,7 @@ class Page {
     }
   }
 
-  /** The colours and marks of the lines, and where they break. */
+  /** The colours and marks of the lines, and their breaking loads. */
   #legend() {
     const marks = ["×", "○", "△", "□", "+", "◇"];
     const paints = colours();
@@ -279,14 +279,14 @@ class Page {
     this.playback.seek(t);
   }
 
-  /** Goes to a time wherever it is in the record. */
+  /** Moves the time cursor to any time of the record. */
   goTo(t) {
     const [from, to] = this.run.window;
     if (t < from || t > to) this.showInterval(t - (to - from) / 2);
     this.jump(t);
   }
 
-  /** Shows an interval as long as now that begins elsewhere. */
+  /** Shows an interval of the same length with another start. */
   showInterval(begin) {
     const [from, to] = this.run.window;
     const length = to - from;
@@ -317,7 +317,7 @@ class Page {
 
   drawMoment() {
     if (!this.run || this.framed) return;
-    // However many events ask for it, a picture is painted once a frame.
+    // A picture is painted once a frame, however many events request it.
     this.framed = requestAnimationFrame(() => {
       this.framed = null;
       this.sceneView.draw();
@@ -326,7 +326,7 @@ class Page {
     });
   }
 
-  /** The case file of a structure is opened; one of the thesis's model has the other page. */
+  /** Opens the case file of a structure; one of the thesis's model opens the other page. */
   async open(file) {
     const { structure, values } = await fetchCase(file);
     if (structure) await openStructure(file);
@@ -347,7 +347,7 @@ class Page {
     });
   }
 
-  /** Other waves begin about as high and as long as those that they replace. */
+  /** Waves of another kind start with about the height and period of those that they replace. */
   #chooseWater(water) {
     const { state } = this;
     const value = (name) => Number(state.value(name) ?? 0);
@@ -367,7 +367,7 @@ class Page {
 
 const keyOf = (value) => JSON.stringify(value);
 
-/** Values of the thesis's model as a fragment of its page. */
+/** Values of the thesis's model as a fragment of its page's address. */
 const caseFragment = (values) =>
   Object.entries(values)
     .map(([name, value]) => `${name}=${encodeURIComponent(value)}`)
