@@ -217,7 +217,7 @@ fn snapped(
     Ok((impact, next))
 }
 
-/// The event that ends a stretch, in the words of a certificate.
+/// The event that ends a stretch, in the notation of a certificate.
 fn event_name(event: Event) -> String {
     match event {
         Event::Released(cable) => format!("tension {}", cable + 1),

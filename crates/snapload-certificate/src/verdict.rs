@@ -14,7 +14,7 @@ pub(crate) enum ProofFailure {
     },
     /// The model has no such motion, or a claim about it is false.
     Refuted(String),
-    /// All that was asked for is proved, and the proof is stopped.
+    /// All that was requested is proved, and the proof is stopped.
     StoppedEarly,
     /// The caller cancelled the work.
     Cancelled,

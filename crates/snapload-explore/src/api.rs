@@ -178,7 +178,7 @@ fn json(bytes: Vec<u8>) -> Response {
     ([(CONTENT_TYPE, "application/json")], bytes).into_response()
 }
 
-/// The result of some work as an answer of its own, or, if its progress is asked for, as the last
+/// The result of some work as an answer of its own, or, if its progress is requested, as the last
 /// line of an answer.
 async fn progress_or(
     whole: impl FnOnce(Vec<u8>) -> Response,

@@ -14,7 +14,7 @@ use std::time::Duration;
 
 /// The time budget of a run's neighbours.
 const BUDGET: Duration = Duration::from_secs(20);
-/// What is said where that is used up.
+/// The message if that is used up.
 const TOO_SLOW: &str = "its neighbours take longer than the page waits";
 /// The most impacts in a table; larger tables are left to the command line.
 const MOST_WRITTEN: usize = 100_000;
@@ -23,7 +23,7 @@ const MOST_DRAWN: usize = 10_000;
 /// The seed that the command uses for neighbours by default.
 const SEED: u64 = 1;
 
-/// A file that can be asked for.
+/// A file that can be requested.
 #[derive(Clone, Copy)]
 pub(crate) enum File {
     Case,

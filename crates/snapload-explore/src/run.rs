@@ -279,7 +279,7 @@ impl Serialize for Impacts<'_> {
 struct Columns([Vec<f64>; 10]);
 
 impl Columns {
-    /// The motion at the times asked for, and just before and just after each impact.
+    /// The motion at the requested times, and just before and just after each impact.
     fn of(run: &Trajectory, impacts: &[Impact], sampling: Times) -> Self {
         let mut columns = Self(Default::default());
         let mut playback = Playback::new(run);

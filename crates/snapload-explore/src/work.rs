@@ -109,7 +109,7 @@ pub(crate) async fn compute<T: Send + 'static>(
     on_a_worker(Arc::clone(workers), allowance, work).await
 }
 
-/// The same for work that may already be abandoned when its turn comes; then it is not begun.
+/// The same for work that may already be abandoned when its turn comes; then it is not started.
 pub(crate) async fn on_a_worker<T: Send + 'static>(
     workers: Arc<Semaphore>,
     allowance: Allowance,

@@ -141,7 +141,7 @@ fn ranges(plot: &Plot) -> Area {
     }
 }
 
-/// The rectangle of a panel: the page without the texts beside it.
+/// The rectangle of a panel: the page without the texts next to it.
 fn inner_rect(page: Width, panels: &[Plot], areas: &[Area]) -> Rect {
     let (mut numbers, mut beside) = (0.0_f64, 0.0_f64);
     for (plot, area) in panels.iter().zip(areas) {
@@ -195,7 +195,7 @@ fn draw_inset(canvas: &mut SvgCanvas, frame: Rect, inset: &Inset) {
     let part = Rect::from_points(at(left, bottom), at(right, top));
     canvas.blank(part);
     let mut area = ranges(plot);
-    // Space for the numbers beside and below; those of the widened range may be longer.
+    // Space for the numbers to the side and below; those of the widened range may be longer.
     for _ in 0..2 {
         let numbers = widest(ticks(plot.y.ticks, area.y).texts());
         let half = widest(ticks(plot.x.ticks, area.x).texts().last().into_iter()) / 2.0;

@@ -170,7 +170,7 @@ pub(crate) fn samples(map: &Map) -> Vec<(Fill, String)> {
     occurring.map(sample).chain(uncertain).collect()
 }
 
-/// The colour bar beside a map of values.
+/// The colour bar next to a map of values.
 pub(crate) struct Bar<'a> {
     values: Span,
     label: &'a str,
@@ -205,7 +205,7 @@ impl<'a> Bar<'a> {
         self.label_at() + label
     }
 
-    /// Draws it beside the frame of the map.
+    /// Draws it next to the frame of the map.
     pub(crate) fn draw(&self, canvas: &mut SvgCanvas, map: Rect) {
         let x0 = map.x1 + BAR_GAP;
         let rect = Rect {

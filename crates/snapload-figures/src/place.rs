@@ -1,4 +1,4 @@
-//! Places texts inside a plot: beside the object that they name, where the least is drawn.
+//! Places texts inside a plot: next to the object that they name, where the least is drawn.
 
 use crate::polyline::holds;
 use crate::svg::{Anchor, FRAME, SvgCanvas};
@@ -29,7 +29,7 @@ const RIM: f64 = 3.0;
 const TRIES: usize = 60;
 /// From this distance on, the name of one boundary is not mistaken for that of another.
 const UNMISTAKABLE: f64 = 40.0;
-/// The eight directions in which a text can be placed beside a point, the best first.
+/// The eight directions in which a text can be placed next to a point, the best first.
 const DIRECTIONS: [Vec2; 8] = [
     Vec2::new(1.0, -0.6),
     Vec2::new(-1.0, -0.6),
@@ -127,7 +127,7 @@ fn along(pieces: &[Vec<Point>], step: f64) -> impl Iterator<Item = Point> {
     })
 }
 
-/// Rectangles for a text beside a point, each with the cost of its distance.
+/// Rectangles for a text next to a point, each with the cost of its distance.
 fn beside(at: Point, word: &str, gap: f64) -> impl Iterator<Item = (Rect, f64)> {
     let size = Size::new(width(word) * SMALL, CAP_HEIGHT * SMALL);
     let reach = size / 2.0 + Size::new(gap, gap);
@@ -142,7 +142,7 @@ fn nearest(rect: Rect, to: Point) -> Point {
     Point::new(to.x.clamp(rect.x0, rect.x1), to.y.clamp(rect.y0, rect.y1))
 }
 
-/// Draws dots, and their letters beside them; letters of coinciding dots are joined.
+/// Draws dots, and their letters next to them; letters of coinciding dots are joined.
 pub(crate) fn place_letters(
     canvas: &mut SvgCanvas,
     occupied: &mut OccupiedAreas,
@@ -181,7 +181,7 @@ pub(crate) fn place_letters(
     }
 }
 
-/// Writes the names of boundaries, each beside its own and away from the others.
+/// Writes the names of boundaries, each next to its own and away from the others.
 pub(crate) fn name_boundaries(
     canvas: &mut SvgCanvas,
     occupied: &mut OccupiedAreas,

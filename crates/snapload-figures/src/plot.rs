@@ -96,18 +96,18 @@ pub enum Layer {
     /// A light grey background from one x to another, which may be infinite, and its text. It is
     /// not included in an automatic range.
     Shade(f64, f64, String),
-    /// Dots with letters beside them. Where dots coincide on paper the letters are joined: "S,G".
+    /// Dots with letters next to them. Where dots coincide on paper the letters are joined: "S,G".
     Letters(Vec<Mark>),
     /// A value or a class for every cell of a grid. The axes end where the grid does.
     Map(Map),
 }
 
-/// A dot with a letter (or a short word) beside it.
+/// A dot with a letter (or a short word) next to it.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Mark {
     /// The position of the dot.
     pub at: Point,
-    /// The text beside it.
+    /// The text next to it.
     pub letter: String,
 }
 

@@ -58,7 +58,7 @@ pub struct RunPlots<'a> {
     horizon: Option<f64>,
 }
 
-/// A stretch of motion between two events, at the times at which it is drawn: the last one is just
+/// A segment of motion between two events, at the times at which it is drawn: the last one is just
 /// before the event at its end.
 #[derive(Clone, Debug)]
 struct Segment {
@@ -220,7 +220,7 @@ impl<'a> RunPlots<'a> {
     }
 }
 
-/// A point for each time of some stretches.
+/// A point for each time of some segments.
 fn joined(segments: &[Segment], of: impl Fn(&Motion) -> Point) -> Vec<Point> {
     let motions = segments.iter().flat_map(|segment| &segment.motion);
     motions.map(of).collect()

@@ -37,7 +37,8 @@ pub(crate) enum Fill {
     Blank,
     /// Grey lines, which differ from every colour in print, too.
     Hatch,
-    /// Thin lines on top of a colour, black beside white, so that they are visible on every colour.
+    /// Thin lines on top of a colour, black next to white, so that they are visible on every
+    /// colour.
     Uncertain,
 }
 

@@ -67,7 +67,7 @@ pub fn of_attractor(
     };
     let last = section.points.last().copied().unwrap_or(section.end.0);
     let family = Moored::case(*parameters, [None; 2]);
-    // If certain snaps are asked for, another orbit than that of the motion may be meant.
+    // If certain snaps are requested, another orbit than that of the motion may be meant.
     let find = match request.struck {
         None => Orbit::find_near_end_of_motion,
         Some(_) => Orbit::find,
@@ -77,7 +77,7 @@ pub fn of_attractor(
 
 /// Starts for each unit of work.
 const BATCH: usize = 16;
-/// Starts from which orbits are looked for.
+/// Starts from which orbits are searched for.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Starts<'a> {
     /// The number of random starts.
@@ -91,7 +91,7 @@ pub struct Starts<'a> {
 /// All admissible orbits that Newton's method finds from given starts and from random ones in the
 /// box |x| ≤ w, −w ≤ y ≤ h, |v| ≤ 1, |θ| ≤ π/3, |θ̇| ≤ 2, with w half the cables' length, or less.
 /// Each is listed once, whichever of its periods it was found in, the most stable ones first. An
-/// orbit that repeats itself after fewer periods than asked for is left out.
+/// orbit that repeats itself after fewer periods than requested is left out.
 ///
 /// # Errors
 /// [`Unfinished`] if the case is not legal, or the work is cancelled.

@@ -25,7 +25,7 @@ pub struct BranchOptions {
 pub struct BranchPoint {
     /// The orbit, which may be inadmissible.
     pub orbit: Orbit,
-    /// The length along the branch from the orbit with which it was begun.
+    /// The length along the branch from the orbit with which it was started.
     pub arclength: f64,
 }
 
@@ -117,7 +117,7 @@ impl Branch {
 
 impl Branch {
     /// Of the events of a kind, the one that is nearest along the branch to the orbit with which it
-    /// was begun, or the one with a given number, counted from 1 in their order.
+    /// was started, or the one with a given number, counted from 1 in their order.
     ///
     /// # Errors
     /// [`NoOrbit`] lists the events that there are.

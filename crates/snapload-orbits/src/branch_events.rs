@@ -74,7 +74,7 @@ pub struct BranchEvent {
     pub sqrt_coefficient: Option<f64>,
     /// Whether a snap of the sequence itself grazes, and not a contact in addition to it.
     pub is_own_snap: bool,
-    /// The length along the branch from the orbit with which it was begun.
+    /// The length along the branch from the orbit with which it was started.
     pub arclength: f64,
     /// The position between the two points of the branch.
     pub(crate) sigma: f64,

@@ -98,7 +98,7 @@ struct Map<'a, 'b, F: Family> {
 }
 
 impl<F: Family> Map<'_, '_, F> {
-    /// The monodromy matrix from a state beside that of the lap.
+    /// The monodromy matrix from a state near that of the lap.
     fn monodromy(&self, by: &DVector<f64>) -> Option<DMatrix<f64>> {
         let variables = self.continuation.family.variables();
         let mut z: Point = self.u.z;

@@ -15,11 +15,11 @@ pub const PERIODS: Key = Key::option("periods", Kind::Count(1, 100_000_000));
 pub const KEEP: Key = Key::option("keep", Kind::Count(1, 1_000_000));
 /// The length of an orbit in periods of the forcing.
 pub const ORBIT_PERIODS: Key = Key::option("periods", Kind::Count(1, 1024));
-/// Random starts from which orbits are looked for.
+/// Random starts from which orbits are searched for.
 pub const STARTS: Key = Key::option("starts", Kind::Count(1, 10_000_000));
 /// Points of a branch or of a curve in either direction, at most.
 pub const POINTS: Key = Key::option("points", Kind::Count(1, 1_000_000));
-/// Periods of the forcing before attractors are looked at.
+/// Periods of the forcing before attractors are examined.
 pub const BASIN_TRANSIENT: Key = Key::option("transient", Kind::Count(1, 10_000_000));
 
 /// A time of the section, in periods of the forcing.

@@ -166,7 +166,8 @@ impl<F: Family> Search<'_, F> {
         request.is_none_or(|struck| *struck == sequence.struck())
     }
 
-    /// Why a closed lap is not accepted: it is inadmissible, or its snaps are not those asked for.
+    /// Why a closed lap is not accepted: it is inadmissible, or its snaps are not the requested
+    /// ones.
     fn why_refused(&self, orbit: &Orbit) -> String {
         let mut reasons = orbit.why_not.clone();
         let request = self.request.struck.as_ref();

@@ -47,7 +47,7 @@ impl Orbit {
 /// Proves orbits of one case on all threads, and counts those that are certainly different ones.
 ///
 /// # Errors
-/// [`Cancelled`] if it is told to end.
+/// [`Cancelled`] if it is cancelled.
 pub fn prove_all(
     orbits: &mut [Orbit],
     case: &ExactCase,

@@ -15,10 +15,10 @@ pub struct Section {
     pub first: u64,
     /// Snaps in the kept periods.
     pub snaps: u64,
-    /// The impacts one by one, if they were asked for.
+    /// The impacts one by one, if they were requested.
     pub impacts: Option<Impacts>,
     /// The Lyapunov exponents over the kept periods, the largest first, each with its standard
-    /// error, which is NaN if there are too few periods; empty if they were not asked for. For a
+    /// error, which is NaN if there are too few periods; empty if they were not requested. For a
     /// direction that contact closes it is −∞.
     pub exponents: Vec<[f64; 2]>,
     /// The state at the end of the motion, and its time.
@@ -50,7 +50,7 @@ pub struct SectionOptions {
 /// that follows.
 const SAME: f64 = 1e-8;
 const LAPS: usize = 8;
-/// The longest period that is looked for.
+/// The longest period that is searched for.
 pub const LONGEST_PERIOD: usize = 64;
 
 impl Section {

@@ -3,7 +3,7 @@
 use askama::Template;
 pub(crate) use snapload_hydro::digits::{decimals, decimals_for, digits, kilo, tenths};
 
-/// Columns of the text beside a label.
+/// Columns of the text next to a label.
 const WIDTH: usize = 98;
 
 /// The text of a template as one paragraph.

@@ -86,7 +86,7 @@ impl<'a> Run<'a> {
         Ok(run)
     }
 
-    /// Whether, for all states, the flight has begun by the time `tau` after T.
+    /// Whether, for all states, the flight has started by the time `tau` after T.
     pub(crate) fn is_under_way(&self, tau: &Ball) -> bool {
         Ball::bound(self.slack).is_below(tau)
     }

@@ -22,7 +22,8 @@ pub(crate) struct Crossing {
     pub(crate) slope: Ball,
 }
 
-/// A stretch of motion along which the event functions are followed, each of which has to stay below zero.
+/// A stretch of motion along which the event functions are followed, each of which has to stay
+/// below zero.
 pub(crate) trait Path {
     /// How many event functions there are.
     fn count(&self) -> usize;
@@ -76,7 +77,7 @@ enum Piece {
 /// `start`, no later than the number `lo`; none if there is none.
 ///
 /// # Errors
-/// [`ProofFailure`] where it can not be told.
+/// [`ProofFailure`] where it can not be decided.
 pub(crate) fn first_crossing(
     path: &impl Path,
     (start, lo): &(Ball, Ball),

@@ -42,7 +42,7 @@ impl Rocking {
     /// The branch on which the state is.
     ///
     /// # Errors
-    /// [`ProofFailure`] where that can not be told.
+    /// [`ProofFailure`] where that can not be decided.
     pub(crate) fn at(model: &Model, state: &State) -> Result<Self, ProofFailure> {
         let (sine, cosine) = model.turn(&state[2]);
         let middle = [

@@ -57,8 +57,8 @@ impl<'a> Pair<'a> {
     }
 
     /// The law of impact, and which cables are taut after it. `may_stick` says whether the struck
-    /// cable is slower than `v_stick` or e = 0; `alternating` whether the snap is the last of a row of
-    /// slow snaps of both cables.
+    /// cable is slower than `v_stick` or e = 0; `alternating` whether the snap is the last of a row
+    /// of slow snaps of both cables.
     ///
     /// If the coupling W is positive, the impulse of the struck cable, p = (1 + e) v/w, opens the
     /// taut one: its normal velocity becomes −W p < 0. If W < 0 the impulse loads the taut cable,

@@ -12,7 +12,7 @@ use std::time::Duration;
 /// The time budget of a file: a run, its neighbours and other waves.
 const BUDGET: Duration = Duration::from_secs(120);
 
-/// A file that can be asked for.
+/// A file that can be requested.
 #[derive(Clone, Copy)]
 pub(crate) enum File {
     Case,

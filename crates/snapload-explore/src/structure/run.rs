@@ -73,7 +73,7 @@ pub(crate) fn answer(
     serde_json::to_vec(&answer).map_err(Refusal::failed)
 }
 
-/// The run of a case that is asked for.
+/// The requested run of a case.
 #[derive(Clone, Copy)]
 pub(super) struct RunRequest {
     /// The beginning of a long record only.
@@ -84,7 +84,7 @@ pub(super) struct RunRequest {
     pub(super) time: Duration,
 }
 
-/// The run that is asked for, which is not repeated if it was asked for before.
+/// The requested run, which is not repeated if it was requested before.
 pub(super) fn assessed(
     case_request: &CaseRequest,
     case: &Case,

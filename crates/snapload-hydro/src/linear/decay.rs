@@ -139,9 +139,10 @@ fn filon(values: &[(f64, f64)], t: f64) -> f64 {
 }
 
 /// The swings of one freedom, from its turning points: about zero where a stiffness brings it back
-/// there. Surge without lines stays where it comes to, and is told by the ways between its turns: in
-/// a swing with the ratio q² of one amplitude to the next about any place, the way from a turn to
-/// the next is the amplitude times 1 + q. Swings below a thousandth of the first are left out.
+/// there. Surge without lines stays where it ends, and is described by the distances between its
+/// turns: in a swing with the ratio q² of one amplitude to the next about any place, the way from a
+/// turn to the next is the amplitude times 1 + q. Swings below a thousandth of the first are left
+/// out.
 pub fn swings(decay: &Decay, freedom: usize) -> Vec<Swing> {
     let turns = turns(decay, freedom);
     let about_zero = decay.comes_back[freedom];

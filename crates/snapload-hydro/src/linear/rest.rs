@@ -201,8 +201,8 @@ impl RestProblem<'_> {
         0.5 * q.dot(&(self.body.stiffness * q)) - self.body.constant_force.dot(q)
     }
 
-    /// Starting points: the mean position, the position without lines, and points beside and below
-    /// it; above each anchor.
+    /// Starting points: the mean position, the position without lines, and points to the side and
+    /// below it; above each anchor.
     fn starts(&self, taut: &[usize]) -> Vec<Vector3<f64>> {
         let heave = self.body.stiffness[(1, 1)];
         let free = match heave > 0.0 {

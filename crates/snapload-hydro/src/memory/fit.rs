@@ -250,7 +250,7 @@ fn chosen(
     Ok((kept, block, second))
 }
 
-/// The largest number of pairs of poles that may be asked for.
+/// The largest number of pairs of poles that is allowed.
 pub const MOST_PAIRS: usize = 20;
 
 /// The memory of a file's coefficients, by vector fitting of B + iω(A − A∞) with common poles for

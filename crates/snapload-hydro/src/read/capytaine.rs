@@ -311,13 +311,12 @@ fn excitation(
         forces.push((0..count).map(force).collect());
     }
     if directions.is_empty() {
-        let betas_in_plane = match plane {
+        let in_plane = match plane {
             Plane::X => "0 or π",
             Plane::Y => "π/2 or −π/2",
         };
         let found = format!("{betas:?} rad");
-        let expected =
-            format!("waves in the plane of motion are required, {betas_in_plane} within 1e-6");
+        let expected = format!("waves in the plane of motion are required, {in_plane} within 1e-6");
         return Err(HydroError::layout("wave_direction", found, expected));
     }
     Ok((directions, forces))

@@ -158,7 +158,7 @@ fn text(asked: &Path, path: &Path) -> Result<String, HydroError> {
     String::from_utf8(bytes(asked, path)?).map_err(|_| unreadable(asked, path, "it is not text"))
 }
 
-/// The message names the file only if it is not the one that was asked for.
+/// The message names the file only if it is not the requested one.
 fn unreadable(asked: &Path, path: &Path, message: &str) -> HydroError {
     let name = path.file_name().filter(|_| path != asked);
     HydroError::Unreadable(match name {

@@ -55,7 +55,8 @@ fn project(structure: &Structure) -> Vec<(&str, String)> {
 /// which [`super::read()`] reads them.
 ///
 /// # Errors
-/// A [`CaseError`] unless the segments are of [`SEGMENTS`], if a line has no stiffness or mass, or the structure rests nowhere.
+/// A [`CaseError`] unless the segments are of [`SEGMENTS`], if a line has no stiffness or mass, or
+/// the structure rests nowhere.
 pub fn write(name: &str, structure: &Structure, segments: u32) -> Result<String, CaseError> {
     check(&SEGMENTS, i64::from(segments))?;
     if structure.afloat.is_some() {

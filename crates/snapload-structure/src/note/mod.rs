@@ -52,7 +52,7 @@ struct NotePage<'a> {
     warnings: &'a [Warning],
     layout: Picture,
     prepared: &'a ModelAtRest,
-    /// Whether the lines stretch.
+    /// Whether the lines are elastic.
     elastic: bool,
     class: &'static str,
     note: &'a Assessment,
@@ -81,7 +81,7 @@ struct SeaPage<'a> {
     warnings: &'a [Warning],
     layout: Picture,
     prepared: &'a ModelAtRest,
-    /// Whether the lines stretch.
+    /// Whether the lines are elastic.
     elastic: bool,
     class: &'static str,
     seas: &'a Seas,

@@ -94,7 +94,7 @@ pub(super) fn of_run(assessment: &Assessment) -> Result<Vec<Picture>, FigureErro
         .collect()
 }
 
-/// Calls `see` with the motion at times within an interval in seconds.
+/// Calls `on_sample` with the motion at times within an interval in seconds.
 fn sample_motion(
     assessment: &Assessment,
     [from, to]: [f64; 2],

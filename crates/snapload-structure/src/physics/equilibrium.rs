@@ -46,7 +46,7 @@ pub struct Equilibrium {
     /// Set if the stretch of the lines changes the distribution of the load: `tension_n` are then
     /// the tensions by stiffness.
     pub by_stiffness: Option<DistributionByStiffness>,
-    /// The tensions of a floating body's lines as they stretch, if their sum differs and the lines
+    /// The tensions of a floating body's elastic lines, if their sum differs and the lines
     /// share it in the same proportions \[N\].
     pub elastic_tension_n: Option<Vec<f64>>,
 }
@@ -206,7 +206,7 @@ fn sets(count: usize) -> Vec<Vec<usize>> {
     sets
 }
 
-/// Starting points of the search: the position drawn, positions beside it and turned, and above
+/// Starting points of the search: the position drawn, positions to its side and turned, and above
 /// each line's anchor.
 fn starts(structure: &Structure, unit_m: f64) -> Vec<State> {
     let drawn = structure.body.position_m[0];

@@ -231,7 +231,7 @@ impl ModelAtRest {
 }
 
 /// Whether the distribution of the load at rest differs from that on inextensible lines,
-/// whose tensions come first. For a floating body the water carries the load that stretching lines
+/// whose tensions come first. For a floating body the water carries the load that elastic lines
 /// lose, so that the parts of the lines' total load are compared.
 fn distributes_differently(structure: &Structure, tensions_n: [&[f64]; 2]) -> bool {
     let units = match structure.afloat {

@@ -64,7 +64,7 @@ impl NaturalPeriods {
 }
 
 impl ModelAtRest {
-    /// The small motions of a floating body on stretching lines, if their stiffness is known.
+    /// The small motions of a floating body on elastic lines, if their stiffness is known.
     pub fn modes_on_elastic_lines(&self) -> Vec<TautMode> {
         let afloat = self.structure.afloat.as_deref();
         let found = afloat.map(|afloat| afloat_modes_on_elastic_lines(self, afloat));

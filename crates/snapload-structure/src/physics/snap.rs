@@ -18,8 +18,8 @@
 //! = T_0 is the load that continues to act while a slack line stretches until it carries that load;
 //! a line that was taut carries it already, P = 0. A line that closes by itself takes up all of the
 //! closing energy, J v/2 = M v²/2w, and stops m = M/w at u = v. Lines that close together share it
-//! as they share the impulse. A line that was taut, v_i = 0, and has a jolt passed on to it takes
-//! up the energy that J_i alone would give it, up to the energy available.
+//! as they share the impulse. A line that was taut, v_i = 0, and has an impact passed on to it
+//! takes up the energy that J_i alone would give it, up to the energy available.
 //!
 //! The spring is that of docs/model.md section 10 under the load P, exact for a mass on a spring;
 //! the front is the momentum balance of an elastic bar struck at its end (K. F. Graff, *Wave Motion
@@ -39,7 +39,7 @@ use snapload::{Impact, Simulation, Step};
 /// A slower snap is the settling of the line, not a load: it is neither counted nor listed \[m/s\].
 pub const SLOWEST_M_S: f64 = 0.01;
 
-/// A line snapping taut, or the jolt that another line's snap passes on to a taut line.
+/// A line snapping taut, or the impact that another line's snap passes on to a taut line.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Snap {
     /// When \[s\].

@@ -209,7 +209,7 @@ fn distribution_warning(rest: &Equilibrium) -> Option<Warning> {
     warning_if(is, "shared loads", [0.0; 2], &words.unwrap_or_default())
 }
 
-/// The warning that the lines of a floating body carry a different load when they stretch.
+/// The warning that the lines of a floating body carry a different load if they are elastic.
 fn stretch_at_rest(rest: &Equilibrium) -> Option<Warning> {
     let relaxed = rest.elastic_tension_n.as_ref()?;
     let words = format!(

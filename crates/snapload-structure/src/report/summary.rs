@@ -62,7 +62,7 @@ struct ElasticText<'a> {
     e: f64,
     zeta: f64,
     /// Spring rate, damping, part of the time slack, and peak of each line; and its part of the
-    /// time slack if it did not stretch.
+    /// time slack if it is inextensible.
     lines: Vec<([f64; 4], Option<f64>)>,
     rows: Vec<String>,
     /// The number of snaps of inextensible lines.
@@ -134,7 +134,7 @@ impl Seas {
 }
 
 impl ElasticComparison {
-    /// Spring rate \[N/m\] and damping \[N s/m\] of a line that stretches.
+    /// Spring rate \[N/m\] and damping \[N s/m\] of an elastic line.
     pub fn si(&self, spring: &Spring) -> [f64; 2] {
         let scales = &self.prepared.model.scales;
         let unit = scales.force_n / scales.length_m;
@@ -200,7 +200,7 @@ fn troughs_text(sorted_n: &[f64]) -> String {
     }
     let quantiles = [(0.5, "half below"), (0.01, "99 % above")];
     for (value, what) in quantiles.map(|(part, what)| (quantile(sorted_n, part), what)) {
-        // Of the slack ones everything is said already.
+        // Slack troughs are reported already.
         if let Some(value) = value.filter(|value| *value > 0.0) {
             words.push(format!("{what} {} kN", kilo(&value, 0)));
         }

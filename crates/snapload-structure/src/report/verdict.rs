@@ -201,7 +201,7 @@ impl Early {
 }
 
 /// The verdict: whether the lines go slack, how hard they snap, and whether one breaks;
-/// `elastic` says whether the lines stretch.
+/// `elastic` says whether the lines are elastic.
 fn verdict(
     structure: &Structure,
     outcome: &Outcome,

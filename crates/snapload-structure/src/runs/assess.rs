@@ -69,9 +69,8 @@ pub const DEFAULT_NEIGHBOURS: u32 = 40;
 /// Runs a structure with its neighbours.
 ///
 /// # Errors
-/// A [`snapload::CaseError`] if more neighbours than [`NEIGHBOURS`] are asked for, the structure rests
-/// nowhere or can not start, and
-/// [`Unfinished::Cancelled`].
+/// A [`snapload::CaseError`] if more neighbours than [`NEIGHBOURS`] are requested, the structure
+/// rests nowhere or can not start, and [`Unfinished::Cancelled`].
 pub fn assess(
     structure: Structure,
     neighbours: u32,

@@ -35,7 +35,7 @@ pub struct ElasticComparison {
 /// A motion on inextensible lines.
 #[derive(Clone, Debug, Default)]
 pub struct Inextensible {
-    /// The snaps, without slow ones and jolts.
+    /// The snaps, without slow ones and impacts while taut.
     pub snaps: Vec<Snap>,
     /// The part of the time in which each line is slack.
     pub slack_fraction: Vec<f64>,
@@ -48,8 +48,8 @@ pub struct Inextensible {
 /// is kept every `every_s` seconds.
 ///
 /// # Errors
-/// A [`CaseError`] unless `stiffer` is of [`STIFFER`], if a line has no stiffness, or the integrator gives up, and
-/// [`Unfinished::Cancelled`].
+/// A [`CaseError`] unless `stiffer` is of [`STIFFER`], if a line has no stiffness, or the
+/// integrator gives up, and [`Unfinished::Cancelled`].
 pub fn compare_elastic(
     prepared: ModelAtRest,
     stiffer: f64,

@@ -16,10 +16,10 @@ pub struct LineOutcome {
     /// The fastest \[m/s\].
     #[serde(rename = "fastest_snap_m_s")]
     pub speed_m_s: f64,
-    /// Jolts that snaps of other lines passed on to it while it was taut, if they count.
+    /// Impacts that snaps of other lines passed on to it while it was taut, if they count.
     #[serde(skip)]
     pub impacts_while_taut: u64,
-    /// The largest estimate of tension in a snap or a jolt \[N\].
+    /// The largest estimate of tension in a snap or an impact while taut \[N\].
     #[serde(rename = "peak_tension_n")]
     pub peak_n: Option<f64>,
     /// The largest tension while the line stays taut \[N\].
@@ -56,7 +56,7 @@ pub struct Outcome {
     pub end_s: f64,
     /// The largest rotation on either side \[rad\].
     pub turned_rad: f64,
-    /// The largest horizontal distance from the position of rest at the ends of its stretches of
+    /// The largest horizontal distance from the position of rest at the ends of its intervals of
     /// motion \[m\].
     pub excursion_m: f64,
     /// The extreme positions of a floating body relative to the still water; none for a submerged

@@ -54,8 +54,8 @@ pub enum Lines {
 /// ones.
 ///
 /// # Errors
-/// A [`CaseError`] unless the count is of [`SEEDS`], if the case has no sea, the structure rests nowhere, or elastic lines have no
-/// stiffness, and [`Unfinished::Cancelled`].
+/// A [`CaseError`] unless the count is of [`SEEDS`], if the case has no sea, the structure rests
+/// nowhere, or elastic lines have no stiffness, and [`Unfinished::Cancelled`].
 pub fn seas(
     structure: Structure,
     count: u32,

@@ -38,8 +38,8 @@ impl Afloat {
         self.body.constant_force - Vector3::new(0.0, 0.0, self.constant_moment_n_m)
     }
 
-    /// Reads the coefficients from files beside a case file and fits their memory; without a folder
-    /// the case may not name files.
+    /// Reads the coefficients from files next to a case file and fits their memory; without a
+    /// folder the case may not name files.
     ///
     /// # Errors
     /// A [`CaseError`] that says what is wrong with the file or missing in it.

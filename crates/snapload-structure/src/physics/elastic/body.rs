@@ -4,7 +4,7 @@ use super::law::Spring;
 use snapload::{State, System, TautSet, Waves};
 use std::cell::RefCell;
 
-/// A body on springs.
+/// A body on elastic lines.
 pub(super) struct BodyOnElasticLines<'a> {
     pub(super) system: &'a System,
     pub(super) springs: &'a [Spring],

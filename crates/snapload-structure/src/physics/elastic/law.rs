@@ -1,4 +1,4 @@
-//! The law of a line that stretches: a spring and a damper in parallel that can only pull.
+//! The law of an elastic line: a spring and a damper in parallel that can only pull.
 
 use crate::physics::model_at_rest::ModelAtRest;
 use crate::structure::LineSi;

@@ -2,8 +2,8 @@
 //!
 //! Between the instants at which a line begins or ceases to pull the forces are smooth. So the
 //! motion is integrated from one such instant to the next with the set of pulling lines fixed, by
-//! the Dormand-Prince pair of order 8, and the instants are found on its dense output, at [`SAMPLES_PER_STEP`]
-//! points of each step and then by bisection.
+//! the Dormand-Prince pair of order 8, and the instants are found on its dense output, at
+//! [`SAMPLES_PER_STEP`] points of each step and then by bisection.
 //!
 //! Library: `differential-equations` (DOP853 with dense output, few dependencies). Its own event
 //! detection misses events in the first step and two crossings within one step, so only its
@@ -30,7 +30,7 @@ const TOGETHER: f64 = 4000.0;
 const AT_A_TIME: f64 = 1.0;
 /// Points in a step at which forces are evaluated.
 const SAMPLES_PER_STEP: u32 = 16;
-/// A negative force smaller than this just after a line has begun or ceased to pull is rounding.
+/// A negative force smaller than this just after a line has started or ceased to pull is rounding.
 const NOISE: f64 = 1e-12;
 /// A shorter time counts as zero.
 const INSTANT: f64 = 10.0 * f64::EPSILON;
@@ -129,7 +129,7 @@ impl<'a, const N: usize> Phase<'a, N> {
             .until_change(line, state, self.pulling.contains(line))
     }
 
-    /// A line that no longer behaves as the phase assumes. `fresh` are lines that have just begun
+    /// A line that no longer behaves as the phase assumes. `fresh` are lines that have just started
     /// or ceased to pull, and whose force is zero up to rounding.
     fn changed(&self, state: &State, fresh: &mut TautSet) -> Option<usize> {
         for line in 0..self.body.springs.len() {

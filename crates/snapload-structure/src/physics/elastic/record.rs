@@ -22,7 +22,7 @@ pub struct Pull {
     pub from_s: f64,
     /// When it ceased to pull, or the run ended \[s\].
     pub to_s: f64,
-    /// The rate of its stretch when it began to pull \[m/s\].
+    /// The rate of its stretch when it became taut \[m/s\].
     pub speed_m_s: f64,
     /// The rate of its contraction when it ceased to pull; none if it pulls to the end \[m/s\].
     pub rebound_m_s: Option<f64>,
@@ -48,7 +48,7 @@ pub struct Sample {
 pub struct ElasticRun {
     /// Every pull, in the order of their beginnings.
     pub pulls: Vec<Pull>,
-    /// The motion at the times asked for.
+    /// The motion at the requested times.
     pub samples: Vec<Sample>,
     /// When it ended \[s\].
     pub end_s: f64,
@@ -228,7 +228,7 @@ impl<'a> PullRecorder<'a> {
     ) -> ElasticRun {
         self.run.stop = stop;
         self.run.end_s = match stop {
-            // As it was asked for, not as it comes back from the engine's units.
+            // The requested duration, not converted back from the engine's units.
             None => self.structure.duration_s,
             Some(_) => t * self.scales.time_s,
         };

@@ -34,8 +34,8 @@ const ELASTIC_LINES_THAT_HOLD: &str = "elastic lines that hold the body at rest"
 const DAMPING: [f64; 2] = [1e-6, 1e12];
 
 impl ModelAtRest {
-    /// The same structure about its position of rest on springs, from which it starts in the waves
-    /// at that depth, unless the case gives a start.
+    /// The same structure about its position of rest on elastic lines, from which it starts in the
+    /// waves at that depth, unless the case gives a start.
     ///
     /// # Errors
     /// A [`CaseError`] if it has no position of rest on them.
@@ -83,9 +83,9 @@ impl ModelAtRest {
         Ok(elastic_case)
     }
 
-    /// The derivative of the force on a body at rest on springs, as by [`ModelAtRest::on_springs`],
-    /// with respect to its position: the second derivatives of V over (x, y, θ), in the engine's
-    /// units.
+    /// The derivative of the force on a body at rest on elastic lines, as by
+    /// [`ModelAtRest::with_elastic_lines`], with respect to its position: the second derivatives of
+    /// V over (x, y, θ), in the engine's units.
     pub(in crate::physics) fn stiffness_on(&self, springs: &[Spring]) -> Matrix3<f64> {
         let body = BodyOnElasticLines::new(&self.model.system, springs);
         let at = self.model.at_rest(self.rest.place_m, self.rest.theta_rad);
