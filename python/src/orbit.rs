@@ -107,7 +107,7 @@ impl Orbit {
     }
 }
 
-/// What is looked for; cables count from 1.
+/// The requested orbit; cables count from 1.
 fn request(
     periods: Option<u32>,
     symbol: Option<Vec<usize>>,

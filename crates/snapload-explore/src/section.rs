@@ -12,7 +12,7 @@ const BUDGET: Duration = Duration::from_secs(20);
 /// The default numbers of periods and of points kept; and the largest numbers.
 const PERIODS: u64 = 800;
 const KEEP: u64 = 400;
-const MOST: u64 = 20_000;
+const MOST_PERIODS: u64 = 20_000;
 
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -35,7 +35,7 @@ struct Answer {
 /// The answer, as JSON.
 pub(crate) fn answer(request: Request, allowance: &Allowance) -> Result<Vec<u8>, Refusal> {
     let case = case(request.values)?;
-    let periods = request.periods.unwrap_or(PERIODS).min(MOST);
+    let periods = request.periods.unwrap_or(PERIODS).min(MOST_PERIODS);
     let options = section_options(periods, request.keep.unwrap_or(KEEP.min(periods)), 0.0)?;
     let allowance = allowance.within(BUDGET);
     let section = Section::of(case.parameters(), &options, &|progress| {

@@ -129,11 +129,11 @@ fn ranges(plot: &Plot) -> Area {
         });
         shown = boundaries.flatten().copied().filter(drawable).collect();
     }
-    let asked = match plot.map() {
+    let requested = match plot.map() {
         Some(map) => [range(&map.x), range(&map.y)],
         None => [plot.x.range, plot.y.range],
     };
-    let [x, y] = [0, 1].map(|k| resolve(asked[k], shown.iter().map(|point| point[k])));
+    let [x, y] = [0, 1].map(|k| resolve(requested[k], shown.iter().map(|point| point[k])));
     Area {
         rect: Rect::ZERO,
         x,

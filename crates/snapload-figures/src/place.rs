@@ -14,21 +14,21 @@ const WORD: u32 = 50;
 /// The distance between texts.
 const APART: f64 = 4.0;
 /// A letter farther than this from its dot is connected to it by a line.
-const FAR: f64 = 10.0;
+const CONNECTED_FROM: f64 = 10.0;
 /// The cost of each point of distance between a letter and its dot, in units of that of a crossed
 /// line.
-const AWAY: f64 = 0.4;
+const DISTANCE_COST: f64 = 0.4;
 /// A letter may be mistaken for that of another dot, unless that is this many times as far away as
 /// its own.
 const NEARER: f64 = 2.0;
 /// The cost of that.
-const TAKEN: f64 = 200.0;
+const MISTAKEN_COST: f64 = 200.0;
 /// The distance of texts from the frame, near which an I looks like a tick.
 const RIM: f64 = 3.0;
 /// The number of positions along a boundary that are tried for its name.
 const TRIES: usize = 60;
 /// From this distance on, the name of one boundary is not mistaken for that of another.
-const UNMISTAKABLE: f64 = 40.0;
+const DISTINCT_FROM: f64 = 40.0;
 /// The eight directions in which a text can be placed next to a point, the best first.
 const DIRECTIONS: [Vec2; 8] = [
     Vec2::new(1.0, -0.6),
@@ -128,7 +128,7 @@ fn along(pieces: &[Vec<Point>], step: f64) -> impl Iterator<Item = Point> {
 }
 
 /// Rectangles for a text next to a point, each with the cost of its distance.
-fn beside(at: Point, word: &str, gap: f64) -> impl Iterator<Item = (Rect, f64)> {
+fn positions_next_to(at: Point, word: &str, gap: f64) -> impl Iterator<Item = (Rect, f64)> {
     let size = Size::new(width(word) * SMALL, CAP_HEIGHT * SMALL);
     let reach = size / 2.0 + Size::new(gap, gap);
     DIRECTIONS.into_iter().map(move |d| {
@@ -165,16 +165,19 @@ pub(crate) fn place_letters(
     for (own, (at, letters)) in places.iter().enumerate() {
         let others = || places[..own].iter().chain(&places[own + 1..]);
         let gaps = [3.0, 5.0, 8.0, 12.0, 20.0, 30.0, 42.0].into_iter();
-        let candidates = gaps.flat_map(|gap| beside(*at, letters, DOT + gap - 1.5));
+        let candidates = gaps.flat_map(|gap| positions_next_to(*at, letters, DOT + gap - 1.5));
         let candidates = candidates.map(|(rect, cost)| {
             let distances = others().map(|(other, _)| nearest(rect, *other).distance(*other));
             let other = distances.fold(f64::INFINITY, f64::min);
             let is_taken = other < NEARER * nearest(rect, *at).distance(*at);
-            (rect, AWAY * cost + if is_taken { TAKEN } else { 0.0 })
+            (
+                rect,
+                DISTANCE_COST * cost + if is_taken { MISTAKEN_COST } else { 0.0 },
+            )
         });
         if let Some(rect) = occupied.write(canvas, letters, candidates) {
             let near = nearest(rect, *at);
-            if near.distance(*at) > FAR {
+            if near.distance(*at) > CONNECTED_FROM {
                 canvas.segment(*at, near.lerp(*at, 2.0 / near.distance(*at)), FRAME);
             }
         }
@@ -198,8 +201,8 @@ pub(crate) fn name_boundaries(
             .step_by((traces[own].len() / TRIES).max(1));
         let candidates = candidates.flat_map(|&at| {
             let distances = others().map(|other| other.distance(at));
-            let ambiguity = 2.0 * (UNMISTAKABLE - distances.fold(UNMISTAKABLE, f64::min));
-            beside(at, name, 2.5).map(move |(rect, cost)| (rect, cost + ambiguity))
+            let ambiguity = 2.0 * (DISTINCT_FROM - distances.fold(DISTINCT_FROM, f64::min));
+            positions_next_to(at, name, 2.5).map(move |(rect, cost)| (rect, cost + ambiguity))
         });
         occupied.write(canvas, name, candidates);
     }

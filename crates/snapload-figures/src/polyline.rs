@@ -10,7 +10,7 @@ const TOLERANCE: f64 = 0.05;
 /// The width of the columns in which a long line over time keeps only its extremes.
 const COLUMN: f64 = 0.1;
 /// The number of points from which on a line is reduced to its columns' extremes.
-const LONG: usize = 5_000;
+const LONG_LINE: usize = 5_000;
 /// The simplification works on parts of this length, which limits its time.
 const SEGMENT_POINTS: usize = 1_000;
 
@@ -71,7 +71,7 @@ fn clip_segment(from: Point, to: Point, frame: Rect) -> Option<(Point, Point)> {
 
 /// A polyline with the same appearance and far fewer points.
 pub(crate) fn thin(points: &[Point]) -> Vec<Point> {
-    if points.len() > LONG && points.is_sorted_by(|a, b| a.x <= b.x) {
+    if points.len() > LONG_LINE && points.is_sorted_by(|a, b| a.x <= b.x) {
         simplify(&columns(points))
     } else {
         simplify(points)

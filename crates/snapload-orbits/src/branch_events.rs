@@ -82,21 +82,21 @@ pub struct BranchEvent {
 
 /// An orbit counts as special if a multiplier, a gap or a velocity is this close to its critical
 /// value.
-const THERE: f64 = 1e-6;
+const SPECIAL_WITHIN: f64 = 1e-6;
 
 impl BranchEvent {
     /// The event at an orbit that is itself special, such as one that was found as an event of a
     /// branch before.
     pub fn here(kind: Kind, orbit: &Orbit) -> Option<Self> {
         let values = &orbit.multipliers.values;
-        let near = |extreme: &Extreme| extreme.value.abs() < THERE;
+        let near = |extreme: &Extreme| extreme.value.abs() < SPECIAL_WITHIN;
         let gap = orbit.survey.largest_gap.filter(near);
         let speed = orbit.survey.least_speed.filter(near);
         let at = |place: f64| {
-            let near = |[re, im]: &[f64; 2]| (re - place).hypot(*im) < THERE;
+            let near = |[re, im]: &[f64; 2]| (re - place).hypot(*im) < SPECIAL_WITHIN;
             values.iter().filter(|value| near(value)).count() == 1
         };
-        let pair = |[re, im]: &[f64; 2]| *im > 0.0 && (re.hypot(*im) - 1.0).abs() < THERE;
+        let pair = |[re, im]: &[f64; 2]| *im > 0.0 && (re.hypot(*im) - 1.0).abs() < SPECIAL_WITHIN;
         let is_there = match kind {
             Kind::Fold => at(1.0),
             Kind::PeriodDoubling => at(-1.0),

@@ -48,7 +48,7 @@ const CLOSED: f64 = 1e-11;
 const DONE: f64 = 1e-14;
 /// After a step below this the next one would be only rounding, and the derivatives are accurate
 /// enough for the direction of the branch.
-const LAST: f64 = 1e-8;
+const LAST_STEP: f64 = 1e-8;
 
 impl Unknowns {
     /// The largest difference of state and parameters from another point.
@@ -154,7 +154,7 @@ impl<F: Family> Continuation<'_, F> {
             if size < CLOSED && (moved < DONE || moved >= 0.25 * before) {
                 return Some((here, steps, Self::tangent_of(&jacobian, tangent)?));
             }
-            if moved < LAST {
+            if moved < LAST_STEP {
                 let there = from.moved(variables, &(&offset + &step));
                 return Some((there, steps, Self::tangent_of(&jacobian, tangent)?));
             }

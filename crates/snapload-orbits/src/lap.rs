@@ -51,7 +51,7 @@ pub struct Leg {
 pub(crate) const SAME: f64 = 1e-8;
 
 /// Up to this number of events all unknowns of a lap are solved for together.
-const MANY: usize = 64;
+const SOLVED_TOGETHER: usize = 64;
 
 /// The derivatives of a jet, without its value.
 type Slopes = [f64; 10];
@@ -265,12 +265,12 @@ impl Linearised {
     /// The largest residual of F, and Newton's step of the state's `variables` and the durations;
     /// none if the equations are singular.
     ///
-    /// Up to `MANY` events all unknowns are solved for together, so that a snap of zero velocity
+    /// Up to `SOLVED_TOGETHER` events all unknowns are solved for together, so that a snap of zero velocity
     /// does no harm. Longer sequences are those in which snaps accumulate; there the durations are
     /// eliminated one after the other, each by the event that ends it, as the cost of solving all
     /// together grows with the cube of their number.
     pub fn step(&self, z: &Point, variables: &[usize]) -> (f64, Option<DVector<f64>>) {
-        if self.events() > MANY {
+        if self.events() > SOLVED_TOGETHER {
             return self.step_in_turn(z, variables);
         }
         let (residual, jacobian) = self.equations(z, variables, 0);

@@ -7,7 +7,7 @@
 //!
 //! ```
 //! use snapload::Parameters;
-//! use snapload_orbits::{Moored, Orbit, Stability, Wanted};
+//! use snapload_orbits::{Moored, Orbit, OrbitRequest, Stability};
 //!
 //! let case = Parameters {
 //!     inertia: None, a: 0.0, r: 1.7, e: 0.35, f_o: 1.4, nu: 0.8, omega: 3.1,
@@ -15,7 +15,7 @@
 //! };
 //! let family = Moored::case(case, [None; 2]);
 //! let near = [-0.27, 0.38, 0.0, 0.81, -0.43, 0.0];
-//! let orbit = Orbit::find(&family, [0.0; 2], &near, &Wanted::default())?;
+//! let orbit = Orbit::find(&family, [0.0; 2], &near, &OrbitRequest::default())?;
 //! assert_eq!(orbit.lap.sequence.symbol(), ["2", "1"]);
 //! assert_eq!(orbit.stability(), Stability::Stable);
 //! # Ok::<(), snapload_orbits::NoOrbit>(())

@@ -70,8 +70,8 @@ pub(crate) fn coefficient<F: Family>(
     }
     let n = whole.nrows();
     let back = (DMatrix::identity(n, n) - &whole).lu().solve(&square)?;
-    let beside = |by: f64| map.monodromy(&(&q * by)).map(|there| there * &q);
-    let cube = (beside(SECOND)? + beside(-SECOND)? - (&whole * &q) * 2.0) / (SECOND * SECOND);
+    let neighbour = |by: f64| map.monodromy(&(&q * by)).map(|there| there * &q);
+    let cube = (neighbour(SECOND)? + neighbour(-SECOND)? - (&whole * &q) * 2.0) / (SECOND * SECOND);
     let value = p.dot(&cube) / 6.0 + 0.5 * p.dot(&map.second(&q, &back)?);
     value.is_finite().then_some(Coefficient {
         value,

@@ -76,15 +76,15 @@ impl Sequence {
     /// As text: `2` is a snap of cable 2, `stick 2` that it stays taut, `release 2` that it lets
     /// go.
     pub fn symbol(&self) -> Vec<String> {
-        let mut words = Vec::new();
+        let mut parts = Vec::new();
         for (event, before) in self.events.iter().zip(self.held()) {
-            words.extend(event.struck().iter().map(|cable| (cable + 1).to_string()));
+            parts.extend(event.struck().iter().map(|cable| (cable + 1).to_string()));
             let gone = before.iter().filter(|&cable| !event.after.contains(cable));
-            words.extend(gone.map(|cable| format!("release {}", cable + 1)));
+            parts.extend(gone.map(|cable| format!("release {}", cable + 1)));
             let new = event.after.iter().filter(|&cable| !before.contains(cable));
-            words.extend(new.map(|cable| format!("stick {}", cable + 1)));
+            parts.extend(new.map(|cable| format!("stick {}", cable + 1)));
         }
-        words
+        parts
     }
 }
 

@@ -69,11 +69,11 @@ fn letters(picture: &Picture) -> Vec<String> {
 
 #[track_caller]
 fn assert_contains_texts(plot: Plot, words: &[&str]) {
-    let said = letters(&picture(plot));
+    let texts = letters(&picture(plot));
     for word in words {
         assert!(
-            said.iter().any(|text| text == word),
-            "{word:?} is not among {said:?}"
+            texts.iter().any(|text| text == word),
+            "{word:?} is not among {texts:?}"
         );
     }
 }
@@ -162,8 +162,8 @@ fn empty_figures_have_a_note() {
 
 #[test]
 fn a_horizon_outside_the_picture_is_not_mentioned() {
-    let said = letters(&picture(energy(&[[0.0, 1.0], [1.0, 2.0]], Some(5.0))));
-    assert!(!said.iter().any(|text| text.contains("horizon")));
+    let texts = letters(&picture(energy(&[[0.0, 1.0], [1.0, 2.0]], Some(5.0))));
+    assert!(!texts.iter().any(|text| text.contains("horizon")));
 }
 
 #[test]
@@ -270,22 +270,22 @@ fn values_have_a_bar_and_classes_a_legend() {
         Empty,
         Illegal,
     ]));
-    let said = letters(&values);
+    let texts = letters(&values);
     for expected in ["no legal case", "no value", "t (T)", "0", "3"] {
         assert!(
-            said.iter().any(|text| text == expected),
-            "{expected} is not among {said:?}"
+            texts.iter().any(|text| text == expected),
+            "{expected} is not among {texts:?}"
         );
     }
-    assert!(!said.iter().any(|text| text == "settled"));
+    assert!(!texts.iter().any(|text| text == "settled"));
     for expected in ["url(#hatch)", "#440154", "#fde725"] {
         assert!(values.svg().contains(expected), "{expected} is missing");
     }
     let classes = picture(map(vec![Class(0); 6]));
-    let said = letters(&classes);
-    assert!(said.iter().any(|text| text == "settled"));
+    let texts = letters(&classes);
+    assert!(texts.iter().any(|text| text == "settled"));
     assert!(
-        !said
+        !texts
             .iter()
             .any(|text| text == "upper bound" || text == "no data")
     );

@@ -9,7 +9,7 @@ use nalgebra::{DMatrix, DVector, Matrix2x3, Matrix3, RowVector3, Vector2, Vector
 use std::f64::consts::FRAC_PI_2;
 
 /// The most lines that can be taut at once: there are three degrees of freedom.
-const MOST: usize = 3;
+const MOST_TAUT: usize = 3;
 /// The steps of Newton's method, and the factors of its starting points.
 const STEPS: usize = 60;
 const ROUNDING: f64 = 1e-13;
@@ -179,7 +179,7 @@ fn sets(n: usize) -> Vec<Vec<usize>> {
     let mut at = 0;
     while at < sets.len() {
         let set = sets[at].clone();
-        if set.len() < MOST {
+        if set.len() < MOST_TAUT {
             let from = set.last().map_or(0, |last| last + 1);
             for line in from..n {
                 let mut more = set.clone();

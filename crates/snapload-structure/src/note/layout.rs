@@ -56,9 +56,9 @@ fn layers(prepared: &ModelAtRest) -> Vec<Layer> {
         at: span[0],
         letter: (line + 1).to_string(),
     };
-    let line = |pieces: Vec<Vec<Point>>, colour: Colour, width: f64, words: &str| {
+    let line = |pieces: Vec<Vec<Point>>, colour: Colour, width: f64, label: &str| {
         let stroke = Stroke::new(colour, width, Dash::Solid);
-        Layer::Line(pieces, stroke, words.to_owned())
+        Layer::Line(pieces, stroke, label.to_owned())
     };
     let floor = level(-structure.site.depth_m);
     let mut layers = vec![
@@ -70,8 +70,8 @@ fn layers(prepared: &ModelAtRest) -> Vec<Layer> {
     ];
     if !slack.is_empty() {
         let stroke = Stroke::new(Colour::VERMILION, 0.7, Dash::Dashed);
-        let words = "line, slack at rest".to_owned();
-        layers.push(Layer::Line(drawn(&slack), stroke, words));
+        let label = "line, slack at rest".to_owned();
+        layers.push(Layer::Line(drawn(&slack), stroke, label));
     }
     layers
 }

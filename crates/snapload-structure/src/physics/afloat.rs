@@ -18,7 +18,7 @@ use snapload::{
 use snapload_hydro::{HydroError, Line, Mode, Natural, Term, rest, rest_without_tension};
 
 /// The largest part of the sea's energy that waves outside the file's frequencies may have.
-const OUTSIDE: f64 = 0.01;
+const ENERGY_OUTSIDE: f64 = 0.01;
 
 /// A smaller displacement counts as zero \[m, rad\].
 const ROUNDING: f64 = 1e-12;
@@ -52,8 +52,8 @@ pub(super) fn model(structure: &Structure, afloat: &Afloat) -> Result<Model, Cas
     let groups = Groups::of_body(structure, &scales, mass[2][2]);
     let shape = shape(structure, &groups);
     let body = Body::with_mass_matrix(shape, mass).ok_or_else(|| {
-        let words = "the mass matrix is not positive definite".to_owned();
-        impossible(&HydroError::Impossible(words))
+        let message = "the mass matrix is not positive definite".to_owned();
+        impossible(&HydroError::Impossible(message))
     })?;
     let waves = waves(structure, origin_m[1].min(0.0));
     let term = |term: &Term| Exponential {
@@ -173,7 +173,7 @@ fn excitation(
     let curve =
         curve.map_err(|error| CaseError::value("float.file", shown(), error.to_string()))?;
     let lost = left_out(structure, afloat);
-    if lost > OUTSIDE {
+    if lost > ENERGY_OUTSIDE {
         let [low, high] = hydro.range_rad_s();
         let allowed = format!(
             "coefficients at the frequencies of the waves: {:.1} % of their energy is outside the \

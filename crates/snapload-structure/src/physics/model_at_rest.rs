@@ -194,8 +194,8 @@ impl ModelAtRest {
         let stretched = self.modes_on_elastic_lines();
         if !stretched.is_empty() {
             let (natural, modes): (Vec<_>, Vec<_>) = stretched.into_iter().unzip();
-            let words = periods_summary(&natural, &modes);
-            rows.push(("elastic", format!("with elastic lines: {words}")));
+            let text = periods_summary(&natural, &modes);
+            rows.push(("elastic", format!("with elastic lines: {text}")));
         }
         rows
     }

@@ -22,7 +22,7 @@ use snapload_hydro::{Body, HydroError, natural_of_the_file, natural_of_the_memor
 /// Below this ω², in the engine's units, a degree of freedom counts as having no restoring force.
 const LEAST_OMEGA_SQUARED: f64 = 1e-7;
 /// A component is part of a mode's name if it has at least this part of its kinetic energy.
-const NAMED: f64 = 0.2;
+const NAMED_FROM: f64 = 0.2;
 
 /// A natural small motion of the body.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -189,6 +189,6 @@ fn motion(mass: &Matrix3<f64>, mode: [f64; 3]) -> String {
     let energy = |k: usize| mass[(k, k)] * mode[k] * mode[k];
     let all: f64 = (0..3).map(energy).sum();
     let names = ["surge", "heave", "pitch"];
-    let named = (0..3).filter(|&k| energy(k) >= NAMED * all);
+    let named = (0..3).filter(|&k| energy(k) >= NAMED_FROM * all);
     named.map(|k| names[k]).collect::<Vec<_>>().join(" and ")
 }

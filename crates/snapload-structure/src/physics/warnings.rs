@@ -28,7 +28,7 @@ const LIGHT: f64 = 0.1;
 const PROPORTION: f64 = 100.0;
 /// The largest plausible ratio of a line's length to the distance of its ends with the body at the
 /// case's position.
-const LONG: f64 = 3.0;
+const LONGEST_RATIO: f64 = 3.0;
 /// Linear hydrostatics hold for less pitch than this \[degrees\].
 const LARGE_PITCH: f64 = 15.0;
 /// The rotation of a body beyond this would be resisted by the water \[degrees\].
@@ -239,7 +239,7 @@ fn implausible(structure: &Structure) -> [Option<Warning>; 3] {
         let [x, z] = [0, 1].map(|k| line.fairlead_m[k] - line.anchor_m[k]);
         line.length_m / x.hypot(z)
     };
-    let long = numbered().filter(|(line, _)| slack(line) > LONG);
+    let long = numbered().filter(|(line, _)| slack(line) > LONGEST_RATIO);
     let long = long.map(|(line, number)| format!("line {number} {:.1} times", slack(line)));
     let long = listed(long.collect());
     [

@@ -194,18 +194,18 @@ fn rest_text(rest: &Equilibrium) -> String {
 /// The troughs of all waves of tension: how many of them are slack, and the lowest of the others.
 fn troughs_text(sorted_n: &[f64]) -> String {
     let slack = slack_part(sorted_n);
-    let mut words = Vec::new();
+    let mut parts = Vec::new();
     if slack > 0.0 {
-        words.push(format!("slack (0 kN) in {:.1} %", 100.0 * slack));
+        parts.push(format!("slack (0 kN) in {:.1} %", 100.0 * slack));
     }
     let quantiles = [(0.5, "half below"), (0.01, "99 % above")];
     for (value, what) in quantiles.map(|(part, what)| (quantile(sorted_n, part), what)) {
         // Slack troughs are reported already.
         if let Some(value) = value.filter(|value| *value > 0.0) {
-            words.push(format!("{what} {} kN", kilo(&value, 0)));
+            parts.push(format!("{what} {} kN", kilo(&value, 0)));
         }
     }
-    words.join(", ")
+    parts.join(", ")
 }
 
 fn pull_text(pull: &Pull) -> String {

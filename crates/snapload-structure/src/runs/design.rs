@@ -273,7 +273,7 @@ impl Tensions {
 }
 
 /// The times, per peak period of a sea, at which its force is evaluated.
-const LOOKS: f64 = 40.0;
+const SAMPLES_PER_PERIOD: f64 = 40.0;
 
 /// max |f_z|/F of the waves within the time that is judged; none in still water. A floating body,
 /// which the waves lift by its waterplane, has no such check.
@@ -287,7 +287,7 @@ fn wave_force_part(prepared: &ModelAtRest) -> Option<f64> {
     let step_s = match prepared.structure.water {
         Water::Still => return None,
         Water::Wave(_) => return forcing.harmonics.first().map(Harmonic::amplitude_y),
-        Water::Sea(sea) => sea.peak_period_s / LOOKS,
+        Water::Sea(sea) => sea.peak_period_s / SAMPLES_PER_PERIOD,
     };
     let samples = ((duration_s - transient_s) / step_s).ceil() as u64;
     let forces = (0..=samples).map(|k| {

@@ -25,9 +25,9 @@ const TOLERANCE: f64 = 1e-11;
 /// the steps.
 const STEP: f64 = 0.25;
 /// The number of such steps between two checks whether to stop.
-const TOGETHER: f64 = 4000.0;
+const STEPS_PER_CHECK: f64 = 4000.0;
 /// The longest integration in one call while no line pulls.
-const AT_A_TIME: f64 = 1.0;
+const LONGEST_SLACK_CALL: f64 = 1.0;
 /// Points in a step at which forces are evaluated.
 const SAMPLES_PER_STEP: u32 = 16;
 /// A negative force smaller than this just after a line has started or ceased to pull is rounding.
@@ -41,9 +41,9 @@ type Components<const N: usize> = [f64; N];
 
 /// The number of components for a body without memory, with a usual memory, and with the longest
 /// memory supported.
-const DRY: usize = 6;
-const WET: usize = DRY + 2 * USUAL_MEMORY;
-const WETTEST: usize = DRY + 2 * MOST_MEMORY;
+const STATE_WITHOUT_MEMORY: usize = 6;
+const STATE_WITH_MEMORY: usize = STATE_WITHOUT_MEMORY + 2 * USUAL_MEMORY;
+const LARGEST_STATE: usize = STATE_WITHOUT_MEMORY + 2 * MOST_MEMORY;
 /// The usual number of memory states of a mirror-symmetric body.
 const USUAL_MEMORY: usize = 32;
 const LONG_MEMORY: usize = USUAL_MEMORY + 1;
@@ -66,20 +66,20 @@ fn state_of<const N: usize>(y: &Components<N>) -> State {
 
 /// The water's memory among the components.
 fn memory_of<const N: usize>(y: &Components<N>) -> &[[f64; 2]] {
-    y[DRY..].as_chunks().0
+    y[STATE_WITHOUT_MEMORY..].as_chunks().0
 }
 
 impl<const N: usize> ODE<f64, Components<N>> for Phase<'_, N> {
     fn diff(&self, s: f64, y: &Components<N>, dydt: &mut Components<N>) {
         let (state, system) = (state_of(y), self.body.system);
         let remembered = match N {
-            DRY => [0.0; 3],
+            STATE_WITHOUT_MEMORY => [0.0; 3],
             _ => system.memory_force(memory_of(y)),
         };
         let [ax, ay, atheta] =
             self.body
                 .acceleration(self.begin + s, &state, remembered, self.pulling);
-        let (motion, memory) = dydt.split_at_mut(DRY);
+        let (motion, memory) = dydt.split_at_mut(STATE_WITHOUT_MEMORY);
         motion.copy_from_slice(&[state.vx, state.vy, state.vtheta, ax, ay, atheta]);
         let rates = memory.as_chunks_mut().0;
         system.memory_rates(&state, memory_of(y), rates);
@@ -251,9 +251,9 @@ pub fn run_elastic(
     }
     let body = BodyOnElasticLines::new(&model.system, springs);
     match model.system.memory_at_rest().len() {
-        0 => run::<DRY>(prepared, &body, every_s, on_progress),
-        1..=USUAL_MEMORY => run::<WET>(prepared, &body, every_s, on_progress),
-        LONG_MEMORY..=MOST_MEMORY => run::<WETTEST>(prepared, &body, every_s, on_progress),
+        0 => run::<STATE_WITHOUT_MEMORY>(prepared, &body, every_s, on_progress),
+        1..=USUAL_MEMORY => run::<STATE_WITH_MEMORY>(prepared, &body, every_s, on_progress),
+        LONG_MEMORY..=MOST_MEMORY => run::<LARGEST_STATE>(prepared, &body, every_s, on_progress),
         states => {
             let allowed = format!("a memory of at most {MOST_MEMORY} states with elastic lines");
             Err(CaseError::value("float.pairs", format!("({states} states)"), allowed).into())
@@ -270,7 +270,7 @@ fn run<const N: usize>(
     let mut record = PullRecorder::new(prepared, body, every_s)?;
     let (mut t, mut state, mut fresh) = (0.0, prepared.start(), TautSet::SLACK);
     let mut components: Components<N> = [0.0; N];
-    components[..DRY].copy_from_slice(&state.components());
+    components[..STATE_WITHOUT_MEMORY].copy_from_slice(&state.components());
     let mut pulling = body.pulling(&state);
     record.change(t, &state, TautSet::SLACK, pulling);
     record.add(t, &state, pulling);
@@ -278,7 +278,7 @@ fn run<const N: usize>(
     while t < end && exceeded(prepared, &state).is_none() {
         Progress::new("elastic lines", t, end).tell(on_progress)?;
         let longest_step = STEP / body.quickest(&state, pulling);
-        let until = end.min(t + AT_A_TIME.min(TOGETHER * longest_step));
+        let until = end.min(t + LONGEST_SLACK_CALL.min(STEPS_PER_CHECK * longest_step));
         let phase = Phase {
             body,
             begin: t,
