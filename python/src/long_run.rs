@@ -12,8 +12,8 @@ use pyo3::types::PyByteArray;
 use snapload::CaseError;
 use snapload::analysis::{Progress, Unfinished};
 use snapload_orbits::{
-    Attraction, AttractionRow, Basin, BasinRow, Cell, DiagramRow, Erosion, ErosionRow, Fate,
-    MOST_KEPT, Section, SectionRow, Stretch, Window,
+    Attraction, AttractionRow, Basin, BasinRow, Cell, CellOutcome, DiagramRow, Erosion, ErosionRow,
+    MOST_KEPT, Section, SectionOptions, SectionRow, Window,
 };
 use snapload_study::Values;
 use std::ops::ControlFlow;
@@ -35,8 +35,8 @@ fn values_of((key, values): &Side<'_>) -> PyResult<(&'static str, Vec<f64>)> {
     Ok((axis.key(), (0..axis.count()).map(value).collect()))
 }
 
-fn stretch(periods: u64, keep: u64, phase: f64) -> PyResult<Stretch> {
-    snapload_orbits::stretch(periods, keep, phase).map_err(error_of_case)
+fn section_options(periods: u64, keep: u64, phase: f64) -> PyResult<SectionOptions> {
+    snapload_orbits::section_options(periods, keep, phase).map_err(error_of_case)
 }
 
 /// A long motion once a period of the forcing, as JSON; with its impacts one by one if asked for.
@@ -50,13 +50,13 @@ pub(crate) fn section(
     impacts: bool,
     progress: Option<&Bound<'_, PyAny>>,
 ) -> PyResult<String> {
-    let stretch = Stretch {
+    let options = SectionOptions {
         impacts,
-        ..stretch(periods, keep, phase)?
+        ..section_options(periods, keep, phase)?
     };
     let parameters = *case.parameters();
     let found = interruptible(py, progress, move |shared| {
-        Section::of(&parameters, &stretch, &|progress| shared.report(progress))
+        Section::of(&parameters, &options, &|progress| shared.report(progress))
     })?;
     let found = found.map_err(error_of_work)?;
     if let Some(kept) = found.impacts.as_ref().filter(|kept| kept.left_out > 0) {
@@ -80,7 +80,7 @@ pub(crate) fn diagram<'py>(
     progress: Option<&Bound<'py, PyAny>>,
 ) -> PyResult<(String, Vec<usize>, Bound<'py, PyByteArray>)> {
     let (periods, keep, phase) = asked;
-    let stretch = stretch(periods, keep, phase)?;
+    let options = section_options(periods, keep, phase)?;
     let (key, mut values) = values_of(&side)?;
     if down {
         values.reverse();
@@ -88,7 +88,7 @@ pub(crate) fn diagram<'py>(
     let parameters = *case.parameters();
     let found = interruptible(py, progress, move |shared| {
         let on_progress = |progress: Progress| shared.report(progress);
-        snapload_orbits::diagram(&parameters, key, &values, &stretch, &on_progress)
+        snapload_orbits::diagram(&parameters, key, &values, &options, &on_progress)
     })?;
     let found = found.map_err(error_of_work)?;
     let rows: Vec<DiagramRow> = found.iter().map(DiagramRow::new).collect();
@@ -205,23 +205,23 @@ pub(crate) fn basins_of_attraction<'py>(
         })
     })?;
     let found = found.map_err(of_unfinished)?;
-    let fates = || found.fates.iter();
-    let outcome = |fate: &Fate| match fate {
-        Fate::Illegal => None,
-        Fate::Stopped(stop, _) => Some(stop.name()),
-        Fate::Attracted(_) => Some("attracted"),
-        Fate::Aperiodic => Some("aperiodic"),
+    let outcomes = || found.outcomes.iter();
+    let outcome = |outcome: &CellOutcome| match outcome {
+        CellOutcome::Illegal => None,
+        CellOutcome::Stopped(stop, _) => Some(stop.name()),
+        CellOutcome::Attracted(_) => Some("attracted"),
+        CellOutcome::Aperiodic => Some("aperiodic"),
     };
-    let number = |fate: &Fate| match fate {
-        Fate::Attracted(k) => Some(*k as i64 + 1),
+    let number = |outcome: &CellOutcome| match outcome {
+        CellOutcome::Attracted(k) => Some(*k as i64 + 1),
         _ => None,
     };
     let columns = vec![
-        filled(py, "outcome", words(fates().map(outcome))),
+        filled(py, "outcome", words(outcomes().map(outcome))),
         filled(
             py,
             "attractor",
-            Values::Counts(fates().map(number).collect()),
+            Values::Counts(outcomes().map(number).collect()),
         ),
     ];
     let orbits = found.attractors.iter().map(|attractor| {

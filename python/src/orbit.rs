@@ -13,9 +13,9 @@ use snapload::analysis::{START_KEYS, Unfinished};
 use snapload::{CaseError, Rules, Value};
 use snapload_certificate::ExactCase;
 use snapload_orbits::{
-    Along, BranchEvent, BranchRow, Family, Jet, Kind, Moored, OrbitRow, Point, Starts, Wanted,
-    along, branch_in_words, check_start, check_start_of_system, checked_phase, distance,
-    of_attractor, orbit_in_words, period_of, prove_all, start_of,
+    BranchEvent, BranchOptions, BranchRow, Family, Jet, Kind, Moored, OrbitRequest, OrbitRow,
+    Point, Starts, branch_options, branch_summary, check_start, check_start_of_system,
+    checked_phase, distance, of_attractor, orbit_summary, period_of, prove_all, start_of,
 };
 use std::sync::Arc;
 
@@ -51,7 +51,7 @@ impl Orbit {
 
     /// The words of the command.
     fn summary(&self) -> String {
-        orbit_in_words(&self.orbit)
+        orbit_summary(&self.orbit)
     }
 
     /// Whether neighbours come back to it.
@@ -107,13 +107,13 @@ impl Orbit {
     }
 }
 
-/// What is looked for; cables count from 1.
-fn wanted(
+/// The requested orbit; cables count from 1.
+fn request(
     periods: Option<u32>,
     symbol: Option<Vec<usize>>,
     phase: f64,
-) -> Result<Wanted, CaseError> {
-    Ok(Wanted {
+) -> Result<OrbitRequest, CaseError> {
+    Ok(OrbitRequest {
         periods,
         struck: symbol.map(|cables| cables.into_iter().map(|cable| cable - 1).collect()),
         phase: checked_phase(phase)?,
@@ -163,16 +163,16 @@ pub(crate) fn orbit(
     phase: f64,
     progress: Option<&Bound<'_, PyAny>>,
 ) -> PyResult<Found> {
-    let wanted = wanted(periods, symbol, phase).map_err(error_of_case)?;
+    let request = request(periods, symbol, phase).map_err(error_of_case)?;
     period_of(case.parameters()).map_err(error_of_case)?;
     let start = start.map(|start| start_with(case, start)).transpose()?;
     let parameters = *case.parameters();
     let orbit = interruptible(py, progress, move |shared| match start {
         Some(start) => {
             let family = Moored::case(parameters, [None; 2]);
-            Ok(family.orbit([0.0; 2], &start, &wanted))
+            Ok(family.orbit([0.0; 2], &start, &request))
         }
-        None => of_attractor(&parameters, &wanted, &|progress| shared.report(progress)),
+        None => of_attractor(&parameters, &request, &|progress| shared.report(progress)),
     })?;
     Ok(found(case, orbit.map_err(error_of_work)?))
 }
@@ -187,7 +187,7 @@ pub(crate) fn orbit_of_system(
     symbol: Option<Vec<usize>>,
     phase: f64,
 ) -> PyResult<Found> {
-    let wanted = wanted(periods, symbol, phase).map_err(error_of_case)?;
+    let request = request(periods, symbol, phase).map_err(error_of_case)?;
     let (parts, rules) = system.parts();
     let rules = Rules {
         settled_below: None,
@@ -204,7 +204,9 @@ pub(crate) fn orbit_of_system(
     );
     check_start_of_system(&family, &start).map_err(error_of_case)?;
     let searched = family.clone();
-    let orbit = interruptible(py, None, move |_| searched.orbit([0.0; 2], &start, &wanted))?;
+    let orbit = interruptible(py, None, move |_| {
+        searched.orbit([0.0; 2], &start, &request)
+    })?;
     Ok(match orbit {
         Ok(orbit) => {
             let case = None;
@@ -238,7 +240,7 @@ pub(crate) fn find_orbits(
     prove: bool,
     progress: Option<&Bound<'_, PyAny>>,
 ) -> PyResult<Vec<Orbit>> {
-    let wanted = wanted(periods, symbol, phase).map_err(error_of_case)?;
+    let request = request(periods, symbol, phase).map_err(error_of_case)?;
     let parameters = *case.parameters();
     let exact = prove.then(|| ExactCase::of(&parameters, |_| None));
     let exact = exact.transpose().map_err(PyValueError::new_err)?;
@@ -249,7 +251,8 @@ pub(crate) fn find_orbits(
             seed,
             near: &[],
         };
-        let mut orbits = snapload_orbits::find_orbits(&parameters, &starts, &wanted, &on_progress)?;
+        let mut orbits =
+            snapload_orbits::find_orbits(&parameters, &starts, &request, &on_progress)?;
         if let Some(exact) = &exact {
             prove_all(&mut orbits, exact, &on_progress)?;
         }
@@ -298,7 +301,7 @@ impl Branch {
 
     /// The words of the command.
     fn summary(&self) -> String {
-        branch_in_words(self.key, &self.branch)
+        branch_summary(self.key, &self.branch)
     }
 
     /// The orbit at a point.
@@ -334,12 +337,13 @@ impl Branch {
         let value = Value::Number(event.value[0]);
         let here = self.case.parameters_with(vec![(self.key, value)]);
         let here = here.map_err(error_of_case)?;
-        let (key, _, along) = along(&here, self.key, range, step, points).map_err(error_of_case)?;
+        let (key, _, options) =
+            branch_options(&here, self.key, range, step, points).map_err(error_of_case)?;
         let family = Moored::case(*self.case.parameters(), [Some(key), None]);
         let from = self.from.iter().cloned().chain([event.clone()]).collect();
         let born = interruptible(py, progress, move |shared| {
             let on_progress = |progress: snapload::analysis::Progress| shared.report(progress);
-            family.branch_of_doubling(&event, &along, &on_progress)
+            family.branch_of_doubling(&event, &options, &on_progress)
         })?;
         let born = born.map_err(|cancelled| error_of_work(cancelled.into()))?;
         let none = "no direction of a branch of twice the length is found there";
@@ -376,13 +380,13 @@ pub(crate) fn continuation(
     let case = orbit.case.clone();
     let no_case = || crate::errors::internal_error("this orbit does not belong to a case");
     let case = case.ok_or_else(no_case)?;
-    let (key, value, along): (_, _, Along) =
-        along(case.parameters(), key, range, step, points).map_err(error_of_case)?;
+    let (key, value, options): (_, _, BranchOptions) =
+        branch_options(case.parameters(), key, range, step, points).map_err(error_of_case)?;
     let family = Moored::case(*case.parameters(), [Some(key), None]);
     let start = orbit.orbit.clone().with_at([value, 0.0]);
     let branch = interruptible(py, progress, move |shared| {
         let on_progress = |progress: snapload::analysis::Progress| shared.report(progress);
-        family.branch(&start, &along, &on_progress)
+        family.branch(&start, &options, &on_progress)
     })?;
     let branch = branch.map_err(|cancelled| error_of_work(Unfinished::from(cancelled)))?;
     Ok(Branch {

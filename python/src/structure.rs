@@ -6,7 +6,7 @@ use pyo3::prelude::*;
 use snapload::{CaseError, Entries};
 use snapload_structure::note::{self, Source};
 use snapload_structure::{
-    BothModels, Lines, Prepared, STRUCTURE, both_models, checked_every, moordyn,
+    ElasticComparison, Lines, ModelAtRest, STRUCTURE, checked_every, compare_elastic, moordyn,
 };
 use std::path::Path;
 
@@ -136,8 +136,8 @@ impl Structure {
         let structure = self.structure.clone();
         let every_s = checked_every(structure.duration_s, every_s).map_err(error_of_case)?;
         let found = interruptible(py, progress, move |shared| {
-            let prepared = Prepared::for_springs(structure)?;
-            both_models(prepared, stiffer, every_s, &|progress| {
+            let prepared = ModelAtRest::for_elastic_lines(structure)?;
+            compare_elastic(prepared, stiffer, every_s, &|progress| {
                 shared.report(progress)
             })
         })?;
@@ -199,7 +199,7 @@ impl Assessment {
 #[pyclass(frozen, module = "snapload._engine")]
 pub(crate) struct Elastic {
     name: String,
-    found: BothModels,
+    found: ElasticComparison,
 }
 
 #[pymethods]
@@ -215,7 +215,7 @@ impl Elastic {
     /// The motion on elastic lines, at the times that were kept.
     fn motion(&self) -> MotionColumns {
         let samples = &self.found.elastic.samples;
-        let scales = &self.found.sprung.model.scales;
+        let scales = &self.found.elastic_case.model.scales;
         let place = |k: usize| {
             let places = samples
                 .iter()

@@ -31,9 +31,9 @@ def served(*args: str) -> Iterator[str]:
     program = [target / "debug" / "snapload", "explore", "--no-browser", "--port", "0", *args]
     with subprocess.Popen(program, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, cwd=ROOT) as server:
         assert server.stdout is not None
-        said = server.stdout.readline()
-        found = re.search(r"http://127\.0\.0\.1:\d+/", said)
-        assert found, said
+        line = server.stdout.readline()
+        found = re.search(r"http://127\.0\.0\.1:\d+/", line)
+        assert found, line
         yield found[0]
         server.send_signal(signal.SIGINT)
         assert server.wait(timeout=10) == 0

@@ -30,7 +30,7 @@ def test_it_opens_with_the_standard_case(open_page, command_json):
     assert page.title() == "snapload explore"
     assert "standard case" in page.locator("#case option:checked").inner_text()
     shown_is(page, command_json("run", "--ensemble", "0"))
-    assert "Settled at t = 7.246" in page.locator("#said").inner_text()
+    assert "Settled at t = 7.246" in page.locator("#message").inner_text()
 
 
 def test_a_slider_answers_with_the_numbers_of_the_command(open_page, command_json, capsys):
@@ -110,7 +110,7 @@ def test_a_point_mass_has_neither_size_nor_rotation(open_page):
     page.locator("#field-body").select_option("rigid")
     settled(page, before)
     expect(page.locator("#field-a")).to_be_enabled()
-    # A rotation that was given before is refused, and can be mended where it stands.
+    # A rotation that was given before is refused, and can be corrected in its field.
     given = open_page("t=0&theta=0.2&body=point", refused=1)
     expect(given.locator("#error-theta")).to_contain_text("theta = 0.2 is not allowed")
     given.locator("#field-theta").fill("0")
@@ -130,7 +130,7 @@ def test_built_in_cases_are_there(open_page, command_json):
     assert {"sliding-example", "rocking-example", "2921001000-359"} <= codes
 
 
-def test_time_goes_on_while_it_plays(open_page, command_json):
+def test_time_advances_while_it_plays(open_page, command_json):
     page = open_page()
     page.keyboard.press("Space")
     expect(page.locator("#play")).to_have_text("Pause")
@@ -227,19 +227,19 @@ def test_the_map_fills_and_a_cell_is_its_run(open_page, command_json):
     # The cell of f_o = 0.5 in the middle of 51 from 0 to 1, and the uppermost but one of e.
     place = {"x": 56 + 0.5 * (area["width"] - 68), "y": 10 + 1.5 / 41 * (area["height"] - 50)}
     page.locator("#map").click(position=place)
-    # What is said is of the cell that was clicked, not of that of the run before.
-    expect(page.locator("#map-said")).to_contain_text("f_o = 0.5, ")
+    # The message belongs to the clicked cell, not to that of the run before.
+    expect(page.locator("#map-message")).to_contain_text("f_o = 0.5, ")
     settled(page, before)
     assert page.locator("#field-f_o").input_value() == "0.5"
     e = page.locator("#field-e").input_value()
     run = command_json("run", "--ensemble", "0", "--set", "f_o=0.5", "--set", f"e={e}")
     shown_is(page, run)
     page.locator("#map").focus()
-    said = page.locator("#map-said")
-    expect(said).to_contain_text(f"f_o = 0.5, e = {e}: {run['end']['reason'].replace('_', ' ')}")
-    expect(said).to_contain_text(f"{len(run['impacts'])} impacts")
+    message = page.locator("#map-message")
+    expect(message).to_contain_text(f"f_o = 0.5, e = {e}: {run['end']['reason'].replace('_', ' ')}")
+    expect(message).to_contain_text(f"{len(run['impacts'])} impacts")
     page.keyboard.press("ArrowRight")
-    expect(said).to_contain_text("f_o = 0.52")
+    expect(message).to_contain_text("f_o = 0.52")
     before = count(page)
     page.keyboard.press("Enter")
     settled(page, before)
@@ -251,15 +251,15 @@ def test_the_ghost_is_a_neighbour_that_parts(open_page):
     before = count(page)
     page.keyboard.press("g")
     settled(page, before)
-    expect(page.locator("#said")).to_contain_text("The ghost, started 1e−6 away in x, is 1e−3 away at t =")
-    parts_at = read(page.locator("#said").inner_text().split("is 1e−3 away at t = ")[1])
+    expect(page.locator("#message")).to_contain_text("The ghost, started 1e−6 away in x, is 1e−3 away at t =")
+    parts_at = read(page.locator("#message").inner_text().split("is 1e−3 away at t = ")[1])
     assert 0.5 < parts_at < 7.25
     before = count(page)
     page.locator("#ghost-size").fill("1e-12")
     page.locator("#ghost-size").press("Enter")
     settled(page, before)
-    expect(page.locator("#said")).to_contain_text("1e−12")
-    later = read((page.locator("#said").inner_text() + " is 1e−3 away at t = 99").split("is 1e−3 away at t = ")[1])
+    expect(page.locator("#message")).to_contain_text("1e−12")
+    later = read((page.locator("#message").inner_text() + " is 1e−3 away at t = 99").split("is 1e−3 away at t = ")[1])
     assert later > parts_at
 
 
@@ -275,20 +275,20 @@ def test_a_wrong_ghost_is_refused_in_words(open_page):
     size = page.locator("#ghost-size")
     page.locator("#ghost").check()
     for text, words in WRONG_GHOSTS:
-        expect(page.locator("#said")).to_contain_text("The ghost, started 1e−6 away")
+        expect(page.locator("#message")).to_contain_text("The ghost, started 1e−6 away")
         size.fill(text)
         size.press("Enter")
         expect(page.locator("#error-ghost")).to_contain_text(words)
         assert size.get_attribute("aria-invalid") == "true"
-        for good, told in [("1e-5", "1e−5"), ("1e-6", "1e−6")]:
+        for good, shown in [("1e-5", "1e−5"), ("1e-6", "1e−6")]:
             size.fill(good)
             size.press("Enter")
             expect(page.locator("#error-ghost")).to_be_hidden()
-            expect(page.locator("#said")).to_contain_text(f"The ghost, started {told} away")
+            expect(page.locator("#message")).to_contain_text(f"The ghost, started {shown} away")
             assert size.get_attribute("aria-invalid") is None
 
 
-def test_a_wrong_ghost_in_a_link_is_told_and_the_run_is_shown(open_page, command_json):
+def test_a_wrong_ghost_in_a_link_is_reported_and_the_run_is_shown(open_page, command_json):
     page = open_page("f_o=0.31&t=0&ghost=5", refused=1)
     expect(page.locator("#error-ghost")).to_contain_text("ghost = 5 is not allowed")
     shown_is(page, command_json("run", "--ensemble", "0", "--set", "f_o=0.31"))
@@ -311,7 +311,7 @@ def test_files_are_those_of_the_command(open_page, command, tmp_path: Path):
     for name in ["impacts.csv", "modes.csv", "run.json", *pictures]:
         download(page, f'[data-file="{name}"]', tmp_path / name)
         assert (tmp_path / name).read_bytes() == (tmp_path / "out" / name).read_bytes(), name
-    # The command is told how often to sample; the page samples a thousand times.
+    # The command gets the number of samples; the page samples a thousand times.
     motion = download(page, '[data-file="motion.csv"]', tmp_path / "motion.csv")
     command(
         *page.locator("#shell").inner_text().split()[1:], "--out", str(tmp_path / "fine"), "--sample", str(9 / 1000)
@@ -330,7 +330,7 @@ def test_the_scene_and_the_animation_are_saved(open_page, tmp_path: Path):
     page.locator("#speed").select_option("0.1")
     page.locator("#animation").click()
     page.locator("#animation-cancel").click()
-    expect(page.locator("#export-said")).to_have_text("The animation was cancelled.")
+    expect(page.locator("#export-message")).to_have_text("The animation was cancelled.")
 
 
 def test_lines_to_copy_make_the_same_run(open_page, command_json):
@@ -395,7 +395,7 @@ def test_the_link_to_the_scene_leaves_the_state_alone(open_page):
     assert (page.locator("#field-f_o").input_value(), exact_time(page)) == ("0.31", 1.5)
 
 
-def test_a_broken_link_is_told_and_left_out(open_page):
+def test_a_broken_link_is_reported_and_left_out(open_page):
     page = open_page("f_o=0.31&omega=fast&foo=1&picture=sideways&t=%E0%A4%A&speed=1e400")
     expect(page.locator("#note")).to_contain_text("omega=fast, foo=1, picture=sideways")
     assert page.locator("#field-f_o").input_value() == "0.31"

@@ -19,9 +19,9 @@ def typed(page: Page, field: str, text: str) -> None:
 
 def test_bounds_that_are_typed_one_after_the_other_are_an_axis(open_page):
     page = open_page(MAP)
-    said, low, high = (page.locator(one) for one in ["#map-said", "#map-x-low", "#map-x-high"])
+    message, low, high = (page.locator(one) for one in ["#map-message", "#map-x-low", "#map-x-high"])
     typed(page, "#map-x-low", "1")
-    expect(said).to_have_text('Horizontal: "from" must be less than "to", with 2 to 200 cells')
+    expect(message).to_have_text('Horizontal: "from" must be less than "to", with 2 to 200 cells')
     for field in [low, high]:
         expect(field).to_have_attribute("aria-invalid", "true")
     # Other values are no reason to take back what was typed.
@@ -32,23 +32,23 @@ def test_bounds_that_are_typed_one_after_the_other_are_an_axis(open_page):
     typed(page, "#map-x-high", "2")
     comes_true(page, lambda: "map=f_o,1,2,3,e" in page.evaluate("() => location.hash"))
     expect(low).to_have_value("1")
-    expect(said).to_have_text("")
+    expect(message).to_have_text("")
     assert page.locator('#map-box [aria-invalid="true"]').count() == 0
 
 
 def test_an_axis_from_elsewhere_ends_what_was_wrong(open_page):
     page = open_page(MAP)
     typed(page, "#map-y-count", "1")
-    expect(page.locator("#map-said")).to_have_text('Vertical: "from" must be less than "to", with 2 to 200 cells')
+    expect(page.locator("#map-message")).to_have_text('Vertical: "from" must be less than "to", with 2 to 200 cells')
     expect(page.locator("#map-y-count")).to_have_attribute("aria-invalid", "true")
     expect(page.locator("#map-y-low")).to_have_attribute("aria-invalid", "false")
     page.locator("#map-wider").click()
     expect(page.locator("#map-y-count")).to_have_value("3")
     assert page.locator('#map-box [aria-invalid="true"]').count() == 0
-    expect(page.locator("#map-said")).to_have_text("")
+    expect(page.locator("#map-message")).to_have_text("")
 
 
-def test_what_is_wrong_is_told_with_the_words_beside_it(open_page):
+def test_errors_are_reported_with_the_labels_of_their_fields(open_page):
     page = open_page(BASIN)
     typed(page, "#basin-over-high", "-1")
     words = 'Third key: "from" must be less than "to", with 2 to 200 values'
@@ -60,7 +60,7 @@ def test_a_pale_basin_is_copied_as_it_is_shown(open_page):
     copied = "() => navigator.clipboard.readText()"
     shown = "snapload basin --set t_end=20 --vary x=-0.4:0.4:9 --vary y=0.02:0.72:8 --out basin.parquet"
     page.locator("#basin-run").click()
-    expect(page.locator("#basin-said")).to_contain_text("legal", timeout=30_000)
+    expect(page.locator("#basin-message")).to_contain_text("legal", timeout=30_000)
     page.locator("#field-f_o").fill("0.2")
     typed(page, "#basin-x-count", "5")
     expect(page.locator("#basin")).to_have_class("cells stale")
@@ -101,11 +101,11 @@ DRAWN = """() => {
 }"""
 
 
-def test_an_erosion_is_told_in_words_and_has_gaps_where_nothing_begins(open_page):
+def test_an_erosion_has_a_text_and_gaps_without_legal_starts(open_page):
     page = open_page(BASIN)
     page.evaluate(DRAWN)
     eroded(page)
-    expect(page.locator("#erosion-said")).to_have_text("Knee at fₒ = 0.1")
+    expect(page.locator("#erosion-message")).to_have_text("Knee at fₒ = 0.1")
     expect(page.locator("#erosion")).to_have_attribute(
         "aria-label",
         "The safe part over f_o: 0: 0.4, 0.1: 0.39, 0.2: no legal start, 0.3: 0.2, 0.4: no legal start",
@@ -122,14 +122,14 @@ def test_an_erosion_is_told_in_words_and_has_gaps_where_nothing_begins(open_page
             return [tell([0, 1, 2].map(k => point(k, 9))), tell([0, 1, 2].map(k => point(k, k === 1 ? 0 : 9)))];
         }"""
     )
-    # A value that says nothing has neither an interval nor a line through it.
+    # A value without legal starts has neither an interval nor a line through it.
     assert pieces[1] == pieces[0] - 2, pieces
 
 
 def test_a_pointer_repaints_no_more_than_has_changed(open_page):
     page = open_page(BASIN)
     page.locator("#basin-run").click()
-    expect(page.locator("#basin-said")).to_contain_text("legal", timeout=30_000)
+    expect(page.locator("#basin-message")).to_contain_text("legal", timeout=30_000)
     eroded(page)
     page.locator("#basin").scroll_into_view_if_needed()
     box = page.locator("#basin").bounding_box()
@@ -145,8 +145,8 @@ def test_a_pointer_repaints_no_more_than_has_changed(open_page):
     assert "basin" not in cleared(), "it is the same cell"
     page.mouse.move(x + box["width"] / 4, y)
     page.wait_for_timeout(100)
-    told = cleared()
-    assert "basin" in told and "erosion" not in told, told
+    cleared_parts = cleared()
+    assert "basin" in cleared_parts and "erosion" not in cleared_parts, cleared_parts
     page.locator("#theme").click()
     page.wait_for_timeout(200)
     assert {"basin", "erosion"} <= set(cleared())
@@ -156,7 +156,7 @@ def test_the_run_is_marked_where_its_own_values_are(open_page):
     page = open_page("a=0.2&t_end=20&t=0&basin=inertia,0.001,0.1,5,y,0.02,0.72,8,f_o,0,0.4,5")
     page.evaluate(DRAWN)
     page.locator("#basin-run").click()
-    expect(page.locator("#basin-said")).to_contain_text("legal", timeout=30_000)
+    expect(page.locator("#basin-message")).to_contain_text("legal", timeout=30_000)
     rings = "() => window.drawn.rings.filter(([id]) => id === 'basin').map(([, x]) => x)"
     comes_true(page, lambda: page.evaluate(rings) != [])
     box = page.locator("#basin").bounding_box()

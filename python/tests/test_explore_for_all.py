@@ -75,7 +75,7 @@ def test_a_hidden_canvas_breaks_nothing(open_page):
     settled(page)
 
 
-def test_the_keys_are_told_and_can_be_turned_off(open_page):
+def test_the_shortcuts_are_listed_and_can_be_turned_off(open_page):
     page = open_page()
     page.keyboard.press("?")
     expect(page.locator("#help-dialog")).to_be_visible()
@@ -111,7 +111,7 @@ ROUNDING_PX = 1e-9
 
 
 def test_a_line_of_many_points_is_drawn_in_few_that_look_the_same(code):
-    told = code.evaluate(
+    pieces = code.evaluate(
         """async () => {
             const { SimplifiedLine, SEEN_PX } = await import('./simplified-line.js');
             const wave = i => [i / 3, 60 * Math.sin(i / 25) * Math.cos(i / 190)];
@@ -144,8 +144,8 @@ def test_a_line_of_many_points_is_drawn_in_few_that_look_the_same(code):
             });
         }"""
     )
-    assert all(line["ends"] and line["most"] <= line["seen"] + ROUNDING_PX for line in told), told
-    counts = [line["count"] for line in told]
+    assert all(line["ends"] and line["most"] <= line["seen"] + ROUNDING_PX for line in pieces), pieces
+    counts = [line["count"] for line in pieces]
     assert counts[0] < 400 and counts[2] == 1200 and counts[3] < 60, counts
 
 
@@ -184,7 +184,7 @@ def test_those_who_want_no_motion_get_none(open_page):
     assert exact_time(still) == 0.4721795499019612
 
 
-def test_the_legend_tells_of_what_there_is(open_page):
+def test_the_legend_lists_what_occurs(open_page):
     standard, sliding = open_page("f_o=0.3&t=0"), open_page("f_o=0.27&stop_when_settled=false&t=0")
     cables = {"× snap of cable 1", "○ snap of cable 2", "cable 1 taut here", "cable 2 taut here", "the same at θ = 0"}
     assert legend(standard) == cables | {"past the horizon"}, "it never slides nor rocks"
@@ -206,7 +206,7 @@ def legend(page: Page) -> set[str]:
 SNAP_RED = "rgb(161, 18, 31)"
 
 
-def test_a_picture_that_stands_shows_a_snap_at_its_instant_alone(open_page, command_json, tmp_path: Path):
+def test_a_still_picture_shows_a_snap_only_at_its_instant(open_page, command_json, tmp_path: Path):
     first = command_json("run", "--ensemble", "0")["impacts"][0]
     page = open_page(f"t={first['t']}")
     expect(page.locator("#caption")).to_have_text(f"snap of cable {first['cable']}; slack")
@@ -224,7 +224,7 @@ def test_a_picture_that_stands_shows_a_snap_at_its_instant_alone(open_page, comm
     assert drawn(page)[0] == drawn(open_page(f"t={exact_time(page)}&speed=0.01"))[0]
 
 
-def test_a_screen_reader_is_told(open_page):
+def test_a_screen_reader_gets_the_outcome(open_page):
     page = open_page("f_o=0.27&stop_when_settled=false&t=30")
     words = page.locator("#scene").get_attribute("aria-label")
     assert "rocking: cable 1 taut, tension" in words and "t = 30.000" in words

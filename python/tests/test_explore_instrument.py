@@ -177,7 +177,7 @@ def test_an_animation_lasts_as_long_as_it_is_played_and_can_be_sought(open_page,
     animation = download(page, "#animation", tmp_path / "run.webm")
     player = page.context.new_page()
     player.goto("about:blank")
-    told = player.evaluate(
+    video = player.evaluate(
         """async data => {
             const bytes = Uint8Array.from(atob(data), c => c.charCodeAt(0));
             const video = document.createElement('video');
@@ -194,36 +194,36 @@ def test_an_animation_lasts_as_long_as_it_is_played_and_can_be_sought(open_page,
         }""",
         base64.b64encode(animation).decode(),
     )
-    # 7.2463 T at 5 T/s, thirty pictures a second, and the end stands for 0.7 s.
-    assert told["duration"] == pytest.approx(round(30 * 7.2463 / 5) / 30 + 0.7, abs=0.05)
-    assert told["width"] == 960 and told["sought"] == [1.2, 0.3]
+    # 7.2463 T at 5 T/s, thirty pictures a second, and the end is shown for 0.7 s.
+    assert video["duration"] == pytest.approx(round(30 * 7.2463 / 5) / 30 + 0.7, abs=0.05)
+    assert video["width"] == 960 and video["sought"] == [1.2, 0.3]
 
 
 MAP = "f_o,0.2,0.4,11,e,0.7,0.95,6"
 
 
-def test_the_map_is_beside_the_scene_and_tells_what_is_sure(open_page, command_json):
+def test_the_map_is_next_to_the_scene_and_marks_what_is_certain(open_page, command_json):
     page = open_page(f"t=0&map={MAP},reason")
     expect(page.locator("#map-progress")).to_have_text("66 runs", timeout=60_000)
     boxes = [page.locator(one).bounding_box() for one in ["#scene", "#map"]]
     assert all(box["y"] + 200 < 900 for box in boxes) and boxes[0]["x"] + boxes[0]["width"] < boxes[1]["x"]
     page.locator("#map").focus()
-    said, told = page.locator("#map-said"), set()
+    message, certainties = page.locator("#map-message"), set()
     for _ in range(11):
-        words = said.inner_text()
+        words = message.inner_text()
         f_o, e = (re.search(rf"{key} = ([\d.]+)", words)[1] for key in ["f_o", "e"])
         run = command_json("run", "--ensemble", "0", "--set", f"f_o={f_o}", "--set", f"e={e}")
         certain = run["trust"]["t"] is None
         assert ("not certain" not in words) == certain, words
-        told.add(certain)
+        certainties.add(certain)
         page.keyboard.press("ArrowRight")
         if f_o == "0.4":
             page.keyboard.press("Home")
-    assert told == {True, False}
+    assert certainties == {True, False}
     expect(page.locator("#map-legend")).to_contain_text("not certain: rounding may decide how they end")
 
 
-def test_the_map_goes_by_decades_where_values_do(open_page):
+def test_the_map_has_a_logarithmic_scale_for_values_over_decades(open_page):
     page = open_page(f"t=0&map={MAP},rho1")
     expect(page.locator("#map-progress")).to_have_text("66 runs", timeout=60_000)
     expect(page.locator("#map-legend")).not_to_contain_text("logarithmic")

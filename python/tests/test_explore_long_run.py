@@ -15,7 +15,7 @@ def test_a_section_is_drawn_and_a_point_of_it_is_a_start(open_page):
     page.locator("#long-box summary").click()
     expect(page.locator("#section-plot")).to_be_hidden()
     page.locator("#section-run").click()
-    expect(page.locator("#section-said")).to_contain_text("Repeats itself after one period", timeout=20_000)
+    expect(page.locator("#section-message")).to_contain_text("Repeats itself after one period", timeout=20_000)
     points = page.locator("#section-plot .point")
     expect(points.first).to_be_visible()
     assert points.count() == 401
@@ -26,7 +26,7 @@ def test_a_section_is_drawn_and_a_point_of_it_is_a_start(open_page):
     assert page.locator("#field-x").input_value().startswith("-0.2688102191814")
     # What is shown is that of the case: another one has another section.
     expect(page.locator("#section-plot")).to_be_hidden()
-    expect(page.locator("#section-said")).to_have_text("")
+    expect(page.locator("#section-message")).to_have_text("")
 
 
 WINDOW = "x,-0.4,0.4,21,y,0.02,0.72,18,f_o,0,0.6,5"
@@ -35,21 +35,21 @@ WINDOW = "x,-0.4,0.4,21,y,0.02,0.72,18,f_o,0,0.6,5"
 def test_a_safe_basin_is_that_of_the_command_and_a_cell_a_start(open_page, command_json):
     page = open_page(f"f_o=0.29&t_end=60&t=0&basin={WINDOW}")
     page.locator("#basin-run").click()
-    expect(page.locator("#basin-said")).to_contain_text("(LIM)", timeout=30_000)
+    expect(page.locator("#basin-message")).to_contain_text("(LIM)", timeout=30_000)
     page.locator("#basin-copy").click()
     line = page.evaluate("() => navigator.clipboard.readText()")
     assert line == (
         "snapload basin --set f_o=0.29 --set t_end=60 --vary x=-0.4:0.4:21 --vary y=0.02:0.72:18 --out basin.parquet"
     )
-    told = command_json(*line.removesuffix(" --out basin.parquet").split()[1:])
+    expected = command_json(*line.removesuffix(" --out basin.parquet").split()[1:])
     legend = page.locator("#basin-legend")
-    expect(legend).to_contain_text(f"safe ({told['safe']})")
-    expect(legend).to_contain_text(f"reaches a limit ({told['legal'] - told['safe']})")
-    expect(legend).to_contain_text(f"no legal start ({21 * 18 - told['legal']})")
-    assert told["undecided"] > 0
-    expect(legend).to_contain_text(f"undecided: neighbours end differently ({told['undecided']})")
-    low, high = told["interval95"]
-    expect(page.locator("#basin-said")).to_contain_text(f"{told['fraction']:.4f} ({low:.4f} to {high:.4f})")
+    expect(legend).to_contain_text(f"safe ({expected['safe']})")
+    expect(legend).to_contain_text(f"reaches a limit ({expected['legal'] - expected['safe']})")
+    expect(legend).to_contain_text(f"no legal start ({21 * 18 - expected['legal']})")
+    assert expected["undecided"] > 0
+    expect(legend).to_contain_text(f"undecided: neighbours end differently ({expected['undecided']})")
+    low, high = expected["interval95"]
+    expect(page.locator("#basin-message")).to_contain_text(f"{expected['fraction']:.4f} ({low:.4f} to {high:.4f})")
     # What is not certain, not safe and no start differs from cell to cell; the words are those of the run.
     page.locator("#basin").focus()
     for _ in range(9):
@@ -68,14 +68,14 @@ def test_a_safe_basin_is_that_of_the_command_and_a_cell_a_start(open_page, comma
     expect(page.locator("#basin")).not_to_have_class("cells stale")
     page.locator("#field-f_o").fill("0.2")
     expect(page.locator("#basin")).to_have_class("cells stale")
-    for words in ["#basin-said", "#basin-legend"]:
+    for words in ["#basin-message", "#basin-legend"]:
         expect(page.locator(words)).to_have_class(re.compile(r"\bstale\b"))
 
 
 def test_a_smaller_basin_has_no_cell_of_the_one_before(open_page, command_json):
     page = open_page("t_end=20&t=0&basin=x,-0.4,0.4,9,y,0.02,0.72,9,f_o,0.1,0.6,3")
     page.locator("#basin-run").click()
-    expect(page.locator("#basin-said")).to_contain_text("(LIM)", timeout=30_000)
+    expect(page.locator("#basin-message")).to_contain_text("(LIM)", timeout=30_000)
     page.locator("#basin").focus()
     for _ in range(9):
         page.keyboard.press("ArrowUp")
@@ -87,7 +87,7 @@ def test_a_smaller_basin_has_no_cell_of_the_one_before(open_page, command_json):
     page.locator("#basin-run").click()
     smaller = ["--set", "t_end=20", "--vary", "x=-0.4:0.4:4", "--vary", "y=0.02:0.72:4"]
     legal = command_json("basin", *smaller, "--no-trust")["legal"]
-    expect(page.locator("#basin-said")).to_contain_text(f" of {legal} legal", timeout=30_000)
+    expect(page.locator("#basin-message")).to_contain_text(f" of {legal} legal", timeout=30_000)
     expect(page.locator("#basin-pointed")).to_have_text("")
     page.locator("#basin").focus()
     expect(page.locator("#basin-pointed")).to_contain_text("x = \u22120.4, y = 0.02: ")
@@ -103,15 +103,15 @@ def test_keys_of_a_basin_change_places(open_page):
     expect(page.locator("#note")).to_contain_text("Not understood in the link")
 
 
-def test_a_safe_basin_is_eroded_as_the_command_says(open_page, command):
+def test_the_erosion_agrees_with_that_of_the_command(open_page, command):
     page = open_page(f"t_end=60&t=0&basin={WINDOW}")
     page.locator("#erosion-run").click()
-    expect(page.locator("#erosion-said")).to_contain_text("Knee at fₒ", timeout=60_000)
+    expect(page.locator("#erosion-message")).to_contain_text("Knee at fₒ", timeout=60_000)
     page.locator("#erosion-copy").click()
     line = page.evaluate("() => navigator.clipboard.readText()")
-    told = command(*line.split()[1:]).replace("f_o", "fₒ").split()
-    said = page.locator("#erosion-said").inner_text()
-    assert said.split() == told[-len(said.split()) :] and "neighbours were not run" in said
+    expected = command(*line.split()[1:]).replace("f_o", "fₒ").split()
+    message = page.locator("#erosion-message").inner_text()
+    assert message.split() == expected[-len(message.split()) :] and "neighbours were not run" in message
     expect(page.locator("#erosion")).to_be_visible()
 
 

@@ -56,7 +56,7 @@ def test_a_changed_case_has_no_seal(open_page):
     expect(page.locator("#seal-words")).to_contain_text("The run agrees in five digits.")
 
 
-def test_a_proof_that_ends_before_the_run_says_so(open_page):
+def test_a_proof_that_ends_before_the_run_is_reported_as_such(open_page):
     page = open_page("e=0.5&omega=0&stop_when_settled=false&t_end=0.88&t=0")
     prove(page)
     expect(page.locator("#seal-title")).to_have_text("proved up to t = 0.86618")
@@ -71,15 +71,15 @@ def test_a_proof_can_be_stopped(open_page):
     page.route("**/api/proof", lambda route: waits.append(route))
     page.locator("#prove").click()
     expect(page.locator("#prove")).to_have_text("Stop")
-    expect(page.locator("#prove-said")).to_have_text("Proving …")
+    expect(page.locator("#prove-message")).to_have_text("Proving …")
     page.locator("#prove").click()
     expect(page.locator("#prove")).to_have_text("Prove")
-    expect(page.locator("#prove-said")).to_have_text("")
+    expect(page.locator("#prove-message")).to_have_text("")
     assert len(waits) == 1
     expect(page.locator("#seal")).to_be_hidden()
 
 
-def test_the_keyboard_goes_on_from_the_seal(open_page):
+def test_the_keyboard_focus_moves_to_the_seal(open_page):
     page = open_page("f_o=0.31&t=0")
     page.locator("#prove").focus()
     page.keyboard.press("Enter")

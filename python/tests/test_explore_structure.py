@@ -30,7 +30,7 @@ def open_structure(open_at: Callable[..., Page], structure_url: str) -> Callable
 
 @pytest.fixture
 def assessed(command_json: Callable[..., Any]) -> Callable[..., Any]:
-    """What the command tells of the cylinder, changed."""
+    """The command's answer for the cylinder with changes."""
 
     def ask(*changes: str, verb: str = "assess") -> Any:
         sets = [text for change in changes for text in ("--set", change)]
@@ -44,9 +44,9 @@ def row(page: Page, line: int) -> list[str]:
     return page.locator(f"#lines tbody tr:nth-child({line}) td").all_inner_texts()
 
 
-def told_is(page: Page, answer: dict[str, Any]) -> None:
-    """The page tells what the command does, in its words and digits."""
-    expect(page.locator("#said")).to_have_text(answer["verdict"]["words"], timeout=30_000)
+def shows_answer(page: Page, answer: dict[str, Any]) -> None:
+    """The page shows the texts and digits of the command."""
+    expect(page.locator("#message")).to_have_text(answer["verdict"]["words"], timeout=30_000)
     expect(page.locator("#verdict")).to_have_attribute("data-standing", answer["verdict"]["standing"])
     for line in answer["lines"]:
         cells = row(page, line["line"])
@@ -56,10 +56,10 @@ def told_is(page: Page, answer: dict[str, Any]) -> None:
         assert float(cells[3]) == pytest.approx(line["held_tension_n"] / 1e3, rel=1e-3)
 
 
-def test_a_structure_is_told_as_assess_tells_it(open_structure, assessed):
+def test_a_structure_is_shown_as_by_assess(open_structure, assessed):
     page = open_structure(f"{SHORT}&t=0")
     answer = assessed(SHORT)
-    told_is(page, answer)
+    shows_answer(page, answer)
     expect(page.locator("#trust")).to_have_text(answer["trust"]["words"], timeout=30_000)
     assert [line.split("\n")[0] for line in page.locator("#warnings li b").all_inner_texts()] == [
         warning["rule"] for warning in answer["warnings"]
@@ -68,7 +68,7 @@ def test_a_structure_is_told_as_assess_tells_it(open_structure, assessed):
     assert answer["verdict"]["words"].split(". ")[0] in re.sub(r"\s+", " ", page.locator("#summary").inner_text())
 
 
-def test_what_is_not_judged_is_told_as_that(open_structure):
+def test_what_is_not_judged_is_shown_as_such(open_structure):
     page = open_structure("t=0&wave.height=12")
     expect(page.locator("#lines-words")).to_contain_text("so that nothing is judged")
     row = page.locator("#lines tbody tr").first
@@ -88,13 +88,13 @@ def test_a_slider_changes_the_wave_and_a_link_holds_it(open_structure, assessed)
     )
     settled(page, before)
     answer = assessed(SHORT, "wave.height=2.6")
-    told_is(page, answer)
+    shows_answer(page, answer)
     expect(page.locator("#shell")).to_have_text(
         f"snapload assess {CYLINDER} --set '{SHORT}' --set 'wave.height=2.6'",
     )
     comes_true(page, lambda: "wave.height=2.6" in page.evaluate("() => location.hash"))
     linked = open_structure(page.evaluate("() => location.hash").removeprefix("#"))
-    told_is(linked, answer)
+    shows_answer(linked, answer)
 
 
 def test_rigid_and_elastic_lines_stand_side_by_side(open_structure, assessed):
@@ -119,39 +119,39 @@ def test_a_sea_takes_the_place_of_the_wave(open_structure, command_json, tmp_pat
     expect(page.locator("#preview")).to_contain_text("first 300 s", timeout=20_000)
     expect(page.locator("#preview")).not_to_contain_text("first 300 s", timeout=60_000)
     download(page, '[data-file="case.toml"]', tmp_path / "case.toml")
-    told_is(page, command_json("assess", str(tmp_path / "case.toml"), "--neighbours", "0"))
-    first = page.locator("#said").inner_text()
+    shows_answer(page, command_json("assess", str(tmp_path / "case.toml"), "--neighbours", "0"))
+    first = page.locator("#message").inner_text()
     page.locator(".another-sea").click()
     expect(page.locator('[id="field-sea.seed"]')).to_have_value("2")
-    comes_true(page, lambda: page.locator("#said").inner_text() != first)
+    comes_true(page, lambda: page.locator("#message").inner_text() != first)
 
 
-def test_a_note_tells_how_far_it_has_come(open_structure, tmp_path: Path):
+def test_a_note_reports_its_progress(open_structure, tmp_path: Path):
     page = open_structure(f"{SHORT}&elastic=false&t=0")
     page.evaluate(
         """() => {
-            window.told = [];
-            const said = document.getElementById('export-said');
-            new MutationObserver(() => window.told.push(said.textContent)).observe(said, { childList: true });
+            window.messages = [];
+            const message = document.getElementById('export-message');
+            new MutationObserver(() => window.messages.push(message.textContent)).observe(message, { childList: true });
         }"""
     )
     page.set_default_timeout(60_000)
     note = download(page, '[data-file="note.html"]', tmp_path / "note.html")
     assert note.startswith(b"<!") and b"</html>" in note
-    told = [re.search(r"of \S+: ([a-z ]+), (\d+) %$", words) for words in page.evaluate("() => window.told")]
-    # Each stage is told from its beginning to its end.
-    stages = [list(stage) for _, stage in groupby((found for found in told if found), key=lambda found: found[1])]
-    assert len({stage[0][1] for stage in stages}) == len(stages) > 1, page.evaluate("() => window.told")
+    progress = [re.search(r"of \S+: ([a-z ]+), (\d+) %$", words) for words in page.evaluate("() => window.messages")]
+    # Each stage is reported from its start to its end.
+    stages = [list(stage) for _, stage in groupby((found for found in progress if found), key=lambda found: found[1])]
+    assert len({stage[0][1] for stage in stages}) == len(stages) > 1, page.evaluate("() => window.messages")
     for stage in stages:
         percent = [int(found[2]) for found in stage]
         assert len(set(percent)) > 1 and percent == sorted(percent), percent
-    expect(page.locator("#export-said")).to_contain_text("is saved")
+    expect(page.locator("#export-message")).to_contain_text("is saved")
     for one in ["#file-progress", "#file-cancel"]:
         expect(page.locator(one)).to_be_hidden()
     page.locator('[id="field-wave.height"]').fill("2.4")
     page.locator('[data-file="note.html"]').click()
     page.locator("#file-cancel").click()
-    expect(page.locator("#export-said")).to_contain_text("was cancelled")
+    expect(page.locator("#export-message")).to_contain_text("was cancelled")
     expect(page.locator('[data-file="note.html"]')).to_be_enabled()
 
 
@@ -178,16 +178,16 @@ def test_an_anchor_is_moved_by_hand(open_structure, assessed):
     change = f"line.1.anchor={moved}"
     assert change != "line.1.anchor=[3.593, -10]"
     comes_true(page, lambda: change in page.locator("#shell").inner_text())
-    told_is(page, assessed(SHORT, change))
+    shows_answer(page, assessed(SHORT, change))
 
 
-def test_what_is_refused_is_said_at_its_field(open_structure, command):
+def test_a_refusal_is_shown_at_its_field(open_structure, command):
     page = open_structure(f"{SHORT}&t=0", refused=1)
     page.locator('[id="field-wave.height"]').fill("60")
     refused = command("assess", str(ROOT / CYLINDER), "--set", "wave.height=60", fails=True)
-    said = page.locator('[id="error-wave.height"]')
-    expect(said).to_contain_text("60")
-    assert said.inner_text().split("allowed", 1)[1].strip() in refused
+    message = page.locator('[id="error-wave.height"]')
+    expect(message).to_contain_text("60")
+    assert message.inner_text().split("allowed", 1)[1].strip() in refused
     expect(page.locator("#failed")).to_contain_text("the last values that could be run")
     expect(page.locator("#failed")).to_contain_text("Not run: wave.height = 60 ")
 
@@ -266,7 +266,7 @@ def test_a_body_that_floats_is_opened_unless_it_names_a_file(open_at, url, tmp_p
     page.locator("#open-case").set_input_files(barge)
     expect(page.locator("#file")).to_have_text("barge.toml", timeout=30_000)
     answer = command_json("assess", str(barge))
-    expect(page.locator("#said")).to_have_text(answer["verdict"]["words"], timeout=30_000)
+    expect(page.locator("#message")).to_have_text(answer["verdict"]["words"], timeout=30_000)
 
 
 @pytest.mark.parametrize(("viewport", "scheme"), [(DESKTOP, "light"), (PHONE, "dark")], ids=["desktop", "phone"])

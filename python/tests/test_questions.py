@@ -116,4 +116,4 @@ def test_the_page_reports_a_wrong_option(open_page):
     page.locator("#question-digits").fill("many")
     page.locator("#question-ask").click()
     message = 'digits = "many" is not allowed; allowed: a whole number, 1 <= digits <= 307'
-    expect(page.locator("#question-said")).to_have_text(message)
+    expect(page.locator("#question-message")).to_have_text(message)

@@ -5,7 +5,7 @@
 use crate::arithmetic::ball::Ball;
 use crate::arithmetic::decimal::fixed;
 use crate::case::ExactCase;
-use crate::format::{FORMAT, Line, MODEL, TAUT_FORMAT, UNDECIDED, Written, decimal};
+use crate::format::{CertificateText, FORMAT, Line, MODEL, TAUT_FORMAT, UNDECIDED, decimal};
 use crate::proof::prove;
 use crate::proved::{Proved, ProvedEnd, ProvedImpact, Reason};
 use crate::verdict::{ProofFailure, with_more_bits};
@@ -59,7 +59,7 @@ impl Verdict {
 
 /// Checks a certificate.
 pub fn check(text: &str) -> Verdict {
-    let certificate = match Written::read(text) {
+    let certificate = match CertificateText::read(text) {
         Ok(certificate) => certificate,
         Err(error) => {
             return Verdict::Malformed(format!("it can not be read as a certificate: {error}"));
@@ -72,7 +72,7 @@ pub fn check(text: &str) -> Verdict {
 }
 
 /// Whether it is a certificate of this format, with a legal case and decimals where they belong.
-fn shape(certificate: &Written) -> Result<ExactCase, String> {
+fn shape(certificate: &CertificateText) -> Result<ExactCase, String> {
     let is_known = [FORMAT, TAUT_FORMAT].contains(&certificate.format.as_str());
     if !is_known || certificate.model != MODEL {
         return Err(format!(
@@ -115,7 +115,7 @@ fn shape(certificate: &Written) -> Result<ExactCase, String> {
     certificate.case.exact()
 }
 
-fn compare(certificate: &Written, case: &ExactCase) -> Verdict {
+fn compare(certificate: &CertificateText, case: &ExactCase) -> Verdict {
     let claims = &certificate.impacts;
     let is_partial = certificate.end.reason == UNDECIDED;
     let first = certificate.bits.div_ceil(64) as usize;
@@ -133,14 +133,14 @@ fn compare(certificate: &Written, case: &ExactCase) -> Verdict {
             let enough = is_partial && seen == claims.len();
             match (agrees(&proved, seen, claims.get(seen - 1)), enough) {
                 (Err(failure), _) => ControlFlow::Break(failure),
-                (Ok(()), true) => ControlFlow::Break(ProofFailure::Enough),
+                (Ok(()), true) => ControlFlow::Break(ProofFailure::StoppedEarly),
                 (Ok(()), false) => ControlFlow::Continue(()),
             }
         });
         match proved {
-            Err(ProofFailure::Enough) => Ok(()),
+            Err(ProofFailure::StoppedEarly) => Ok(()),
             Err(failure) => Err(failure),
-            Ok(_) if seen != claims.len() => Err(ProofFailure::False(format!(
+            Ok(_) if seen != claims.len() => Err(ProofFailure::Refuted(format!(
                 "the run has {seen} impacts and stretches, but {} are claimed",
                 claims.len()
             ))),
@@ -162,12 +162,12 @@ fn compare(certificate: &Written, case: &ExactCase) -> Verdict {
             impacts,
             bits: 64 * limbs,
         },
-        (Err(ProofFailure::False(what)), _) => Verdict::Refused(what),
+        (Err(ProofFailure::Refuted(what)), _) => Verdict::Refused(what),
         (Err(ProofFailure::Undecided { what, t, .. }), _) => {
             let at = t.map_or_else(String::new, |t| format!(", after t = {t}"));
             Verdict::Undecided(format!("{what}{at}"))
         }
-        (Err(ProofFailure::Enough | ProofFailure::Cancelled), _) => {
+        (Err(ProofFailure::StoppedEarly | ProofFailure::Cancelled), _) => {
             Verdict::Undecided("the proof was given up".to_owned())
         }
     }
@@ -181,7 +181,7 @@ fn agrees(proved: &Proved, nth: usize, claim: Option<&Line>) -> Result<(), Proof
         }
         (Proved::Stretch(ours), Some(Line::Stretch(theirs))) => {
             if theirs.mode != ours.mode() || theirs.event != ours.event {
-                return Err(ProofFailure::False(format!(
+                return Err(ProofFailure::Refuted(format!(
                     "entry {nth} is a stretch of cables {:?} that ends with {}, but another is claimed",
                     ours.mode(),
                     ours.event
@@ -198,7 +198,7 @@ fn agrees(proved: &Proved, nth: usize, claim: Option<&Line>) -> Result<(), Proof
                 &theirs.until,
             )
         }
-        _ => Err(ProofFailure::False(format!(
+        _ => Err(ProofFailure::Refuted(format!(
             "entry {nth} of the run is not the claimed one, or none is claimed"
         ))),
     }
@@ -210,7 +210,7 @@ fn impact_agrees(
     (cable, t, v_n): (u8, &str, &str),
 ) -> Result<(), ProofFailure> {
     if impact.cable + 1 != usize::from(cable) {
-        return Err(ProofFailure::False(format!(
+        return Err(ProofFailure::Refuted(format!(
             "the impact in entry {nth} is of cable {}, but cable {cable} is claimed",
             impact.cable + 1
         )));
@@ -227,17 +227,17 @@ fn impact_agrees(
     )
 }
 
-fn end_agrees(end: &ProvedEnd, certificate: &Written) -> Result<(), ProofFailure> {
+fn end_agrees(end: &ProvedEnd, certificate: &CertificateText) -> Result<(), ProofFailure> {
     let claim = &certificate.end;
     if end.reason.name() != claim.reason {
-        return Err(ProofFailure::False(format!(
+        return Err(ProofFailure::Refuted(format!(
             "the run ends with {}, but {} is claimed",
             end.reason.name(),
             claim.reason
         )));
     }
     let (Some(t), Some(state)) = (&claim.t, &claim.state) else {
-        return Err(ProofFailure::False(
+        return Err(ProofFailure::Refuted(
             "the end has no time and no state".to_owned(),
         ));
     };
@@ -255,7 +255,7 @@ fn end_agrees(end: &ProvedEnd, certificate: &Written) -> Result<(), ProofFailure
 /// Whether the printed number is the true one, rounded to nearest: |true − printed| ≤ half a unit
 /// of the last place that is printed.
 fn equals(what: &str, ball: &Ball, text: &str) -> Result<(), ProofFailure> {
-    let printed = decimal(what, text).map_err(ProofFailure::False)?;
+    let printed = decimal(what, text).map_err(ProofFailure::Refuted)?;
     let limbs = ball.mid().limbs.len().max(2);
     let off = (ball - &printed.ball(limbs)).abs();
     let half = printed.half_unit().ball(limbs);
@@ -265,8 +265,8 @@ fn equals(what: &str, ball: &Ball, text: &str) -> Result<(), ProofFailure> {
     } else if room.is_negative() {
         // With the decimals of certificates, as a double may not tell the two apart.
         let proved = fixed(ball, PLACES).unwrap_or_else(|| ball.to_f64().to_string());
-        let words = format!("{what} is {proved}, but {text} is claimed");
-        Err(ProofFailure::False(words))
+        let message = format!("{what} is {proved}, but {text} is claimed");
+        Err(ProofFailure::Refuted(message))
     } else {
         Err(ProofFailure::undecided(format!("the last digit of {what}")))
     }

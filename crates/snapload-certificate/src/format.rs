@@ -20,18 +20,18 @@ pub(crate) const UNDECIDED: &str = "undecided";
 /// A certificate as it is written: the case, and what is claimed of its run.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub(crate) struct Written {
+pub(crate) struct CertificateText {
     pub(crate) format: String,
     pub(crate) model: String,
     pub(crate) bits: u64,
     #[serde(deserialize_with = "keyed")]
-    pub(crate) case: WrittenCase,
+    pub(crate) case: CaseText,
     pub(crate) impacts: Vec<Line>,
     #[serde(deserialize_with = "keyed")]
-    pub(crate) end: WrittenEnd,
+    pub(crate) end: EndText,
 }
 
-impl Written {
+impl CertificateText {
     /// A certificate out of its text.
     pub(crate) fn read(text: &str) -> Result<Self, serde_json::Error> {
         let mut json = serde_json::Deserializer::from_str(text);
@@ -73,7 +73,7 @@ pub(crate) struct Stretch {
 
 #[derive(Clone, Debug, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub(crate) struct WrittenEnd {
+pub(crate) struct EndText {
     pub(crate) reason: String,
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub(crate) t: Option<String>,
@@ -84,7 +84,7 @@ pub(crate) struct WrittenEnd {
 /// Every key of the case, none of them left to a default.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub(crate) struct WrittenCase {
+pub(crate) struct CaseText {
     r: String,
     e: String,
     a: String,
@@ -129,7 +129,7 @@ fn present<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Option<String>,
     Option::deserialize(deserializer)
 }
 
-impl WrittenCase {
+impl CaseText {
     pub(crate) fn of(case: &ExactCase) -> Self {
         let text = |key: &str| case.number(key).text().to_owned();
         Self {

@@ -36,6 +36,6 @@ mod writer;
 pub use arithmetic::decimal::Decimal;
 pub use case::{ExactCase, NUMBERS};
 pub use checker::{Verdict, check};
-pub use orbit::{ProvedOrbit, Supposed, prove_orbit};
+pub use orbit::{CandidateOrbit, ProvedOrbit, prove_orbit};
 pub use proved::Reason;
 pub use writer::{Cancelled, Certification, Ended, PrintedImpact, certify};

@@ -34,12 +34,12 @@ pub(crate) struct CableEnd {
 
 /// A value that has to stay below zero, and its rate.
 #[derive(Clone, Debug)]
-pub(crate) struct Watched {
+pub(crate) struct EventValue {
     pub(crate) value: Ball,
     pub(crate) rate: Ball,
 }
 
-/// The index of the first top in the list of watched values, after the two gaps.
+/// The index of the first top in the list of event functions, after the two gaps.
 pub(crate) const FIRST_TOP: usize = 2;
 
 /// The numbers of a case at one precision.
@@ -158,9 +158,9 @@ impl Model {
     }
 
     /// g = |D|² − r² and ġ = 2 D·Ṗ.
-    pub(crate) fn gap(&self, end: &CableEnd) -> Watched {
+    pub(crate) fn gap(&self, end: &CableEnd) -> EventValue {
         let ([dx, dy], [ux, uy]) = (&end.reach, &end.velocity);
-        Watched {
+        EventValue {
             value: dx.squared() + dy.squared() - self.r.squared(),
             rate: (dx * ux + dy * uy).twice(),
         }
@@ -168,17 +168,17 @@ impl Model {
 
     /// The two gaps, then the heights of the tops over the anchors' level: of both upper corners of
     /// a rectangle, of a circle's top, of a point.
-    pub(crate) fn watched(&self, state: &State) -> Vec<Watched> {
+    pub(crate) fn event_values(&self, state: &State) -> Vec<EventValue> {
         let turn = self.turn(&state[2]);
         let ends = [self.end(0, state, &turn), self.end(1, state, &turn)];
         let mut list = vec![self.gap(&ends[0]), self.gap(&ends[1])];
         if self.has_corners {
             list.extend(ends.map(|end| {
                 let ([_, value], [_, rate]) = (end.reach, end.velocity);
-                Watched { value, rate }
+                EventValue { value, rate }
             }));
         } else {
-            list.push(Watched {
+            list.push(EventValue {
                 value: &state[1] + &self.a - &self.level,
                 rate: state[4].clone(),
             });
@@ -186,10 +186,10 @@ impl Model {
         list
     }
 
-    /// One of the watched values.
-    pub(crate) fn one_watched(&self, which: usize, state: &State) -> Watched {
+    /// One of the event functions.
+    pub(crate) fn event_value(&self, which: usize, state: &State) -> EventValue {
         if which >= FIRST_TOP && !self.has_corners {
-            return Watched {
+            return EventValue {
                 value: &state[1] + &self.a - &self.level,
                 rate: state[4].clone(),
             };
@@ -199,7 +199,7 @@ impl Model {
             return self.gap(&end);
         }
         let ([_, value], [_, rate]) = (end.reach, end.velocity);
-        Watched { value, rate }
+        EventValue { value, rate }
     }
 
     pub(crate) fn has_corners(&self) -> bool {

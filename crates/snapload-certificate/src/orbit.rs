@@ -40,7 +40,7 @@ const DIGITS: i64 = 17;
 
 /// An orbit known approximately, whose existence is to be proved.
 #[derive(Clone, Copy, Debug)]
-pub struct Supposed<'a> {
+pub struct CandidateOrbit<'a> {
     /// The time of its section, in periods of the forcing.
     pub phase: f64,
     /// How many periods of the forcing it has.
@@ -61,7 +61,7 @@ pub struct ProvedOrbit {
     pub snaps: Vec<(usize, String, String)>,
     /// No other orbit with these snaps starts at a state that differs from this one's by less than
     /// this in every component.
-    pub alone_within: f64,
+    pub unique_within: f64,
     /// Enclosures of the states at all sections of a lap, one a period of the forcing.
     sections: Vec<State>,
 }
@@ -76,7 +76,7 @@ impl ProvedOrbit {
 
     /// Whether it is certainly another orbit: its state at the section differs from all section
     /// states of the other orbit.
-    pub fn is_another_than(&self, other: &Self) -> bool {
+    pub fn differs_from(&self, other: &Self) -> bool {
         let apart = |theirs: &State| are_apart(&self.sections[0], theirs);
         other.sections.iter().all(apart)
     }
@@ -94,23 +94,26 @@ impl ProvedOrbit {
 ///
 /// # Errors
 /// Why that is not proved, in words: it is false, or could not be decided.
-pub fn prove_orbit(case: &ExactCase, supposed: &Supposed<'_>) -> Result<ProvedOrbit, String> {
-    proved(case, supposed).map_err(|failure| match failure {
-        ProofFailure::False(what) => what,
+pub fn prove_orbit(
+    case: &ExactCase,
+    candidate: &CandidateOrbit<'_>,
+) -> Result<ProvedOrbit, String> {
+    proved(case, candidate).map_err(|failure| match failure {
+        ProofFailure::Refuted(what) => what,
         ProofFailure::Undecided { what, .. } => format!("it could not be decided: {what}"),
-        ProofFailure::Enough | ProofFailure::Cancelled => "the proof was given up".to_owned(),
+        ProofFailure::StoppedEarly | ProofFailure::Cancelled => "the proof was given up".to_owned(),
     })
 }
 
-fn proved(case: &ExactCase, supposed: &Supposed<'_>) -> Result<ProvedOrbit, ProofFailure> {
-    let Supposed {
+fn proved(case: &ExactCase, candidate: &CandidateOrbit<'_>) -> Result<ProvedOrbit, ProofFailure> {
+    let CandidateOrbit {
         phase,
         periods,
         state,
         struck,
-    } = *supposed;
+    } = *candidate;
     let no_number = || {
-        ProofFailure::False(
+        ProofFailure::Refuted(
             "the phase or the state of the orbit is not finite, or its number of periods is 0"
                 .to_owned(),
         )
@@ -142,13 +145,13 @@ fn proved(case: &ExactCase, supposed: &Supposed<'_>) -> Result<ProvedOrbit, Proo
     Ok(ProvedOrbit {
         state: state.ok_or_else(unclear)?,
         snaps: snaps.collect::<Option<_>>().ok_or_else(unclear)?,
-        alone_within: below(radius.minus(reach)),
+        unique_within: below(radius.minus(reach)),
         sections,
     })
 }
 
 /// A state ẑ near the orbit, with C and C f(ẑ).
-struct Near {
+struct ApproximateOrbit {
     centre: State,
     inverse: Vec<Vec<Ball>>,
     /// ‖C f(ẑ)‖.
@@ -162,7 +165,7 @@ fn refined(
     mut centre: State,
     struck: &[usize],
     moving: &[usize],
-) -> Result<Near, ProofFailure> {
+) -> Result<ApproximateOrbit, ProofFailure> {
     let mut step = 0;
     loop {
         let lap = laps.of(&centre, struck)?;
@@ -171,7 +174,7 @@ fn refined(
         let steps = applied(&inverse, &off.collect::<Vec<_>>());
         let size = steps.iter().map(Ball::upper).max().unwrap_or(Radius::ZERO);
         if step == STEPS || size < Radius::power_of_two(CLOSED) {
-            return Ok(Near {
+            return Ok(ApproximateOrbit {
                 centre,
                 inverse,
                 size,
@@ -187,11 +190,11 @@ fn refined(
 /// The largest box on which the map contracts: ẑ, a bound on the orbit's distance from it, and δ.
 fn contracting(
     laps: &Laps,
-    near: Near,
+    near: ApproximateOrbit,
     struck: &[usize],
     moving: &[usize],
 ) -> Result<(State, Radius, Radius), ProofFailure> {
-    let Near {
+    let ApproximateOrbit {
         centre,
         inverse,
         size,

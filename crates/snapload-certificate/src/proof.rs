@@ -7,10 +7,10 @@ use crate::model::Model;
 use crate::proved::{Proved, ProvedEnd, ProvedImpact, ProvedStretch, Reason};
 use crate::run::{Next, Run, Stick, Struck};
 use crate::slack::search::{Zero, Zeros};
-use crate::taut::begin::{Instants, hull_of};
 use crate::taut::law::{Law, after};
-use crate::taut::run::{Begin, Event, hold};
+use crate::taut::run::{Event, StartData, enclose_taut_motion};
 use crate::taut::snap::Pair;
+use crate::taut::start::{Instants, hull_of};
 use crate::verdict::ProofFailure;
 use snapload::Stop;
 use std::ops::ControlFlow;
@@ -32,8 +32,8 @@ pub(crate) fn prove(
 ) -> Result<ProvedEnd, ProofFailure> {
     let fine = Model::new(case, limbs)?;
     let coarse = Model::new(case, limbs.div_ceil(3).max(2))?;
-    let mut run = Run::begin(case, &fine, &coarse)?;
-    let mut tell = |proved| match on_proved(proved) {
+    let mut run = Run::from_start(case, &fine, &coarse)?;
+    let mut report = |proved| match on_proved(proved) {
         ControlFlow::Break(failure) => Err(failure),
         ControlFlow::Continue(()) => Ok(()),
     };
@@ -43,24 +43,28 @@ pub(crate) fn prove(
             ControlFlow::Break(end) => return Ok(*end),
             ControlFlow::Continue(now) => now,
         };
-        if let Some(end) = hang(&mut run, now, &mut tell).map_err(|failure| failure.at(0.0))? {
+        if let Some(end) =
+            follow_taut(&mut run, now, &mut report).map_err(|failure| failure.at(0.0))?
+        {
             return Ok(end);
         }
     }
     loop {
         let t = run.t.to_f64();
-        match run.fly().map_err(|failure| failure.at(t))? {
+        match run.next_event().map_err(|failure| failure.at(t))? {
             Next::End(end) => return Ok(*end),
             Next::Impact(crossing) => {
-                let struck = run.strike(&crossing).map_err(|failure| failure.at(t))?;
+                let struck = run
+                    .apply_impact(&crossing)
+                    .map_err(|failure| failure.at(t))?;
                 let Struck {
                     impact, end, stick, ..
                 } = struck;
                 let t = impact.t.to_f64();
-                tell(Proved::Impact(impact))?;
+                report(Proved::Impact(impact))?;
                 match (end, stick) {
                     (_, Some(stick)) if taut => {
-                        let end = hang(&mut run, Hanging::from(stick), &mut tell);
+                        let end = follow_taut(&mut run, TautState::from(stick), &mut report);
                         if let Some(end) = end.map_err(|failure| failure.at(t))? {
                             return Ok(end);
                         }
@@ -75,14 +79,14 @@ pub(crate) fn prove(
 
 /// The beginning of a motion with taut cables: the states at that instant, before the laws of the
 /// event that causes it, and how the other cables leave.
-struct Hanging {
+struct TautState {
     taut: Vec<usize>,
     instants: Instants,
     laws: Vec<Law>,
     zeros: Zeros,
 }
 
-impl From<Stick> for Hanging {
+impl From<Stick> for TautState {
     fn from(Stick { cable, instants }: Stick) -> Self {
         Self {
             taut: vec![cable],
@@ -100,7 +104,7 @@ impl From<Stick> for Hanging {
 fn resting(
     run: &Run<'_>,
     taut: bool,
-) -> Result<ControlFlow<Box<ProvedEnd>, Hanging>, ProofFailure> {
+) -> Result<ControlFlow<Box<ProvedEnd>, TautState>, ProofFailure> {
     let instants = run.start();
     let (state, t) = hull_of(&instants);
     let (cables, zeros) = Pair::new(run.fine, &state, &t, [0, 1])?.resting()?;
@@ -111,9 +115,9 @@ fn resting(
     if !cables.is_empty() && !taut {
         let what =
             "cables are taut from the start, but a proof of slack flight alone was requested";
-        return Err(ProofFailure::beyond(what));
+        return Err(ProofFailure::not_covered(what));
     }
-    Ok(ControlFlow::Continue(Hanging {
+    Ok(ControlFlow::Continue(TautState {
         taut: cables,
         instants,
         laws: Vec::new(),
@@ -122,27 +126,27 @@ fn resting(
 }
 
 /// The motion from where a cable sticks until no cable is taut, or to the end of the run.
-fn hang(
+fn follow_taut(
     run: &mut Run<'_>,
-    mut now: Hanging,
-    tell: &mut dyn FnMut(Proved) -> Result<(), ProofFailure>,
+    mut now: TautState,
+    report: &mut dyn FnMut(Proved) -> Result<(), ProofFailure>,
 ) -> Result<Option<ProvedEnd>, ProofFailure> {
     while !now.taut.is_empty() {
         let (_, from) = hull_of(&now.instants);
-        let begin = Begin {
+        let start = StartData {
             taut: &now.taut,
             instants: &now.instants,
             laws: &now.laws,
             zeros: &now.zeros,
         };
-        let end = hold(run.fine, &begin, &mut |t| tell(Proved::Step(t.clone())));
+        let end = enclose_taut_motion(run.fine, &start, &mut |t| report(Proved::Step(t.clone())));
         let end = end.map_err(|failure| failure.at(from.to_f64()))?;
         let (state, t) = hull_of(&end.instants);
-        tell(Proved::Stretch(ProvedStretch {
+        report(Proved::Stretch(ProvedStretch {
             taut: now.taut.clone(),
             from,
             until: t.clone(),
-            event: words(end.event),
+            event: event_name(end.event),
         }))?;
         now = match end.event {
             Event::Stop(stop) => {
@@ -152,7 +156,7 @@ fn hang(
             Event::Released(cable) => {
                 run.slow.clear();
                 now.taut.retain(|other| *other != cable);
-                Hanging {
+                TautState {
                     taut: now.taut,
                     instants: end.instants,
                     laws: Vec::new(),
@@ -162,7 +166,7 @@ fn hang(
             Event::Struck(cable) => {
                 let snap = snapped(run, [cable, 1 - cable], end.instants);
                 let (impact, next) = snap.map_err(|failure| failure.at(t.to_f64()))?;
-                tell(Proved::Impact(impact))?;
+                report(Proved::Impact(impact))?;
                 match next {
                     ControlFlow::Break(end) => return Ok(Some(*end)),
                     ControlFlow::Continue(next) => next,
@@ -170,12 +174,12 @@ fn hang(
             }
         };
     }
-    run.take_off(&now.instants, &now.laws, now.zeros)?;
+    run.continue_slack(&now.instants, &now.laws, now.zeros)?;
     Ok(None)
 }
 
 /// An impact, and how the motion continues, or its end.
-type Snapped = (ProvedImpact, ControlFlow<Box<ProvedEnd>, Hanging>);
+type Snapped = (ProvedImpact, ControlFlow<Box<ProvedEnd>, TautState>);
 
 /// The impact of a cable while the other one is taut.
 fn snapped(
@@ -187,7 +191,7 @@ fn snapped(
     let pair = Pair::new(run.fine, &state, &t, [struck, taut])?;
     run.impacts += 1;
     let may_stick = run.is_slow(&pair.struck.v_n, struck)? || run.fine.e.is_zero();
-    let snap = pair.after(may_stick, run.is_in_turns())?;
+    let snap = pair.after(may_stick, run.alternates_slowly())?;
     let impact = ProvedImpact {
         cable: struck,
         t: t.clone(),
@@ -203,18 +207,18 @@ fn snapped(
                 state: after(&snap.rebound, run.fine, &state).ok_or_else(lost)?,
             }))
         }
-        None => ControlFlow::Continue(Hanging {
+        None => ControlFlow::Continue(TautState {
             taut: snap.taut,
             instants,
-            laws: snap.goes_on,
+            laws: snap.continuing_laws,
             zeros: snap.zeros,
         }),
     };
     Ok((impact, next))
 }
 
-/// The event that ends a stretch, in the words of a certificate.
-fn words(event: Event) -> String {
+/// The event that ends a stretch, in the notation of a certificate.
+fn event_name(event: Event) -> String {
     match event {
         Event::Released(cable) => format!("tension {}", cable + 1),
         Event::Struck(cable) => format!("impact {}", cable + 1),

@@ -20,7 +20,7 @@ pub(crate) struct ProvedStretch {
     pub(crate) taut: Vec<usize>,
     pub(crate) from: Ball,
     pub(crate) until: Ball,
-    /// The event that ends it, in the words of a certificate.
+    /// The event that ends it, in the notation of a certificate.
     pub(crate) event: String,
 }
 

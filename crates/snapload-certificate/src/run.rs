@@ -12,9 +12,9 @@ use crate::slack::flight::Flight;
 use crate::slack::impact::{Impact, Matrix};
 use crate::slack::search::{Crossing, Zero, Zeros, first_crossing, name};
 use crate::slack::set::Set;
-use crate::taut::begin::{Begun, Instants, begin};
 use crate::taut::free::Free;
 use crate::taut::law::Law;
+use crate::taut::start::{Instants, Started, start_motion};
 use crate::taut::step::Equations;
 use crate::verdict::ProofFailure;
 use snapload::Stop;
@@ -67,7 +67,7 @@ pub(crate) enum Next {
     End(Box<ProvedEnd>),
 }
 
-/// Where a watched value crosses zero.
+/// Where a event function crosses zero.
 pub(crate) struct Root {
     pub(crate) which: usize,
     /// The time, since T, at which the centre's flight crosses.
@@ -84,7 +84,7 @@ impl<'a> Run<'a> {
     }
 
     /// Finds the first event.
-    pub(crate) fn fly(&self) -> Result<Next, ProofFailure> {
+    pub(crate) fn next_event(&self) -> Result<Next, ProofFailure> {
         let flight = self.flight(self.coarse);
         let last = self.last()?;
         let limit = number_above(&last.0);
@@ -175,12 +175,12 @@ impl<'a> Run<'a> {
             return Err(flat());
         }
         let centre = Flight::new(self.fine, self.t.clone(), self.set.centre().clone());
-        let f_centre = self.fine.one_watched(which, &centre.at(&tau).0).value;
+        let f_centre = self.fine.event_value(which, &centre.at(&tau).0).value;
         let fine = self.flight(self.fine);
-        let f_whole = self.fine.one_watched(which, &fine.at(&tau).0).value;
+        let f_whole = self.fine.event_value(which, &fine.at(&tau).0).value;
         let first = &tau - &f_whole.over(&crossing.slope).ok_or_else(flat)?;
         let around = tau.hull(&first);
-        let slope = self.coarse.one_watched(which, &flight.at(&around).0).rate;
+        let slope = self.coarse.event_value(which, &flight.at(&around).0).rate;
         if !slope.is_positive() {
             return Err(flat());
         }
@@ -208,14 +208,14 @@ impl<'a> Run<'a> {
             let close = Radius::power_of_two(10 - 64 * model.limbs as i64);
             for _ in 0..most {
                 let at = tau.with_limbs(model.limbs);
-                let watched = model.one_watched(which, &flight.at(&at).0);
-                let value = watched.value.centre();
+                let event_value = model.event_value(which, &flight.at(&at).0);
+                let value = event_value.value.centre();
                 if value.is_negative() {
                     low = at.clone();
                 } else {
                     high = at.clone();
                 }
-                let step = value.over(&watched.rate.centre());
+                let step = value.over(&event_value.rate.centre());
                 let next = step.map(|step| (&at - &step).centre());
                 let next = next.filter(|next| !(next.is_below(&low) || high.is_below(next)));
                 tau = next.unwrap_or_else(|| (&low + &high).half().centre());
@@ -228,7 +228,7 @@ impl<'a> Run<'a> {
     }
 
     /// The impact at a root, and the end of the run if it ends there.
-    pub(crate) fn strike(&mut self, root: &Root) -> Result<Struck, ProofFailure> {
+    pub(crate) fn apply_impact(&mut self, root: &Root) -> Result<Struck, ProofFailure> {
         let cable = root.which;
         let (state, force) = self.flight(self.coarse).at(&root.whole);
         let impact = Impact::new(self.coarse, cable, &state)?;
@@ -302,14 +302,14 @@ impl<'a> Run<'a> {
     }
 
     /// Continues with the flight from where all cables have become slack; `zeros` are closed then.
-    pub(crate) fn take_off(
+    pub(crate) fn continue_slack(
         &mut self,
         instants: &Instants,
         laws: &[Law],
         zeros: Zeros,
     ) -> Result<(), ProofFailure> {
         let equations = Equations::of(&Free, self.fine);
-        let Begun { t, set, slack } = begin(&equations, &Free, laws, instants)?;
+        let Started { t, set, slack } = start_motion(&equations, &Free, laws, instants)?;
         (self.t, self.set, self.slack, self.zeros) = (t, set, slack, zeros);
         Ok(())
     }
@@ -371,10 +371,10 @@ impl<'a> Run<'a> {
         let slow = self.is_slow(&impact.v_n, cable)?;
         let sticks = (slow || self.case.number("e").is_zero())
             && self.sign(&impact.pull(state, force), "the tension")?;
-        if !sticks && self.is_in_turns() {
+        if !sticks && self.alternates_slowly() {
             // The model takes the remaining normal velocity away although the cable has no tension,
             // which is not proved here.
-            return Err(ProofFailure::beyond(format!(
+            return Err(ProofFailure::not_covered(format!(
                 "how the cable becomes slack after slow snaps of both cables in turn, at impact {}",
                 self.impacts
             )));
@@ -411,7 +411,7 @@ impl<'a> Run<'a> {
     }
 
     /// Whether the latest snaps are a row of slow ones that includes both cables.
-    pub(crate) fn is_in_turns(&self) -> bool {
+    pub(crate) fn alternates_slowly(&self) -> bool {
         let both = self.slow.contains(&0) && self.slow.contains(&1);
         both && self.slow.len() >= SLOW_IN_A_ROW
     }

@@ -13,9 +13,9 @@ pub(crate) enum ProofFailure {
         more_bits: bool,
     },
     /// The model has no such motion, or a claim about it is false.
-    False(String),
-    /// All that was asked for is proved, and the proof is stopped.
-    Enough,
+    Refuted(String),
+    /// All that was requested is proved, and the proof is stopped.
+    StoppedEarly,
     /// The caller cancelled the work.
     Cancelled,
 }
@@ -31,7 +31,7 @@ impl ProofFailure {
     }
 
     /// This program has no proof of it, with any number of bits.
-    pub(crate) fn beyond(what: impl Into<String>) -> Self {
+    pub(crate) fn not_covered(what: impl Into<String>) -> Self {
         Self::Undecided {
             what: what.into(),
             t: None,

@@ -4,7 +4,7 @@ use crate::arithmetic::ball::Ball;
 use crate::arithmetic::decimal::{fixed, significant};
 use crate::case::ExactCase;
 use crate::format::{
-    FORMAT, Line, MODEL, Stretch, TAUT_FORMAT, UNDECIDED, Written, WrittenCase, WrittenEnd,
+    CaseText, CertificateText, EndText, FORMAT, Line, MODEL, Stretch, TAUT_FORMAT, UNDECIDED,
 };
 use crate::proof::prove;
 use crate::proved::{Proved, Reason};
@@ -30,7 +30,7 @@ pub struct Certification {
     pub end: Ended,
     /// The bits of the numbers in the proof.
     pub bits: usize,
-    written: Written,
+    written: CertificateText,
 }
 
 /// How far a proof came.
@@ -124,7 +124,7 @@ pub fn certify(
         .count();
     let (end, t, written) = match found {
         Ok(((reason, t, state), _)) => {
-            let written = WrittenEnd {
+            let written = EndText {
                 reason: reason.name().to_owned(),
                 t: Some(t.clone()),
                 state: Some(state),
@@ -132,7 +132,7 @@ pub fn certify(
             (Ended::Proved(reason), t, written)
         }
         Err(ProofFailure::Undecided { what, t, .. }) => {
-            let written = WrittenEnd {
+            let written = EndText {
                 reason: UNDECIDED.to_owned(),
                 t: None,
                 state: None,
@@ -141,8 +141,8 @@ pub fn certify(
             let last = last.unwrap_or_else(|| "0".to_owned());
             (Ended::Undecided { what, t }, last, written)
         }
-        Err(ProofFailure::False(what)) => return Ok(Err(what)),
-        Err(ProofFailure::Cancelled | ProofFailure::Enough) => return Err(Cancelled),
+        Err(ProofFailure::Refuted(what)) => return Ok(Err(what)),
+        Err(ProofFailure::Cancelled | ProofFailure::StoppedEarly) => return Err(Cancelled),
     };
     Ok(Ok(Certification {
         impacts: best.len() - stretches,
@@ -150,11 +150,11 @@ pub fn certify(
         t,
         end,
         bits,
-        written: Written {
+        written: CertificateText {
             format: if stretches > 0 { TAUT_FORMAT } else { FORMAT }.to_owned(),
             model: MODEL.to_owned(),
             bits: bits as u64,
-            case: WrittenCase::of(case),
+            case: CaseText::of(case),
             impacts: best,
             end: written,
         },

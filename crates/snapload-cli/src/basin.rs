@@ -10,8 +10,8 @@ use serde::Serialize;
 use snapload::Parameters;
 use snapload::analysis::Progress;
 use snapload_orbits::{
-    Attraction, AttractionRow, BASIN_TRANSIENT, Basin, BasinRow, Erosion, ErosionRow, Fate, Window,
-    attraction_in_words, basin_in_words, erosion_in_words,
+    Attraction, AttractionRow, BASIN_TRANSIENT, Basin, BasinRow, CellOutcome, Erosion, ErosionRow,
+    Window, attraction_summary, basin_summary, erosion_summary,
 };
 use snapload_report::{CaseEcho, case_in_words};
 use snapload_study::Values;
@@ -125,7 +125,7 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
             case: CaseEcho(&base),
             found: AttractionRow::new(&found),
         };
-        return outputs.finish(&row, about(&name, &base, &attraction_in_words(&found)));
+        return outputs.finish(&row, about(&name, &base, &attraction_summary(&found)));
     }
     let basin = Basin::of(window, !args.window.no_trust, &on_progress)?;
     drop(bar);
@@ -134,7 +134,7 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
         case: CaseEcho(&base),
         found: BasinRow::new(&basin),
     };
-    outputs.finish(&row, about(&name, &base, &basin_in_words(&basin)))
+    outputs.finish(&row, about(&name, &base, &basin_summary(&basin)))
 }
 
 /// Runs it for the values of a third key.
@@ -152,7 +152,7 @@ pub(crate) fn run_erosion(args: &ErosionArgs) -> Result<(), Failure> {
         case: CaseEcho(&base),
         found: ErosionRow::new(&erosion),
     };
-    outputs.finish(&row, about(&name, &base, &erosion_in_words(&erosion)))
+    outputs.finish(&row, about(&name, &base, &erosion_summary(&erosion)))
 }
 
 fn about(name: &str, base: &Parameters, words: &str) -> String {
@@ -165,7 +165,7 @@ fn cells(basin: &Basin) -> Vec<(&'static str, Values)> {
     let key = |axis: usize| numbers((0..count).map(|k| window.at(k)[axis]));
     let cells = || basin.cells.iter();
     let flags = |flag: fn(&snapload_orbits::Cell) -> bool| {
-        let of = |cell| basin.looked_beside.then(|| flag(cell));
+        let of = |cell| basin.neighbours_run.then(|| flag(cell));
         Values::Flags(cells().map(of).collect())
     };
     vec![
@@ -213,28 +213,31 @@ fn points(erosion: &Erosion) -> Vec<(&'static str, Values)> {
 fn outcome_columns(found: &Attraction) -> Vec<(&'static str, Values)> {
     let window = &found.window;
     let key = |axis: usize| numbers((0..window.count()).map(|k| window.at(k)[axis]));
-    let outcome = |fate: &Fate| match fate {
-        Fate::Illegal => None,
-        Fate::Stopped(stop, _) => Some(stop.name()),
-        Fate::Attracted(_) => Some("attracted"),
-        Fate::Aperiodic => Some("aperiodic"),
+    let outcome = |outcome: &CellOutcome| match outcome {
+        CellOutcome::Illegal => None,
+        CellOutcome::Stopped(stop, _) => Some(stop.name()),
+        CellOutcome::Attracted(_) => Some("attracted"),
+        CellOutcome::Aperiodic => Some("aperiodic"),
     };
-    let time = |fate: &Fate| match fate {
-        Fate::Stopped(_, t) => Some(*t),
+    let time = |outcome: &CellOutcome| match outcome {
+        CellOutcome::Stopped(_, t) => Some(*t),
         _ => None,
     };
-    let number = |fate: &Fate| match fate {
-        Fate::Attracted(k) => Some(*k as i64 + 1),
+    let number = |outcome: &CellOutcome| match outcome {
+        CellOutcome::Attracted(k) => Some(*k as i64 + 1),
         _ => None,
     };
     vec![
         (window.keys[0], key(0)),
         (window.keys[1], key(1)),
-        ("outcome", names(found.fates.iter().map(outcome))),
-        ("t", Values::Numbers(found.fates.iter().map(time).collect())),
+        ("outcome", names(found.outcomes.iter().map(outcome))),
+        (
+            "t",
+            Values::Numbers(found.outcomes.iter().map(time).collect()),
+        ),
         (
             "attractor",
-            Values::Counts(found.fates.iter().map(number).collect()),
+            Values::Counts(found.outcomes.iter().map(number).collect()),
         ),
     ]
 }

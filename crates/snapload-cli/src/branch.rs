@@ -13,7 +13,7 @@ use snapload::Parameters;
 use snapload::analysis::{OnProgress, Progress};
 use snapload_figures::Layer;
 use snapload_orbits::{
-    Along, Branch, BranchEvent, BranchRow, Kind, Moored, POINTS, branch_in_words,
+    Branch, BranchEvent, BranchOptions, BranchRow, Kind, Moored, POINTS, branch_summary,
 };
 use snapload_report::{CaseEcho, case_in_words};
 use snapload_study::{RandomRange, Values};
@@ -80,7 +80,7 @@ struct Answer<'a> {
 /// Runs it.
 pub(crate) fn run(args: &Args) -> Result<(), Failure> {
     let (name, parameters) = args.case.parameters()?;
-    let (key, value, along) = along(args, &parameters)?;
+    let (key, value, options) = branch_options(args, &parameters)?;
     let kinds = kinds(&args.events)?;
     let switches: Vec<_> = args
         .switch
@@ -98,8 +98,8 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
     let orbit = args
         .near
         .orbit(&family, [value, 0.0], &parameters, &on_progress)?;
-    let branch = family.branch(&orbit, &along, &on_progress)?;
-    let (mut branch, from) = switched(&family, branch, &switches, &along, &on_progress)?;
+    let branch = family.branch(&orbit, &options, &on_progress)?;
+    let (mut branch, from) = switched(&family, branch, &switches, &options, &on_progress)?;
     drop(bar);
     branch
         .events
@@ -122,7 +122,7 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
             event.value[0]
         );
     }
-    text.push_str(&branch_in_words(key, &branch));
+    text.push_str(&branch_summary(key, &branch));
     outputs.finish(&row, text)
 }
 
@@ -131,7 +131,7 @@ fn switched(
     family: &Moored,
     mut branch: Branch,
     switches: &[Option<usize>],
-    along: &Along,
+    options: &BranchOptions,
     on_progress: OnProgress,
 ) -> Result<(Branch, Vec<BranchEvent>), Failure> {
     let mut from = Vec::new();
@@ -139,7 +139,7 @@ fn switched(
         let event = branch.event(Kind::PeriodDoubling, *number);
         let event = event.map_err(|why| Failure::Failed(format!("--switch: {why}")))?;
         let event = event.clone();
-        let born = family.branch_of_doubling(&event, along, on_progress)?;
+        let born = family.branch_of_doubling(&event, options, on_progress)?;
         branch = born.ok_or_else(|| {
             let message = "--switch: no direction of a branch of twice the length is found there";
             Failure::Failed(message.to_owned())
@@ -150,7 +150,10 @@ fn switched(
 }
 
 /// The key, its value, and how it is followed.
-fn along(args: &Args, parameters: &Parameters) -> Result<(&'static str, f64, Along), Failure> {
+fn branch_options(
+    args: &Args,
+    parameters: &Parameters,
+) -> Result<(&'static str, f64, BranchOptions), Failure> {
     let text = &args.along;
     let Some((key, range)) = text.split_once('=') else {
         return Err(Failure::BadInput(format!(
@@ -160,7 +163,8 @@ fn along(args: &Args, parameters: &Parameters) -> Result<(&'static str, f64, Alo
     let side = RandomRange::written(key.trim(), range.trim())
         .map_err(|error| Failure::from(error).with_prefix("--along"))?;
     let most = args.points as usize;
-    let found = snapload_orbits::along(parameters, side.key(), side.ends(), args.step, most)?;
+    let found =
+        snapload_orbits::branch_options(parameters, side.key(), side.ends(), args.step, most)?;
     Ok(found)
 }
 

@@ -14,8 +14,8 @@ use snapload::analysis::{OnProgress, Progress};
 use snapload::{Parameters, key_named};
 use snapload_figures::Layer;
 use snapload_orbits::{
-    Across, Along, BranchEvent, Curve, CurvePoint, CurveRow, Kind, Moored, Orbit, POINTS,
-    curve_in_words,
+    BranchEvent, BranchOptions, Curve, CurveOptions, CurvePoint, CurveRow, Kind, Moored, Orbit,
+    POINTS, curve_summary,
 };
 use snapload_report::{CaseEcho, case_in_words};
 use snapload_study::{RandomRange, Values};
@@ -84,7 +84,7 @@ struct Answer<'a> {
 pub(crate) fn run(args: &Args) -> Result<(), Failure> {
     let (name, parameters) = args.case.parameters()?;
     let what = follow(&args.follow)?;
-    let (keys, across) = across(args, &parameters)?;
+    let (keys, options) = curve_options(args, &parameters)?;
     args.near.read(&parameters)?;
     let mut outputs = Outputs::open(&args.json)?;
     let table = outputs.file("--out", args.out.as_deref(), &TABLE)?;
@@ -92,7 +92,7 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
     let plot = args.plot.open(&mut outputs, keys, &known)?;
     let bar = Bar::new();
     let on_progress = |progress: Progress| bar.show(progress);
-    let (event, curve) = found(args, &parameters, (keys, &across), what, &on_progress)?;
+    let (event, curve) = found(args, &parameters, (keys, &options), what, &on_progress)?;
     drop(bar);
     outputs.table(table, &columns(keys, &curve))?;
     if let Some(plot) = plot {
@@ -104,7 +104,7 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
         curve: CurveRow::new(keys, &curve, &event),
     };
     let mut text = format!("Case      {}\n", case_in_words(&name, &parameters));
-    text.push_str(&curve_in_words(keys, &curve, &event));
+    text.push_str(&curve_summary(keys, &curve, &event));
     outputs.finish(&row, text)
 }
 
@@ -112,7 +112,7 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
 fn found(
     args: &Args,
     parameters: &Parameters,
-    (keys, across): ([&'static str; 2], &Across),
+    (keys, options): ([&'static str; 2], &CurveOptions),
     (kind, number): (Kind, Option<usize>),
     on_progress: OnProgress,
 ) -> Result<(BranchEvent, Curve), Failure> {
@@ -124,9 +124,9 @@ fn found(
     let event = match here {
         Some(event) => event,
         None => {
-            let along = Along {
-                range: across.ranges[0],
-                step: across.step,
+            let along = BranchOptions {
+                range: options.ranges[0],
+                step: options.step,
                 most: args.points as usize,
             };
             let branch = family.branch(&orbit, &along, on_progress)?;
@@ -140,7 +140,7 @@ fn found(
             event.clone()
         }
     };
-    let curve = family.curve(&event, across, on_progress)?;
+    let curve = family.curve(&event, options, on_progress)?;
     let curve = curve.map_err(|why| Failure::Failed(format!("--follow: {why}")))?;
     Ok((event, curve))
 }
@@ -170,7 +170,10 @@ fn follow(text: &str) -> Result<(Kind, Option<usize>), Failure> {
 }
 
 /// The keys, and how they change.
-fn across(args: &Args, parameters: &Parameters) -> Result<([&'static str; 2], Across), Failure> {
+fn curve_options(
+    args: &Args,
+    parameters: &Parameters,
+) -> Result<([&'static str; 2], CurveOptions), Failure> {
     let text = &args.along;
     let parts: Vec<&str> = text.split(',').map(str::trim).collect();
     let [first, second] = parts[..] else {
@@ -188,7 +191,9 @@ fn across(args: &Args, parameters: &Parameters) -> Result<([&'static str; 2], Ac
     };
     let keys = [of(first)?, of(second)?];
     let most = args.points as usize;
-    Ok(snapload_orbits::across(parameters, keys, args.step, most)?)
+    Ok(snapload_orbits::curve_options(
+        parameters, keys, args.step, most,
+    )?)
 }
 
 /// The numeric columns of a point besides those of its orbit.

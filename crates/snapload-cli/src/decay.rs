@@ -5,9 +5,11 @@ use crate::json::JsonArgs;
 use crate::outputs::Outputs;
 use serde::Serialize;
 use snapload_hydro::digits::digits;
-use snapload_hydro::{Decay, FREEDOMS, Floating, Hydrodynamics, Swing, decay, rest_adrift, swings};
+use snapload_hydro::{
+    Decay, FREEDOMS, Floating, Hydrodynamics, Swing, decay, rest_without_tension, swings,
+};
 use snapload_report::tables::in_digits;
-use snapload_structure::told;
+use snapload_structure::labelled_row;
 use std::fmt::Write as _;
 use std::path::PathBuf;
 
@@ -99,13 +101,13 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
         }));
     }
     if let Some(note) = measured_from(floating, &report.reading.hydro) {
-        text += &told("measured", &note);
+        text += &labelled_row("measured", &note);
     }
     if rows.iter().any(|row| row.damping_ratio < 0.0) {
-        text += &told("mixed", NEGATIVE_DAMPING_NOTE);
+        text += &labelled_row("mixed", NEGATIVE_DAMPING_NOTE);
     }
     for warning in &report.warnings {
-        text += &told("warning", &format!("{}: {}", warning.what, warning.words));
+        text += &labelled_row("warning", &format!("{}: {}", warning.what, warning.message));
     }
     let of = |i: usize| motion.q.iter().map(|q| q[i]).collect();
     let answer = Answer {
@@ -139,7 +141,7 @@ const NEGATIVE_DAMPING_NOTE: &str = "a damping below zero occurs in a freedom in
 /// From where displacements are measured, if not from the position of the file: the motion is linear
 /// about the position in which the body floats without lines.
 fn measured_from(floating: &Floating, hydro: &Hydrodynamics) -> Option<String> {
-    let at = rest_adrift(hydro, &floating.body, &[], 0.0).map(|(q, _)| q);
+    let at = rest_without_tension(hydro, &floating.body, &[], 0.0).map(|(q, _)| q);
     match at {
         Some(q) if q[1].abs() < SMALL && q[2].abs() < SMALL => None,
         Some(q) => Some(format!(
@@ -157,7 +159,7 @@ fn measured_from(floating: &Floating, hydro: &Hydrodynamics) -> Option<String> {
 /// The swings of a freedom as a small table below its name.
 fn swing_table(called: &str, swings: &[Swing], freedom: usize, comes_back: bool) -> String {
     if swings.is_empty() {
-        return told(called, "it does not swing");
+        return labelled_row(called, "it does not swing");
     }
     let unit = ["m", "m", "rad"][freedom];
     // A swing begins at every turning point; those of one side are printed.
@@ -172,7 +174,7 @@ fn swing_table(called: &str, swings: &[Swing], freedom: usize, comes_back: bool)
     };
     let what =
         format!("{few}swings{about}, each from one turn to the next on the side of the release");
-    let mut text = told(called, &what);
+    let mut text = labelled_row(called, &what);
     let amplitude = format!("amplitude {unit}");
     let _ = writeln!(
         text,

@@ -4,11 +4,11 @@ use crate::case_input::CaseArgs;
 use crate::failure::Failure;
 use crate::json::JsonArgs;
 use crate::outputs::{Outputs, TABLE};
-use crate::section::StretchArgs;
+use crate::section::SectionArgs;
 use crate::table::{axis, names, numbers};
 use serde::Serialize;
 use snapload::analysis::{Progress, START_KEYS};
-use snapload_orbits::{At, DiagramRow, diagram, diagram_in_words};
+use snapload_orbits::{DiagramPoint, DiagramRow, diagram, diagram_summary};
 use snapload_report::{CaseEcho, case_in_words};
 use snapload_study::Values;
 use std::path::PathBuf;
@@ -37,7 +37,7 @@ pub(crate) struct Args {
     #[arg(long)]
     down: bool,
     #[command(flatten)]
-    stretch: StretchArgs,
+    options: SectionArgs,
     /// Write a table of all section points, FILE.parquet or FILE.csv
     #[arg(long, value_name = "FILE")]
     out: Option<PathBuf>,
@@ -60,12 +60,12 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
     if args.down {
         values.reverse();
     }
-    let stretch = args.stretch.read()?;
+    let options = args.options.read()?;
     let mut outputs = Outputs::open(&args.json)?;
     let table = outputs.file("--out", args.out.as_deref(), &TABLE)?;
     let bar = Bar::new();
     let on_progress = |progress: Progress| bar.show(progress);
-    let found = diagram(&parameters, key, &values, &stretch, &on_progress)?;
+    let found = diagram(&parameters, key, &values, &options, &on_progress)?;
     drop(bar);
     outputs.table(table, &columns(key, &found))?;
     let row = Answer {
@@ -75,13 +75,13 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
         rows: found.iter().map(DiagramRow::new).collect(),
     };
     let mut text = format!("Case      {}\n", case_in_words(&name, &parameters));
-    text.push_str(&diagram_in_words(key, &found));
+    text.push_str(&diagram_summary(key, &found));
     outputs.finish(&row, text)
 }
 
-fn columns(key: &'static str, found: &[At]) -> Vec<(&'static str, Values)> {
+fn columns(key: &'static str, found: &[DiagramPoint]) -> Vec<(&'static str, Values)> {
     let rows = || {
-        let points = |at: &'_ At| at.section.points.len();
+        let points = |at: &'_ DiagramPoint| at.section.points.len();
         found
             .iter()
             .flat_map(move |at| (0..points(at)).map(move |k| (at, k)))

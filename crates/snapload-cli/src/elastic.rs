@@ -8,7 +8,9 @@ use crate::structure_input::{ReadStructure, StructureArgs};
 use snapload::CaseError;
 use snapload::analysis::{Progress, Unfinished};
 use snapload_report::tables::in_digits;
-use snapload_structure::{BothModels, EVERY, Prepared, STIFFER, both_models, checked_every};
+use snapload_structure::{
+    EVERY, ElasticComparison, ModelAtRest, STIFFER, checked_every, compare_elastic,
+};
 use std::io;
 use std::path::PathBuf;
 
@@ -46,15 +48,15 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
     let out = outputs.file("--out", args.out.as_deref(), &["csv"])?;
     let bar = Bar::new();
     let on_progress = |progress: Progress| bar.show(progress);
-    let both = Prepared::for_springs(structure)
+    let comparison = ModelAtRest::for_elastic_lines(structure)
         .map_err(Unfinished::from)
-        .and_then(|prepared| both_models(prepared, args.stiffer, every_s, &on_progress))
+        .and_then(|prepared| compare_elastic(prepared, args.stiffer, every_s, &on_progress))
         .map_err(|error| Failure::from(error).with_prefix(&name))?;
     drop(bar);
     if let Some(out) = out {
-        outputs.write(out, |out| table(&both, out))?;
+        outputs.write(out, |out| table(&comparison, out))?;
     }
-    outputs.finish_with_text(&both.to_json(&name), both.summary(&name))
+    outputs.finish_with_text(&comparison.to_json(&name), comparison.summary(&name))
 }
 
 /// An error that names an option, with the option as it is written on a command line.
@@ -64,15 +66,19 @@ fn as_option(mut error: CaseError) -> CaseError {
 }
 
 /// A row a sample.
-fn table(both: &BothModels, out: &mut dyn io::Write) -> io::Result<()> {
+fn table(comparison: &ElasticComparison, out: &mut dyn io::Write) -> io::Result<()> {
     let mut table = csv::Writer::from_writer(out);
-    let lines = both.springs.len();
+    let lines = comparison.springs.len();
     let tensions = (1..=lines).map(|line| format!("tension_{line}_n"));
     let names = ["t_s", "x_m", "z_m", "theta_rad"].map(str::to_owned);
     table.write_record(names.into_iter().chain(tensions))?;
-    for sample in &both.elastic.samples {
+    for sample in &comparison.elastic.samples {
         let state = &sample.state;
-        let [x, z] = both.sprung.model.scales.to_si([state.x, state.y]);
+        let [x, z] = comparison
+            .elastic_case
+            .model
+            .scales
+            .to_si([state.x, state.y]);
         let place = [sample.t_s, x, z, 0.0 - state.theta];
         let row = place.iter().chain(&sample.tension_n);
         table.write_record(row.copied().map(in_digits))?;

@@ -5,7 +5,7 @@ use crate::json::JsonArgs;
 use crate::outputs::Outputs;
 use serde::Serialize;
 use snapload_hydro::{FREEDOMS, Line, Report, page};
-use snapload_structure::{IrregularSea, Spectrum, SpectrumShape, told};
+use snapload_structure::{IrregularSea, Spectrum, SpectrumShape, labelled_row};
 use std::path::PathBuf;
 
 const EXAMPLES: &str = include_str!("../help/hydro.txt").trim_ascii_end();
@@ -74,13 +74,13 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
         .into_iter()
         .partition(|(label, _)| label != "warning");
     for (label, words) in &told_first {
-        text += &told(label, words);
+        text += &labelled_row(label, words);
     }
     for row in &sea {
-        text += &told("sea", &row.text());
+        text += &labelled_row("sea", &row.text());
     }
     for (label, words) in &warnings {
-        text += &told(label, words);
+        text += &labelled_row(label, words);
     }
     let answer = Answer {
         report: report.to_json(),

@@ -6,7 +6,7 @@ use crate::option_values::whole_number;
 use crate::pending_outputs::PendingOutputs;
 use crate::structure_input::{ReadStructure, StructureArgs};
 use clap::Subcommand;
-use snapload_structure::{SEGMENTS, Structure, moordyn, told};
+use snapload_structure::{SEGMENTS, Structure, labelled_row, moordyn};
 use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
 
@@ -84,16 +84,16 @@ fn read(args: &Read) -> Result<(), Failure> {
     let Some(path) = &args.out else {
         return print(&text);
     };
-    let mut message = told("written", &put(path, &text)?);
+    let mut message = labelled_row("written", &put(path, &text)?);
     for note in &notes {
-        message += &told("note", note);
+        message += &labelled_row("note", note);
     }
     if !missing.is_empty() {
         let words = format!(
             "{}: MoorDyn files do not contain them; add them to the case, or set them with --set",
             missing.join(", ")
         );
-        message += &told("missing", &words);
+        message += &labelled_row("missing", &words);
     }
     print(&message)
 }
@@ -106,7 +106,7 @@ fn write(args: &Write) -> Result<(), Failure> {
         .map_err(|error| Failure::BadInput(format!("{name}: {error}")))?;
     match &args.out {
         None => print(&text),
-        Some(path) => print(&told("written", &put(path, &text)?)),
+        Some(path) => print(&labelled_row("written", &put(path, &text)?)),
     }
 }
 

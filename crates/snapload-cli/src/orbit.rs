@@ -10,8 +10,8 @@ use serde::Serialize;
 use snapload::analysis::{OnProgress, SEED, START_KEYS};
 use snapload::{CaseError, Parameters, Value, parse_value};
 use snapload_orbits::{
-    Moored, ORBIT_PERIODS, Orbit, OrbitRow, Point, Proofs, STARTS, Wanted, check_start,
-    checked_phase, distance, of_attractor, orbit_in_words, start_of,
+    Moored, ORBIT_PERIODS, Orbit, OrbitRequest, OrbitRow, Point, Proofs, STARTS, check_start,
+    checked_phase, distance, of_attractor, orbit_summary, start_of,
 };
 use snapload_report::{CaseEcho, case_in_words};
 use std::fmt::Write;
@@ -97,8 +97,11 @@ pub(crate) struct NearArgs {
 
 impl NearArgs {
     /// The start, if there is one, and the wanted orbit.
-    pub(crate) fn read(&self, parameters: &Parameters) -> Result<(Option<Point>, Wanted), Failure> {
-        let wanted = Wanted {
+    pub(crate) fn read(
+        &self,
+        parameters: &Parameters,
+    ) -> Result<(Option<Point>, OrbitRequest), Failure> {
+        let request = OrbitRequest {
             periods: self.periods,
             struck: None,
             phase: checked_phase(self.phase)?,
@@ -106,7 +109,7 @@ impl NearArgs {
         snapload_orbits::period_of(parameters)?;
         let start = self.start.as_deref();
         let start = start.map(|text| start_at(text, parameters)).transpose()?;
-        Ok((start, wanted))
+        Ok((start, request))
     }
 
     /// The orbit near the start, or that of the attractor, among those of a family.
@@ -117,15 +120,15 @@ impl NearArgs {
         parameters: &Parameters,
         on_progress: OnProgress,
     ) -> Result<Orbit, Failure> {
-        let (start, mut wanted) = self.read(parameters)?;
+        let (start, mut request) = self.read(parameters)?;
         let start = match start {
             Some(start) => Ok(start),
-            None => of_attractor(parameters, &wanted, on_progress)?.map(|orbit| {
-                wanted.periods = Some(orbit.periods);
+            None => of_attractor(parameters, &request, on_progress)?.map(|orbit| {
+                request.periods = Some(orbit.periods);
                 orbit.z
             }),
         };
-        let orbit = start.and_then(|start| family.orbit(at, &start, &wanted));
+        let orbit = start.and_then(|start| family.orbit(at, &start, &request));
         orbit.map_err(|why| Failure::Failed(format!("no orbit was found: {why}")))
     }
 }
@@ -142,13 +145,13 @@ struct OneAnswer<'a> {
 /// Runs it.
 pub(crate) fn run(args: &Args) -> Result<(), Failure> {
     let (name, parameters, entries) = args.case.parameters_as_given()?;
-    let (start, mut wanted) = args.near.read(&parameters)?;
-    wanted.struck = args.symbol.as_deref().map(cables).transpose()?;
+    let (start, mut request) = args.near.read(&parameters)?;
+    request.struck = args.symbol.as_deref().map(cables).transpose()?;
     let values = args.vary.as_deref().map(|text| axis("--vary", text));
     let search = Search {
         parameters: &parameters,
         entries: &entries,
-        wanted: &wanted,
+        request: &request,
         along: values.transpose()?,
         prove: args.prove,
     };
@@ -209,7 +212,7 @@ fn in_words(args: &Args, found: &FoundOrbits, start: Option<Point>) -> String {
         }
     }
     for orbit in orbits.iter().take(MOST_LISTED) {
-        text.push_str(&orbit_in_words(orbit));
+        text.push_str(&orbit_summary(orbit));
     }
     if let Some(left) = orbits
         .len()

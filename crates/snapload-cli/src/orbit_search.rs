@@ -8,8 +8,8 @@ use snapload::analysis::{OnProgress, Progress};
 use snapload::{Entries, Parameters};
 use snapload_certificate::ExactCase;
 use snapload_orbits::{
-    Moored, Orbit, OrbitRow, Point, Proofs, Starts, Wanted, find_orbits, followed, of_attractor,
-    period_of, prove_all,
+    Moored, Orbit, OrbitRequest, OrbitRow, Point, Proofs, Starts, find_orbits, followed_key,
+    of_attractor, period_of, prove_all,
 };
 use snapload_report::CaseEcho;
 use snapload_study::Values;
@@ -39,7 +39,7 @@ struct OrbitOfCase {
 pub(crate) struct Search<'a> {
     pub(crate) parameters: &'a Parameters,
     pub(crate) entries: &'a Entries,
-    pub(crate) wanted: &'a Wanted,
+    pub(crate) request: &'a OrbitRequest,
     /// A key, and its values.
     pub(crate) along: Option<(&'static str, Vec<f64>)>,
     /// Whether the orbits found are proved.
@@ -73,7 +73,7 @@ impl Search<'_> {
                 exact: exact.transpose()?,
             }]);
         };
-        followed("vary", self.parameters, key)?;
+        followed_key("vary", self.parameters, key)?;
         let case = |value: &f64| {
             let parameters = self.parameters.over(|name, other| match name {
                 _ if name == *key => *value,
@@ -98,9 +98,9 @@ impl Search<'_> {
         let orbit = match start {
             Some(start) => {
                 let family = Moored::case(case.parameters, [None; 2]);
-                family.orbit([0.0; 2], &start, self.wanted)
+                family.orbit([0.0; 2], &start, self.request)
             }
-            None => of_attractor(&case.parameters, self.wanted, &on_progress)?,
+            None => of_attractor(&case.parameters, self.request, &on_progress)?,
         };
         let no_orbit = |why| Failure::Failed(format!("no orbit was found: {why}"));
         let mut found = FoundOrbits::none(None);
@@ -124,7 +124,7 @@ impl Search<'_> {
                 seed,
                 near: &near,
             };
-            let orbits = find_orbits(&case.parameters, &starts, self.wanted, &on_progress)?;
+            let orbits = find_orbits(&case.parameters, &starts, self.request, &on_progress)?;
             near = orbits.iter().map(|orbit| orbit.z).collect();
             found.add(case, orbits, &on_progress)?;
         }

@@ -114,7 +114,7 @@ impl Outputs {
         words: String,
     ) -> Result<(), Failure> {
         self.finish_with(json, words, |path| {
-            snapload_structure::told("written", path)
+            snapload_structure::labelled_row("written", path)
         })
     }
 

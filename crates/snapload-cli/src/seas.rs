@@ -7,7 +7,7 @@ use crate::outputs::Outputs;
 use crate::structure_input::{ReadStructure, StructureArgs};
 use snapload_report::tables::in_digits;
 use snapload_structure::note::{self, Source};
-use snapload_structure::{Lines, SEEDS, SeaOutcome, Seas, end_words, seas};
+use snapload_structure::{Lines, SEEDS, SeaOutcome, Seas, end_text, seas};
 use std::io;
 use std::path::PathBuf;
 
@@ -96,7 +96,7 @@ fn table(seas: &Seas, out: &mut dyn io::Write) -> io::Result<()> {
         table.write_record([
             seed.to_string(),
             in_digits(outcome.end_s),
-            end_words(outcome.stop).to_owned(),
+            end_text(outcome.stop).to_owned(),
             judged(outcome.snaps().to_string()),
             judged(in_digits(outcome.speed_m_s())),
             peak.unwrap_or_default(),

@@ -11,8 +11,8 @@ use serde::Serialize;
 use snapload::analysis::{Progress, START_KEYS};
 use snapload_figures::{Colour, Layer, Shape};
 use snapload_orbits::{
-    ImpactPoint, KEEP, MOST_KEPT, PERIODS, Section, SectionRow, Stretch, section_in_words, stretch,
-    without_points_in_words,
+    ImpactPoint, KEEP, MOST_KEPT, PERIODS, Section, SectionOptions, SectionRow, section_options,
+    section_summary, without_points_summary,
 };
 use snapload_report::{CaseEcho, case_in_words};
 use snapload_study::Values;
@@ -44,7 +44,7 @@ pub(crate) struct Args {
     #[command(flatten)]
     case: CaseArgs,
     #[command(flatten)]
-    stretch: StretchArgs,
+    options: SectionArgs,
     /// Where points are taken: once per forcing period, or at impacts
     #[arg(long, default_value = "periods", value_parser = ["periods", "impacts"])]
     at: String,
@@ -59,7 +59,7 @@ pub(crate) struct Args {
 
 /// How long a motion is followed.
 #[derive(clap::Args)]
-pub(crate) struct StretchArgs {
+pub(crate) struct SectionArgs {
     /// Total number of forcing periods
     #[arg(long, value_name = "N", default_value_t = 400, value_parser = whole_number::<u64>(PERIODS))]
     periods: u64,
@@ -72,10 +72,10 @@ pub(crate) struct StretchArgs {
     phase: f64,
 }
 
-impl StretchArgs {
+impl SectionArgs {
     /// Checks it.
-    pub(crate) fn read(&self) -> Result<Stretch, Failure> {
-        Ok(stretch(self.periods, self.keep, self.phase)?)
+    pub(crate) fn read(&self) -> Result<SectionOptions, Failure> {
+        Ok(section_options(self.periods, self.keep, self.phase)?)
     }
 }
 
@@ -89,24 +89,24 @@ struct Answer<'a> {
 /// Runs it.
 pub(crate) fn run(args: &Args) -> Result<(), Failure> {
     let input = args.case.read()?;
-    let stretch = Stretch {
+    let options = SectionOptions {
         impacts: args.at == "impacts",
-        ..args.stretch.read()?
+        ..args.options.read()?
     };
     let parameters = input.case.parameters();
     let mut outputs = Outputs::open(&args.json)?;
     let table = outputs.file("--out", args.out.as_deref(), &TABLE)?;
-    let (usual, known) = match stretch.impacts {
+    let (usual, known) = match options.impacts {
         true => (["phase", "v_n"], &IMPACT_COLUMNS[..]),
         false => (["x", "vx"], &START_KEYS[..]),
     };
     let plot = args.plot.open(&mut outputs, usual, known)?;
     let bar = Bar::new();
-    let section = Section::of(parameters, &stretch, &|progress: Progress| {
+    let section = Section::of(parameters, &options, &|progress: Progress| {
         bar.show(progress)
     })?;
     drop(bar);
-    if let Some(why) = without_points_in_words(&section) {
+    if let Some(why) = without_points_summary(&section) {
         return Err(Failure::Failed(format!(
             "no section: the motion from this start {why}; use fewer --periods, or another start"
         )));
@@ -132,10 +132,10 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
     }
     let row = Answer {
         case: CaseEcho(parameters),
-        section: SectionRow::new(&section, stretch.phase),
+        section: SectionRow::new(&section, options.phase),
     };
     let mut text = format!("Case      {}\n", case_in_words(&input.name, parameters));
-    text.push_str(&section_in_words(&section));
+    text.push_str(&section_summary(&section));
     outputs.finish(&row, text)
 }
 

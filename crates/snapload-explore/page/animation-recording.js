@@ -1,30 +1,30 @@
-// The animation as a WebM file: every picture of the scene is drawn at its own time and encoded, as fast as the
-// browser can.
+// The animation as a WebM file: each frame of the scene is drawn at its own time and encoded, as fast as the browser
+// can.
 
 import { paint } from "./shapes.js";
 import { colours } from "./theme.js";
 import { webm } from "./webm.js";
 import { fixed } from "./formatting.js";
 
-/** Codecs as browsers call them, and as the file does. */
+/** The names of codecs in browsers and in the file. */
 const CODECS = [
   ["vp09.00.31.08", "V_VP9"],
   ["vp8", "V_VP8"],
 ];
 const FRAMES_A_SECOND = 30;
 const MOST_PICTURES = 36_000;
-/** A player can go to a picture that was encoded by itself: one a second. */
+/** A player can seek to a key frame: there is one a second. */
 const KEY_EVERY = FRAMES_A_SECOND;
 const REST_S = 0.7;
 const BITS_A_SECOND = 6e6;
-/** Pictures that wait to be encoded. */
+/** The most frames that wait to be encoded. */
 const MOST_WAITING = 8;
-/** An encoder that gives nothing for so long, as one that the browser has taken away, is not waited for. */
+/** The time after which an encoder without output counts as failed, for example because the browser closed it. */
 const STANDS_STILL_MS = 30_000;
 
 /**
- * A pause in which the page goes on. A page that nobody looks at has a timer once a second at the most, and would need an
- * hour for an animation of two minutes; messages it has as they come.
+ * A pause in which the page stays responsive. A hidden page runs a timer at most once a second and would need an hour
+ * for an animation of two minutes; messages are not delayed.
  */
 const pause = () =>
   new Promise((done) => {
@@ -37,7 +37,7 @@ const pause = () =>
   });
 
 export class AnimationRecording {
-  /** `picture` makes shapes and a caption of a run at a time. */
+  /** `picture` makes the shapes and the caption of a run at a time. */
   constructor({ run, picture, from, to, options, size }) {
     this.run = run;
     this.picture = picture;
@@ -52,7 +52,7 @@ export class AnimationRecording {
     this.cancelled = true;
   }
 
-  /** Encodes it, to be seen at the speed of the page; gives the file, or nothing if it was cancelled. */
+  /** Encodes it, to be played at the speed of the page; returns the file, or nothing if it was cancelled. */
   async record(onProgress) {
     const [codec, name] = await this.#codec();
     const seconds = (this.to - this.from) / this.options.speed;

@@ -1,6 +1,6 @@
-// What is asked of the server.
+// Requests to the server.
 
-/** An answer that is an error: its message is that of the command, its key the one that is to be changed, if any. */
+/** An error answer: its message is that of the command, its key the one to be changed, if any. */
 export class Refused extends Error {
   constructor(message, key = null) {
     super(message);
@@ -26,10 +26,10 @@ export async function fetchSchema() {
   return response.json();
 }
 
-/** A longer wait than this is cut short by a newer question; a shorter one is worth its picture. */
+/** A newer request cancels a run that takes longer than this; a shorter run is finished and drawn. */
 const UNINTERRUPTED_MS = 120;
 
-/** Runs, one at a time; of the questions that come meanwhile only the latest is asked. */
+/** Runs, one at a time; of the requests that arrive meanwhile only the latest is sent. */
 export class Runner {
   constructor({ onAnswer, onError, path = "api/run" }) {
     this.onAnswer = onAnswer;
@@ -43,24 +43,24 @@ export class Runner {
     this.waiting = { question, since };
     const { current } = this;
     if (!current) return this.#next();
-    // Never twice in a row: where every answer takes longer than that, one would see nothing while one drags.
+    // Never twice in a row: if every answer takes longer, nothing would be drawn during a drag.
     if (current.afterOneCutShort) return;
-    const cut = () => {
+    const cutShort = () => {
       if (this.current === current && this.waiting) current.controller.abort();
     };
-    setTimeout(cut, Math.max(current.begun + UNINTERRUPTED_MS - performance.now(), 0));
+    setTimeout(cutShort, Math.max(current.startedAt + UNINTERRUPTED_MS - performance.now(), 0));
   }
 
   async #next(afterOneCutShort = false) {
     const { question, since } = this.waiting;
     const controller = new AbortController();
     this.waiting = null;
-    this.current = { controller, begun: performance.now(), afterOneCutShort };
+    this.current = { controller, startedAt: performance.now(), afterOneCutShort };
     let answer = null;
     try {
       answer = await (await post(this.path, question, controller.signal)).json();
     } catch (error) {
-      if (error.name !== "AbortError") this.onError(inWords(error), question);
+      if (error.name !== "AbortError") this.onError(readableError(error), question);
     }
     this.current = null;
     if (this.waiting) this.#next(controller.signal.aborted);
@@ -68,46 +68,46 @@ export class Runner {
   }
 }
 
-/** One run that is not dragged through. */
+/** A single run. */
 export async function fetchRun(question) {
   return (await post("api/run", question)).json();
 }
 
-/** The keys of a structure, and the one that the program was begun with. */
+/** The keys of a structure, and the one that the program was started with. */
 export async function fetchStructures() {
   return (await fetch("api/structure")).json();
 }
 
-/** What the case file of a structure gives. */
+/** The values of a structure's case file. */
 export async function fetchStructureFile(file) {
   return (await post("api/structure", file)).json();
 }
 
-/** Work that takes long, and can be cancelled. */
+/** A long request that can be cancelled. */
 export async function fetchLong(path, question, signal) {
   try {
     return await (await post(path, question, signal)).json();
   } catch (error) {
-    throw error.name === "AbortError" ? error : inWords(error);
+    throw error.name === "AbortError" ? error : readableError(error);
   }
 }
 
-/** The values that a case file gives. */
+/** The values of a case file. */
 export async function fetchCase(file) {
   return (await post("api/case", file)).json();
 }
 
-/** What of a run is proved. */
+/** The proved part of a run. */
 export const fetchProof = (question, signal) => fetchLong("api/proof", question, signal);
 
-/** The answer to a question about one case, in words and for programs. */
-export const fetchAnswer = (name, asked, signal) => fetchLong(`api/question/${name}`, asked, signal);
+/** The answer to a question about one case, as text and as JSON. */
+export const fetchAnswer = (name, question, signal) => fetchLong(`api/question/${name}`, question, signal);
 
-/** Where a motion stands once a period, in the long run. */
+/** The state once a period, over a long motion. */
 export const fetchSection = (question, signal) => fetchLong("api/section", question, signal);
 
-/** A refusal says why; whatever else goes wrong on the way means that nobody answers. */
-function inWords(error) {
+/** A refusal has its own message; any other failure means that the server does not answer. */
+function readableError(error) {
   return error instanceof Refused
     ? error
     : new Error("the program does not answer. Is snapload explore still running?");
@@ -119,8 +119,8 @@ export async function* fetchMap(question, signal) {
 }
 
 /**
- * Work that takes its time and reports its progress: `onProgress` gets each line, { doing, percent }. Gives the
- * resulting text.
+ * A long request that reports its progress: `onProgress` receives each line, { doing, percent }. Returns the resulting
+ * text.
  * @param {string} path
  * @param {object} question
  * @param {AbortSignal} signal
@@ -134,12 +134,12 @@ export async function fetchWithProgress(path, question, signal, onProgress) {
       onProgress(line);
     }
   } catch (error) {
-    throw error.name === "AbortError" ? error : inWords(error);
+    throw error.name === "AbortError" ? error : readableError(error);
   }
   throw new Error("The answer is incomplete. Is snapload explore still running?");
 }
 
-/** The lines of an answer, each as it comes. */
+/** The lines of an answer, each as it arrives. */
 async function* linesOf(response) {
   const reader = response.body.pipeThrough(new TextDecoderStream()).getReader();
   let rest = "";

@@ -1,6 +1,6 @@
-// The fields of an axis of a map: a key, from where to where, in how many cells.
+// The fields of an axis of a map: its key, its range and its number of cells.
 
-import { $, mark } from "./dom.js";
+import { $, setAttributes } from "./dom.js";
 import { MOST_CELLS, finite, isAxis, isCount, same } from "./state.js";
 import { fieldText } from "./formatting.js";
 
@@ -8,16 +8,16 @@ const ENDS = ["low", "high", "count"];
 
 export class AxisFields {
   /**
-   * Builds the fields in the fieldset with the id `id`; their own ids begin with it, such as `map-x-key`. `legend` is what
-   * stands over them, `counted` what an axis has a number of. `value(name)` is that of a key, `now()` the axis as it is;
-   * `onChange` is told of another axis, `onWrong` in words of what can be none, or that all is well again.
+   * Builds the fields in the fieldset with the id `id`; their own ids begin with it, such as `map-x-key`. `legend` is
+   * their heading, `counted` names what is counted along the axis. `value(name)` returns the value of a key,
+   * `currentAxis()` the current axis; `onChange` receives a changed axis, `onInvalid` a message, empty if all is valid.
    */
-  constructor(id, keys, { legend, counted = "cells", value, now, onChange, onWrong }) {
+  constructor(id, keys, { legend, counted = "cells", value, currentAxis, onChange, onInvalid }) {
     this.id = id;
-    this.now = now;
-    this.onWrong = onWrong;
+    this.currentAxis = currentAxis;
+    this.onInvalid = onInvalid;
     this.shown = null;
-    this.wrong = false;
+    this.invalid = false;
     const field = (name, words, mode) =>
       `<label>${words} <input type="text" inputmode="${mode}" class="field" id="${id}-${name}"></label>`;
     $(id).innerHTML =
@@ -30,13 +30,13 @@ export class AxisFields {
       const own = value(key.value);
       const about = Number.isFinite(own) ? own : 1;
       const range = usual ?? { low: about * 0.5, high: about * 2 || 1 };
-      onChange({ ...now(), key: key.value, ...range });
+      onChange({ ...currentAxis(), key: key.value, ...range });
     });
     const words = `${legend}: "from" must be less than "to", with 2 to ${MOST_CELLS} ${counted}`;
     for (const name of ENDS) {
       this.#field(name).addEventListener("change", () => {
         const axis = this.#typed();
-        this.#judge(axis, words);
+        this.#validate(axis, words);
         if (isAxis(axis)) onChange(axis);
       });
     }
@@ -46,43 +46,43 @@ export class AxisFields {
     return $(`${this.id}-${name}`);
   }
 
-  /** The axis as its fields have it: what was refused in one of them may be allowed with another one. */
+  /** The axis in the fields: a value that was refused may be allowed once another field has changed. */
   #typed() {
-    return { ...this.now(), ...Object.fromEntries(ENDS.map((name) => [name, finite(this.#field(name).value)])) };
+    return { ...this.currentAxis(), ...Object.fromEntries(ENDS.map((name) => [name, finite(this.#field(name).value)])) };
   }
 
-  /** Marks the fields that can not be, and says so. */
-  #judge(axis, words) {
+  /** Marks invalid fields and reports them. */
+  #validate(axis, words) {
     const { low, high, count } = axis;
     const crossed = high <= low;
-    const wrong = { low: crossed || low === undefined, high: crossed || high === undefined, count: !isCount(count) };
-    for (const name of ENDS) mark(this.#field(name), { "aria-invalid": String(wrong[name]) });
-    this.wrong = !isAxis(axis);
-    this.onWrong(this.wrong ? words : "");
+    const invalid = { low: crossed || low === undefined, high: crossed || high === undefined, count: !isCount(count) };
+    for (const name of ENDS) setAttributes(this.#field(name), { "aria-invalid": String(invalid[name]) });
+    this.invalid = !isAxis(axis);
+    this.onInvalid(this.invalid ? words : "");
   }
 
-  /** Shows an axis that is another one than before; what is being typed stays, and so does what was refused. */
+  /** Shows a changed axis; text that is being typed stays. */
   show() {
-    const now = this.now();
-    if (same(now, this.shown)) return;
-    this.shown = now;
+    const axis = this.currentAxis();
+    if (same(axis, this.shown)) return;
+    this.shown = axis;
     for (const name of ["key", ...ENDS]) {
       const field = this.#field(name);
-      if (document.activeElement !== field || name === "key") field.value = fieldText(now[name]);
-      mark(field, { "aria-invalid": null });
+      if (document.activeElement !== field || name === "key") field.value = fieldText(axis[name]);
+      setAttributes(field, { "aria-invalid": null });
     }
-    if (this.wrong) this.onWrong("");
-    this.wrong = false;
+    if (this.invalid) this.onInvalid("");
+    this.invalid = false;
   }
 }
 
-/** The same axes with another one of a side; a key that one of the others had changes places with it. */
+/** The axes with one of them replaced; if another one has the same key, the two are exchanged. */
 export function withAxis(axes, side, axis) {
   const other = ["x", "y", "over"].find((one) => one !== side && axes[one]?.key === axis.key);
   return { ...axes, [side]: axis, ...(other ? { [other]: axes[side] } : {}) };
 }
 
-/** The usual range of a key in so many cells. */
+/** The usual range of a key with a number of cells. */
 export function usualAxis(keys, name, count) {
   const { low, high } = keys.find((key) => key.name === name).usual;
   return { key: name, low, high, count };

@@ -1,10 +1,10 @@
-// Safe basins: which cells of a window of two keys stay below the limits, how much of it that is, and how that part
-// shrinks along a third key.
+// Safe basins: the cells of a window of two keys that reach no limit, their share, and how it decreases along a third
+// key.
 
 import { fetchWithProgress } from "./api.js";
 import { AxisFields, withAxis } from "./axis-fields.js";
 import { axisWords, cellOf, crosshair, drawCellAxes, frameOf, outline, paintCells } from "./cells.js";
-import { $, put } from "./dom.js";
+import { $, setProperties } from "./dom.js";
 import { drawErosion } from "./erosion.js";
 import { lines } from "./long-run.js";
 import { rangeText, studyLine } from "./map-files.js";
@@ -14,15 +14,15 @@ import { copy } from "./export.js";
 import { number, reasonText } from "./formatting.js";
 
 /**
- * Starts at rest of the thesis's bodies, and the force that erodes them. Where it is 0, many starts are symmetric: how
- * they end is not certain.
+ * Starts at rest of the thesis's bodies, and the force that erodes their basin. At zero force many starts are
+ * symmetric, and their outcome is not certain.
  */
 const USUAL = {
   x: { key: "x", low: -0.4, high: 0.4, count: 41 },
   y: { key: "y", low: 0.02, high: 0.72, count: 36 },
   over: { key: "f_o", low: 0.03, high: 0.6, count: 20 },
 };
-/** The sides with their legends, and what each has a number of. */
+/** The axes with their legends, and what is counted along each. */
 const SIDES = { x: ["Horizontal", "cells"], y: ["Vertical", "cells"], over: ["Third key", "values"] };
 const PATH = "api/basin";
 
@@ -47,9 +47,9 @@ export class SafeBasin {
           legend,
           counted,
           value: own,
-          now: () => state.basin[side],
+          currentAxis: () => state.basin[side],
           onChange: (axis) => state.set({ basin: withAxis(state.basin, side, axis) }),
-          onWrong: (words) => ($("basin-pointed").textContent = words),
+          onInvalid: (words) => ($("basin-pointed").textContent = words),
         }),
     );
     this.box.addEventListener("toggle", () => {
@@ -64,7 +64,7 @@ export class SafeBasin {
     this.#listen();
   }
 
-  /** What is asked: values other than those of the axes do not matter along them. */
+  /** The request: the values of the axes' keys are left out. */
   #question(erodes) {
     const { x, y, over } = this.state.basin;
     const values = { ...this.state.values };
@@ -72,14 +72,14 @@ export class SafeBasin {
     return { values, x, y, ...(erodes ? { over } : {}) };
   }
 
-  /** The command of the answer that is shown, even where the values are others now; without one, of what is asked. */
+  /** The command of the answer that is shown, even if the values have changed; without an answer, of the request. */
   #line(erodes) {
     const { values, x, y, over } = (erodes ? this.eroded : this.answer)?.question ?? this.#question(erodes);
     const more = erodes ? `--over ${rangeText(over)} --no-trust` : "--out basin.parquet";
     return studyLine(erodes ? "erosion" : "basin", values, [x, y], more);
   }
 
-  /** Follows the state: opens and closes; what is shown of other values is pale until it is computed again. */
+  /** Follows the state: opens and closes; results for other values are pale until they are computed again. */
   follow() {
     const { basin } = this.state;
     this.box.open = basin !== null;
@@ -87,11 +87,11 @@ export class SafeBasin {
     for (const axis of this.axes) axis.show();
     const other = (answer, erodes) => answer !== null && answer.asked !== JSON.stringify(this.#question(erodes));
     for (const [shown, words, answer, erodes] of [
-      [["basin", "basin-legend", "basin-pointed", "basin-said"], "basin-run", this.answer, false],
-      [["erosion", "erosion-said"], "erosion-run", this.eroded, true],
+      [["basin", "basin-legend", "basin-pointed", "basin-message"], "basin-run", this.answer, false],
+      [["erosion", "erosion-message"], "erosion-run", this.eroded, true],
     ]) {
       for (const id of shown) $(id).classList.toggle("stale", other(answer, erodes));
-      put($(words), { textContent: `${erodes ? "Erosion" : "Compute"}${answer ? " again" : ""}` });
+      setProperties($(words), { textContent: `${erodes ? "Erosion" : "Compute"}${answer ? " again" : ""}` });
     }
     this.#repaint();
   }
@@ -112,8 +112,8 @@ export class SafeBasin {
       const answer = { ...JSON.parse(text), asked: JSON.stringify(question), question };
       if (erodes) Object.assign(this, { eroded: answer, erosionDrawn: false });
       else this.#setAnswer(answer);
-      // Of an erosion the picture shows what its words have as a table, up to an empty line.
-      $(erodes ? "erosion-said" : "basin-said").textContent = lines(answer.words.split("\n\n").at(-1));
+      // The picture of an erosion shows the table of its text, which ends at an empty line.
+      $(erodes ? "erosion-message" : "basin-message").textContent = lines(answer.words.split("\n\n").at(-1));
       if (this.asking === asking) $("basin-progress").textContent = "";
     } catch (error) {
       if (this.asking === asking) $("basin-progress").textContent = error.name === "AbortError" ? "stopped" : error.message;
@@ -124,7 +124,7 @@ export class SafeBasin {
     if (this.state.basin) this.follow();
   }
 
-  /** No cell of the basin before is pointed at in another one, which may have fewer. */
+  /** Forgets the hovered cell of the previous basin, as a new one may have fewer cells. */
   #setAnswer(answer) {
     this.answer = answer;
     this.pointed = null;
@@ -182,24 +182,24 @@ export class SafeBasin {
     return `${place}${escapes[k] ? "not safe" : "safe"} (${reasonText(ends[k])})${sure}`;
   }
 
-  /** Everything, as after a change of the theme or of the size. */
+  /** Redraws everything, for example after a change of the theme or of the size. */
   draw() {
     this.erosionDrawn = false;
     this.#repaint();
   }
 
-  /** Where the run that is shown lies. */
+  /** The position of the current run. */
   #place() {
     const { x, y } = this.answer.question;
     return [x, y].map(({ key }) => this.own(key));
   }
 
-  /** The run is another: where it lies may follow from it. */
+  /** Takes a new run, on which its position may depend. */
   runChanged() {
     if (this.answer && String(this.#place()) !== this.placed) this.#repaint();
   }
 
-  /** The cells, and the erosion where it is not drawn as it is. */
+  /** Draws the cells, and the erosion if it has changed. */
   #repaint() {
     if (!this.box.open || this.framed) return;
     this.framed = requestAnimationFrame(() => {
@@ -214,7 +214,7 @@ export class SafeBasin {
   #paint() {
     const { ends, escapes, decided, question, legal, safe, undecided } = this.answer;
     const colours = this.colours();
-    put(this.canvas, { hidden: false });
+    setProperties(this.canvas, { hidden: false });
     const { context, width, height } = prepare(this.canvas);
     const frame = (this.frame = frameOf(width, height, question));
     const fill = (k) => (ends[k] === null ? colours.faint : escapes[k] ? colours.escaped : colours.safe);

@@ -1,14 +1,14 @@
-// What a map's cells are painted with.
+// The colours and hatching of a map's cells.
 
 import { Frame, drawAxes, fontOf, inside, label, ticks } from "./plot.js";
 import { mix } from "./theme.js";
 import { withSymbols, unitText } from "./formatting.js";
 
 const MARGIN = { left: 56, right: 12, top: 10, bottom: 40 };
-/** Larger than beside the small charts. */
+/** Larger than in the small charts. */
 const [NUMBERS, LETTERS] = [fontOf(13), fontOf(14)];
 
-/** Cividis, which is read alike with and without red and green (Nuñez, Anderton & Renslow 2018). */
+/** Cividis, which looks the same with and without red-green colour vision (Nuñez, Anderton & Renslow 2018). */
 export const CIVIDIS = [
   "#00224e",
   "#123570",
@@ -28,10 +28,10 @@ export function cividis(part) {
   return mix(CIVIDIS[i], CIVIDIS[i + 1], at - i);
 }
 
-/** The hatching, once it is made. */
+/** The hatching, made when it is first needed. */
 let pattern = null;
 
-/** Lines across a cell, dark beside light so that they are seen on every colour. */
+/** Lines across a cell, dark next to light so that they are visible on every colour. */
 function hatch(target) {
   if (!pattern) {
     const tile = Object.assign(document.createElement("canvas"), { width: 6, height: 6 });
@@ -60,7 +60,7 @@ export function rangeOf(values) {
   return low <= high ? [low, high] : [0, 1];
 }
 
-/** A box that is being drawn, from cell to cell. */
+/** The selection box that is being drawn, from cell to cell. */
 export function outlineBox(context, frame, { x, y }, { from, to }, colours) {
   const across = [from[0], to[0]].sort((a, b) => a - b);
   const up = [from[1], to[1]].sort((a, b) => a - b);
@@ -76,7 +76,7 @@ export function outlineBox(context, frame, { x, y }, { from, to }, colours) {
   context.setLineDash([]);
 }
 
-/** The cell that is pointed at. */
+/** The hovered cell. */
 export function outline(context, frame, { x, y }, [i, j], colours) {
   const [w, h] = [frame.width / x.count, frame.height / y.count];
   context.strokeStyle = colours.ink;
@@ -93,14 +93,14 @@ export function frameOf(width, height, { x, y }) {
   return new Frame(inside(width, height, MARGIN), around(x), around(y));
 }
 
-/** Which cell an event is over, if over any. */
+/** The cell under a pointer event, if any. */
 export function cellOf({ offsetX, offsetY }, frame, { x, y }) {
   const i = Math.floor(((offsetX - frame.left) / frame.width) * x.count);
   const j = Math.floor(((frame.top + frame.height - offsetY) / frame.height) * y.count);
   return i >= 0 && i < x.count && j >= 0 && j < y.count ? [i, j] : null;
 }
 
-/** Paints each cell with what `fillOf(k)` says, if anything, and hatches those of which `isUncertain(k)`; x fastest. */
+/** Paints each cell with `fillOf(k)`, if that is defined, and hatches those for which `isUncertain(k)`; x fastest. */
 export function paintCells(context, frame, { x, y }, fillOf, isUncertain) {
   const [w, h] = [frame.width / x.count, frame.height / y.count];
   const edge = (k, size) => Math.round(k * size);
@@ -122,7 +122,7 @@ export function paintCells(context, frame, { x, y }, fillOf, isUncertain) {
 }
 
 /**
- * The axes of a map of cells, and their words.
+ * The axes of a map of cells, with their labels.
  * @param {CanvasRenderingContext2D} context
  * @param {Frame} frame
  * @param {any} axes
@@ -149,7 +149,7 @@ export function axisWords(keys, name) {
 }
 
 /**
- * Where the run that is shown lies; nowhere where one of the two is NaN.
+ * The position of the current run; nothing if one of the coordinates is NaN.
  * @param {CanvasRenderingContext2D} context
  * @param {Frame} frame
  * @param {number[]} at

@@ -4,7 +4,7 @@ import { drawColumn, drawMarks, label, span } from "./plot.js";
 import { TimeCharts, above, rows } from "./time-charts.js";
 import { fixed, number } from "./formatting.js";
 
-/** What is read between rows far apart is said to be so. */
+/** Marks a reading between rows that are far apart as approximate. */
 export const about = (moment) => (moment.rough ? "about " : "");
 
 function latestSnap(run, t) {
@@ -12,7 +12,7 @@ function latestSnap(run, t) {
   return i < 0 ? "none yet" : `${number(run.impacts.v_n[i], 4)} L/T, latest`;
 }
 
-/** Everything there is to say of an impact, in a line. */
+/** A description of an impact in a line. */
 export function impactWords(run, i) {
   const { cable, v_n, impulse, digits, t } = run.impacts;
   const known = Number.isFinite(digits[i]) ? ` · ${Math.max(0, Math.floor(digits[i]))} digits` : "";
@@ -20,16 +20,16 @@ export function impactWords(run, i) {
   return `${when} · vₙ ${number(v_n[i])} · impulse ${number(impulse[i])}${known}`;
 }
 
-/** A run and those that were kept. */
+/** A run and the pinned ones. */
 const all = (run, pins) => [run, ...pins.map((pin) => pin.run)];
 
-/** From where to where a column reaches, in words. */
+/** The range of a column as text. */
 const reach = (column) =>
   span([column], 0)
     .map((v) => number(v, 3))
     .join(" to ");
 
-/** A column of the motion as one line, those of runs that were kept beneath it, and the ghost's beside it. */
+/** A column of the motion as a line, with those of pinned runs beneath it, and that of the ghost. */
 function line(name) {
   const within = (motion, frame) => rows(motion.t, [frame.x0, frame.x1]);
   return (context, frame, run, { colours, pins }) => {
@@ -60,7 +60,7 @@ function drawSnaps(context, frame, run, { colours, pins }) {
   marks(run, (cable) => colours[`cable-${cable}`], 2.8);
 }
 
-/** The tension of a cable while it is taut: slack is no line at zero but none. */
+/** The tension of a cable while it is taut; there is no line while it is slack. */
 function drawTensions(context, frame, run, { colours }) {
   if (!(run.timeTaut > 0)) {
     const [x, y] = [frame.left + frame.width / 2, frame.top + frame.height / 2];

@@ -1,6 +1,6 @@
 // A slider and a field for every key, from the schema.
 
-import { mark, put } from "./dom.js";
+import { setAttributes, setProperties } from "./dom.js";
 import { fieldText, withSymbols, symbolHtml, unitText } from "./formatting.js";
 import { readValue } from "./state.js";
 
@@ -12,10 +12,10 @@ const GROUPS = [
   ["stops", "Stops"],
 ];
 
-/** Words that are longer than this have no room beside their label. */
+/** Texts longer than this do not fit next to their label. */
 const LONG_OPTION = 8;
 
-/** What a point mass can not have, and why. */
+/** Keys that a point mass can not have, and why. */
 const NOT_OF_A_POINT = {
   a: "a point mass has no size",
   b: "a point mass has no size",
@@ -24,7 +24,7 @@ const NOT_OF_A_POINT = {
   vtheta: "a point mass has no rotation",
 };
 
-/** The groups of the keys of the thesis's case, of which the stops and, in a narrow window, most begin closed. */
+/** The groups of keys of the thesis's case; the stops and, in a narrow window, most groups start closed. */
 export const caseGroups = (schema) =>
   GROUPS.map(([group, title]) => ({
     title,
@@ -32,19 +32,20 @@ export const caseGroups = (schema) =>
     open: group !== "stops" && (group === "forcing" || matchMedia("(min-width: 700px)").matches),
   }));
 
-/** Why a key of the thesis's case can not be given. */
+/** Why a key of the thesis's case is not available. */
 export const notOfAPoint = (name, state) => (state.value("body") === "point" ? NOT_OF_A_POINT[name] : undefined);
 
 export class Controls {
   /**
-   * Builds `groups` of keys, each with its title and whether it begins open, into `root`. `whyNot(name, state)` says why
-   * a key can not be given. `onChange({ since, settled, gesture })` follows a change of a value; settled: not being
-   * dragged; gesture: the same number while one types, or goes on with the arrow keys, in one place.
+   * Builds `groups` of keys, each with its title and whether it starts open, into `root`.
+   * `reasonUnavailable(name, state)` returns why a key is not available. `onChange({ since, settled, gesture })` is
+   * called after a change of a value; settled: not being dragged; gesture: a number that stays the same while one field
+   * is edited.
    */
-  constructor(root, state, { groups, whyNot, onChange }) {
+  constructor(root, state, { groups, reasonUnavailable, onChange }) {
     this.root = root;
     this.state = state;
-    this.whyNot = whyNot;
+    this.reasonUnavailable = reasonUnavailable;
     this.onChange = onChange;
     this.rows = new Map();
     this.latest = null;
@@ -104,13 +105,13 @@ export class Controls {
       title: "Back to the default",
     });
     reset.setAttribute("aria-label", `${key.name}: back to the default`);
-    // What is no single number needs room.
+    // Values other than a single number need more room.
     if (key.kind.type === "text") row.classList.add("key-wide");
     row.append(this.#label(key), reset, field);
     Object.assign(parts, { field, reset });
     if (key.usual) row.append(this.#ranged(parts, this.#slider(parts)));
     field.addEventListener("input", (event) => {
-      // While one types, only what is a number is tried; the rest waits for the end of typing.
+      // During typing only numbers are applied; other text is applied at the end.
       this.typing = key.name;
       if (readValue(key, field.value) !== undefined) this.#setText(parts, field.value, event, true);
     });
@@ -143,7 +144,7 @@ export class Controls {
     return slider;
   }
 
-  /** A slider between its ends, which can be typed over: by the mouse, as any value can be typed into the field. */
+  /** A slider between two ends; the field also accepts values outside them. */
   #ranged({ key }, slider) {
     const ends = ["low", "high"].map((name) => {
       const end = element("input", { type: "text", inputMode: "decimal", className: `end ${name}`, tabIndex: -1 });
@@ -169,7 +170,7 @@ export class Controls {
     return ranged;
   }
 
-  /** A finger that begins on a slider and goes on to scroll the page leaves the value as it was. */
+  /** A touch that starts on a slider and then scrolls the page does not change the value. */
   #keepFromSwipes(parts, slider) {
     let before = null;
     slider.addEventListener("pointerdown", () => (before = this.state.values[parts.key.name] ?? null));
@@ -209,7 +210,7 @@ export class Controls {
     parts.field = field;
   }
 
-  /** What stands in a field: a number, nothing (the default), or text that the server will refuse in words. */
+  /** The content of a field: a number, nothing (the default), or text that the server will refuse. */
   #setText(parts, text, event, settled) {
     const value = text.trim() === "" ? null : (readValue(parts.key, text) ?? text.trim());
     this.#setValue(parts, value, event, settled);
@@ -221,29 +222,29 @@ export class Controls {
     this.onChange({ since: event.timeStamp, settled, gesture: this.gesture });
   }
 
-  /** Shows the values of the state; what is being typed stays. `effective` has those that follow from others. */
+  /** Shows the values of the state; text that is being typed stays. `effective` has the derived values. */
   show(effective = {}) {
     for (const [name, { key, field, slider, reset, why }] of this.rows) {
-      // Where the default depends on other keys, what it comes to is known from the run.
+      // If a default depends on other keys, its value is known from the run.
       const given = this.state.values[name];
       const follows = given === undefined && key.default_in_words !== "" && effective[name] !== undefined;
       const value = follows ? effective[name] : this.state.value(name);
       const text = follows ? rounded(value) : fieldText(value);
-      if (value === null && key.default_in_words) put(field, { placeholder: key.default_in_words });
-      if (key.kind.type === "flag") put(field, { checked: value });
-      else if (this.typing !== name) put(field, { value: text });
-      if (reset) put(reset, { hidden: !(name in this.state.values) });
-      if (slider && document.activeElement !== slider) put(slider, { value: String(value ?? slider.min) });
-      if (slider) mark(slider, { "aria-valuetext": `${text} ${unitText(key.unit)}`.trim() });
-      // What is given all the same is refused by the server, and has to be open to be mended.
-      const reason = given === undefined ? this.whyNot(name, this.state) : undefined;
-      put(field, { disabled: reason !== undefined });
-      if (slider) put(slider, { disabled: field.disabled });
-      put(why, { textContent: reason ?? "", hidden: !reason });
+      if (value === null && key.default_in_words) setProperties(field, { placeholder: key.default_in_words });
+      if (key.kind.type === "flag") setProperties(field, { checked: value });
+      else if (this.typing !== name) setProperties(field, { value: text });
+      if (reset) setProperties(reset, { hidden: !(name in this.state.values) });
+      if (slider && document.activeElement !== slider) setProperties(slider, { value: String(value ?? slider.min) });
+      if (slider) setAttributes(slider, { "aria-valuetext": `${text} ${unitText(key.unit)}`.trim() });
+      // An unavailable key that is given is refused by the server; its field stays enabled so that it can be corrected.
+      const reason = given === undefined ? this.reasonUnavailable(name, this.state) : undefined;
+      setProperties(field, { disabled: reason !== undefined });
+      if (slider) setProperties(slider, { disabled: field.disabled });
+      setProperties(why, { textContent: reason ?? "", hidden: !reason });
     }
   }
 
-  /** Shows an error at the field of its key, else at the one that was changed last. */
+  /** Shows an error at the field of its key, or at the field that was changed last. */
   showError({ key, message }) {
     this.clearError();
     const parts = this.rows.get(key) ?? this.rows.get(this.latest);
@@ -257,20 +258,20 @@ export class Controls {
 
   clearError() {
     for (const { error, field } of this.rows.values()) {
-      put(error, { hidden: true });
-      mark(field, { "aria-invalid": null });
+      setProperties(error, { hidden: true });
+      setAttributes(field, { "aria-invalid": null });
     }
   }
 }
 
-/** A number that was computed, as short as it is read. */
+/** A computed number, without needless digits. */
 function rounded(value) {
   if (typeof value !== "number") return fieldText(value);
   const [mantissa, exponent] = value.toExponential(2).split("e");
   return Math.abs(value) < 1e6 ? fieldText(Number(value.toPrecision(6))) : `${Number(mantissa)}e${Number(exponent)}`;
 }
 
-/** A round step, some hundreds of which make the range. */
+/** A round step, such that the range has some hundreds of them. */
 function sliderStep(low, high) {
   const rough = (high - low) / 300;
   const power = 10 ** Math.floor(Math.log10(rough));

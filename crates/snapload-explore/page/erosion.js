@@ -1,11 +1,11 @@
-// How the safe part of a window shrinks along a key: a line through the parts, each with its interval.
+// The erosion of a basin: the safe part of a window along a key, as a line with confidence intervals.
 
 import { Frame, drawAxes, drawColumn, inside, label, prepare, stroke, ticks } from "./plot.js";
 import { number } from "./formatting.js";
 
 const MARGIN = { left: 56, right: 12, top: 10, bottom: 36 };
 
-/** Draws an erosion on its canvas, which is shown with it. */
+/** Draws an erosion on its canvas, and shows the canvas. */
 export function drawErosion(canvas, { points, knee, over }, colours, across) {
   canvas.hidden = false;
   const { context, width, height } = prepare(canvas);
@@ -24,7 +24,7 @@ export function drawErosion(canvas, { points, knee, over }, colours, across) {
   }
   context.lineWidth = 2;
   const column = (name) => points.map((point) => point[name]);
-  // Across a value at which nothing can begin there is no line: what is safe there is not known from its neighbours.
+  // The line has a gap at a value without legal starts, as the safe part there is not known.
   drawColumn(context, frame, column("value"), column("fraction"), 0, points.length, (row) => there[row]);
   if (knee !== null) {
     context.strokeStyle = colours.muted;

@@ -1,4 +1,4 @@
-// What happened, as a table: it says what the charts show, and each row leads to its instant.
+// The events as a table with the content of the charts; each row leads to its instant.
 
 import { $ } from "./dom.js";
 import { fixed, modeName, number } from "./formatting.js";
@@ -12,7 +12,7 @@ export class EventTable {
     this.run = null;
     this.page = 0;
     this.at = null;
-    /** Whether it is of an earlier run than the picture: pale, and without a way there. */
+    /** Whether it belongs to an earlier run than the picture: pale, and its rows can not be selected. */
     this.old = false;
     this.body = $("events-body");
     $("events-previous").addEventListener("click", () => this.#turn(-1));
@@ -47,7 +47,7 @@ export class EventTable {
     this.#mark();
   }
 
-  /** One row takes the focus of the tab key; the arrow keys go from row to row. */
+  /** One row is in the tab order; the arrow keys move from row to row. */
   #step(event) {
     const by = { ArrowDown: 1, ArrowUp: -1 }[event.key];
     const row = event.target.closest("tr");
@@ -57,7 +57,7 @@ export class EventTable {
     next?.querySelector(".go").focus();
   }
 
-  /** Marks the row of the latest event at time t, and turns to its page if the page is to follow. */
+  /** Marks the row of the latest event at time t, and shows its page of the table if that is to follow. */
   show(t, follow) {
     if (!this.run) return;
     const at = this.run.eventAt(t);
@@ -82,7 +82,7 @@ export class EventTable {
     }
   }
 
-  /** Asking where a row is has the page laid out: in its own frame, not while a picture is waited for. */
+  /** Reading a row's position forces a layout, so that it waits for a frame of its own. */
   #bringIntoSight(row) {
     requestAnimationFrame(() => {
       const box = this.body.closest(".scroll");
@@ -125,7 +125,7 @@ export class EventTable {
   }
 }
 
-/** What happens at exactly t, in words; nothing at any other time, nor at the start. */
+/** A description of the events at exactly t; empty at any other time and at the start. */
 export function eventWords(run, t) {
   const words = ({ kind, impact: i, taut }) => {
     if (kind === "mode") return taut.length ? `${modeName(taut)} begins` : "slack again";
@@ -137,7 +137,7 @@ export function eventWords(run, t) {
   return [...new Set(now.map(words))].join(", ");
 }
 
-/** An impulse that passes into a taut cable has no velocity of its own. */
+/** An impact on a taut cable has no closing velocity. */
 const impactWords = (v_n, i) => `${v_n > 0 ? "snap" : "impulse passed on"} ${i + 1}`;
 const modeWords = (taut) => (taut.length ? `${modeName(taut)}, cable ${taut.join(" and ")} taut` : "slack");
 const digitsKnown = (value) => (Number.isFinite(value) ? fixed(Math.max(0, value), 1) : "–");

@@ -1,24 +1,24 @@
-// What can be taken away: files as the command writes them, the scene, the animation, and lines to copy.
+// Exports: files as the command writes them, the scene, the animation, and lines to copy.
 
 import { fetchFile, fetchWithProgress } from "./api.js";
 import { $ } from "./dom.js";
 import { AnimationRecording } from "./animation-recording.js";
 import { paint, svg } from "./shapes.js";
 
-/** Size of the scene as a picture of its own [px], and how much finer its pixels are. */
+/** Size of the scene as an exported picture [px], and its pixels per point. */
 const SIZE = { width: 960, height: 676 };
 const FINENESS = 2;
 const MAY_MS = 4000;
 
 export class ExportPanel {
   /**
-   * `question` gives what is asked of the server now, under `path`; `now` the run that is shown; `picture` makes shapes
-   * and a caption of a run at a time. Files that take long tell how far they have come.
+   * `question` returns the current request to the server, under `path`; `currentRun` the run that is shown; `picture`
+   * makes the shapes and the caption of a run at a time. Slow files report their progress.
    */
-  constructor({ state, sceneView, now, question, address, picture, path = "api/export", slowFiles = [] }) {
+  constructor({ state, sceneView, currentRun, question, address, picture, path = "api/export", slowFiles = [] }) {
     this.state = state;
     this.sceneView = sceneView;
-    this.now = now;
+    this.currentRun = currentRun;
     this.question = question;
     this.picture = picture;
     this.path = path;
@@ -35,8 +35,8 @@ export class ExportPanel {
     this.slowFiles = slowFiles;
     if (slowFiles.length) $("file-cancel").addEventListener("click", () => this.writing?.abort());
     for (const [id, text] of [
-      ["copy-shell", () => this.now().shell],
-      ["copy-python", () => this.now().python],
+      ["copy-shell", () => this.currentRun().shell],
+      ["copy-python", () => this.currentRun().python],
       ["copy-link", address],
     ]) {
       $(id).addEventListener("click", () => copy($(id), text()));
@@ -48,26 +48,26 @@ export class ExportPanel {
     $("python").textContent = run.python;
   }
 
-  /** Says in words what goes wrong. */
+  /** Shows the message of an error. */
   async #try(action) {
-    this.say("");
+    this.showMessage("");
     try {
       await action();
     } catch (error) {
-      this.say(error.message);
+      this.showMessage(error.message);
     }
   }
 
-  say(text) {
-    $("export-said").textContent = text;
+  showMessage(text) {
+    $("export-message").textContent = text;
   }
 
-  /** The file is of the values as they are now, whatever they become while it is written. */
+  /** The file belongs to the current values, even if they change while it is written. */
   async #file(button) {
     const name = button.dataset.file;
     const of = `${name} of ${this.state.caseName ?? "your own values"}`;
     button.disabled = true;
-    this.say(`${of}: writing`);
+    this.showMessage(`${of}: writing`);
     try {
       const path = `${this.path}/${name}`;
       if (this.slowFiles.includes(name)) return await this.#slowFile(path, name, of);
@@ -75,10 +75,10 @@ export class ExportPanel {
     } finally {
       button.disabled = false;
     }
-    this.say(`${of} is saved.`);
+    this.showMessage(`${of} is saved.`);
   }
 
-  /** A file that takes long; one at a time, as each has all processors. */
+  /** A slow file; one at a time, as each uses all processors. */
   async #slowFile(path, name, of) {
     this.writing?.abort();
     const writing = (this.writing = new AbortController());
@@ -88,14 +88,14 @@ export class ExportPanel {
       const text = await fetchWithProgress(path, this.question(), writing.signal, ({ doing, percent }) => {
         if (this.writing !== writing) return;
         $("file-progress").value = percent / 100;
-        this.say(`${of}: ${doing}, ${percent} %`);
+        this.showMessage(`${of}: ${doing}, ${percent} %`);
       });
       save(new Blob([text]), name);
-      this.say(`${of} is saved.`);
+      this.showMessage(`${of} is saved.`);
     } catch (error) {
       if (error.name !== "AbortError") throw error;
-      // The next file may be what it was given up for: what is said is of that one by now.
-      if (this.writing === writing) this.say(`${of} was cancelled.`);
+      // If it was cancelled for the next file, the message already belongs to that one.
+      if (this.writing === writing) this.showMessage(`${of} was cancelled.`);
     } finally {
       if (this.writing === writing) {
         this.writing = null;
@@ -106,17 +106,17 @@ export class ExportPanel {
 
   #shapes(scheme) {
     const { t } = this.state;
-    return this.picture.shapes(this.now(), Math.min(t, this.now().tEnd), this.sceneView.options(SIZE.width, SIZE.height, scheme));
+    return this.picture.shapes(this.currentRun(), Math.min(t, this.currentRun().tEnd), this.sceneView.options(SIZE.width, SIZE.height, scheme));
   }
 
   #sceneSvg() {
-    // On paper a picture is light, whatever the page is.
-    const title = `${this.now().shell}, t = ${this.state.t}`;
+    // An exported picture always has the light theme.
+    const title = `${this.currentRun().shell}, t = ${this.state.t}`;
     save(
       new Blob([svg(this.#shapes("light"), SIZE.width, SIZE.height, title)], { type: "image/svg+xml" }),
       "scene.svg",
     );
-    this.say("scene.svg is saved.");
+    this.showMessage("scene.svg is saved.");
   }
 
   async #scenePng() {
@@ -126,11 +126,11 @@ export class ExportPanel {
     context.scale(FINENESS, FINENESS);
     paint(context, [sheet("#fdfdfb"), ...this.#shapes("light")]);
     save(await new Promise((done) => canvas.toBlob(done, "image/png")), "scene.png");
-    this.say("scene.png is saved.");
+    this.showMessage("scene.png is saved.");
   }
 
   async #animation() {
-    const run = this.now();
+    const run = this.currentRun();
     const [from, to] = this.state.window ?? [0, run.tEnd];
     const recording = (this.recording = new AnimationRecording({
       run,
@@ -145,10 +145,10 @@ export class ExportPanel {
     try {
       const blob = await recording.record((part) => {
         $("animation-progress").value = part;
-        this.say(`run.webm: ${Math.floor(100 * part)} %`);
+        this.showMessage(`run.webm: ${Math.floor(100 * part)} %`);
       });
       if (blob) save(blob, "run.webm");
-      this.say(blob ? "run.webm is saved." : "The animation was cancelled.");
+      this.showMessage(blob ? "run.webm is saved." : "The animation was cancelled.");
     } finally {
       $("animation").disabled = false;
       $("animation-cancel").hidden = $("animation-progress").hidden = true;
@@ -180,7 +180,7 @@ export async function copy(button, text) {
     await navigator.clipboard.writeText(text);
     button.textContent = "Copied";
   } catch {
-    // Where a page may not write there, the text is shown to be copied by hand.
+    // If the page may not write to the clipboard, the text is shown to be copied by hand.
     prompt("Copy this:", text);
   }
   setTimeout(() => (button.textContent = before), 1600);

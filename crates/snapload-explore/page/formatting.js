@@ -1,8 +1,8 @@
-// Numbers and symbols as they are read.
+// Numbers and symbols as text.
 
 const MINUS = "\u2212";
 
-/** A number with so many significant digits, without idle zeros; powers of ten where it is very small or large. */
+/** A number with some significant digits, without trailing zeros; with a power of ten if very small or large. */
 export function number(value, digits = 4) {
   if (value === null || value === undefined || !Number.isFinite(value)) return "–";
   if (value === 0) return "0";
@@ -13,21 +13,21 @@ export function number(value, digits = 4) {
   return (exponent ? `${plain}e${Number(exponent)}` : plain).replaceAll("-", MINUS);
 }
 
-/** A number with so many decimals, for readings that must not jump about. */
+/** A number with a fixed number of decimals, for readings that must not change their width. */
 export function fixed(value, decimals) {
   return value === null || value === undefined ? "–" : value.toFixed(decimals).replace("-", MINUS);
 }
 
-/** A number of so many digits as engineers write it: a large one to its unit, without a power of ten. */
+/** A number with some digits as engineers write it: a large one as a whole number, without a power of ten. */
 export const round = (value, digits = 3) => (Math.abs(value) >= 1000 ? fixed(value, 0) : number(value, digits));
 
-/** What a number field holds: every digit, and ASCII, so that it can be typed and sent. */
+/** The text of a number field: all digits, in ASCII, so that it can be edited and sent. */
 export function fieldText(value) {
   if (value === null || value === undefined) return "";
   return typeof value === "number" && value !== 0 && Math.abs(value) < 1e-3 ? value.toExponential() : String(value);
 }
 
-/** A symbol of the schema as HTML: letters in italics, what follows an underscore below the line. */
+/** A symbol of the schema as HTML: letters in italics, subscripts after an underscore. */
 export function symbolHtml(symbol) {
   const [stem, below] = symbol.split("_");
   if (symbol.split("_").length > 2 || [...stem.normalize("NFC")].length > 2) return symbol;
@@ -56,10 +56,10 @@ export function modeName(taut) {
   return MODES[Math.min(taut.length, MODES.length - 1)];
 }
 
-/** What the answers call a reason, in words. */
+/** The text of a reason of the answers. */
 export const reasonText = (reason) => reason.replaceAll("_", " ");
 
-/** Words that begin large and end with a point. */
+/** A text with a capital at the start and a full stop at the end. */
 export function sentence(text) {
   const begun = text.charAt(0).toUpperCase() + text.slice(1);
   return begun.endsWith(".") ? begun : `${begun}.`;

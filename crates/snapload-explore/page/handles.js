@@ -2,9 +2,9 @@
 
 import { ellipsePlace, turned } from "./scene.js";
 
-/** How near a pointer has to be [px]. */
+/** The distance within which a pointer grabs a handle [px]. */
 const REACH = { fairlead: 9, anchor: 14, ellipse: 10, body: 16 };
-/** A start keeps so far from the end of its cables that rounding to the digits of a field leaves it legal [L]. */
+/** A start keeps this distance from its cables' ends, so that it stays legal when a field rounds it [L]. */
 const CLEAR = 3e-4;
 const ROUNDS = 40;
 const MOST_ZOOM = 200;
@@ -12,7 +12,7 @@ const LEAST_A = 0.01;
 
 const rounded = (value, decimals) => Number(value.toFixed(decimals));
 
-/** The place of a body, turned by so much, that is nearest to one and within reach of its lines, by a little. */
+/** The position nearest to a given one at which a body with this rotation is within reach of its lines. */
 export function withinReach(lines, [x, y], theta, clear) {
   for (let i = 0; i < ROUNDS; i += 1) {
     for (const { anchor, arm, length } of lines) {
@@ -29,8 +29,8 @@ export function withinReach(lines, [x, y], theta, clear) {
 
 export class Handles {
   /**
-   * On the canvas of a view of the scene. `onChange({ settled })` follows a change of values, `onRelease` a body that
-   * was released.
+   * On the canvas of a view of the scene. `onChange({ settled })` follows a change of values, `onRelease` the release
+   * of the body.
    */
   constructor(sceneView, state, { onChange, onRelease }) {
     this.sceneView = sceneView;
@@ -46,13 +46,13 @@ export class Handles {
     for (const end of ["pointerup", "pointercancel"]) canvas.addEventListener(end, (event) => this.#release(event));
     canvas.addEventListener("dblclick", () => state.set({ zoom: null }));
     canvas.addEventListener("wheel", (event) => this.#wheel(event), { passive: false });
-    // A finger that takes hold of something moves it, and not the page.
+    // A touch on a handle moves the handle, and does not scroll the page.
     const keep = (event) => (event.touches.length > 1 || this.held) && event.preventDefault();
     for (const name of ["touchstart", "touchmove"]) canvas.addEventListener(name, keep, { passive: false });
   }
 
   /**
-   * What can be dragged at a place of the canvas; null where there is nothing.
+   * The handle at a position of the canvas; null if there is none.
    * @returns {string | null}
    */
   handleAt(px) {
@@ -116,7 +116,7 @@ export class Handles {
     if (held.what.startsWith("body") && event.type === "pointerup") this.onRelease();
   }
 
-  /** The values that put what is held under the pointer. */
+  /** The values with which the grabbed handle is under the pointer. */
   drag(px) {
     const { what, view, offset } = this.held;
     const { run, moment, cam, size } = view;
@@ -137,7 +137,7 @@ export class Handles {
     this.onChange({ since: performance.now(), settled: false });
   }
 
-  /** A start at rest with the rotation that the body has, as near to a place as the cables allow. */
+  /** A start at rest with the body's rotation, as near to a position as the cables allow. */
   #start(run, { theta }, place) {
     const rigid = run.geometry.body.kind === "rigid";
     const [x, y] = withinReach(run.geometry.cables, place, theta, CLEAR);
@@ -145,7 +145,7 @@ export class Handles {
     return rigid ? { ...start, theta: rounded(theta, 4), vtheta: 0 } : start;
   }
 
-  /** The half-width, and of a box the half-height, that put a fairlead at a place. */
+  /** The half-width, and of a box the half-height, with which a fairlead is at a position. */
   #arms(run, moment, [x, y]) {
     const [c, s] = [Math.cos(moment.theta), Math.sin(moment.theta)];
     const [dx, dy] = [x - moment.x, y - moment.y];
@@ -154,7 +154,7 @@ export class Handles {
   }
 
   #wheel(event) {
-    // What scrolls the page goes on doing so; two fingers on a touchpad come with ctrl.
+    // Plain scrolling still scrolls the page; a pinch on a touchpad arrives with ctrl.
     if (!event.ctrlKey || !this.sceneView.run) return;
     event.preventDefault();
     this.#zoom(Math.exp(-event.deltaY / 250), [event.offsetX, event.offsetY]);
@@ -180,7 +180,7 @@ export class Handles {
     };
   }
 
-  /** So many times as large about a place of the canvas, which stays where it is. */
+  /** Zooms by a factor about a position of the canvas. */
   #zoom(factor, px) {
     const { cam, whole, size } = this.sceneView.view();
     const k = Math.min((cam.scale / whole) * factor, MOST_ZOOM);

@@ -1,15 +1,15 @@
-// The page by keyboard: one table of keys, which the help shows too.
+// Keyboard shortcuts: one table, which the help shows, too.
 
 import { $ } from "./dom.js";
 
 /**
- * Keys, how they are shown, what they do in words, and what they do.
+ * Keys, their labels, their descriptions and their actions.
  * @returns {[string[], string, string, ((event: KeyboardEvent) => void) | null][]}
  */
-function keyTable({ playback, transport, state, map, pins }) {
+function keyTable({ playback, playbackControls, state, map, pins }) {
   const toggle = (name, one, other) => state.set({ [name]: state[name] === one ? other : one, zoom: null });
   return [
-    ...timeKeys({ playback, transport }),
+    ...timeKeys({ playback, playbackControls }),
     [["v"], "v", "real picture, or that of the thesis", () => toggle("picture", "real", "thesis")],
     [["c"], "c", "whole scene, or close to the body", () => toggle("view", "whole", "close")],
     [["g"], "g", "ghost on or off", () => $("ghost").click()],
@@ -21,21 +21,21 @@ function keyTable({ playback, transport, state, map, pins }) {
 }
 
 /**
- * Those of time, which every page has.
+ * The shortcuts of playback, which every page has.
  * @returns {[string[], string, string, ((event: KeyboardEvent) => void) | null][]}
  */
-export function timeKeys({ playback, transport }) {
+export function timeKeys({ playback, playbackControls }) {
   return [
     [[" "], "space", "play or pause", () => playback.toggle()],
     [["ArrowRight"], "→", "next event", (event) => (event.shiftKey ? playback.fine(1) : playback.next())],
     [["ArrowLeft"], "←", "previous event", (event) => (event.shiftKey ? playback.fine(-1) : playback.previous())],
     [[], "shift + → ←", "a small step of time", null],
-    [["Home"], "Home", "to the start", () => transport.jump(transport.ends[0])],
-    [["End"], "End", "to the end", () => transport.jump(transport.ends[1])],
+    [["Home"], "Home", "to the start", () => playbackControls.jump(playbackControls.ends[0])],
+    [["End"], "End", "to the end", () => playbackControls.jump(playbackControls.ends[1])],
     [["+", "="], "+", "faster", () => playback.faster(1)],
     [["-", "_"], "−", "slower", () => playback.faster(-1)],
-    [["["], "[", "zoom in on the time cursor", () => transport.zoom(0.5)],
-    [["]"], "]", "zoom out", () => transport.zoom(2)],
+    [["["], "[", "zoom in on the time cursor", () => playbackControls.zoom(0.5)],
+    [["]"], "]", "zoom out", () => playbackControls.zoom(2)],
   ];
 }
 
@@ -48,7 +48,7 @@ function needed(target, key) {
 }
 
 export class Keyboard {
-  /** `table` has the keys of a page: as `keyTable` has those of the thesis's case. */
+  /** `table` has the shortcuts of a page, in the form of `keyTable`. */
   constructor(parts, table = keyTable(parts)) {
     const dialog = $("help-dialog");
     $("help-keys").innerHTML = table

@@ -1,8 +1,8 @@
 // The address follows the state, and the state follows the address.
 
-/** Browsers count how often a page rewrites its address. */
+/** Browsers limit how often a page rewrites its address. */
 const PACE_MS = 350;
-/** Time passes without being a step that one would go back to. */
+/** Changes of these fields make no entry in the history. */
 const timeless = (fragment) => fragment.replace(/(^|&)t=[^&]*/, "");
 
 export class Link {
@@ -23,15 +23,15 @@ export class Link {
   }
 
   /**
-   * Writes the state into the address soon, or now. While it is held, as by a slider that is dragged, it waits. What
-   * belongs to one gesture is one step to go back.
+   * Writes the state into the address soon, or now. It waits while a slider is dragged. Changes of one gesture make one
+   * entry in the history.
    */
   write({ now = false, gesture = null } = {}) {
     if (now) this.#flush(gesture);
     else this.timer ??= setTimeout(() => this.#flush(), PACE_MS);
   }
 
-  /** The address that holds everything as it is now. */
+  /** The address of the current state. */
   get address() {
     return `${location.origin}${location.pathname}#${this.state.toFragment()}`;
   }

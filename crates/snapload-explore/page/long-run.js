@@ -1,4 +1,4 @@
-// What the motion does in the long run: its section once a period of the forcing.
+// Long motions: the section once a period of the forcing.
 
 import { fetchSection } from "./api.js";
 import { $ } from "./dom.js";
@@ -6,15 +6,15 @@ import { number, withSymbols } from "./formatting.js";
 
 const STATE = ["x", "y", "theta", "vx", "vy", "vtheta"];
 const SYMBOLS = { x: "x", y: "y", theta: "θ", vx: "ẋ", vy: "ẏ", vtheta: "θ̇" };
-/** The picture, and what is left free about its points. */
+/** The size of the picture, and its margins. */
 const [WIDTH, HEIGHT] = [520, 300];
 const MARGIN = { left: 62, right: 12, top: 12, bottom: 40 };
 
-/** One question at a time, by one button, which ends it, too. */
+/** One request at a time, started and cancelled by one button. */
 export class CancellableRequest {
-  constructor(button, said, ask) {
+  constructor(button, message, ask) {
     this.button = $(button);
-    this.said = $(said);
+    this.message = $(message);
     this.words = this.button.textContent;
     this.ask = ask;
     this.button.addEventListener("click", () => (this.running ? this.stop() : this.#go()));
@@ -28,25 +28,25 @@ export class CancellableRequest {
   #end(words) {
     this.running = null;
     this.button.textContent = this.words;
-    this.said.textContent = words;
+    this.message.textContent = words;
   }
 
   async #go() {
     const running = (this.running = new AbortController());
     this.button.textContent = "Stop";
-    this.said.textContent = "Computing …";
+    this.message.textContent = "Computing …";
     let words;
     try {
       words = await this.ask(running.signal);
     } catch (error) {
       words = error.message;
     }
-    // Whoever has stopped it does not wait for its words.
+    // A cancelled request has no message.
     if (this.running === running) this.#end(words);
   }
 }
 
-/** The words of the command, line by line, with single spaces. */
+/** The text of the command with single spaces. */
 export const lines = (words) => withSymbols(words.trim().replaceAll(/ {2,}/g, " "));
 
 export class LongRun {
@@ -61,7 +61,7 @@ export class LongRun {
       $(id).replaceChildren(...STATE.map((key) => new Option(SYMBOLS[key], key, key === chosen, key === chosen)));
       $(id).addEventListener("change", () => this.#draw());
     }
-    this.section = new CancellableRequest("section-run", "section-said", async (signal) => {
+    this.section = new CancellableRequest("section-run", "section-message", async (signal) => {
       const answer = await fetchSection({ values: page.values() }, signal);
       if (signal.aborted) return "";
       this.points = answer.points.map(({ state }) => state);
@@ -70,7 +70,7 @@ export class LongRun {
     });
   }
 
-  /** The values are others now: what is shown is not theirs. */
+  /** Takes changed values: the results that are shown do not belong to them. */
   setValues(values) {
     const key = JSON.stringify(values);
     if (key === this.key) return;
@@ -121,10 +121,10 @@ function frame() {
 const mark = (isAcross) => (value) =>
   isAcross ? text(value.words, value.at, HEIGHT - 22, "middle") : text(value.words, MARGIN.left - 6, value.at + 4, "end");
 
-/** From values to places, with the ends and the middle marked. */
+/** A scale from values to positions, with labels near the ends and in the middle. */
 function scale(values, from, to) {
   let [low, high] = [Math.min(...values), Math.max(...values)];
-  // Points that are one, as those of an orbit of one period, stand in the middle.
+  // Equal points, such as those of an orbit of one period, are in the middle.
   const room = Math.max(0.06 * (high - low), 1e-3 * Math.max(Math.abs(low), Math.abs(high), 1e-3));
   [low, high] = [low - room, high + room];
   const at = (value) => from + ((value - low) / (high - low)) * (to - from);

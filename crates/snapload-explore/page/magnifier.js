@@ -1,13 +1,13 @@
-// The path of the centre once more, larger, where it fills a few per cent of the picture.
+// An inset with the path of the centre, magnified, if it fills only a few per cent of the picture.
 
 import { number } from "./formatting.js";
 
-/** A path that fills less than this part of the picture is magnified, if that makes it this many times as large. */
+/** A path smaller than this part of the picture is magnified, if that enlarges it by at least this factor. */
 const [SMALL, LEAST] = [0.12, 3];
 /** The inset: its size as a part of the picture and at most [px], its distance from the edges. */
 const INSET = { size: 0.3, most: 190, inset: 12, below: 0.22 };
 
-/** Its shapes in an inset beside the cables; `path` makes those of a path with a camera. */
+/** The shapes of the inset next to the cables; `path` makes those of a path with a camera. */
 export function magnifier(run, t, cam, { width, height, colours, view, zoom, camera: held }, path) {
   const { x: across, y: up } = run.reach;
   const extent = Math.max(across[1] - across[0], up[1] - up[0]);

@@ -2,7 +2,7 @@
 
 import { Runner, fetchCase, fetchSchema } from "./api.js";
 import { Charts } from "./charts.js";
-import { $, put } from "./dom.js";
+import { $, setProperties } from "./dom.js";
 import { EventTable } from "./events.js";
 import { Handles } from "./handles.js";
 import { Keyboard } from "./keyboard.js";
@@ -12,7 +12,7 @@ import { ExportPanel } from "./export.js";
 import { Controls, caseGroups, notOfAPoint } from "./controls.js";
 import { Link } from "./link.js";
 import { LongRun } from "./long-run.js";
-import { acceptCaseFiles, note, openStructure, paintedSince, purposeAndSkip, themeButton } from "./page.js";
+import { acceptCaseFiles, note, openStructure, reportPaintTime, purposeAndSkip, themeButton } from "./page.js";
 import { onResize } from "./plot.js";
 import { Playback } from "./playback.js";
 import { PinnedRuns } from "./pinned-runs.js";
@@ -24,20 +24,20 @@ import { SceneView } from "./scene-view.js";
 import { State } from "./state.js";
 import { chooseTheme, chosenTheme, colours, reducedMotion } from "./theme.js";
 import { PLANES, Trajectory } from "./trajectory.js";
-import { Transport } from "./transport.js";
+import { PlaybackControls } from "./playback-controls.js";
 import { fixed, modeName } from "./formatting.js";
 
-/** Rows of the motion that are asked for: few enough to come at once, and more for a long run that stays. */
+/** Rows of the motion per request: few, for a fast answer, and more once a long run is not changed any more. */
 const SAMPLES = { first: 1200, finer: 3000 };
 const LONG_T = 20;
 const PURPOSE_READ = "snapload-purpose-read";
 const REST_MS = 300;
-/** So long after a picture nobody drags any more. */
+/** The time after a picture from which on no drag is assumed. */
 const TABLES_MS = 100;
-/** So long at the most a picture has no words. */
+/** The longest time without a description of the picture. */
 const DESCRIBE_MS = 250;
-/** What says something of the run. */
-const DESCRIPTIONS = ["summary", "said", "seal", "prove-said", "section-plot", "section-said", "question-words"];
+/** The elements that describe the run. */
+const DESCRIPTIONS = ["summary", "message", "seal", "prove-message", "section-plot", "section-message", "question-words"];
 
 chooseTheme(chosenTheme());
 
@@ -45,10 +45,10 @@ class Page {
   constructor(schema) {
     this.state = new State(schema);
     this.run = null;
-    /** The questions of the run that is shown, of that which the words tell, and of that in the table of events. */
+    /** The requests of the run that is shown, of the run of the descriptions, and of that in the table of events. */
     this.shown = this.described = this.tabled = null;
     this.hover = null;
-    /** The time that was looked at when a run came that ends before it. */
+    /** The time cursor before a run arrived that ends earlier. */
     this.keptTime = null;
     this.link = new Link(this.state, {
       onBroken: (parts) => note(`Not understood in the link, and ignored: ${parts.join(", ")}`),
@@ -59,15 +59,15 @@ class Page {
       onChange: (change) => this.changed(change),
       onRelease: () => this.playback.play(),
     });
-    this.transport = new Transport(this.state, this.playback);
+    this.playbackControls = new PlaybackControls(this.state, this.playback);
     this.playback.onPlaying = (playing) => {
-      this.transport.showPlaying(playing);
-      // What fades while it plays is no part of a picture that stands.
+      this.playbackControls.showPlaying(playing);
+      // Fading shapes are drawn only during playback.
       this.drawMoment();
     };
     this.controls = new Controls($("controls"), this.state, {
       groups: caseGroups(schema),
-      whyNot: notOfAPoint,
+      reasonUnavailable: notOfAPoint,
       onChange: (change) => this.changed(change),
     });
     const jump = (t) => {
@@ -88,7 +88,7 @@ class Page {
     this.exports = new ExportPanel({
       state: this.state,
       sceneView: this.sceneView,
-      now: () => this.run,
+      currentRun: () => this.run,
       question: () => ({ values: this.state.values, ghost: null, samples: SAMPLES.first }),
       address: () => this.link.address,
       picture: {
@@ -111,7 +111,7 @@ class Page {
     this.state.listen((changed) => this.follow(changed));
     this.keyboard = new Keyboard({
       playback: this.playback,
-      transport: this.transport,
+      playbackControls: this.playbackControls,
       state: this.state,
       map: this.map,
       pins: this.pins,
@@ -121,18 +121,18 @@ class Page {
     const fresh = !location.hash;
     this.link.read();
     this.ask();
-    // Who opens the page sees at once that it moves; a link is shown at its own time.
+    // Playback starts when the page is opened; a link is shown at its own time.
     this.playsAtOnce = fresh && !reducedMotion.matches;
     onResize(() => this.redraw());
   }
 
-  /** Some values are others from now on: it begins anew, with a step to go back. */
+  /** Changes some values and starts at t = 0 again, as a new entry in the history. */
   #startFrom(values) {
     this.state.set({ values: { ...this.state.values, ...values }, t: 0, window: null });
     this.link.write({ now: true });
   }
 
-  /** The value of a key; that of the run where it follows from others, and NaN where there is none of it. */
+  /** The value of a key; that of the run if it is derived, and NaN if there is none. */
   #own(name) {
     return this.state.value(name) ?? this.run?.values[name] ?? NaN;
   }
@@ -144,7 +144,7 @@ class Page {
     if (settled) this.link.write({ now: true, gesture });
   }
 
-  /** Asks for the run of the values as they are, which changed at a time; once, however often one asks. */
+  /** Requests the run of the current values, which changed at the time `since`; only once for the same values. */
   ask(since = performance.now()) {
     const { values, ghost } = this.state;
     const asked = keyOf({ values, ghost });
@@ -161,12 +161,12 @@ class Page {
     this.shown = keyOf(question);
     const latest = this.asked === keyOf(question);
     if (latest) {
-      put($("failed"), { hidden: true });
+      setProperties($("failed"), { hidden: true });
       this.controls.clearError();
       if (question.ghost === this.state.ghost) this.sceneView.refuseGhost("");
     }
     this.sceneView.setRun(this.run);
-    this.transport.setRun(this.run);
+    this.playbackControls.setRun(this.run);
     this.#keepTime();
     if (this.state.window?.[0] >= this.run.tEnd) this.state.set({ window: null });
     this.drawAll();
@@ -178,7 +178,7 @@ class Page {
     else this.describe();
   }
 
-  /** Says in words what the picture shows; once of each run, however often it is asked to. */
+  /** Updates the descriptions of the picture, once for each run. */
   describe() {
     clearTimeout(this.describing);
     this.describing = null;
@@ -196,28 +196,28 @@ class Page {
     if (this.asked === this.shown) this.controls.show(run.values);
   }
 
-  /** What is said of the run before is pale beside a newer picture. */
+  /** Makes descriptions of an earlier run pale next to a newer picture. */
   #markStale() {
     for (const id of DESCRIPTIONS) $(id).classList.toggle("stale", this.described !== this.shown);
   }
 
-  /** A shorter run is shown at its end; a longer one after it, at the time that was looked at before. */
+  /** A run that ends before the time cursor is shown at its end; a longer one after it at the previous time. */
   #keepTime() {
     const kept = this.keptTime ?? this.state.t;
     this.state.set({ t: Math.min(kept, this.run.tEnd) });
     this.keptTime = kept > this.run.tEnd ? kept : null;
   }
 
-  /** What follows the picture: how long it took, its words, what is looked up in it, and more rows of a long run. */
+  /** The work after a picture: its time, its descriptions, tables and maps, and more rows of a long run. */
   afterwards(since, latest) {
-    paintedSince(since, () => this.describe());
-    // Where pictures come faster than they are painted, or nobody looks at the page and none is.
+    reportPaintTime(since, () => this.describe());
+    // For pictures that arrive faster than they are painted, and for a hidden page, which paints none.
     this.describing ??= setTimeout(() => this.describe(), DESCRIBE_MS);
     this.#fillTables();
     if (latest) this.#refine();
   }
 
-  /** What is looked up rather than seen follows when the values rest. */
+  /** Tables and maps follow once the values are not changed any more. */
   #fillTables() {
     clearTimeout(this.filling);
     this.filling = setTimeout(() => {
@@ -229,7 +229,7 @@ class Page {
     }, TABLES_MS);
   }
 
-  /** More rows of a long run that stays, above all where it is looked at. */
+  /** Requests more rows of a long run that is not changed any more, above all in the time window. */
   #refine() {
     clearTimeout(this.refining);
     const { values, ghost, t } = this.state;
@@ -245,7 +245,7 @@ class Page {
     if (error.key === "ghost") return this.failGhost(error, question);
     this.controls.showError(error);
     this.#fillTables();
-    // A link may begin with values that can not be run: then there is the case of the start to look at.
+    // The values of a link may not be runnable: then the case of the start is shown.
     const shown = this.run ? "the last values that could be run" : `the first case of the page, ${this.state.schema.start.name}`;
     $("failed").textContent = `Not run: ${error.message}\nThe picture shows ${shown}.`;
     $("failed").hidden = false;
@@ -257,25 +257,25 @@ class Page {
     }
   }
 
-  /** A ghost that can not be run is no reason not to show the run. */
+  /** Requests the run without the ghost if only the ghost can not be run. */
   failGhost(error, question) {
     this.sceneView.refuseGhost(error.message);
     this.controls.clearError();
     $("failed").hidden = true;
-    // A newer question waits already, and must not be put aside for this one.
+    // A newer request is waiting already and must not be replaced by this one.
     if (this.asked !== keyOf(question)) return;
     const alone = { ...question, ghost: null };
     this.asked = keyOf(alone);
     this.runner.ask(alone, performance.now());
   }
 
-  /** Redraws what a change of the state concerns. */
+  /** Redraws what depends on a change of the state. */
   follow(changed) {
     if (changed.has("t")) this.keptTime = null;
     if (changed.has("values") || changed.has("ghost")) {
       this.controls.show(this.run?.values);
       this.showCase();
-      // A change that came from the controls is asked for by them, with the time of its event.
+      // The controls request the run of their own changes, with the time of the event.
       queueMicrotask(() => this.ask());
     }
     if (changed.has("pins")) this.pins.follow();
@@ -284,9 +284,9 @@ class Page {
     if (this.run && (changed.has("window") || (changed.has("t") && this.run.at(this.state.t).rough))) this.#refine();
     if (changed.has("values") || changed.has("map")) this.map.follow();
     if (changed.has("values") || changed.has("basin")) this.basin.follow();
-    put($("axes"), { value: this.state.plane });
+    setProperties($("axes"), { value: this.state.plane });
     this.sceneView.showChoices();
-    this.transport.show();
+    this.playbackControls.show();
     this.link.write();
   }
 
@@ -295,7 +295,7 @@ class Page {
     this.drawMoment();
   }
 
-  /** Everything, as after a change of the theme or of the window's size. */
+  /** Redraws everything, for example after a change of the theme or of the window's size. */
   redraw() {
     this.drawAll();
     this.map.draw();
@@ -307,29 +307,29 @@ class Page {
     const { kept } = this.pins;
     this.charts.draw(this.run, this.state.window, kept);
     this.trajectory.draw(this.run, this.state, kept);
-    this.transport.draw();
+    this.playbackControls.draw();
     this.pins.show();
     this.drawMoment();
   }
 
   drawMoment() {
     if (!this.run || this.framed) return;
-    // However many events ask for it, a picture is painted once a frame.
+    // A picture is painted once a frame, however many events request it.
     this.framed = requestAnimationFrame(() => this.#drawNow());
   }
 
-  /** An answer is drawn as it comes: by the next frame it is there. */
+  /** Draws an answer at once, so that the next frame shows it. */
   #drawNow() {
     cancelAnimationFrame(this.framed);
     this.framed = null;
     this.sceneView.draw();
     this.charts.cursor(this.state.t, this.hover);
     this.trajectory.cursor(this.state.t, this.hover);
-    this.transport.show();
+    this.playbackControls.show();
     this.#showEvents(!this.playback.playing);
   }
 
-  /** Marks what happens now in the table, unless that is of the run before yet: then it is pale. */
+  /** Marks the current event in the table, which is pale while it belongs to an earlier run. */
   #showEvents(follow) {
     const old = this.tabled !== this.shown;
     this.events.setOld(old);
@@ -357,11 +357,11 @@ class Page {
 
   showCase() {
     const name = this.state.caseName;
-    put($("case"), { value: name ?? "" });
-    put($("case").lastElementChild, { hidden: name !== null });
+    setProperties($("case"), { value: name ?? "" });
+    setProperties($("case").lastElementChild, { hidden: name !== null });
   }
 
-  /** A case file is opened here; that of a structure has a page of its own. */
+  /** Opens a case file; that of a structure opens the page of structures. */
   async open(file) {
     const { structure, values } = await fetchCase(file);
     if (structure) return openStructure(file);

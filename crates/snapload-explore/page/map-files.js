@@ -1,8 +1,8 @@
-// A map as it is taken away: a table, and the command that computes it.
+// Exports of a map: a table, and the command that computes it.
 
 import { fieldText } from "./formatting.js";
 
-/** The map as a table: a row a cell, empty where there is nothing. */
+/** The map as a table: one row per cell, with empty entries where there is no value. */
 export function mapCsv({ x, y, xs, ys, ...cells }, columns) {
   const quoted = (value) => (/[",\n]/.test(value) ? `"${value.replaceAll('"', '""')}"` : value);
   const rows = ys.flatMap((b, j) =>
@@ -15,7 +15,7 @@ export function mapCsv({ x, y, xs, ys, ...cells }, columns) {
 /** The command that computes the map, with all columns of a study. */
 export const sweepLine = ({ map, values }) => studyLine("sweep", values, [map.x, map.y], "--out map.parquet");
 
-/** The command of a study over some axes, with the values that they leave, and more options. */
+/** The command of a study over some axes, with the values of the other keys, and further options. */
 export function studyLine(verb, values, axes, more) {
   const held = Object.entries(values).filter(([name]) => !axes.some(({ key }) => key === name));
   const set = held.map(([name, value]) => `--set ${name}=${fieldText(value)}`);
@@ -23,5 +23,5 @@ export function studyLine(verb, values, axes, more) {
   return [`snapload ${verb}`, ...set, ...vary, more].join(" ");
 }
 
-/** The values of an axis as the command takes them. */
+/** The values of an axis in the notation of the command. */
 export const rangeText = ({ key, low, high, count }) => `${key}=${fieldText(low)}:${fieldText(high)}:${count}`;

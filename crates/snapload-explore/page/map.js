@@ -1,4 +1,4 @@
-// How runs end over two keys: filled in while it is computed; each cell leads to its run.
+// The map of outcomes over two keys: filled in while it is computed; each cell leads to its run.
 
 import { Refused, fetchMap } from "./api.js";
 import { AxisFields, usualAxis, withAxis } from "./axis-fields.js";
@@ -15,16 +15,16 @@ import {
   paintCells,
   rangeOf,
 } from "./cells.js";
-import { $, put } from "./dom.js";
+import { $, setProperties } from "./dom.js";
 import { mapCsv, sweepLine } from "./map-files.js";
 import { prepare } from "./plot.js";
 import { copy, save } from "./export.js";
 import { endColour } from "./theme.js";
 import { number, withSymbols, reasonText } from "./formatting.js";
 
-/** Values that change while the map is open set it going again after so long a rest. */
+/** An open map is computed again this long after the last change of values. */
 const REST_MS = 500;
-/** Values that span this are coloured by their logarithms. */
+/** Values that span more than this factor are coloured by their logarithms. */
 const DECADES = 100;
 
 export class SweepMap {
@@ -46,9 +46,9 @@ export class SweepMap {
         new AxisFields(`map-${side}`, this.numeric, {
           legend,
           value: own,
-          now: () => state.map[side],
+          currentAxis: () => state.map[side],
           onChange: (axis) => state.set({ map: withAxis(state.map, side, axis) }),
-          onWrong: (words) => ($("map-said").textContent = words),
+          onInvalid: (words) => ($("map-message").textContent = words),
         }),
     );
     for (const column of state.schema.map.filter(({ name, kind }) => name === "reason" || kind === "number")) {
@@ -81,7 +81,7 @@ export class SweepMap {
     if (this.state.map) this.canvas.focus();
   }
 
-  /** Follows the state: opens, closes, computes again where what it shows has changed. */
+  /** Follows the state: opens, closes, and computes the map again if its values have changed. */
   follow() {
     const { map } = this.state;
     this.box.open = map !== null;
@@ -96,7 +96,7 @@ export class SweepMap {
     this.draw();
   }
 
-  /** The question of the map: values other than those of its axes do not matter along them. */
+  /** The request of the map: the values of the axes' keys are left out. */
   #ask() {
     const { x, y } = this.state.map;
     const values = { ...this.state.values };
@@ -150,15 +150,15 @@ export class SweepMap {
   }
 
   #running(running) {
-    for (const id of ["map-stop", "map-bar"]) put($(id), { hidden: !running });
+    for (const id of ["map-stop", "map-bar"]) setProperties($(id), { hidden: !running });
   }
 
-  /** Where the run that is shown lies. */
+  /** The position of the current run. */
   #place() {
     return [this.cells.x, this.cells.y].map(({ key }) => this.own(key));
   }
 
-  /** The run is another: where it lies may follow from it. */
+  /** Takes a new run, on which its position may depend. */
   runChanged() {
     if (this.cells && String(this.#place()) !== this.placed) this.draw();
   }
@@ -188,7 +188,7 @@ export class SweepMap {
     this.canvas.addEventListener("pointerleave", () => this.#point(focused() ? this.cursor : null));
     this.canvas.addEventListener("pointerdown", (event) => {
       const cell = cellAt(event);
-      // A press focuses the map, which shows the cursor: it is where the press was before that.
+      // A press focuses the map, which shows the cursor at the pressed cell.
       this.cursor = cell ?? this.cursor;
       this.drawn = cell && event.pointerType === "mouse" ? { from: cell, to: cell } : null;
       if (this.drawn) this.canvas.setPointerCapture(event.pointerId);
@@ -209,7 +209,7 @@ export class SweepMap {
     this.canvas.addEventListener("blur", () => this.#point(null));
   }
 
-  /** A box that was drawn becomes the whole map, in as many cells. */
+  /** Zooms in to a selection box, with the same number of cells. */
   #zoomTo({ from, to }) {
     const axis = (side, values, k) => {
       const [low, high] = [values[from[k]], values[to[k]]].sort((a, b) => a - b);
@@ -220,7 +220,7 @@ export class SweepMap {
     this.state.set({ map: { ...this.state.map, x: axis("x", xs, 0), y: axis("y", ys, 1) } });
   }
 
-  /** Twice the range of both keys, as far as they go. */
+  /** Doubles the range of both keys, within their bounds. */
   #zoomOut() {
     const axis = (now) => {
       const { kind } = this.numeric.find((one) => one.name === now.key);
@@ -259,7 +259,7 @@ export class SweepMap {
   #point(cell) {
     if (!this.cells) return;
     this.pointed = cell;
-    $("map-said").textContent = cell ? this.#words(cell) : "";
+    $("map-message").textContent = cell ? this.#words(cell) : "";
     this.draw();
   }
 
@@ -323,7 +323,7 @@ export class SweepMap {
     return axisWords(this.numeric, key);
   }
 
-  /** What a cell is painted with, by its index; nothing where there is nothing yet. */
+  /** The colour of a cell, by its index; nothing if it is not computed yet. */
   #paintOf(colours) {
     const { cells } = this;
     const { colour } = this.state.map;
@@ -335,7 +335,7 @@ export class SweepMap {
     return (k) => (cells[colour][k] === null ? other(k) : cividis((along ?? linear)(cells[colour][k])));
   }
 
-  /** From the lowest to the highest value that there is; by decades where the values span some. */
+  /** The range of all values; logarithmic if they span several decades. */
   #scale(colour) {
     const [low, high] = rangeOf(this.cells[colour]);
     const [least] = rangeOf(this.cells[colour].map((value) => (value > 0 ? value : null)));
@@ -343,7 +343,7 @@ export class SweepMap {
     return { low: log ? least : low, high, log };
   }
 
-  /** What rounding may decide: the run is not known to its end, or that was not asked, as of a long one. */
+  /** Whether rounding may decide the end of a run: past its horizon, or without one, as for long runs. */
   #uncertain(k) {
     return this.cells.reason[k] !== null && this.cells.certain[k] !== true;
   }
@@ -376,7 +376,7 @@ export class SweepMap {
   }
 }
 
-/** The values of an axis as decimals that one would write. */
+/** The values of an axis as short decimals. */
 function spaced({ low, high, count }) {
   return Array.from({ length: count }, (_, i) => Number((low + ((high - low) * i) / (count - 1)).toPrecision(12)));
 }

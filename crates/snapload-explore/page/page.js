@@ -1,19 +1,19 @@
-// What every page has around its content: a note, the theme, files that are opened, and how long a picture took.
+// The parts that every page has: a note, the theme, opened files, and the time of a picture.
 
 import { fetchStructureFile } from "./api.js";
 import { $ } from "./dom.js";
 import { chooseTheme, chosenTheme, store, stored, onSystemScheme, THEMES } from "./theme.js";
 
-/** Says something of the page as a whole; with no text, that there is nothing to say. */
+/** Shows a note about the page as a whole; hides it if the text is empty. */
 export function note(text) {
   $("note").textContent = text;
   $("note").hidden = !text;
 }
 
-/** Says how long it took from an event to the picture that follows from it, and goes on with what can wait for that. */
-export function paintedSince(since, then = () => {}) {
+/** Reports the time from an event to the picture of its result, and then calls `then`. */
+export function reportPaintTime(since, then = () => {}) {
   requestAnimationFrame(() => {
-    // After the frame's paint, and not before it.
+    // This runs after the frame is painted.
     const channel = new MessageChannel();
     channel.port1.onmessage = () => {
       channel.port1.close();
@@ -39,32 +39,32 @@ export function themeButton(redraw) {
   onSystemScheme(redraw);
 }
 
-/** The line of purpose, closed for good under a name; and the link to the scene. */
+/** The line about the page's purpose, which stays closed under a name once it is closed; and the link to the scene. */
 export function purposeAndSkip(name) {
   $("purpose").hidden = stored(name) === "yes";
   $("purpose-close").addEventListener("click", () => {
     $("purpose").hidden = true;
     store(name, "yes");
   });
-  // The address belongs to the state: a link within the page must not write into it.
+  // The address holds the state: a link within the page must not change it.
   $("skip").addEventListener("click", (event) => {
     event.preventDefault();
     $("scene").focus();
   });
 }
 
-/** The case file of a structure is kept as long as the window is, for the page of structures. */
+/** The case file of a structure, kept for the page of structures until the window is closed. */
 const OPENED = "snapload-structure";
 export const openedStructure = () => JSON.parse(sessionStorage.getItem(OPENED) ?? "null");
 
-/** Goes there with a file; one that can not be a structure is refused here, where it was opened. */
+/** Opens the page of structures with a file; a file that is no structure is refused here. */
 export async function openStructure(file) {
   await fetchStructureFile(file);
   sessionStorage.setItem(OPENED, JSON.stringify(file));
   location.href = "structure.html";
 }
 
-/** A case file is opened by its button, or by dropping it anywhere. What is wrong with it is said. */
+/** Opens a case file by the button or by dropping it on the page, and shows its errors. */
 export function acceptCaseFiles(onFile) {
   const open = async (file) => {
     if (!file) return;

@@ -1,4 +1,4 @@
-// Runs that are kept to compare others with: drawn beneath the run that is shown, with what differs in words.
+// Pinned runs for comparison: drawn beneath the current run, with their differences as text.
 
 import { fetchRun } from "./api.js";
 import { $ } from "./dom.js";
@@ -7,14 +7,14 @@ import { MOST_PINS } from "./state.js";
 import { number, fieldText, reasonText } from "./formatting.js";
 
 const SAMPLES = 1200;
-/** Wong's colours for those who see few (Nature Methods 8 (2011) 441), none of which a cable or a mode has. */
+/** Wong's colours for colour-blind readers (Nature Methods 8 (2011) 441), without those of cables and modes. */
 const COLOURS = ["#009e73", "#cc79a7", "#7a6a00"];
 
 export class PinnedRuns {
-  /** `now` gives the run that is shown; `onChange` follows a change of what there is to draw. */
-  constructor(state, now, { onChange }) {
+  /** `currentRun` returns the run that is shown; `onChange` is called when there is something else to draw. */
+  constructor(state, currentRun, { onChange }) {
     this.state = state;
-    this.now = now;
+    this.currentRun = currentRun;
     this.onChange = onChange;
     this.kept = [];
     this.asked = "";
@@ -30,12 +30,12 @@ export class PinnedRuns {
   }
 
   add() {
-    if (!this.now()) return;
+    if (!this.currentRun()) return;
     const { pins, values } = this.state;
     this.state.set({ pins: [...pins, { ...values }].slice(-MOST_PINS) });
   }
 
-  /** Follows the state: runs what was pinned. */
+  /** Follows the state: computes the pinned runs. */
   async follow() {
     const { pins } = this.state;
     const asked = JSON.stringify(pins);
@@ -48,9 +48,9 @@ export class PinnedRuns {
     this.onChange();
   }
 
-  /** What each differs in from the run that is shown, and what comes of it. */
+  /** The differences of each from the current run, and its outcome. */
   show() {
-    const run = this.now();
+    const run = this.currentRun();
     $("pin").disabled = this.kept.length >= MOST_PINS;
     const html = this.kept.map((pin, i) => this.#line(pin, i, run)).join("");
     if ($("pins").innerHTML !== html) $("pins").innerHTML = html;
@@ -73,7 +73,7 @@ export class PinnedRuns {
   }
 }
 
-/** A run that can not be run any more, as in an old link, is left out. */
+/** A pinned run that can not be computed, for example of an old link, is left out. */
 async function run(values) {
   try {
     return new Run(await fetchRun({ values, ghost: null, samples: SAMPLES }));

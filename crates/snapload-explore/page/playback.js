@@ -3,10 +3,10 @@
 import { SPEEDS } from "./state.js";
 
 export class Playback {
-  /** `now` gives the run that is shown. */
-  constructor(state, now) {
+  /** `currentRun` returns the run that is shown. */
+  constructor(state, currentRun) {
     this.state = state;
-    this.now = now;
+    this.currentRun = currentRun;
     this.playing = false;
     this.frame = null;
     /** @type {(playing: boolean) => void} */
@@ -14,7 +14,7 @@ export class Playback {
   }
 
   get run() {
-    return this.now();
+    return this.currentRun();
   }
 
   toggle() {
@@ -31,7 +31,7 @@ export class Playback {
     let before = null;
     const tick = (time) => {
       if (!this.playing) return;
-      // A page that was hidden goes on from where it was, and does not leap.
+      // After it was hidden, the page continues from the same time.
       const elapsed = before === null ? 0 : Math.min((time - before) / 1000, 0.1);
       before = time;
       const t = this.state.t + elapsed * this.state.speed;
@@ -67,7 +67,7 @@ export class Playback {
     this.seek(this.run.previousStop(this.state.t));
   }
 
-  /** A small step: a five-hundredth of the time that is shown. */
+  /** A small step: 1/500 of the time that is shown. */
   fine(direction) {
     this.pause();
     this.seek(this.state.t + (direction * (this.#last - this.#first)) / 500);

@@ -1,9 +1,9 @@
-// Axes on a canvas: what the charts, the trajectory and the map have in common.
+// Axes on a canvas, for the charts, the trajectory and the map.
 
 import { SimplifiedLine } from "./simplified-line.js";
 import { fixed, number } from "./formatting.js";
 
-/** Round values across a range, about so many, but two at the least: one alone gives no scale. */
+/** Round values across a range: about a given number, at least two. */
 export function ticks(low, high, about) {
   const rough = (high - low) / Math.max(about, 1);
   if (!(rough > 0) || !Number.isFinite(rough)) return { values: [low], label: (v) => number(v) };
@@ -20,7 +20,7 @@ export function ticks(low, high, about) {
   return { values, label };
 }
 
-/** What a margin leaves of a canvas, as a frame's rectangle: never less than a pixel, as a hidden canvas has no size. */
+/** The frame of a canvas within its margins: at least a pixel, as a hidden canvas has no size. */
 export const inside = (width, height, { left, right, top, bottom }) => [
   left,
   top,
@@ -72,7 +72,7 @@ export class Frame {
 export const fontOf = (px) => `${px}px system-ui, -apple-system, "Segoe UI", "DejaVu Sans", sans-serif`;
 export const FONT = fontOf(11);
 
-/** Grid lines and the numbers at them; those of x only where asked. */
+/** Grid lines and their numbers; those of x only on request. */
 export function drawAxes(context, frame, colours, { xLabels = true, xTicks, yTicks, font = FONT }) {
   context.save();
   context.font = font;
@@ -99,7 +99,7 @@ export function drawAxes(context, frame, colours, { xLabels = true, xTicks, yTic
     ]);
     if (!xLabels) continue;
     const text = xTicks.label(value);
-    // A label at the edge of the canvas moves inwards as far as it has to.
+    // A label at the edge of the canvas is moved inwards.
     const half = context.measureText(text).width / 2;
     const room = context.canvas.width / context.getTransform().a;
     context.fillText(text, Math.min(Math.max(x, half), room - half), frame.top + frame.height + 6);
@@ -117,7 +117,7 @@ export function stroke(context, points) {
   context.stroke();
 }
 
-/** A text in the middle of a place, perhaps turned. */
+/** A text centred at a position, optionally turned. */
 export function label(context, colours, text, x, y, angle = 0, font = FONT) {
   context.save();
   context.translate(x, y);
@@ -129,11 +129,11 @@ export function label(context, colours, text, x, y, angle = 0, font = FONT) {
   context.restore();
 }
 
-/** Of marks nearer together than this [px] one is drawn: the others are not seen, and take their time. */
+/** Of marks closer together than this [px] only one is drawn, as the others would not be visible. */
 export const NEAR_PX = 0.4;
 
 /**
- * A column against another as one line, from row to row, with no line at rows that are not `there`.
+ * One column against another as a line, with gaps at rows that are not `there`.
  * @param {CanvasRenderingContext2D} context
  * @param {Frame} frame
  * @param {number[]} xs
@@ -167,9 +167,8 @@ const MARKS = [
 ];
 
 /**
- * The marks of snaps, each { cable, x, y }: a cross for cable 1, a ring for cable 2, and other shapes for more. Those of
- * one colour are painted at once, as each painting takes its time; of the thousands that snaps come to as they
- * accumulate, all in one place, one.
+ * The marks of snaps, each { cable, x, y }: a cross for cable 1, a ring for cable 2, other shapes for more. Those of a
+ * colour are painted together, which is faster; of the thousands of an accumulation, all in one place, one is drawn.
  */
 export function drawMarks(context, marks, colourOf, size) {
   for (const cable of new Set(marks.map((mark) => mark.cable))) {
@@ -199,7 +198,7 @@ function addMark(context, cable, x, y, size) {
   }
 }
 
-/** Low and high of a column with some air; never empty. */
+/** The range of a column with a margin; never empty. */
 export function span(columns, air = 0.06) {
   let [low, high] = [Infinity, -Infinity];
   for (const column of columns) {
@@ -221,13 +220,13 @@ const watcher = new ResizeObserver((entries) => {
   for (const listener of resized) listener();
 });
 
-/** Calls back when a canvas that was drawn on has changed its size. */
+/** Calls back when a canvas has changed its size. */
 export const onResize = (listener) => resized.add(listener);
 
 /** A canvas at the resolution of the screen, cleared, with its context in CSS pixels. */
 export function prepare(canvas) {
   if (!sizes.has(canvas)) {
-    // Asking the page each time would have it laid out anew before every picture.
+    // Reading the size each time would force a layout before every picture.
     sizes.set(canvas, [canvas.clientWidth, canvas.clientHeight]);
     watcher.observe(canvas);
   }

@@ -1,10 +1,10 @@
-// The seal of a run: what of it is proved. It belongs to the run that is shown, and goes with it.
+// The seal of a run shows its proved part. It belongs to the current run and disappears with it.
 
 import { fetchProof } from "./api.js";
 import { $ } from "./dom.js";
 import { number, withSymbols, sentence } from "./formatting.js";
 
-/** A tick where the proof reaches the end, a bar where it does not. */
+/** A tick if the proof reaches the end, a bar if it does not. */
 const SIGNS = { whole: "M4.6 8.3 7 10.7 11.5 5.6", part: "M4.8 8h6.4" };
 
 export class Proof {
@@ -14,7 +14,7 @@ export class Proof {
     $("prove").addEventListener("click", () => (this.asking ? this.#stop() : this.#ask()));
   }
 
-  /** The values of the run that is shown now. */
+  /** The values of the current run. */
   setValues(values) {
     const same = JSON.stringify(values) === JSON.stringify(this.values);
     this.values = values;
@@ -30,33 +30,33 @@ export class Proof {
   #stop() {
     this.asking?.abort();
     this.asking = null;
-    this.#say("", "Prove");
+    this.#showMessage("", "Prove");
   }
 
   async #ask() {
     const asking = (this.asking = new AbortController());
-    this.#say("Proving …", "Stop");
-    let said = "";
+    this.#showMessage("Proving …", "Stop");
+    let message = "";
     try {
       const proof = await fetchProof({ values: this.values }, asking.signal);
       if (this.asking === asking) this.#seal(proof);
     } catch (error) {
-      said = `Not proved: ${error.message}`;
+      message = `Not proved: ${error.message}`;
     }
-    // Whoever has stopped it does not wait for its words.
+    // A cancelled request has no message.
     if (this.asking !== asking) return;
     this.asking = null;
-    this.#say(said, "Prove");
+    this.#showMessage(message, "Prove");
   }
 
-  #say(said, button) {
-    $("prove-said").textContent = said;
+  #showMessage(message, button) {
+    $("prove-message").textContent = message;
     $("prove").textContent = button;
   }
 
   #seal({ proved, t, leaves, words, further, certificate }) {
     const reach = proved ? "proved to the end" : `proved up to t = ${number(Number(t), 5)}`;
-    // What is shown is the run of doubles, and not what is proved.
+    // The page shows the run of doubles, which may depart from the proved one.
     const title = leaves === null ? reach : `${reach}; this run departs from the proof at impact ${leaves}`;
     $("seal").classList.toggle("whole", proved);
     $("seal-sign").setAttribute("d", proved ? SIGNS.whole : SIGNS.part);
@@ -66,7 +66,7 @@ export class Proof {
     $("seal-further").querySelector("code").textContent = further ?? "";
     this.file = URL.createObjectURL(new Blob([certificate], { type: "application/json" }));
     $("seal-file").href = this.file;
-    // Whoever has pressed the button by the keyboard goes on from the seal.
+    // After the button was pressed by keyboard, the focus moves to the seal.
     const focused = document.activeElement === $("prove");
     $("prove").hidden = true;
     $("seal").hidden = false;

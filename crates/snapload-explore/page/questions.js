@@ -1,4 +1,4 @@
-// Questions about one case, which the program answers in words: all that it knows, with their options.
+// All questions about one case that the program answers, with their options.
 
 import { fetchAnswer } from "./api.js";
 import { $ } from "./dom.js";
@@ -11,7 +11,7 @@ export class Questions {
     this.questions = questions;
     $("question").replaceChildren(...questions.map(({ name }) => new Option(name, name)));
     $("question").addEventListener("change", () => this.#choose());
-    this.asking = new CancellableRequest("question-ask", "question-said", async (signal) => {
+    this.asking = new CancellableRequest("question-ask", "question-message", async (signal) => {
       this.#show("");
       const asked = { values: page.values(), options: this.#options() };
       const { words } = await fetchAnswer(this.chosen.name, asked, signal);
@@ -21,7 +21,7 @@ export class Questions {
     this.#choose();
   }
 
-  /** The values are others now: what is shown is not theirs. */
+  /** Takes changed values: the results that are shown do not belong to them. */
   setValues(values) {
     const key = JSON.stringify(values);
     if (key === this.key) return;
@@ -49,7 +49,7 @@ export class Questions {
   }
 }
 
-/** The field of an option, and how its value is read. What can be none is sent as it is: the program says why. */
+/** The field of an option, and how its value is read. Invalid text is sent as it is: the program explains the error. */
 function field({ name, unit, meaning, kind, default: usual }) {
   const label = document.createElement("label");
   label.title = withSymbols(meaning);
@@ -69,7 +69,7 @@ function field({ name, unit, meaning, kind, default: usual }) {
   return { name, label, value: () => (isNumber ? typed(input.value.trim()) : input.value || null) };
 }
 
-/** A number, what was typed instead of one, or null for nothing. */
+/** A number, the text if it is none, or null for nothing. */
 function typed(text) {
   const number = Number(text);
   return text === "" ? null : Number.isFinite(number) ? number : text;

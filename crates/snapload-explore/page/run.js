@@ -1,4 +1,4 @@
-// A run as the server answers it: where everything is at any time, and what happened when.
+// A run from the server's answer: the motion at any time, and the events.
 
 /** The last index whose time is at or before t; times ascend, and may repeat. */
 export function lastAtOrBefore(times, t) {
@@ -12,7 +12,7 @@ export function lastAtOrBefore(times, t) {
   return low;
 }
 
-/** Value and derivative of the cubic with these ends and slopes, `u` of the way along an interval of length d. */
+/** Value and derivative of the cubic with these ends and slopes, at the part `u` of an interval of length d. */
 export function hermite(p0, v0, p1, v1, d, u) {
   const w = 1 - u;
   const value = w * w * (1 + 2 * u) * p0 + u * u * (3 - 2 * u) * p1 + d * u * w * (w * v0 - u * v1);
@@ -20,7 +20,7 @@ export function hermite(p0, v0, p1, v1, d, u) {
   return [value, rate];
 }
 
-/** Between rows that are further apart [T] a cubic is a sketch of the motion. */
+/** Between rows that are further apart than this [T] the cubic is only approximate. */
 const ROUGH_T = 0.25;
 
 const COORDINATES = [
@@ -29,7 +29,7 @@ const COORDINATES = [
   ["theta", "vtheta"],
 ];
 
-/** Motion from columns; at the instant of an event what holds just after it. */
+/** A motion from columns; at the instant of an event the state just after it. */
 export class Motion {
   constructor(columns) {
     this.columns = columns;
@@ -57,7 +57,7 @@ export class Motion {
 }
 
 export class Run {
-  /** What the server answers. @type {any} */
+  /** The server's answer. @type {any} */
   values;
   /** @type {any} */
   geometry;
@@ -65,7 +65,7 @@ export class Run {
   end;
   /** @type {any} */
   norms;
-  /** How many digits of each are known, in words. @type {any} */
+  /** The known digits of each, as text. @type {any} */
   norms_known;
   /** @type {any} */
   horizon;
@@ -83,7 +83,7 @@ export class Run {
   ghost_error;
   shell = "";
   python = "";
-  /** The times of all events, once they are asked for. @type {number[] | undefined} */
+  /** The times of all events, computed when they are first needed. @type {number[] | undefined} */
   eventTimes;
 
   constructor(answer) {
@@ -179,6 +179,6 @@ function listEvents(answer) {
   if (horizon.t !== null && horizon.t > 0 && horizon.t < end.t) events.push({ t: horizon.t, kind: "horizon" });
   if (ghost && ghost.parts_at !== null && ghost.parts_at < end.t) events.push({ t: ghost.parts_at, kind: "parts" });
   events.push({ t: end.t, kind: "end" });
-  // Sorting keeps the order of what happens at one instant: impact, then mode, then horizon, then end.
+  // Sorting keeps the order of events at one instant: impact, mode, horizon, end.
   return events.sort((one, other) => one.t - other.t);
 }

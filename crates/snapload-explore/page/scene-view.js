@@ -1,6 +1,6 @@
-// The scene on its canvas, what is said of the run, and how the scene is to be shown.
+// The scene on its canvas, the description of the run, and the options of the scene.
 
-import { $, mark, put } from "./dom.js";
+import { $, setAttributes, setProperties } from "./dom.js";
 import { eventWords } from "./events.js";
 import { prepare } from "./plot.js";
 import { readValue } from "./state.js";
@@ -9,10 +9,10 @@ import { camera, sceneShapes, sceneWords } from "./scene.js";
 import { colours, reducedMotion } from "./theme.js";
 import { modeName, number, fieldText, withSymbols, sentence } from "./formatting.js";
 
-/** What a screen reader is told waits for a rest: not every position of a slider is worth a sentence. */
+/** The delay of texts for screen readers, so that a dragged slider causes one text only. */
 const REST_MS = 900;
 
-/** @returns {Iterable<any>} The choices of a name. */
+/** @returns {Iterable<any>} The radio buttons of a name. */
 const radios = (name) => document.getElementsByName(name);
 
 export class SceneView {
@@ -40,29 +40,29 @@ export class SceneView {
     $("ghost-size").addEventListener("change", ghost);
   }
 
-  /** Shows at its field why the ghost can not be run; with no text, that nothing is wrong with it. */
+  /** Shows at its field why the ghost can not be run; an empty text clears it. */
   refuseGhost(text) {
-    put($("error-ghost"), { textContent: text, hidden: !text });
-    mark($("ghost-size"), { "aria-invalid": text ? "true" : null });
+    setProperties($("error-ghost"), { textContent: text, hidden: !text });
+    setAttributes($("ghost-size"), { "aria-invalid": text ? "true" : null });
   }
 
   setRun(run) {
     this.run = run;
   }
 
-  /** Says what comes of the run. */
+  /** Shows the outcome of the run. */
   describe() {
     const { run } = this;
     this.#summarise();
     clearTimeout(this.saying);
     const words = this.#words();
-    $("said").textContent = words;
+    $("message").textContent = words;
     this.saying = setTimeout(() => ($("announced").textContent = words), $("announced").textContent ? REST_MS : 0);
     $("ramp-key").hidden = !(run.timeTaut > 0);
     $("ramp-words").textContent = `tension, up to ${number(run.mostTension, 3)} F`;
   }
 
-  /** How the run ends, how far it is known, and when its neighbour leaves it, in a sentence each. */
+  /** The end of the run, its horizon of trust, and when its neighbour separates from it, in a sentence each. */
   #words() {
     const { end, horizon, ghost, cut } = this.run;
     const parts = [end.words, horizon.words].flatMap((words) => withSymbols(words).split("\n").map(sentence));
@@ -88,7 +88,7 @@ export class SceneView {
       ["Hardest impulse", `${number(this.run.hardest, 5)} m L/T`],
       ["Time taut", `${number(timeTaut, 4)} T`],
     ];
-    // What is counted over the whole run is no more certain than its end.
+    // Counts over the whole run are no more certain than its end.
     const known = { impacts: this.run.horizon.t === null ? "" : "not certain", ...this.run.norms_known };
     $("summary").innerHTML = rows
       .map(([term, value, name = ""]) => {
@@ -112,7 +112,7 @@ export class SceneView {
     return { width, height, picture, view, zoom, speed, playing, colours: colours(scheme), still: reducedMotion.matches };
   }
 
-  /** What is shown now, and how: the run, its moment, the camera, and the size of the canvas. */
+  /** The current view: the run, its moment, the camera, and the size of the canvas. */
   view() {
     const [width, height] = [this.canvas.clientWidth, this.canvas.clientHeight];
     const cam = this.fixedCamera ?? camera(this.run, this.options(width, height));
@@ -120,7 +120,7 @@ export class SceneView {
     return { run: this.run, moment, cam, whole: cam.whole, size: { width, height } };
   }
 
-  /** Keeps the camera where it is while something is moved by hand; lets it go with none. */
+  /** Fixes the camera while something is dragged; null releases it. */
   fixCamera(cam) {
     this.fixedCamera = cam;
   }
@@ -133,17 +133,17 @@ export class SceneView {
       ? `, ${moment.taut.map((cable) => number(moment.tensions[cable - 1], 3)).join(" and ")} F`
       : "";
     const happens = this.playback.playing ? "" : eventWords(this.run, t);
-    put($("caption"), { textContent: `${happens ? `${happens}; ` : ""}${modeName(moment.taut)}${taut}${past}` });
-    if (!this.playback.playing) mark(this.canvas, { "aria-label": sceneWords(this.run, t) });
+    setProperties($("caption"), { textContent: `${happens ? `${happens}; ` : ""}${modeName(moment.taut)}${taut}${past}` });
+    if (!this.playback.playing) setAttributes(this.canvas, { "aria-label": sceneWords(this.run, t) });
   }
 
-  /** Shows how the scene is chosen to be shown. */
+  /** Shows the chosen options of the scene. */
   showChoices() {
     const { picture, view, ghost } = this.state;
     for (const [name, value] of Object.entries({ picture, view })) {
-      for (const radio of radios(name)) put(radio, { checked: radio.value === value });
+      for (const radio of radios(name)) setProperties(radio, { checked: radio.value === value });
     }
-    put($("ghost"), { checked: ghost !== null });
-    if (ghost !== null) put($("ghost-size"), { value: fieldText(ghost) });
+    setProperties($("ghost"), { checked: ghost !== null });
+    if (ghost !== null) setProperties($("ghost-size"), { value: fieldText(ghost) });
   }
 }

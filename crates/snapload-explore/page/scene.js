@@ -1,4 +1,4 @@
-// The scene as an engineer would sketch it: a list of shapes for a run at a time.
+// The scene as an engineer's sketch: a list of shapes for a run at a time.
 
 import { eventWords } from "./events.js";
 import { slackLine } from "./slack-line.js";
@@ -8,14 +8,14 @@ import { arrow } from "./shapes.js";
 import { mix } from "./theme.js";
 import { fixed, modeName, number } from "./formatting.js";
 
-/** How long a snap stays to be seen while the picture plays, in seconds of watching. */
+/** How long a snap stays visible during playback, in seconds of real time. */
 const AFTERGLOW_S = 0.45;
 const PATH_BEHIND = 4;
 const [BEYOND_FLOOR_PX, BEYOND_SURFACE_PX, MOST_BEYOND] = [34, 30, 0.4];
 
 /**
- * What the picture shows of the plane, and how: `real` has the anchors on the sea floor below, `thesis` is turned
- * over, so that net buoyancy pulls down the page as a weight. y of the model grows towards the anchors.
+ * The camera: `real` shows the anchors on the sea floor at the bottom, `thesis` is upside down, so that net buoyancy
+ * points down the page as a weight. y of the model grows towards the anchors.
  */
 export function camera(run, { width, height, picture, view, zoom }) {
   const { a, b } = run.geometry.body;
@@ -24,7 +24,7 @@ export function camera(run, { width, height, picture, view, zoom }) {
   let [left, right] = run.reach.x;
   let [low, high] = run.reach.y;
   const surface = Math.min(low - size, -size) - 0.3;
-  // Beyond floor and surface there is room for what is written there, however small the scale.
+  // Beyond floor and surface there is room for labels at every scale.
   let [beyondFloor, beyondSurface] = [0, 0];
   if (view === "close") {
     const margin = 1.15 * size + 0.12 * Math.max(right - left, high - low) + 0.01;
@@ -32,14 +32,14 @@ export function camera(run, { width, height, picture, view, zoom }) {
   } else {
     [left, right] = [Math.min(left - size, -1) - 0.1, Math.max(right + size, 1) + 0.1];
     [low, high] = [surface, anchorLevel];
-    // In a picture too low for the words the scene keeps most of the height.
+    // In a picture too low for the labels the scene keeps most of the height.
     const room = Math.min(1, (MOST_BEYOND * height) / (BEYOND_FLOOR_PX + BEYOND_SURFACE_PX));
     [beyondFloor, beyondSurface] = [room * BEYOND_FLOOR_PX, room * BEYOND_SURFACE_PX];
   }
   const usable = height - beyondFloor - beyondSurface;
   const whole = Math.min(width / (right - left), usable / (high - low));
   const up = picture === "real" ? 1 : -1;
-  // Zoomed in: so many times as large as the whole, about a place of the plane.
+  // Zoomed in by a factor about a point of the plane.
   const scale = zoom ? whole * zoom[0] : whole;
   const middle = zoom ? zoom.slice(1) : [0.5 * (left + right), 0.5 * (low + high)];
   const centre = zoom ? height / 2 : (height + up * (beyondSurface - beyondFloor)) / 2;
@@ -88,7 +88,7 @@ export function sceneShapes(run, t, options) {
     ...(ghost ? ghostShapes(run, ghost, cam, options) : []),
     ...run.geometry.cables.flatMap((cable, i) => cableShapes(run, i, moment, cam, options, snaps)),
     ...bodyShapes(run, moment, cam, { fill: colours.body, stroke: colours["body-edge"], width: 1.6 }),
-    // From close by, the body is larger than its path, which would be hidden.
+    // Zoomed in, the body is larger than its path and would hide it.
     ...(close ? paths : []),
     ...run.geometry.cables.flatMap((cable) => fairlead(cable, moment, cam, colours)),
     ...snaps.flatMap((snap) => snapShapes(run, snap, moment, cam, options)),
@@ -100,14 +100,14 @@ export function sceneShapes(run, t, options) {
 }
 
 /**
- * Impacts that are still to be seen at t, with how much of them is left (1 at the instant itself). A picture that
- * stands shows what is so at its instant, and no afterglow of what was before.
+ * Impacts that are still visible at t, with their strength (1 at the instant itself). A still picture shows only the
+ * impacts at its instant.
  */
 function recentSnaps(run, t, { playing, speed }) {
   const span = playing ? AFTERGLOW_S * speed : 0;
   const left = (i) => (span > 0 ? 1 - (t - run.impacts.t[i]) / span : 1);
   const all = run.impactsWithin(t - span, t).map((i) => ({ i, left: left(i) }));
-  // Of a swarm of snaps the latest of each cable is enough.
+  // Of many snaps the latest of each cable is enough.
   return [1, 2].flatMap((cable) => all.filter(({ i }) => run.impacts.cable[i] === cable).slice(0, 1));
 }
 
@@ -157,7 +157,7 @@ function sea(run, t, cam, { width, height, picture, colours }) {
 }
 
 /**
- * The surface, whose height and length are a sketch, but whose phase is that of the forcing: under a wave
+ * The surface; its height and length are not to scale, but its phase is that of the forcing: under a wave
  * η = A sin(Ωt − kx) water at x = 0 accelerates as cos Ωt along x and as −sin Ωt upwards, which is +sin Ωt along y.
  */
 function surfaceLine(run, t, cam, width) {
@@ -173,10 +173,10 @@ function surfaceLine(run, t, cam, width) {
   return points;
 }
 
-/** How far a crest is drawn above the still water [px]. */
+/** The height of a crest above the still water [px]. */
 const waveHeight = (run, cam) => 0.045 * cam.scale * Math.tanh(2 * Math.abs(run.values.f_o));
 
-/** The path of the centre up to t: its last stretch in full, what lies longer back paler. */
+/** The path of the centre up to t: the latest part in full colour, earlier parts paler. */
 function path(columns, t, cam, style, horizon, past) {
   const { x, y } = columns;
   const end = columns.t.findIndex((time) => time > t);
@@ -211,7 +211,7 @@ function bodyShapes(run, moment, cam, style) {
   const at = cam.place([moment.x, moment.y]);
   if (shape === "point") return [{ circle: [...at, 5], ...style }];
   if (shape === "circle") {
-    // A diameter through the fairleads and a short stroke towards the anchors show how it is turned.
+    // A diameter through the fairleads and a short stroke towards the anchors show the rotation.
     const across = [
       [-a, 0],
       [a, 0],
@@ -256,7 +256,7 @@ function ghostShapes(run, ghost, cam, { colours, picture }) {
   return [...lines, ...bodyShapes(run, ghost, cam, { stroke: colours.ghost, width: 1.4, alpha: 0.7 })];
 }
 
-/** A line from its anchor to its fairlead. On the page it hangs downwards; in the real picture the floor bears it. */
+/** A line from its anchor to its fairlead. A slack line hangs downwards, in the real view onto the floor. */
 function slackPoints(cable, moment, cam, picture) {
   const from = cam.place(cable.anchor);
   const to = cam.place(turned(cable.arm, moment));
@@ -276,13 +276,13 @@ function cableShapes(run, i, moment, cam, { colours, picture }, snaps) {
     return [{ points: [from, to], stroke: mix(colours.taut, colours.strained, part), width: 2.2 + 5 * part }, anchor];
   }
   const hung = { points: slackPoints(cable, moment, cam, picture), stroke: colour, width: 1.5 };
-  // At the instant itself the line is straight, and nothing hangs.
+  // At the instant itself the line is straight.
   /** @type {object[]} */
   const shapes = snap?.left === 1 ? [anchor] : [hung, anchor];
   if (snap) {
     const strength = impulsePart(run, snap.i) * snap.left;
     const to = cam.place(turned(cable.arm, moment));
-    // The line is straight at the instant alone: what is left of it fades before the arrow does.
+    // The line is straight only at the instant: its highlight fades before the arrow does.
     shapes.push({ points: [from, to], stroke: colours.snap, width: 1 + 6 * strength, alpha: 0.8 * snap.left ** 4 });
   }
   return shapes;
@@ -299,10 +299,10 @@ function fairlead(cable, moment, cam, colours) {
   return [{ circle: [...at, 3], fill: colours.panel, stroke: colours["body-edge"], width: 1.4 }];
 }
 
-/** The arrow's length goes with the square root of the impulse, so that the small ones are seen beside the hardest. */
+/** The arrow's length is proportional to the square root of the impulse, so that small ones remain visible. */
 const impulsePart = (run, i) => Math.sqrt(run.impacts.impulse[i] / (run.hardest || 1));
 
-/** At the fairlead, which moves on, in the direction that the line had at the instant. */
+/** At the moving fairlead, in the direction of the line at the instant. */
 function snapShapes(run, { i, left }, moment, cam, { colours, still, width }) {
   const cable = run.geometry.cables[run.impacts.cable[i] - 1];
   const { before_x, before_y, before_theta } = run.impacts;
@@ -327,7 +327,7 @@ function snapShapes(run, { i, left }, moment, cam, { colours, still, width }) {
   return [...flash, ...arrow(at, to, colours.snap, 3, { alpha: still ? 1 : Math.min(1, 1.6 * left) })];
 }
 
-/** Where the wave's ellipse is drawn, beside the body, and the length of the unit of force [px]. */
+/** The position of the wave's ellipse next to the body, and the length of the unit of force [px]. */
 export function ellipsePlace(run, moment, cam, { width, height }) {
   const { f_o, nu } = run.values;
   const size = Math.min(width, height);
@@ -343,7 +343,7 @@ export function ellipsePlace(run, moment, cam, { width, height }) {
   return { centre: [Math.min(right, width - wide - 14), by], unit };
 }
 
-/** The wave's ellipse with its turning force beside the body, and net buoyancy on the same scale. */
+/** The ellipse of the rotating wave force next to the body, and net buoyancy on the same scale. */
 function forces(run, t, moment, cam, { width, height, colours }) {
   const { f_o, nu } = run.values;
   const { centre, unit } = ellipsePlace(run, moment, cam, { width, height });
@@ -393,7 +393,7 @@ function scaleBar(run, cam, { width, height, colours }) {
   const nice =
     [1, 0.5, 0.2, 0.1, 0.05, 0.02, 0.01, 0.005, 0.002, 0.001].find((l) => l * cam.scale < 0.22 * width) ?? 1e-3;
   const length = nice * cam.scale;
-  // Just within the water where its surface is in view, clear of the troughs with its number above it; else at the edge.
+  // Just below the surface and its troughs, with its number above it, if the surface is visible; otherwise at the edge.
   const clear = waveHeight(run, cam) + (cam.up > 0 ? 24 : 8);
   const surface = cam.level(cam.surface) + Math.max(clear, 26) * cam.up;
   const y = surface > 20 && surface < height - 8 ? surface : 24;
@@ -420,7 +420,7 @@ function scaleBar(run, cam, { width, height, colours }) {
   ];
 }
 
-/** What the scene shows, in words, for those who do not see it. */
+/** A description of the scene for screen readers. */
 export function sceneWords(run, t) {
   const moment = run.at(t);
   const [x, y, theta] = [moment.x, moment.y, moment.theta].map((value) => fixed(value, 3));

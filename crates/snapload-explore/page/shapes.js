@@ -1,4 +1,4 @@
-// A picture is a list of plain shapes; it is painted on a canvas or written as SVG.
+// A picture is a list of shapes, which is painted on a canvas or written as SVG.
 
 /** Paints shapes on the context of a canvas. */
 export function paint(context, shapes) {
@@ -138,7 +138,7 @@ function write(attributes) {
   return kept.map(([name, value]) => ` ${name}="${typeof value === "string" ? escape(value) : value}"`).join("");
 }
 
-/** An arrow from one point to another as shapes; nothing where it would be shorter than a dot. */
+/** An arrow from one point to another as shapes; nothing if it would be shorter than a dot. */
 export function arrow(from, to, colour, width, rest = {}) {
   const [dx, dy] = [to[0] - from[0], to[1] - from[1]];
   const length = Math.hypot(dx, dy);

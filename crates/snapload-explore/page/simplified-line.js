@@ -1,20 +1,20 @@
-// Lines of many points, in as few of them as are seen: each one more takes its time to paint.
+// Lines of many points, reduced to those that are visible, so that they are painted faster.
 
-/** A line that is no further off than this [px] is drawn as the straight one that it looks like. */
+/** Points that are closer than this to a straight line [px] are left out. */
 export const SEEN_PX = 0.25;
 
-/** Draws lines as the context of a canvas does, but leaves out points that lie on the way. */
+/** Draws lines like the context of a canvas, but leaves out points that lie on a straight line. */
 export class SimplifiedLine {
   /** @param {{ moveTo: (x: number, y: number) => void, lineTo: (x: number, y: number) => void }} target */
   constructor(target) {
     this.target = target;
-    /** The point that was drawn last, and the latest one. @type {number[] | null} */
+    /** The last point that was drawn, and the latest one. @type {number[] | null} */
     this.from = null;
     /** @type {number[] | null} */
     this.latest = null;
     /**
-     * The piece that is not drawn yet: its direction as a vector of length 1, its length [px], and from which to which
-     * angle [rad] off that direction it may be drawn so that it passes each skipped point within SEEN_PX.
+     * The piece that is not drawn yet: its direction as a unit vector, its length [px], and the range of angles [rad]
+     * from that direction in which it passes each skipped point within SEEN_PX.
      */
     this.direction = [0, 0];
     this.distance = 0;
@@ -30,14 +30,14 @@ export class SimplifiedLine {
   }
 
   lineTo(x, y) {
-    // A point that is none is left out; a line begins with the first that is one.
+    // Points that are not finite are left out; a line starts with the first finite one.
     if (!Number.isFinite(x + y)) return;
     if (!this.from) return this.moveTo(x, y);
     const [dx, dy] = [x - this.from[0], y - this.from[1]];
     const distance = Math.hypot(dx, dy);
     const wide = Math.asin(Math.min(SEEN_PX / distance, 1));
     if (this.distance === 0) {
-      // Whatever is nearer than can be seen has no way yet.
+      // A point too close to be visible gives no direction yet.
       if (distance > SEEN_PX) {
         Object.assign(this, { direction: [dx / distance, dy / distance], distance, angles: [-wide, wide] });
       }
@@ -59,7 +59,7 @@ export class SimplifiedLine {
     this.latest = [x, y];
   }
 
-  /** Draws what is left of the line. */
+  /** Draws the rest of the line. */
   finish() {
     if (this.latest) this.target.lineTo(this.latest[0], this.latest[1]);
     this.latest = null;

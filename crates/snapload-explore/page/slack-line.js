@@ -1,12 +1,12 @@
-// How a line of given length hangs between two points of the picture, whose y grows downwards. The model's lines
-// have no weight; a parabola of exactly the line's length is what a slack one looks like.
+// The shape of a line of given length between two points of the picture, whose y grows downwards. The model's lines
+// have no weight; a slack one is drawn as a parabola of exactly the line's length.
 
 /** Length of the parabola whose slope grows from 0 to m, for a unit step of slope: the integral of sqrt(1 + m²). */
 const arc = (m) => 0.5 * (m * Math.hypot(1, m) + Math.asinh(m));
 
 const PIECES = 40;
 
-/** Points from a to b along a line of this length; on the floor, on which a lies, where it would hang through it. */
+/** Points from a to b along a line of this length; where it would hang below the floor of a, it lies on it. */
 export function slackLine(a, b, length, floor = Infinity) {
   const width = Math.max(Math.abs(b[0] - a[0]), 1e-9);
   const rise = b[1] - a[1];
@@ -23,7 +23,7 @@ function sagOf(width, rise, length) {
     const [start, end] = [(rise + 4 * sag) / width, (rise - 4 * sag) / width];
     return (width * (arc(start) - arc(end))) / (start - end);
   };
-  // Near the chord the excess grows as the square of the sag, and far from it linearly: two sags more than suffice.
+  // A sag of the line's length is more than enough as the upper bound.
   return root((sag) => lengthOf(sag) - length, 1e-9 * length, length);
 }
 
@@ -38,7 +38,7 @@ function lying(a, b, length) {
   };
   const least = 1e-6 * height;
   const total = (width) => reach - width + rising(width);
-  // More line than reach and height: it stands upright, and what is over lies on the floor, on past its foot and back.
+  // The line is longer than reach and height: it is vertical, and the rest lies on the floor, beyond its foot and back.
   const over = Math.max(length - total(least), 0);
   const width = over > 0 ? least : root((w) => length - total(w), least, Math.max(reach, least));
   const lift = b[0] - side * width;
@@ -50,7 +50,7 @@ function pieces(point) {
   return Array.from({ length: PIECES + 1 }, (_, k) => point(k / PIECES));
 }
 
-/** A root of a growing function between two bounds, by Newton's steps that fall back on halving. */
+/** A root of an increasing function between two bounds, by Newton's method with bisection as a fallback. */
 function root(f, low, high) {
   let x = 0.5 * (low + high);
   for (let step = 0; step < 60; step += 1) {

@@ -1,4 +1,4 @@
-// Everything the page shows follows from this state; the link holds all of it.
+// The state of the page, from which everything that it shows follows; the link holds all of it.
 
 export const SPEEDS = [0.01, 0.02, 0.05, 0.1, 0.2, 0.5, 1, 2, 5, 10, 20];
 const PICTURES = ["real", "thesis"];
@@ -22,11 +22,11 @@ const BEGINNING = {
   basin: null,
 };
 
-/** Fields that are set together, with whoever listens to them. */
-export class Watched {
+/** Fields that are set together, and the listeners to them. */
+export class ObservableState {
   listeners = [];
 
-  /** Calls back with the names of what changed. */
+  /** Calls back with the names of the changed fields. */
   listen(listener) {
     this.listeners.push(listener);
   }
@@ -39,9 +39,9 @@ export class Watched {
   }
 }
 
-/** The state with whoever listens to it. */
-export class State extends Watched {
-  /** What the page shows of the run: the fields of BEGINNING. */
+/** The state and its listeners. */
+export class State extends ObservableState {
+  /** The view of the run: the fields of BEGINNING. */
   t = BEGINNING.t;
   speed = BEGINNING.speed;
   picture = BEGINNING.picture;
@@ -64,7 +64,7 @@ export class State extends Watched {
     this.values = { ...schema.start.values };
   }
 
-  /** Some keys; a value of null, or its default, leaves one out. `more` of the state changes with them. */
+  /** Sets some keys; null, or the default, removes one. `more` fields of the state change with them. */
   setValues(changes, more = {}) {
     const values = { ...this.values };
     for (const [name, value] of Object.entries(changes)) {
@@ -74,12 +74,12 @@ export class State extends Watched {
     this.set({ values, ...more });
   }
 
-  /** The value of a key; null where it follows from others. */
+  /** The value of a key; null if it is derived from others. */
   value(name) {
     return this.values[name] ?? (this.derived.has(name) ? null : this.defaults[name]);
   }
 
-  /** The built-in case with exactly these values, or that from which the program was started. */
+  /** The built-in case with exactly these values, or the case with which the program was started. */
   get caseName() {
     const { start, cases } = this.schema;
     const all = [start, ...cases.map(({ code, values }) => ({ name: code, values }))];
@@ -106,7 +106,7 @@ export class State extends Watched {
   }
 
   /**
-   * Takes the state of a fragment, whole: what it does not name is as in the beginning. Gives what could not be read.
+   * Takes the whole state of a fragment; missing fields have their initial values. Returns what could not be read.
    */
   readFragment(fragment) {
     if (!fragment) {
@@ -148,7 +148,7 @@ export function decode(text) {
   }
 }
 
-/** A decimal number, with the minus sign of a keyboard or of print; what JavaScript takes beside that is none here. */
+/** A decimal number, with a hyphen or a minus sign; other notations of JavaScript are not accepted. */
 const DECIMAL = /^[-+]?(\d+\.?\d*|\.\d+)(e[-+]?\d+)?$/i;
 
 export function finite(text) {
@@ -157,7 +157,7 @@ export function finite(text) {
   return Number.isFinite(value) ? value : undefined;
 }
 
-/** The value of a key from text; undefined where it can be none. Whether it is allowed is for the server to say. */
+/** The value of a key from text; undefined if it is invalid. The server decides whether it is allowed. */
 export function readValue(key, text) {
   if (key.kind.type === "flag") return text === "true" ? true : text === "false" ? false : undefined;
   if (key.kind.type === "choice") return key.kind.options.includes(text) ? text : undefined;
@@ -178,7 +178,7 @@ function readView(name, text, schema) {
     case "view":
       return oneOf(VIEWS, text);
     case "ghost":
-      // How far away it may start is for the server to say.
+      // The server decides how far away it may start.
       return number;
     case "window": {
       const [from, to] = text.split(",").map(finite);
@@ -203,7 +203,7 @@ function readView(name, text, schema) {
   }
 }
 
-/** The values of a pinned run: keys and what they may be. */
+/** The values of a pinned run: valid keys and values. */
 function pinFromText(text, schema) {
   try {
     const values = Object.entries(JSON.parse(text));
@@ -219,7 +219,7 @@ function pinFromText(text, schema) {
 
 export const isCount = (count) => Number.isInteger(count) && count >= 2 && count <= MOST_CELLS;
 
-/** Whether there are cells from one end of an axis to the other. */
+/** Whether an axis has a range and a number of cells. */
 export const isAxis = ({ low, high, count }) => high > low && isCount(count);
 
 const axisToText = ({ key, low, high, count }) => [key, low, high, count].join(",");

@@ -1,4 +1,4 @@
-// The motion of a structure against time: surface, place, rotation, and the tensions against what breaks the lines.
+// The motion of a structure against time: surface, position, rotation, and tensions with the breaking loads.
 
 import { drawColumn, drawMarks, span } from "./plot.js";
 import { TimeCharts, above, rows } from "./time-charts.js";
@@ -6,12 +6,12 @@ import { lineColour } from "./theme.js";
 import { fixed, number, round } from "./formatting.js";
 
 const DEGREES = 180 / Math.PI;
-/** The breaking load is in the picture where tensions come to this part of it. */
+/** The breaking load is drawn if tensions reach this part of it. */
 const IN_SIGHT = 0.3;
 
 const reach = (column, scale = 1) => span([column], 0).map((v) => fixed(v * scale, 2)).join(" to ");
 
-/** A column as a line, and that of elastic lines beside it. */
+/** A column as a line, and that of the run on elastic lines. */
 function line(name, scale = 1) {
   const scaled = (column) => (scale === 1 ? column : column.map((v) => v * scale));
   return (context, frame, run, { colours }) => {
@@ -29,7 +29,7 @@ function line(name, scale = 1) {
 }
 
 /**
- * A range that is no smaller than what is seen of a motion: rounding is none.
+ * A range of at least a visible size, so that rounding is not drawn as motion.
  * @param {number} least
  * @param {number[]} range
  */
@@ -66,7 +66,7 @@ function tensionRange(run) {
   return [0, Math.max(high, ...loads.map((load) => 1.06 * load))];
 }
 
-/** Tensions while taut, the peaks of snaps as marks, and where lines break. */
+/** Tensions while taut, the peaks of snaps as marks, and the breaking loads. */
 function drawTensions(context, frame, run, { colours }) {
   for (const load of breakingLoads(run)) {
     context.strokeStyle = colours.bad;
@@ -98,7 +98,7 @@ function drawTensions(context, frame, run, { colours }) {
   drawMarks(context, shown, (line) => lineColour(colours, line), 2.8);
 }
 
-/** Everything there is to say of a snap, in a line. */
+/** A description of a snap in a line. */
 export function snapWords(run, i) {
   const { t, line: lines, speed, peak, utilisation, jolt } = run.snaps;
   const what = jolt[i] ? "impact while taut of" : "snap of";

@@ -1,18 +1,18 @@
-// Handles on a structure: its body is dragged and released, anchors and fairleads are moved, in metres.
+// Handles on a structure: drag and release the body, move anchors and fairleads, in metres.
 
 import { Handles, withinReach } from "./handles.js";
 import { turned } from "./scene.js";
 
-/** How near a pointer has to be [px]. */
+/** The distance within which a pointer grabs a handle [px]. */
 const REACH = { fairlead: 9, anchor: 14, body: 12 };
-/** A start keeps so far from the end of its lines that rounding to the centimetre leaves it legal. */
+/** A start keeps this distance from its lines' ends, so that it stays legal when it is rounded to centimetres. */
 const CLEAR_M = 0.015;
 const near = (value) => Number(value.toFixed(2));
 /** @param {number[]} place */
 const pair = ([x, z]) => `[${near(x)}, ${near(z)}]`;
 
 export class StructureHandles extends Handles {
-  /** What can be dragged at a place of the canvas, with the number of its line. */
+  /** The handle at a position of the canvas, with the number of its line. */
   handleAt(px) {
     const { run, moment, cam } = this.sceneView.view();
     const by = (point, reach) => Math.hypot(point[0] - px[0], point[1] - px[1]) <= reach;
@@ -25,7 +25,7 @@ export class StructureHandles extends Handles {
     return by(cam.place([moment.x, moment.y]), Math.max(size * cam.scale, REACH.body)) ? "body" : null;
   }
 
-  /** The values that put what is held under the pointer. */
+  /** The values with which the grabbed handle is under the pointer. */
   drag(px) {
     const { what, view, offset } = this.held;
     const { run, moment, cam } = view;
@@ -41,7 +41,7 @@ export class StructureHandles extends Handles {
   }
 
   /**
-   * A place on the body, where the case has it: unturned, at its position.
+   * A point on the body at its position in the case, without rotation.
    * @returns {[number, number]}
    */
   #fairlead(run, moment, [x, z]) {

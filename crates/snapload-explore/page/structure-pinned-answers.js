@@ -1,12 +1,12 @@
-// Answers that are kept to compare others with: what each differs in, and what comes of it, in words.
+// Pinned answers for comparison: the differences and outcomes of each, as text.
 
 import { $ } from "./dom.js";
-import { changesInWords } from "./structure-groups.js";
+import { changesText } from "./structure-key-groups.js";
 import { fixed, number } from "./formatting.js";
 
 const MOST_PINS = 5;
 
-/** What an answer comes to, in the order in which it is told. */
+/** The outcome of an answer, in the order in which it is shown. */
 function outcome(run) {
   const known = run.lines.map(({ utilisation }) => utilisation);
   const largest = known.includes(null) ? null : Math.max(...known);
@@ -17,10 +17,10 @@ function outcome(run) {
 }
 
 export class PinnedAnswers {
-  /** `now` gives the run that is shown; `onBack` is told of a pin that is to be shown again. */
-  constructor(state, now, { onBack }) {
+  /** `currentRun` returns the run that is shown; `onBack` receives a pin that is to be shown again. */
+  constructor(state, currentRun, { onBack }) {
     this.state = state;
-    this.now = now;
+    this.currentRun = currentRun;
     this.kept = [];
     $("pin").addEventListener("click", () => this.add());
     $("pins").addEventListener("click", (event) => {
@@ -34,7 +34,7 @@ export class PinnedAnswers {
   }
 
   add() {
-    const run = this.now();
+    const run = this.currentRun();
     if (!run || this.kept.length >= MOST_PINS) return;
     const { values, water, waterNow } = this.state;
     this.kept.push({ values: { ...values }, water, waterNow, outcome: outcome(run), preview: run.preview });
@@ -43,7 +43,7 @@ export class PinnedAnswers {
 
   show() {
     $("pin").disabled = this.kept.length >= MOST_PINS;
-    const run = this.now();
+    const run = this.currentRun();
     const html = run ? this.kept.map((pin, i) => line(pin, i, outcome(run))).join("") : "";
     if ($("pins").innerHTML !== html) $("pins").innerHTML = html;
   }
@@ -51,7 +51,7 @@ export class PinnedAnswers {
 
 function line({ values, water, waterNow, outcome: of, preview }, i, shown) {
   const waters = water === null ? "" : `water: ${waterNow}`;
-  const what = [waters, changesInWords(values)].filter(Boolean).join(", ") || "the case, unchanged";
+  const what = [waters, changesText(values)].filter(Boolean).join(", ") || "the case, unchanged";
   const compared = of.largest === null ? ["fastest", 2] : ["largest", 2];
   const [name, digits] = compared;
   const difference = shown[name] === null ? 0 : of[name] - shown[name];

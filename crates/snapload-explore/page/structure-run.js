@@ -1,5 +1,5 @@
-// A structure's run as the server answers it: where everything is at any time of the interval that is shown, in metres,
-// kilonewtons and seconds, z up from the still water.
+// A structure's run from the server's answer: the motion at any time of the interval that is shown, in metres,
+// kilonewtons and seconds, with z upwards from the still water.
 
 import { ends, hermite, lastAtOrBefore } from "./run.js";
 import { number } from "./formatting.js";
@@ -34,7 +34,7 @@ export class StructureMotion {
   }
 }
 
-/** What the keys of a line come to. */
+/** The values of a line's keys. */
 const ofLine = (line) => ({
   stiffness: line.stiffness_n,
   spring_rate: line.stiffness_n && line.stiffness_n / line.length_m,
@@ -43,7 +43,7 @@ const ofLine = (line) => ({
 });
 
 export class StructureRun {
-  /** What the server answers. @type {any} */
+  /** The server's answer. @type {any} */
   assessment;
   /** @type {any} */
   geometry;
@@ -66,7 +66,7 @@ export class StructureRun {
   transient_s = 0;
   shell = "";
   python = "";
-  /** On elastic lines, once it is there. @type {any} */
+  /** The run on elastic lines, once it is computed. @type {any} */
   elastic = null;
   /** @type {StructureMotion | null} */
   elasticAt = null;
@@ -82,12 +82,12 @@ export class StructureRun {
     this.reach = { x: ends(x), z: ends(z) };
     this.mostTension = tensions.reduce((most, column) => Math.max(most, ends(column)[1]), 0);
     const { utilisation, peak, speed } = answer.snaps;
-    // One measure for all: the part of the breaking load, else the tension, else the speed.
+    // One measure for all: the utilisation if known, or the tension, or the speed.
     this.hardness = [utilisation, peak].find((column) => !column.includes(null)) ?? speed;
     this.hardest = this.hardness.reduce((most, value) => Math.max(most, value), 0);
   }
 
-  /** The same run on elastic lines, to be shown beside it; null for none. */
+  /** Sets the same run on elastic lines, for comparison; null for none. */
   setElastic(answer) {
     this.elastic = answer;
     this.elasticAt = answer && answer.motion.t.length ? new StructureMotion(answer.motion) : null;
@@ -140,13 +140,13 @@ export class StructureRun {
     return found;
   }
 
-  /** How many snaps of 1 cm/s or more there are, and whether impacts of taut lines are among them. */
+  /** The number of snaps of 1 cm/s or more, and whether impacts of taut lines are among them. */
   get snapsInWords() {
     if (this.snaps.jolt.includes(true)) return `${this.snaps.all} snaps and impacts while taut`;
     return `${this.snaps.all} ${this.snaps.all === 1 ? "snap" : "snaps"}`;
   }
 
-  /** What keys come to that the case leaves out, as far as the answer tells. */
+  /** The values of keys that the case leaves out, as far as the answer has them. */
   effective(state) {
     const { body } = this.assessment;
     /** @type {[string, any][]} */
@@ -158,7 +158,7 @@ export class StructureRun {
       ["body.added_mass", `[${[...body.added_mass_kg, body.added_inertia_kg_m2].map((v) => number(v, 6)).join(", ")}]`],
       ["body.height", this.geometry.height],
       ...lines.flatMap(([path, line]) => Object.entries(ofLine(line)).map(([key, value]) => [`${path}.${key}`, value])),
-      // Of all lines at once only what they share.
+      // For all lines at once only the values that they share.
       ...Object.entries(ofLine(this.lines[0]))
         .filter(([key, value]) => this.lines.every((line) => ofLine(line)[key] === value))
         .map(([key, value]) => [`line.${key}`, value]),

@@ -1,4 +1,4 @@
-// The scene of a structure on its canvas, and what is said of the run in the words of `snapload assess`.
+// The scene of a structure on its canvas, and the description of the run from `snapload assess`.
 
 import { $ } from "./dom.js";
 import { prepare } from "./plot.js";
@@ -8,7 +8,7 @@ import { colours, reducedMotion } from "./theme.js";
 import { snapWords } from "./structure-charts.js";
 import { round, sentence } from "./formatting.js";
 
-/** What a screen reader is told waits for a rest: not every position of a slider is worth a sentence. */
+/** The delay of texts for screen readers, so that a dragged slider causes one text only. */
 const REST_MS = 900;
 export class StructureSceneView {
   constructor(state, playback) {
@@ -25,7 +25,7 @@ export class StructureSceneView {
     const { verdict, trust } = run.assessment;
     $("verdict").dataset.standing = verdict.standing;
     $("standing").textContent = run.standing;
-    $("said").textContent = verdict.words;
+    $("message").textContent = verdict.words;
     $("trust").textContent = trust.words;
     const whole = `the whole record of ${round(run.lasts_s)} s follows when the values stop changing`;
     $("preview").textContent = run.preview ? `These results are for the first ${round(run.tEnd)} s; ${whole}.` : "";
@@ -51,14 +51,14 @@ export class StructureSceneView {
     return { width, height, zoom, speed, playing, colours: colours(scheme), still: reducedMotion.matches };
   }
 
-  /** What is shown now, and how: the run, its moment, the camera, and the size of the canvas. */
+  /** The current view: the run, its moment, the camera, and the size of the canvas. */
   view() {
     const [width, height] = [this.canvas.clientWidth, this.canvas.clientHeight];
     const cam = this.fixedCamera ?? structureCamera(this.run, this.options(width, height));
     return { run: this.run, moment: this.run.at(this.t), cam, whole: cam.whole, size: { width, height } };
   }
 
-  /** Keeps the camera where it is while something is moved by hand; lets it go with none. */
+  /** Fixes the camera while something is dragged; null releases it. */
   fixCamera(cam) {
     this.fixedCamera = cam;
   }
@@ -73,7 +73,7 @@ export class StructureSceneView {
   }
 }
 
-/** Which lines are taut, in words. */
+/** The taut lines as text. */
 export function tautWords(run, t) {
   const taut = run.tautAt(t);
   if (taut.length === 0) return "all lines slack";

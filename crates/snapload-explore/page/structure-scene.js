@@ -1,4 +1,4 @@
-// A structure to scale, in metres: the water's surface as linear theory has it, the body, its lines, and their snaps.
+// A structure to scale, in metres: the water's surface by linear theory, the body, its lines, and their snaps.
 
 import { slackLine } from "./slack-line.js";
 import { turned } from "./scene.js";
@@ -6,10 +6,10 @@ import { arrow } from "./shapes.js";
 import { lineColour, mix } from "./theme.js";
 import { fixed, number, round } from "./formatting.js";
 
-/** How long a snap stays to be seen while the picture plays, in seconds of watching. */
+/** How long a snap stays visible during playback, in seconds of real time. */
 const AFTERGLOW_S = 0.45;
 const PATH_BEHIND_S = 12;
-/** Room beyond the floor for the numbers of the lines, and beside for those of the depth [px]. */
+/** Margins below the floor for the numbers of the lines, and at the side for those of the depth [px]. */
 const [BELOW_PX, LEFT_PX] = [40, 46];
 
 /** The corners of the body about its centre. */
@@ -23,7 +23,7 @@ function outlineOf({ width, height }) {
   ];
 }
 
-/** What of the plane is shown: anchors, floor, crests, and the body where it goes. z points up the page. */
+/** The camera, which shows anchors, floor, crests, and the body's motion. z points up the page. */
 export function structureCamera(run, { width, height, zoom }) {
   const { geometry, waves, reach } = run;
   const size = Math.hypot(geometry.width, geometry.outline === "circle" ? 0 : geometry.height) / 2;
@@ -43,13 +43,13 @@ export function structureCamera(run, { width, height, zoom }) {
   return { place, unplace, scale, whole, up: -1, level: (z) => place([0, z])[1] };
 }
 
-/** How high crests are, and deep troughs: those of a sea but for rare ones. */
+/** The usual height of crests and depth of troughs. */
 const crestOf = (waves) => Math.min(waves.reduce((sum, [amplitude]) => sum + amplitude, 0), 2.2 * rms(waves));
 
 /** The standard deviation of the surface times √2: the amplitude of one wave, and about half of Hs/√2 of a sea. */
 const rms = (waves) => Math.sqrt(waves.reduce((sum, [amplitude]) => sum + amplitude * amplitude, 0)) || 0.01;
 
-/** All shapes at time t. `options`: width, height [px], zoom, colours, playing, speed, still, and perhaps the camera. */
+/** All shapes at time t. `options`: width, height [px], zoom, colours, playing, speed, still, and optionally camera. */
 export function structureShapes(run, t, options) {
   const cam = options.camera ?? structureCamera(run, options);
   const { colours } = options;
@@ -76,7 +76,7 @@ export function structureShapes(run, t, options) {
   ];
 }
 
-/** Impacts that are still to be seen at t, the latest of each line, with how much of them is left. */
+/** Impacts that are still visible at t, the latest of each line, with their strength. */
 function recentSnaps(run, t, { playing, speed }) {
   const span = playing ? AFTERGLOW_S * speed : 0;
   const seen = new Set();
@@ -135,7 +135,7 @@ function depths(run, cam, { height, colours }) {
   return shapes;
 }
 
-/** Where the centre was, of late. */
+/** The recent path of the centre. */
 function path(run, t, cam, colours) {
   const { t: times, x, z } = run.motion;
   const points = [];
@@ -175,7 +175,7 @@ function elasticShapes(run, moment, cam, colours) {
   return [...lines, ...bodyShapes(run, moment, cam, { stroke: colours.ghost, width: 1.4, alpha: 0.75 })];
 }
 
-/** How much of its strength a line carries, for its colour; of the most that any carries where that is not known. */
+/** The utilisation of a line, for its colour; relative to the largest tension of any line if it is not known. */
 export function loadFraction(run, i, kilonewtons) {
   const { breaking_load_n } = run.lines[i];
   const most = breaking_load_n ? breaking_load_n / 1e3 : run.mostTension;
@@ -202,11 +202,11 @@ function lineShapes(run, i, moment, cam, { colours }, snaps) {
   if (!snap) return [hung, anchor];
   const strength = snapPart(run, snap.i) * snap.left;
   const struck = { points: [from, to], stroke: colours.snap, width: 1.5 + 6 * strength, alpha: 0.8 * snap.left ** 4 };
-  // At the instant itself the line is straight, and nothing hangs.
+  // At the instant itself the line is straight.
   return snap.left === 1 ? [struck, anchor] : [hung, struck, anchor];
 }
 
-/** How large a snap is drawn: small ones are seen beside the hardest. */
+/** The size at which a snap is drawn, such that small ones remain visible. */
 const snapPart = (run, i) => Math.sqrt(Math.min(run.hardness[i] / (run.hardest || 1), 1));
 
 function snapShapes(run, { i, line, left }, moment, cam, { colours, still, width }) {
@@ -226,14 +226,14 @@ function snapShapes(run, { i, line, left }, moment, cam, { colours, still, width
   ];
 }
 
-/** At each anchor the number of its line and what it carries. */
+/** The number of each line and its tension, at its anchor. */
 function labelShapes(run, i, moment, cam, { colours, height }) {
   const { anchor } = run.geometry.lines[i];
   const [x, y] = cam.place(anchor);
   if (y > height - 4) return [];
   const taut = moment.taut.includes(i + 1);
   const text = { size: 12, align: "center", fill: lineColour(colours, i + 1) };
-  // Many lines have no room for more than their numbers.
+  // With many lines there is only room for their numbers.
   const carries = run.geometry.lines.length > 4 ? "" : taut ? `${round(moment.tensions[i])} kN` : "slack";
   return [
     { ...text, text: `line ${i + 1}`, at: [x, y + 22] },
@@ -241,7 +241,7 @@ function labelShapes(run, i, moment, cam, { colours, height }) {
   ];
 }
 
-/** In the water, clear of its troughs, where there is room; else at the upper edge. */
+/** In the water, below the troughs, if there is room; otherwise at the upper edge. */
 function scaleBar(run, cam, { width, height, colours }) {
   const nice = [100, 50, 20, 10, 5, 2, 1, 0.5, 0.2, 0.1].find((l) => l * cam.scale < 0.2 * width) ?? 0.1;
   const length = nice * cam.scale;
@@ -262,7 +262,7 @@ function scaleBar(run, cam, { width, height, colours }) {
   ];
 }
 
-/** What the scene shows, in words, for those who do not see it. */
+/** A description of the scene for screen readers. */
 export function structureWords(run, t) {
   const moment = run.at(t);
   const degrees = fixed((moment.theta * 180) / Math.PI, 1);

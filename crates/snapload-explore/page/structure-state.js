@@ -1,6 +1,6 @@
-// The state of the page of a structure: the case that is open, what is changed in it, and what is looked at.
+// The state of the page of a structure: the open case, the changes of it, and the view.
 
-import { SPEEDS, Watched, decode, finite, readValue } from "./state.js";
+import { SPEEDS, ObservableState, decode, finite, readValue } from "./state.js";
 import { fieldText } from "./formatting.js";
 
 const BEGINNING = {
@@ -26,22 +26,22 @@ function keysOf(schema, lines) {
   );
 }
 
-export class StructureState extends Watched {
-  /** What is changed, by path. @type {object} */
+export class StructureState extends ObservableState {
+  /** The changes, by path. @type {object} */
   values = {};
-  /** What moves the water, where that is another than in the case. @type {string | null} */
+  /** The kind of waves, if it is another than in the case. @type {string | null} */
   water = null;
   t = 0;
   speed = 1;
   loop = true;
-  /** Whether elastic lines are shown beside. */
+  /** Whether the run on elastic lines is shown, too. */
   elastic = true;
   /** The interval of time that is shown [s]. @type {number[] | null} */
   window = null;
   /** @type {number[] | null} */
   zoom = null;
 
-  /** `file` is the case file where it was opened on the page, `given` what it gives. */
+  /** `file` is the case file if it was opened on the page, `given` its values. */
   constructor(schema, { name, given, water, lines, floats }, file = null) {
     super();
     this.caseName = name;
@@ -61,7 +61,7 @@ export class StructureState extends Watched {
     return this.schema.keys.find((key) => key.name === name);
   }
 
-  /** The value of a key: as it is changed, as the case gives it, or its default. Null where it is none of these. */
+  /** The value of a key: the changed one, that of the case, or the default; null if there is none. */
   value(name) {
     const own = this.values[name];
     if (own !== undefined) return own;
@@ -70,19 +70,19 @@ export class StructureState extends Watched {
     return (key && this.values[`${table}.${key}`]) ?? this.given[name] ?? this.#key(name)?.default ?? null;
   }
 
-  /** What every line has; null where they differ. */
+  /** The value that all lines have; null if they differ. */
   #ofAllLines(key) {
     const all = Array.from({ length: this.lines }, (_, i) => this.value(`line.${i + 1}.${key}`));
     return all.every((value) => fieldText(value) === fieldText(all[0])) ? all[0] : null;
   }
 
-  /** Some keys; a value of null, or that of the case, leaves one as it is there. */
+  /** Sets some keys; null, or the value of the case, removes a change. */
   setValues(changes, more = {}) {
     const values = { ...this.values };
     for (const [name, value] of Object.entries(changes)) {
       const key = this.#key(name);
       const ofAll = key.table === "line" && key.under === "line";
-      // What is set of all lines is set of each.
+      // A value for all lines replaces those of the single lines.
       const ending = name.slice("line".length);
       if (ofAll) for (const path of Object.keys(values)) if (path.endsWith(ending)) delete values[path];
       if (value === null || value === this.given[name]) delete values[name];
@@ -91,7 +91,7 @@ export class StructureState extends Watched {
     this.set({ values, ...more });
   }
 
-  /** The case as the server is asked for it: changes as `--set` takes them, those of all lines first. */
+  /** The case in a request: changes in the notation of `--set`, those of all lines first. */
   get asked() {
     const order = Object.entries(this.values).sort(([a], [b]) => a.split(".").length - b.split(".").length);
     const other = (name) => ["wave", "sea"].some((water) => water !== this.waterNow && name.startsWith(`${water}.`));
@@ -111,7 +111,7 @@ export class StructureState extends Watched {
     return parts.map(([name, value]) => `${name}=${encodeURIComponent(value).replaceAll("%2C", ",")}`).join("&");
   }
 
-  /** Takes the state of a fragment, whole. Gives what could not be read. */
+  /** Takes the whole state of a fragment. Returns what could not be read. */
   readFragment(fragment) {
     const next = { ...BEGINNING, values: {} };
     const broken = [];

@@ -1,9 +1,9 @@
-// The answer in tables, as `snapload assess` and its page tell it: lines, checks, warnings, and the hardest snaps.
+// The answer in tables, as in `snapload assess` and its page: lines, checks, warnings, and the hardest snaps.
 
 import { $ } from "./dom.js";
 import { fixed, number, round, sentence } from "./formatting.js";
 
-/** Of the snaps that are judged, and of those before, as the waves have just begun. */
+/** The numbers of listed snaps: of the judged ones, and of those in the transient. */
 const [LISTED, EARLY] = [10, 3];
 
 const kilo = (newtons) => (newtons === null || newtons === undefined ? "–" : round(newtons / 1e3, 4));
@@ -12,7 +12,7 @@ const cell = (text, kind = "num") => `<td class="${kind}">${text}</td>`;
 /** @param {string} text */
 const escape = (text) => text.replace(/[&<>]/g, (c) => ({ "&": "&amp;", "<": "&lt;", ">": "&gt;" })[c]);
 
-/** A part of the breaking load as a bar, full where the line breaks. */
+/** A utilisation as a bar, which is full if the line breaks. */
 function bar(utilisation) {
   if (utilisation === null) return "not known";
   const part = Math.min(utilisation, 1);
@@ -40,7 +40,7 @@ function lineRow(line, elastic) {
   );
 }
 
-/** The lines, rigid and, where they are there, elastic side by side. */
+/** The lines, inextensible and, if computed, elastic side by side. */
 export function showLines(run) {
   const elastic = run.elastic?.elastic;
   const head = (words, unit, kind = "num") =>

@@ -1,11 +1,11 @@
-// The same structure in regular waves of other heights and periods, as a table that the arrow keys go through.
+// The same structure in regular waves of other heights and periods, as a table with arrow-key navigation.
 
 import { fetchLong } from "./api.js";
 import { $ } from "./dom.js";
 import { fixed, number } from "./formatting.js";
 
 export class StructureWaves {
-  /** `onPick` is told of a wave that is to be run. */
+  /** `onPick` receives a wave that is to be run. */
   constructor(state, { onPick }) {
     this.state = state;
     this.onPick = onPick;
@@ -16,7 +16,7 @@ export class StructureWaves {
     table.addEventListener("keydown", (event) => this.#step(event));
   }
 
-  /** Other values have another table; what is shown stays until it is computed again. */
+  /** Takes changed values, which need another table; the old one stays until then. */
   follow() {
     $("waves-box").hidden = this.state.waterNow !== "wave";
     const stale = this.asked !== undefined && this.asked !== this.#key;
@@ -35,7 +35,7 @@ export class StructureWaves {
     return Number(this.state.value(`wave.${key}`));
   }
 
-  /** What the table is of: all but the wave itself, which is in it. */
+  /** The case of the table without its wave, which varies in it. */
   get #key() {
     const { set, ...rest } = this.state.asked;
     return JSON.stringify([rest, set.filter((change) => !/^wave\.(height|period)=/.test(change))]);
@@ -44,14 +44,14 @@ export class StructureWaves {
   async compute() {
     const asked = this.#key;
     this.abort = new AbortController();
-    $("waves-said").textContent = "computing a hundred waves…";
+    $("waves-message").textContent = "computing a hundred waves…";
     this.follow();
     try {
       const answer = await fetchLong("api/structure/waves", { case: this.state.asked }, this.abort.signal);
       this.asked = asked;
       this.#show(answer);
     } catch (error) {
-      $("waves-said").textContent = error.message;
+      $("waves-message").textContent = error.message;
     }
     this.abort = null;
     this.follow();
@@ -59,7 +59,7 @@ export class StructureWaves {
 
   #show({ periods_s, heights_m, cells, utilisation, length }) {
     const what = utilisation ? "Largest utilisation" : "Fastest snap [m/s]";
-    $("waves-said").textContent =
+    $("waves-message").textContent =
       `${what} in waves run for ${length} periods each; ×: the run fails, or the wave can not be run. ` +
       "Motions are chaotic, so that single cells may differ from those beside them. Click a cell to run its wave.";
     const plainly = (value) => Number(value.toPrecision(3));
@@ -84,7 +84,7 @@ export class StructureWaves {
     this.onPick({ "wave.height": Number(height), "wave.period": Number(period) });
   }
 
-  /** One cell takes the tab key; the arrow keys go from cell to cell, Enter runs one. */
+  /** One cell is in the tab order; the arrow keys move from cell to cell, Enter runs one. */
   #step(event) {
     const cell = event.target.closest("td");
     if (!cell) return;

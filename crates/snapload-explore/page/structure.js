@@ -10,7 +10,7 @@ import {
   note,
   openStructure,
   openedStructure,
-  paintedSince,
+  reportPaintTime,
   purposeAndSkip,
   themeButton,
 } from "./page.js";
@@ -18,7 +18,7 @@ import { onResize } from "./plot.js";
 import { Playback } from "./playback.js";
 import { chooseTheme, chosenTheme, colours, lineColour, reducedMotion } from "./theme.js";
 import { StructureCharts, breakingLoads } from "./structure-charts.js";
-import { structureGroups, whyNot } from "./structure-groups.js";
+import { structureKeyGroups, reasonUnavailable } from "./structure-key-groups.js";
 import { StructureHandles } from "./structure-handles.js";
 import { PinnedAnswers } from "./structure-pinned-answers.js";
 import { StructureRun } from "./structure-run.js";
@@ -26,14 +26,14 @@ import { structureShapes } from "./structure-scene.js";
 import { StructureSceneView } from "./structure-scene-view.js";
 import { StructureState } from "./structure-state.js";
 import { showChecks, showLines, showSnaps } from "./structure-tables.js";
-import { StructureTransport } from "./structure-transport.js";
+import { StructurePlaybackControls } from "./structure-playback-controls.js";
 import { StructureWaves } from "./structure-waves.js";
 import { ExportPanel } from "./export.js";
 import { fixed, round } from "./formatting.js";
 
-/** Values that rest for so long are worth their neighbours, and elastic lines. */
+/** Neighbours and elastic lines are computed this long after the last change of values. */
 const REST_MS = 300;
-/** Neighbours of a longer record [s] are for the command: forty of them would keep the machine busy for minutes. */
+/** The longest record whose neighbours are computed here [s]: forty longer ones would take minutes. */
 const LONGEST_WITH_NEIGHBOURS = 1200;
 const PURPOSE_READ = "snapload-structure-purpose-read";
 
@@ -50,17 +50,17 @@ class Page {
     });
     this.playback = new Playback(this.state, () => this.run);
     this.sceneView = new StructureSceneView(this.state, this.playback);
-    this.transport = new StructureTransport(this.state, this.playback, {
+    this.playbackControls = new StructurePlaybackControls(this.state, this.playback, {
       onInterval: (from) => this.showInterval(from),
     });
     this.playback.onPlaying = (playing) => {
-      this.transport.showPlaying(playing);
+      this.playbackControls.showPlaying(playing);
       this.drawMoment();
     };
     this.link.read();
     this.controls = new Controls($("controls"), this.state, {
-      groups: structureGroups(this.state),
-      whyNot,
+      groups: structureKeyGroups(this.state),
+      reasonUnavailable,
       onChange: (change) => this.changed(change),
     });
     this.handles = new StructureHandles(this.sceneView, this.state, {
@@ -76,7 +76,7 @@ class Page {
     this.exports = new ExportPanel({
       state: this.state,
       sceneView: this.sceneView,
-      now: () => this.run,
+      currentRun: () => this.run,
       question: () => ({ case: this.state.asked }),
       address: () => this.link.address,
       path: "api/structure/export",
@@ -121,7 +121,7 @@ class Page {
     if (settled) this.link.write({ now: true, gesture });
   }
 
-  /** Asks for the run of the values as they are; once, however often one asks. */
+  /** Requests the run of the current values; only once for the same values. */
   ask(since = performance.now()) {
     const asked = JSON.stringify(this.question);
     if (asked === this.asked) return;
@@ -130,7 +130,7 @@ class Page {
     this.runner.ask(this.question, since);
   }
 
-  /** What was going on beside is of other values now. */
+  /** Cancels further work, which belongs to earlier values. */
   stopBackground() {
     clearTimeout(this.resting);
     this.background?.abort();
@@ -141,14 +141,14 @@ class Page {
   receive(answer, since, question) {
     const before = this.run;
     this.run = new StructureRun(answer);
-    // What was computed of elastic lines stays for another interval of the same run.
+    // Results for elastic lines stay valid for another interval of the same run.
     this.sameCase = before !== null && keyOf(this.ofCase) === keyOf(question.case);
     this.ofCase = question.case;
     const latest = this.asked === JSON.stringify(question);
     this.show();
     if (this.playsAtOnce) this.playback.play();
     this.playsAtOnce = false;
-    paintedSince(since);
+    reportPaintTime(since);
     if (!latest) return;
     $("failed").hidden = true;
     this.controls.clearError();
@@ -156,12 +156,12 @@ class Page {
     this.resting = setTimeout(() => this.computeFurther(), this.sameCase ? 0 : REST_MS);
   }
 
-  /** Shows the run that there is. */
+  /** Shows the current run. */
   show() {
     const { run, state } = this;
     this.sceneView.setRun(run);
-    this.transport.setRun(run);
-    // The interval that the server chose is kept while values change, so that one thing changes at a time.
+    this.playbackControls.setRun(run);
+    // The interval chosen by the server is kept while values change, so that only one thing changes at a time.
     const [from, to] = run.window;
     const t = state.t >= from && state.t <= to ? state.t : from;
     this.asked = JSON.stringify({ case: state.asked, window: run.window });
@@ -174,7 +174,7 @@ class Page {
     this.drawAll();
   }
 
-  /** Values rest: the whole of a long record, neighbours, and elastic lines, one after the other. */
+  /** After the last change: the whole of a long record, neighbours, and elastic lines, one after the other. */
   async computeFurther() {
     this.stopBackground();
     const { question, state } = this;
@@ -201,23 +201,23 @@ class Page {
     }
   }
 
-  /** How far what follows the picture has come. */
+  /** Shows the progress of the work after the picture. */
   #showProgress(words) {
     $("coming").textContent = words;
   }
 
   async #computeElastic(question, abort) {
-    $("elastic-said").textContent = "computing…";
+    $("elastic-message").textContent = "computing…";
     try {
       const answer = await fetchLong("api/structure/elastic", question, abort.signal);
       if (this.background !== abort) return;
       this.run.setElastic(answer);
-      $("elastic-said").textContent = "";
+      $("elastic-message").textContent = "";
       showLines(this.run);
       this.drawAll();
     } catch (error) {
       if (error.name === "AbortError") return;
-      $("elastic-said").textContent = error.message.split("\n")[0];
+      $("elastic-message").textContent = error.message.split("\n")[0];
     }
   }
 
@@ -228,7 +228,7 @@ class Page {
     $("failed").hidden = false;
   }
 
-  /** Redraws what a change of the state concerns. */
+  /** Redraws what depends on a change of the state. */
   follow(changed) {
     if (changed.has("values") || changed.has("water")) {
       this.controls.show(this.run?.effective(this.state));
@@ -237,14 +237,14 @@ class Page {
     if (changed.has("window")) queueMicrotask(() => this.ask());
     if (changed.has("elastic")) {
       if (!this.state.elastic) this.run?.setElastic(null);
-      $("elastic-said").textContent = "";
+      $("elastic-message").textContent = "";
       if (this.run) showLines(this.run);
       if (this.state.elastic && this.run) this.computeFurther();
     }
     if (["zoom", "window", "elastic"].some((name) => changed.has(name))) this.drawAll();
     else if (changed.has("t") || changed.has("speed")) this.drawMoment();
     this.showChoices();
-    this.transport.show();
+    this.playbackControls.show();
     this.link.write();
   }
 
@@ -261,7 +261,7 @@ class Page {
     }
   }
 
-  /** The colours and marks of the lines, and where they break. */
+  /** The colours and marks of the lines, and their breaking loads. */
   #legend() {
     const marks = ["×", "○", "△", "□", "+", "◇"];
     const paints = colours();
@@ -279,14 +279,14 @@ class Page {
     this.playback.seek(t);
   }
 
-  /** Goes to a time wherever it is in the record. */
+  /** Moves the time cursor to any time of the record. */
   goTo(t) {
     const [from, to] = this.run.window;
     if (t < from || t > to) this.showInterval(t - (to - from) / 2);
     this.jump(t);
   }
 
-  /** Shows an interval as long as now that begins elsewhere. */
+  /** Shows an interval of the same length with another start. */
   showInterval(begin) {
     const [from, to] = this.run.window;
     const length = to - from;
@@ -308,7 +308,7 @@ class Page {
   drawAll() {
     if (!this.run) return;
     this.charts.draw(this.run, this.run.window);
-    this.transport.draw();
+    this.playbackControls.draw();
     this.pins.show();
     this.showChoices();
     this.#legend();
@@ -317,16 +317,16 @@ class Page {
 
   drawMoment() {
     if (!this.run || this.framed) return;
-    // However many events ask for it, a picture is painted once a frame.
+    // A picture is painted once a frame, however many events request it.
     this.framed = requestAnimationFrame(() => {
       this.framed = null;
       this.sceneView.draw();
       this.charts.cursor(this.state.t, this.hover);
-      this.transport.show();
+      this.playbackControls.show();
     });
   }
 
-  /** The case file of a structure is opened; one of the thesis's model has the other page. */
+  /** Opens the case file of a structure; one of the thesis's model opens the other page. */
   async open(file) {
     const { structure, values } = await fetchCase(file);
     if (structure) await openStructure(file);
@@ -347,7 +347,7 @@ class Page {
     });
   }
 
-  /** Other waves begin about as high and as long as those that they replace. */
+  /** Waves of another kind start with about the height and period of those that they replace. */
   #chooseWater(water) {
     const { state } = this;
     const value = (name) => Number(state.value(name) ?? 0);
@@ -367,7 +367,7 @@ class Page {
 
 const keyOf = (value) => JSON.stringify(value);
 
-/** Values of the thesis's model as a fragment of its page. */
+/** Values of the thesis's model as a fragment of its page's address. */
 const caseFragment = (values) =>
   Object.entries(values)
     .map(([name, value]) => `${name}=${encodeURIComponent(value)}`)

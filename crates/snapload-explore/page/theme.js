@@ -1,6 +1,6 @@
-// Colours are named in theme.css alone; whoever paints on a canvas asks for them here.
+// The colours of theme.css, for painting on a canvas.
 
-/** The names that theme.css gives, without their dashes: those whose values are colours. */
+/** The names of the colours in theme.css, without their dashes. */
 function names() {
   const sheet = [...document.styleSheets].find(({ href }) => href?.endsWith("/theme.css"));
   const root = /** @type {CSSStyleRule} */ (sheet?.cssRules[0]);
@@ -10,13 +10,13 @@ function names() {
 
 const caches = new Map();
 
-/** All colours of the scheme in effect, or of the one named. */
+/** All colours of the current scheme, or of the named one. */
 export function colours(scheme = "") {
   const known = caches.get(scheme);
   if (known) return known;
   const probe = document.createElement("span");
   probe.hidden = true;
-  // Where the system chooses the page's few colours, pictures keep their own.
+  // If the system chooses the page's colours, pictures keep their own.
   probe.style.forcedColorAdjust = "none";
   if (scheme) probe.style.colorScheme = scheme;
   document.body.append(probe);
@@ -30,10 +30,10 @@ export function colours(scheme = "") {
   return found;
 }
 
-/** Lines have colours of their own, up to six; more begin again. */
+/** The colour of a line; after six lines the colours repeat. */
 export const lineColour = (paints, line) => paints[`cable-${((line - 1) % 6) + 1}`];
 
-/** What an end of a run is painted with; one without a colour of its own is another limit. */
+/** The colour of an end of a run; ends without a colour of their own are other limits. */
 export const endColour = (paints, reason) => paints[`end-${reason}`] ?? paints["end-other"];
 
 /** Between two colours: `part` of the way from the first to the second. */
@@ -51,7 +51,7 @@ export function mix(from, to, part) {
 const KEY = "snapload-theme";
 export const THEMES = ["auto", "light", "dark"];
 
-/** What the browser keeps for the page under a name; it may keep nothing for us. */
+/** A value that the browser stores for the page under a name; storage may be disabled. */
 export function stored(name) {
   try {
     return localStorage.getItem(name);
@@ -64,7 +64,7 @@ export function store(name, value) {
   try {
     localStorage.setItem(name, value);
   } catch {
-    // It then lasts as long as the page.
+    // The choice then lasts until the page is closed.
   }
 }
 

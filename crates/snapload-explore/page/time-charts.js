@@ -1,5 +1,4 @@
-// Charts against time under one time cursor: what every page of motions has in common. What is drawn is told by a list
-// of charts.
+// Charts against time with one time cursor, for all pages of motions. A list of charts defines what is drawn.
 
 import { Frame, drawAxes, inside, label, prepare, ticks } from "./plot.js";
 import { number } from "./formatting.js";
@@ -9,11 +8,11 @@ const NEAR_PX = 9;
 
 /**
  * A chart: its `id`, `name`, `symbol` and `unit`; `range(run, seen, pins)` of y, `draw(context, frame, run, looks)`,
- * `read(run, moment)` in words, `words(run)` for those who do not see it; perhaps `value(moment)` where a dot stands, and
- * `marks(run)`, columns `t` and `y` of what can be pointed at, with `markWords(run, i)`.
+ * `read(run, moment)` as text, `words(run)` for screen readers; optionally `value(moment)`, the position of a dot, and
+ * `marks(run)`, columns `t` and `y` of marks that can be hovered, with `markWords(run, i)`.
  */
 export class TimeCharts {
-  /** `onJump` is told where a chart was clicked, `onHover` what the pointer is over, `onZoom` which time to show. */
+  /** `onJump` receives the clicked time, `onHover` the hovered one, `onZoom` the time window to show. */
   constructor(root, charts, { colours, unit, onJump, onHover, onZoom }) {
     this.colours = colours;
     this.unit = unit;
@@ -79,7 +78,7 @@ export class TimeCharts {
       this.drag = null;
       if (drag?.zoom && Math.abs(drag.to - drag.from) > 0) this.onZoom([drag.from, drag.to].sort((a, b) => a - b));
     });
-    // A drag with shift chooses time, and no text.
+    // A drag with shift selects a time window, and no text.
     over.addEventListener("mousedown", (event) => event.shiftKey && event.preventDefault());
     over.addEventListener("pointercancel", () => (this.drag = null));
     over.addEventListener("pointerleave", () => this.onHover(null));
@@ -139,7 +138,7 @@ export class TimeCharts {
     base.setAttribute("aria-label", `${chart.name} ${when}: ${chart.words(this.run)}. The page has a table of the events.`);
   }
 
-  /** What lies past the horizon of trust. */
+  /** Shades the time past the horizon of trust. */
   #shade(context, frame, colours) {
     const { t } = this.run.horizon;
     if (t === null || t >= frame.x1) return;
@@ -149,7 +148,7 @@ export class TimeCharts {
     context.fillRect(x, frame.top, frame.left + frame.width - x, frame.height);
   }
 
-  /** Shows the time cursor, what is hovered over, and the readings: marks that move over a chart that stays. */
+  /** Shows the time cursor, the hovered mark, and the readings: elements that move over an unchanged chart. */
   cursor(t, hover) {
     if (!this.run) return;
     const read = this.run.at(Math.min(hover?.t ?? t, this.run.tEnd));
@@ -157,16 +156,16 @@ export class TimeCharts {
       const frame = this.frames.get(part.chart.id);
       const drag = this.drag?.zoom ? this.drag : null;
       const upright = (mark, time) =>
-        put(mark, time !== undefined && frame.holdsX(time), frame.x(time), frame.top, 0, frame.height);
+        placeMark(mark, time !== undefined && frame.holdsX(time), frame.x(time), frame.top, 0, frame.height);
       upright(part.upright, t);
       upright(part.hovered, hover?.t);
       const [a, b] = drag ? [frame.x(drag.from), frame.x(drag.to)].sort((one, other) => one - other) : [0, 0];
-      put(part.brush, drag !== null, a, frame.top, b - a, frame.height);
+      placeMark(part.brush, drag !== null, a, frame.top, b - a, frame.height);
       const value = part.chart.value?.(read);
-      put(part.dot, value !== undefined && frame.holdsX(read.t), frame.x(read.t), frame.y(value));
+      placeMark(part.dot, value !== undefined && frame.holdsX(read.t), frame.x(read.t), frame.y(value));
       const near = hover?.at?.part === part ? this.#nearest(part.chart, hover.at.x, hover.at.y) : null;
       const marks = near === null ? null : part.chart.marks(this.run);
-      put(part.ring, near !== null, frame.x(marks?.t[near]), frame.y(marks?.y[near]));
+      placeMark(part.ring, near !== null, frame.x(marks?.t[near]), frame.y(marks?.y[near]));
       const words = near === null ? part.chart.read(this.run, read) : part.chart.markWords(this.run, near);
       if (part.reading.value !== words) part.reading.value = words;
     }
@@ -174,7 +173,7 @@ export class TimeCharts {
 }
 
 /**
- * A range that stands on zero.
+ * A range that starts at zero.
  * @param {number[]} range
  */
 export const above = ([, high]) => [0, high];
@@ -191,8 +190,8 @@ export function rows(t, [from, to]) {
   return [first < 0 ? Math.max(t.length - 1, 0) : Math.max(first - 1, 0), last < 0 ? t.length : last + 1];
 }
 
-/** Puts a mark at a place of its chart, or away. */
-function put(mark, there, x, y, width, height) {
+/** Places a mark at a position of its chart, or hides it. */
+function placeMark(mark, there, x, y, width, height) {
   mark.hidden = !there;
   if (!there) return;
   mark.style.transform = `translate(${x}px, ${y}px)`;

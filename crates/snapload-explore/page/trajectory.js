@@ -8,10 +8,10 @@ const MARGIN = { left: 50, right: 10, top: 8, bottom: 34 };
 const REACH_PX = 40;
 const MOST_MARKS = 2500;
 const PIECES = 64;
-/** Rotations at which is looked whether a boundary comes into the frame. */
+/** The number of rotations at which a boundary is tested for being in the frame. */
 const LOOKS = 60;
 
-/** What can be drawn against what: columns of the motion with the words at their axes. */
+/** The planes of the motion: their columns with the labels of their axes. */
 export const PLANES = {
   path: { words: "Path of the centre", x: "x", y: "y", axes: ["x  [L]", "y  [L], towards the anchors"] },
   x: { words: "Phase plane of x", x: "x", y: "vx", axes: ["x  [L]", "velocity along x  [L/T]"] },
@@ -50,7 +50,7 @@ export class Trajectory {
     });
   }
 
-  /** The time at which the path passes nearest to the pointer, if it does so within reach. */
+  /** The time at which the path is nearest to the pointer, if it is near enough. */
   #timeNear(event) {
     if (!this.run) return null;
     const { t } = this.run.motion;
@@ -110,7 +110,7 @@ export class Trajectory {
     this.base.setAttribute("aria-label", `${this.plane.words}: ${reach}; y at most ${number(run.norms.y_max, 3)} L.`);
   }
 
-  /** Runs that were kept, as far as they last in the time that is shown. */
+  /** Pinned runs, within the time that is shown. */
   #pinned(context) {
     const { t } = this.run.motion;
     const shown = [t[this.rows[0]], t[this.rows[1] - 1]];
@@ -121,7 +121,7 @@ export class Trajectory {
     }
   }
 
-  /** Where the motion is once a period of the forcing, at its phase at t = 0; pale what is past the horizon. */
+  /** The section once a period of the forcing, at its phase at t = 0; points past the horizon are pale. */
   #section(context, colours) {
     const { run } = this;
     const period = (2 * Math.PI) / run.values.omega;
@@ -152,8 +152,8 @@ export class Trajectory {
   }
 
   /**
-   * Where the centre is when a cable is just taut at this rotation: on a circle about the anchor less the arm. Only the
-   * part that passes the frame, as the circle of a long cable is larger than what can be drawn.
+   * The positions of the centre with a just taut cable at this rotation: a circle about the anchor minus the arm.
+   * Only the part in the frame, as the circle of a long cable is too large to be drawn.
    */
   #boundary({ anchor, arm, length }, theta) {
     const { frame } = this;
@@ -168,7 +168,7 @@ export class Trajectory {
     });
   }
 
-  /** The boundaries of a body that is upright. */
+  /** The boundaries of an upright body. */
   #upright(context, colours) {
     context.strokeStyle = colours.muted;
     context.lineWidth = 1.1;
@@ -179,7 +179,7 @@ export class Trajectory {
 
   #legs(context, colours) {
     const { motion, modes, horizon } = this.run;
-    // Blue and orange are the cables; how many of them carry is told by the red of tension, and by width.
+    // Cables are blue and orange; red and the line's width show how many of them are taut.
     const styles = [
       [colours.ink, 1.1],
       [colours.strained, 2.2],
@@ -227,7 +227,7 @@ export class Trajectory {
     context.setLineDash([]);
   }
 
-  /** Only what there is in the time shown has an entry. */
+  /** The legend, with entries only for what occurs in the time shown. */
   #legend() {
     const { run } = this;
     const { t } = run.motion;
@@ -262,7 +262,7 @@ export class Trajectory {
     return x >= left && x <= left + width && y >= top && y <= top + height;
   };
 
-  /** Whether the boundary of a cable comes into the frame at any time shown. */
+  /** Whether the boundary of a cable is in the frame at any time shown. */
   #passes(cable) {
     const { theta } = this.run.motion;
     const [from, to] = this.rows;
@@ -273,7 +273,7 @@ export class Trajectory {
     return false;
   }
 
-  /** I where the motion starts, E where it ends: the letters of the thesis's figures. */
+  /** I at the start and E at the end of the motion: the letters of the thesis's figures. */
   #letters(context, colours) {
     const { t } = this.run.motion;
     const [x, y] = this.#columns(this.run.motion);
@@ -297,7 +297,7 @@ export class Trajectory {
     }
   }
 
-  /** The body's centre and the boundaries at its rotation, at the time of the cursor, and what is hovered over. */
+  /** The body's centre and the boundaries at its rotation, at the time cursor, and the hovered point. */
   cursor(t, hover) {
     if (!this.run) return;
     const { left, top, width, height } = this.frame;

@@ -1,7 +1,7 @@
-// A WebM file out of encoded pictures: the few elements of Matroska (RFC 9559) that a player needs to show them, to
-// know how long they last, and to go to any time.
+// A WebM file of encoded frames: the elements of Matroska (RFC 9559) that a player needs to show them, to know their
+// durations, and to seek.
 
-/** Numbers of elements, as the RFC has them. */
+/** The identifiers of elements in the RFC. */
 const ID = {
   header: 0x1a45dfa3,
   headerVersion: 0x4286,
@@ -82,7 +82,7 @@ function real(id, number) {
   return element(id, bytes);
 }
 
-/** A place in the file in eight bytes, whatever it is: it is written before it is known. */
+/** A position in the file, always in eight bytes, as it is written before it is known. */
 function place(id, number) {
   const bytes = lengthOf(number);
   bytes[0] = 0;
@@ -97,7 +97,7 @@ function block({ data, time, key }, clusterTime) {
   return element(ID.simpleBlock, join([head, data]));
 }
 
-/** Pictures in clusters that each begin with one that can be shown without those before it. */
+/** Frames in clusters that each start with a key frame. */
 function clustersOf(pictures) {
   const clusters = [];
   for (const picture of pictures) {
@@ -111,8 +111,8 @@ function clustersOf(pictures) {
 }
 
 /**
- * The file. `pictures` are { data, time, key }: bytes, milliseconds from the start, and whether it can be shown by
- * itself. No cluster lasts longer than half a minute, as a picture's time within it has 16 bits.
+ * The file. `pictures` are { data, time, key }: bytes, milliseconds from the start, and whether it is a key frame. No
+ * cluster is longer than half a minute, as a frame's time within it has 16 bits.
  */
 export function webm({ codec, width, height, framesASecond, pictures }) {
   const duration = pictures.length * (1000 / framesASecond);
@@ -146,8 +146,8 @@ export function webm({ codec, width, height, framesASecond, pictures }) {
     ),
   );
   const clusters = clustersOf(pictures);
-  // Where each cluster begins, from the first byte of the segment's content; the cues stand before them, and are as
-  // long whatever they say.
+  // The start of each cluster, from the first byte of the segment's content; the cues come before them and have a fixed
+  // length.
   const cuesAt = (first) => {
     let at = first;
     const points = clusters.map(({ time, bytes }) => {

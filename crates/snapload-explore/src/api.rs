@@ -1,5 +1,5 @@
 //! The routes of the server.
-use crate::guard::{Names, guard};
+use crate::host_check::{Names, host_check};
 use crate::refusal::{LARGEST_BODY, Refusal};
 use crate::request::Body;
 use crate::schema::{Start, schema};
@@ -76,7 +76,7 @@ pub(crate) fn router(start: Start, opened: Option<Opened>, port: u16) -> Router 
         .fallback_service(get(page::file).fallback(wrong_method))
         .method_not_allowed_fallback(wrong_method)
         .layer(DefaultBodyLimit::max(LARGEST_BODY))
-        .layer(from_fn_with_state(Arc::new(Names::at(port)), guard))
+        .layer(from_fn_with_state(Arc::new(Names::at(port)), host_check))
         .with_state(Arc::new(shared))
 }
 
@@ -178,7 +178,7 @@ fn json(bytes: Vec<u8>) -> Response {
     ([(CONTENT_TYPE, "application/json")], bytes).into_response()
 }
 
-/// The result of some work as an answer of its own, or, if its progress is asked for, as the last
+/// The result of some work as an answer of its own, or, if its progress is requested, as the last
 /// line of an answer.
 async fn progress_or(
     whole: impl FnOnce(Vec<u8>) -> Response,

@@ -9,7 +9,7 @@ use serde::{Deserialize, Serialize};
 use snapload::Parameters;
 use snapload::analysis::Progress;
 use snapload_orbits::{
-    Basin, BasinRow, Cell, Erosion, ErosionRow, Window, basin_in_words, erosion_in_words,
+    Basin, BasinRow, Cell, Erosion, ErosionRow, Window, basin_summary, erosion_summary,
 };
 use std::time::Duration;
 
@@ -66,20 +66,20 @@ pub(crate) fn answer(request: Request, allowance: &Allowance) -> Result<Vec<u8>,
         values: [x.values, y.values],
     };
     let allowance = allowance.within(BUDGET);
-    let go_on = |progress: Progress| allowance.go_on(progress);
+    let on_progress = |progress: Progress| allowance.check(progress);
     let bytes = match over {
         None => {
-            let basin = Basin::of(window, true, &go_on);
+            let basin = Basin::of(window, true, &on_progress);
             let basin = basin.map_err(|why| unfinished(why, BUDGET, "snapload basin"))?;
             serde_json::to_vec(&Picture::of(basin))
         }
         Some(over) => {
             // Neighbours of every cell would take ten times as long; the answer says that they were
             // not computed.
-            let erosion = Erosion::of(&window, over.key, &over.values, false, &go_on);
+            let erosion = Erosion::of(&window, over.key, &over.values, false, &on_progress);
             let erosion = erosion.map_err(|why| unfinished(why, BUDGET, "snapload erosion"))?;
             serde_json::to_vec(&Eroded {
-                words: erosion_in_words(&erosion),
+                words: erosion_summary(&erosion),
                 erosion: ErosionRow::new(&erosion),
             })
         }
@@ -89,7 +89,7 @@ pub(crate) fn answer(request: Request, allowance: &Allowance) -> Result<Vec<u8>,
 
 impl Picture {
     fn of(basin: Basin) -> Self {
-        let (words, row) = (basin_in_words(&basin), BasinRow::new(&basin));
+        let (words, row) = (basin_summary(&basin), BasinRow::new(&basin));
         let [x, y] = basin.window.values;
         // The engine's second key varies fastest; the page's first one does, as in a map.
         let (columns, rows) = (x.len(), y.len());

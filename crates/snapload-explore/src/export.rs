@@ -14,7 +14,7 @@ use std::time::Duration;
 
 /// The time budget of a run's neighbours.
 const BUDGET: Duration = Duration::from_secs(20);
-/// What is said where that is used up.
+/// The message if that is used up.
 const TOO_SLOW: &str = "the neighbours of this run take longer than the page waits";
 /// The most impacts in a table; larger tables are left to the command line.
 const MOST_WRITTEN: usize = 100_000;
@@ -23,7 +23,7 @@ const MOST_DRAWN: usize = 10_000;
 /// The seed that the command uses for neighbours by default.
 const SEED: u64 = 1;
 
-/// A file that can be asked for.
+/// A file that can be requested.
 #[derive(Clone, Copy)]
 pub(crate) enum File {
     Case,
@@ -127,19 +127,20 @@ impl File {
         out: &mut Vec<u8>,
     ) -> Result<(), Refusal> {
         let allowance = allowance.within(BUDGET);
-        let go_on = |progress: Progress| allowance.go_on(progress);
+        let on_progress = |progress: Progress| allowance.check(progress);
         let refuse = |unfinished| match unfinished {
             Unfinished::Case(error) => error.into(),
             Unfinished::Cancelled(_) => for_the_command(case, TOO_SLOW),
         };
-        let run = RunWithTrust::run_alone(case, Uncertainty::default(), &go_on).map_err(refuse)?;
+        let run =
+            RunWithTrust::run_alone(case, Uncertainty::default(), &on_progress).map_err(refuse)?;
         if matches!(self, Self::Impacts) {
             let written = tables::impacts(&run.run, run.trust.digits(), out);
             return written.map_err(Refusal::failed);
         }
-        let run = run.completed(case, None, SEED, &go_on);
+        let run = run.completed(case, None, SEED, &on_progress);
         let run = run.map_err(refuse)?;
-        let report = Report::new(case.parameters(), &run, None, &go_on);
+        let report = Report::new(case.parameters(), &run, None, &on_progress);
         write_json(&report, out).map_err(Refusal::failed)
     }
 }

@@ -15,7 +15,7 @@ mod api;
 mod basin;
 mod case_file;
 mod export;
-mod guard;
+mod host_check;
 mod map;
 mod order;
 mod page;

@@ -29,9 +29,9 @@ const CELLS: [usize; 3] = [16, 1, 2048];
 /// The time budget of one cell.
 const BUDGET: Duration = Duration::from_secs(2);
 /// Runs whose end time is later are run one by one, so that they can be stopped.
-const LONG: f64 = 1000.0;
+const LONGEST_AT_ONCE: f64 = 1000.0;
 /// The same for runs with more impacts than this.
-const MANY: u64 = 20_000;
+const MOST_IMPACTS_AT_ONCE: u64 = 20_000;
 
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -248,7 +248,7 @@ fn all_runs(
     cases: Vec<Result<Case, CaseError>>,
     allowance: &Allowance,
 ) -> Vec<Result<Run, Refusal>> {
-    let short: Vec<Case> = cases.iter().flatten().filter_map(cut).collect();
+    let short: Vec<Case> = cases.iter().flatten().filter_map(limited).collect();
     // If the client is gone there are none, and the rest ends at once, too.
     let mut short = side_by_side(&short, allowance)
         .unwrap_or_default()
@@ -258,14 +258,14 @@ fn all_runs(
         .map(|case| {
             let case = case?;
             let quick = is_short(&case).then(|| short.next()).flatten();
-            let whole = quick.filter(|run| !was_cut(&case, &run.outcome));
+            let whole = quick.filter(|run| !hit_limit(&case, &run.outcome));
             Ok((case, whole))
         })
         .collect();
     let whole = in_parallel(tried.len(), |index| {
         Ok::<_, Infallible>(match &tried[index] {
             Ok((_, Some(run))) => Ok(*run),
-            Ok((case, None)) => alone(case, allowance),
+            Ok((case, None)) => run_one(case, allowance),
             Err(error) => Err(error.clone().into()),
         })
     });
@@ -273,8 +273,8 @@ fn all_runs(
 }
 
 fn side_by_side(cases: &[Case], allowance: &Allowance) -> Result<Vec<Run>, Cancelled> {
-    let go_on = |progress: Progress| allowance.go_on(progress);
-    let counter = Counter::new("running", 0, cases.len() as u64, &go_on);
+    let on_progress = |progress: Progress| allowance.check(progress);
+    let counter = Counter::new("running", 0, cases.len() as u64, &on_progress);
     let made = on_all_threads(cases.len(), |numbers| {
         let cases = &mut numbers.map(|k| cases[k].clone());
         Certainty::with_outcomes(Lanes::best(), cases, &counter)
@@ -297,27 +297,27 @@ fn is_short(case: &Case) -> bool {
         ..
     } = *case.parameters();
     let quickness = inertia.map_or(1.0, |inertia| ((a * a + b * b) / inertia).sqrt().max(1.0));
-    t_end * quickness <= LONG
+    t_end * quickness <= LONGEST_AT_ONCE
 }
 
 /// The case limited to so few impacts that it can not take long.
-fn cut(case: &Case) -> Option<Case> {
+fn limited(case: &Case) -> Option<Case> {
     let parameters = *case.parameters();
-    let cut = Parameters {
-        max_impacts: parameters.max_impacts.min(MANY),
+    let limited = Parameters {
+        max_impacts: parameters.max_impacts.min(MOST_IMPACTS_AT_ONCE),
         ..parameters
     };
-    is_short(case).then(|| Case::new(cut).ok()).flatten()
+    is_short(case).then(|| Case::new(limited).ok()).flatten()
 }
 
 /// Whether the limited case ended where the case itself would not.
-fn was_cut(case: &Case, outcome: &Outcome) -> bool {
-    outcome.end.reason == Stop::ImpactLimit && case.parameters().max_impacts > MANY
+fn hit_limit(case: &Case, outcome: &Outcome) -> bool {
+    outcome.end.reason == Stop::ImpactLimit && case.parameters().max_impacts > MOST_IMPACTS_AT_ONCE
 }
 
-fn alone(case: &Case, allowance: &Allowance) -> Result<Run, Refusal> {
+fn run_one(case: &Case, allowance: &Allowance) -> Result<Run, Refusal> {
     let allowance = allowance.within(BUDGET);
-    let done = outcome(case, &|progress| allowance.go_on(progress));
+    let done = outcome(case, &|progress| allowance.check(progress));
     let run = |outcome| Run {
         outcome,
         certainty: None,

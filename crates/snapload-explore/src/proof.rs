@@ -46,7 +46,7 @@ pub(crate) fn answer(request: Request, allowance: &Allowance) -> Result<Vec<u8>,
     let allowance = allowance.within(BUDGET);
     let t_end = case.parameters().t_end;
     let proof = certify(&exact, false, &mut |t| {
-        allowance.go_on(Progress::new("proving", t, t_end))
+        allowance.check(Progress::new("proving", t, t_end))
     });
     let proof = proof
         .map_err(|Cancelled| too_long(&case))?

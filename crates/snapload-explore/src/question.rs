@@ -30,7 +30,7 @@ pub(crate) fn answer(
     let case = case(request.values)?;
     let options = options(question, request.options)?;
     let allowance = allowance.within(BUDGET);
-    let answer = question.ask(&case, options, &|progress| allowance.go_on(progress));
+    let answer = question.ask(&case, options, &|progress| allowance.check(progress));
     let command = format!("snapload {}", question.name);
     let answer = answer.map_err(|why| unfinished(why, BUDGET, &command))?;
     serde_json::to_vec(&answer).map_err(Refusal::failed)

@@ -26,7 +26,7 @@ const SAMPLES: std::ops::RangeInclusive<u32> = 2..=20_000;
 /// The largest distance of the neighbour at the start.
 const FARTHEST: f64 = 0.1;
 /// Two runs have separated if x, y or θ differ by more than this.
-const PARTED: f64 = 1e-3;
+const SEPARATED: f64 = 1e-3;
 
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -79,10 +79,10 @@ pub(crate) fn answer(request: Request, allowance: &Allowance) -> Result<Vec<u8>,
     let answer = Answer {
         values: CaseEcho(parameters),
         geometry: Geometry::of(parameters, run.system()),
-        end: EndInWords::of(run, parameters),
+        end: EndWithText::of(run, parameters),
         norms: NormsRow::new(run.norms()),
         norms_known: &followed.norms_known,
-        horizon: HorizonInWords::of(&followed),
+        horizon: HorizonWithText::of(&followed),
         modes: Modes::of(&run.modes()[..run.modes().len().min(MOST_SHOWN)]),
         impacts: Impacts {
             shown,
@@ -105,7 +105,7 @@ pub(crate) fn answer(request: Request, allowance: &Allowance) -> Result<Vec<u8>,
 /// A run with its trust, within the budget.
 pub(crate) fn follow(case: &Case, allowance: &Allowance) -> Result<RunWithHorizon, Refusal> {
     let allowance = allowance.within(BUDGET);
-    let run = RunWithHorizon::run(case, &|progress| allowance.go_on(progress));
+    let run = RunWithHorizon::run(case, &|progress| allowance.check(progress));
     run.map_err(|cancelled| too_long(case.parameters(), cancelled))
 }
 
@@ -123,11 +123,11 @@ fn too_long(parameters: &Parameters, Cancelled { done }: Cancelled) -> Refusal {
 struct Answer<'a> {
     values: CaseEcho<'a>,
     geometry: Geometry,
-    end: EndInWords,
+    end: EndWithText,
     norms: NormsRow,
     /// The number of known digits of each norm, in words.
     norms_known: &'a NormsKnown,
-    horizon: HorizonInWords,
+    horizon: HorizonWithText,
     modes: Modes,
     impacts: Impacts<'a>,
     cut: Option<Cut>,
@@ -198,13 +198,13 @@ impl Geometry {
 }
 
 #[derive(Serialize)]
-struct EndInWords {
+struct EndWithText {
     #[serde(flatten)]
     end: EndRow,
     words: String,
 }
 
-impl EndInWords {
+impl EndWithText {
     fn of(run: &Trajectory, parameters: &Parameters) -> Self {
         Self {
             end: EndRow::new(run.end()),
@@ -214,14 +214,14 @@ impl EndInWords {
 }
 
 #[derive(Serialize)]
-struct HorizonInWords {
+struct HorizonWithText {
     #[serde(flatten)]
     horizon: HorizonRow,
     certain: bool,
     words: String,
 }
 
-impl HorizonInWords {
+impl HorizonWithText {
     fn of(followed: &RunWithHorizon) -> Self {
         Self {
             horizon: HorizonRow::new(followed.horizon),
@@ -279,7 +279,7 @@ impl Serialize for Impacts<'_> {
 struct Columns([Vec<f64>; 10]);
 
 impl Columns {
-    /// The motion at the times asked for, and just before and just after each impact.
+    /// The motion at the requested times, and just before and just after each impact.
     fn of(run: &Trajectory, impacts: &[Impact], sampling: Times) -> Self {
         let mut columns = Self(Default::default());
         let mut playback = Playback::new(run);
@@ -351,7 +351,7 @@ struct Ghost {
     key: &'static str,
     by: f64,
     motion: Columns,
-    end: EndInWords,
+    end: EndWithText,
     parts_at: Option<f64>,
 }
 
@@ -365,16 +365,16 @@ impl Ghost {
     ) -> Result<Self, Refusal> {
         let (key, by, neighbour) = neighbour(case, by)?;
         let allowance = allowance.within(BUDGET);
-        let go_on = |progress: Progress| allowance.go_on(progress);
-        let other = record(neighbour.simulation(), &go_on, |_, _| ())
+        let on_progress = |progress: Progress| allowance.check(progress);
+        let other = record(neighbour.simulation(), &on_progress, |_, _| ())
             .map_err(|cancelled| too_long(neighbour.parameters(), cancelled))?;
         let shown = &other.impacts()[..other.impacts().len().min(MOST_SHOWN)];
         Ok(Self {
             key,
             by,
             motion: Columns::of(&other, shown, sampling),
-            end: EndInWords::of(&other, neighbour.parameters()),
-            parts_at: parting(run, &other, sampling),
+            end: EndWithText::of(&other, neighbour.parameters()),
+            parts_at: separation_time(run, &other, sampling),
         })
     }
 }
@@ -395,11 +395,11 @@ fn neighbour(case: &Case, by: f64) -> Result<(&'static str, f64, Case), CaseErro
 }
 
 /// When two runs have separated, while both last.
-fn parting(run: &Trajectory, other: &Trajectory, sampling: Times) -> Option<f64> {
+fn separation_time(run: &Trajectory, other: &Trajectory, sampling: Times) -> Option<f64> {
     let (mut one, mut two) = (Playback::new(run), Playback::new(other));
     let apart = |p: &State, q: &State| {
         let distances = [p.x - q.x, p.y - q.y, p.theta - q.theta];
-        distances.iter().any(|distance| distance.abs() > PARTED)
+        distances.iter().any(|distance| distance.abs() > SEPARATED)
     };
     sampling
         .evenly(0.0, run.end().t)

@@ -20,8 +20,8 @@ pub struct Start {
 /// The whole schema.
 pub(crate) fn schema(start: &Start) -> JsonValue {
     let cases = named_cases().enumerate().map(|(k, case)| {
-        let (values, happens) = (differing(&case.parameters), HAPPENS.get(k));
-        json!({ "code": case.code, "title": case.origin(), "happens": happens, "values": values })
+        let (values, summary) = (differing(&case.parameters), CASE_SUMMARIES.get(k));
+        json!({ "code": case.code, "title": case.origin(), "happens": summary, "values": values })
     });
     json!({
         "version": env!("CARGO_PKG_VERSION"),
@@ -41,23 +41,23 @@ pub(crate) fn schema(start: &Start) -> JsonValue {
 
 /// A description of each built-in case's run, in their order; they are run when a page first asks
 /// for it.
-static HAPPENS: LazyLock<Vec<String>> = LazyLock::new(|| {
+static CASE_SUMMARIES: LazyLock<Vec<String>> = LazyLock::new(|| {
     // All of them are legal; if one were not, there would be no descriptions.
     let cases: Result<Vec<Case>, _> = named_cases()
         .map(|case| Case::new(case.parameters))
         .collect();
     let cases = cases.unwrap_or_default();
     let counter = Counter::new("the built-in cases", 0, cases.len() as u64, &no_progress);
-    let told = on_all_threads(cases.len(), |numbers| {
+    let outcomes = on_all_threads(cases.len(), |numbers| {
         let cases = numbers.map(|k| cases[k].clone());
         Certainty::with_outcomes(Lanes::best(), cases, &counter)
     });
-    let told = told.map(ThreadResults::into_vec).unwrap_or_default();
-    told.iter().map(what_happens).collect()
+    let outcomes = outcomes.map(ThreadResults::into_vec).unwrap_or_default();
+    outcomes.iter().map(case_summary).collect()
 });
 
 /// A description of a run in a few words; numbers that depend on rounding are preceded by "about".
-fn what_happens((outcome, certainty): &(Outcome, Certainty)) -> String {
+fn case_summary((outcome, certainty): &(Outcome, Certainty)) -> String {
     let (t, snaps) = (outcome.end.t, outcome.snaps());
     let (about, past) = match certainty.decides_the_end() {
         true => ("", ""),

@@ -4,7 +4,7 @@ use crate::request::{Values, case};
 use crate::work::Allowance;
 use serde::{Deserialize, Serialize};
 use snapload::analysis::Unfinished;
-use snapload_orbits::{Section, SectionRow, section_in_words, stretch};
+use snapload_orbits::{Section, SectionRow, section_options, section_summary};
 use std::time::Duration;
 
 /// Its time budget.
@@ -12,7 +12,7 @@ const BUDGET: Duration = Duration::from_secs(20);
 /// The default numbers of periods and of points kept; and the largest numbers.
 const PERIODS: u64 = 800;
 const KEEP: u64 = 400;
-const MOST: u64 = 20_000;
+const MOST_PERIODS: u64 = 20_000;
 
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -35,16 +35,16 @@ struct Answer {
 /// The answer, as JSON.
 pub(crate) fn answer(request: Request, allowance: &Allowance) -> Result<Vec<u8>, Refusal> {
     let case = case(request.values)?;
-    let periods = request.periods.unwrap_or(PERIODS).min(MOST);
-    let stretch = stretch(periods, request.keep.unwrap_or(KEEP.min(periods)), 0.0)?;
+    let periods = request.periods.unwrap_or(PERIODS).min(MOST_PERIODS);
+    let options = section_options(periods, request.keep.unwrap_or(KEEP.min(periods)), 0.0)?;
     let allowance = allowance.within(BUDGET);
-    let section = Section::of(case.parameters(), &stretch, &|progress| {
-        allowance.go_on(progress)
+    let section = Section::of(case.parameters(), &options, &|progress| {
+        allowance.check(progress)
     });
     let section = section.map_err(|why| unfinished(why, BUDGET, "snapload section"))?;
     let answer = Answer {
-        words: section_in_words(&section),
-        section: SectionRow::new(&section, stretch.phase),
+        words: section_summary(&section),
+        section: SectionRow::new(&section, options.phase),
     };
     serde_json::to_vec(&answer).map_err(Refusal::failed)
 }

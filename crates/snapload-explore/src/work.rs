@@ -34,12 +34,12 @@ pub(crate) struct Allowance {
     abandoned: Arc<AtomicBool>,
     until: Option<Instant>,
     /// Where its progress is published.
-    progress: Option<watch::Sender<Come>>,
+    progress: Option<watch::Sender<ProgressReport>>,
 }
 
 /// The progress of some work.
 #[derive(Clone, Default, PartialEq)]
-struct Come {
+struct ProgressReport {
     /// What is being done.
     doing: String,
     percent: u8,
@@ -58,7 +58,7 @@ impl Allowance {
     }
 
     /// The same, with a channel for the progress.
-    fn with_progress(self, progress: watch::Sender<Come>) -> Self {
+    fn with_progress(self, progress: watch::Sender<ProgressReport>) -> Self {
         let progress = Some(progress);
         Self { progress, ..self }
     }
@@ -78,15 +78,15 @@ impl Allowance {
     }
 
     /// The callback of long work.
-    pub(crate) fn go_on(&self, progress: Progress) -> ControlFlow<()> {
-        if let Some(come) = &self.progress {
+    pub(crate) fn check(&self, progress: Progress) -> ControlFlow<()> {
+        if let Some(report) = &self.progress {
             // NaN, as from 0/0, is cast to 0.
             let percent = ((100.0 * progress.done / progress.of) as u8).min(100);
-            come.send_if_modified(|come| {
-                let more = come.percent != percent || come.doing != progress.doing;
+            report.send_if_modified(|report| {
+                let more = report.percent != percent || report.doing != progress.doing;
                 if more {
                     let doing = progress.doing.to_owned();
-                    *come = Come { doing, percent };
+                    *report = ProgressReport { doing, percent };
                 }
                 more
             });
@@ -109,7 +109,7 @@ pub(crate) async fn compute<T: Send + 'static>(
     on_a_worker(Arc::clone(workers), allowance, work).await
 }
 
-/// The same for work that may already be abandoned when its turn comes; then it is not begun.
+/// The same for work that may already be abandoned when its turn comes; then it is not started.
 pub(crate) async fn on_a_worker<T: Send + 'static>(
     workers: Arc<Semaphore>,
     allowance: Allowance,
@@ -155,17 +155,17 @@ where
 {
     let workers = Arc::clone(workers);
     lines_of(async move |allowance: Allowance, send| {
-        let (progress, come) = watch::channel(Come::default());
+        let (progress, report) = watch::channel(ProgressReport::default());
         let work = on_a_worker(workers, allowance.with_progress(progress), work);
         // If a line can not be sent, the client is gone.
-        let _ = send_progress(work, come, send).await;
+        let _ = send_progress(work, report, send).await;
     })
 }
 
 /// Sends the lines of some work.
 async fn send_progress(
     work: impl Future<Output = Result<Vec<u8>, Refusal>>,
-    mut come: watch::Receiver<Come>,
+    mut report: watch::Receiver<ProgressReport>,
     send: Sender<Bytes>,
 ) -> Result<(), SendError<Bytes>> {
     let line = |object: JsonValue| Bytes::from(format!("{object}\n"));
@@ -173,8 +173,8 @@ async fn send_progress(
     let done = loop {
         match tokio::time::timeout(EVERY, work.as_mut()).await {
             Ok(done) => break done,
-            Err(_) if come.has_changed().unwrap_or(false) => {
-                let Come { doing, percent } = come.borrow_and_update().clone();
+            Err(_) if report.has_changed().unwrap_or(false) => {
+                let ProgressReport { doing, percent } = report.borrow_and_update().clone();
                 let now = json!({ "doing": doing, "percent": percent });
                 send.send(line(now)).await?;
             }
@@ -195,9 +195,9 @@ mod tests {
 
     const HOUR: Duration = Duration::from_secs(3600);
 
-    fn goes_on(allowance: &Allowance) -> bool {
+    fn may_continue(allowance: &Allowance) -> bool {
         allowance
-            .go_on(Progress::new("cells", 0.0, 1.0))
+            .check(Progress::new("cells", 0.0, 1.0))
             .is_continue()
     }
 
@@ -209,11 +209,15 @@ mod tests {
     }
 
     #[test]
-    fn a_later_limit_of_time_does_not_put_off_an_earlier_one() {
+    fn a_later_time_limit_does_not_extend_an_earlier_one() {
         let (_waiting, allowance) = Allowance::new();
-        assert!(goes_on(&allowance.within(HOUR)));
-        assert!(!goes_on(&allowance.within(Duration::ZERO).within(HOUR)));
-        assert!(!goes_on(&allowance.within(HOUR).within(Duration::ZERO)));
+        assert!(may_continue(&allowance.within(HOUR)));
+        assert!(!may_continue(
+            &allowance.within(Duration::ZERO).within(HOUR)
+        ));
+        assert!(!may_continue(
+            &allowance.within(HOUR).within(Duration::ZERO)
+        ));
     }
 
     #[tokio::test]
@@ -222,7 +226,7 @@ mod tests {
         let workers = Arc::new(Semaphore::new(1));
         let mut lines = compute_in_lines(&workers, move |allowance| {
             for (done, of) in [(0.0, 0.0), (1.0, 4.0), (3.0, 4.0), (9.0, 4.0), (-1.0, 4.0)] {
-                let _ = allowance.go_on(Progress::new("cells", done, of));
+                let _ = allowance.check(Progress::new("cells", done, of));
                 seen.recv().map_err(Refusal::failed)?;
             }
             Ok(b"made".to_vec())
@@ -237,29 +241,29 @@ mod tests {
     }
 
     #[tokio::test]
-    async fn work_without_a_worker_is_not_begun() {
+    async fn work_without_a_worker_is_not_started() {
         let workers = Arc::new(Semaphore::new(1));
         workers.close();
         let mut lines = compute_in_lines(&workers, |_| panic!("it was begun"));
         let line = next(&mut lines).await;
         let message = line["error"]["message"].as_str();
         assert!(
-            message.is_some_and(|said| said.contains("closed")),
+            message.is_some_and(|message| message.contains("closed")),
             "{line}"
         );
     }
 
     #[tokio::test]
-    async fn work_that_was_abandoned_before_its_turn_is_not_begun() {
+    async fn work_that_was_abandoned_before_its_turn_is_not_started() {
         let (waiting, allowance) = Allowance::new();
         drop(waiting);
-        let begun = Arc::new(AtomicBool::new(false));
-        let here = Arc::clone(&begun);
+        let started = Arc::new(AtomicBool::new(false));
+        let here = Arc::clone(&started);
         let workers = Arc::new(Semaphore::new(1));
         let done = on_a_worker(workers, allowance, move |_| {
             here.store(true, Ordering::Relaxed);
             Ok(())
         });
-        assert!(done.await.is_err() && !begun.load(Ordering::Relaxed));
+        assert!(done.await.is_err() && !started.load(Ordering::Relaxed));
     }
 }

@@ -79,7 +79,7 @@ fn odd_plots() -> Vec<(&'static str, Plot)> {
         [f64::from(i) * 1e-4, f64::from(hash) / 1e7]
     });
     let cell = |value: f64, class: bool| match value {
-        ..-0.95 => Cell::Fault,
+        ..-0.95 => Cell::Illegal,
         -0.95..-0.8 => Cell::Empty,
         value if class => Cell::Class((3.0 * value.abs()) as usize),
         value => Cell::Value(value),

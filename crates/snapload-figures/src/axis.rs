@@ -8,7 +8,7 @@ pub(crate) type Span = (f64, f64);
 
 /// The interval that `range` asks for, given the values of the data.
 pub(crate) fn resolve(range: Range, data: impl Iterator<Item = f64>) -> Span {
-    let asked = match range {
+    let requested = match range {
         Range::Fixed(a, b) => match ordered(a, b) {
             Some(span) if !narrow(span) => return span,
             _ => None,
@@ -16,10 +16,10 @@ pub(crate) fn resolve(range: Range, data: impl Iterator<Item = f64>) -> Span {
         Range::AtLeast(a, b) => ordered(a, b),
         Range::Auto => None,
     };
-    match (data.map(|v| (v, v)).reduce(union), asked) {
-        (Some(seen), Some(asked)) => union(with_air(seen), asked),
+    match (data.map(|v| (v, v)).reduce(union), requested) {
+        (Some(seen), Some(requested)) => union(with_air(seen), requested),
         (Some(seen), None) => with_air(seen),
-        (None, Some(asked)) if !narrow(asked) => asked,
+        (None, Some(requested)) if !narrow(requested) => requested,
         (None, _) => (0.0, 1.0),
     }
 }

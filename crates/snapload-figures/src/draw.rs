@@ -5,10 +5,10 @@ use crate::axis::{Span, Ticks, resolve, ticks, union};
 use crate::error::FigureError;
 use crate::layers::draw_layers;
 use crate::legend::Legend;
-use crate::map::{BESIDE, Bar, has_doubts, range};
+use crate::map::{BAR_GAP, Bar, has_uncertain, range};
 use crate::picture::Picture;
 use crate::plot::{self, Axis, Inset, Layer, Plot, Width, drawable};
-use crate::svg::{Anchor, FRAME, Sheet};
+use crate::svg::{Anchor, FRAME, SvgCanvas};
 use crate::text::{
     CAP_HEIGHT, LABEL, NAME_GAP, ROW, SMALL, TICK, TICK_GAP, fitted, plain, widest, width,
 };
@@ -36,36 +36,36 @@ pub fn draw(name: &str, page: Width, panels: &[Plot]) -> Result<Picture, FigureE
     if panels.len() > 1 && panels.iter().any(|plot| plot.equal_scale) {
         return Err(FigureError::EqualScaleInStack);
     }
-    let mut sheet = Sheet::default();
+    let mut canvas = SvgCanvas::default();
     if maps().next().is_some() {
-        sheet.define_hatch();
+        canvas.define_hatch();
     }
-    if maps().any(has_doubts) {
-        sheet.define_doubt();
+    if maps().any(has_uncertain) {
+        canvas.define_uncertain();
     }
     let mut legend = Legend::default();
     let mut top = RIM;
     for (index, (plot, mut area)) in panels.iter().zip(lay_out(page, panels)).enumerate() {
         let bar = plot.map().and_then(Bar::of);
-        top = draw_title(&mut sheet, plot, &area, top);
-        top = legend.draw(&mut sheet, plot, &area, top);
+        top = draw_title(&mut canvas, plot, &area, top);
+        top = legend.draw(&mut canvas, plot, &area, top);
         let y = ticks(plot.y.ticks, area.y);
-        top = draw_factors(&mut sheet, &y, bar.as_ref(), area.rect, top);
+        top = draw_factors(&mut canvas, &y, bar.as_ref(), area.rect, top);
         area.rect = area.rect + Vec2::new(0.0, top + 2.5);
-        draw_layers(&mut sheet, area, plot);
-        draw_y_axis(&mut sheet, &plot.y.label, &y, &area);
+        draw_layers(&mut canvas, area, plot);
+        draw_y_axis(&mut canvas, &plot.y.label, &y, &area);
         if let Some(inset) = &plot.inset {
-            draw_inset(&mut sheet, area.rect, inset);
+            draw_inset(&mut canvas, area.rect, inset);
         }
         if let Some(bar) = bar {
-            bar.draw(&mut sheet, area.rect);
+            bar.draw(&mut canvas, area.rect);
         }
         let last = index + 1 == panels.len();
-        top = draw_x_axis(&mut sheet, &plot.x, &area, last);
+        top = draw_x_axis(&mut canvas, &plot.x, &area, last);
         top += if last { RIM } else { BETWEEN };
     }
     let size = (page.points(), top);
-    let svg = sheet.finish(size.0, size.1, &spoken_title(name, panels));
+    let svg = canvas.finish(size.0, size.1, &spoken_title(name, panels));
     Ok(Picture::new(name, svg, size))
 }
 
@@ -129,11 +129,11 @@ fn ranges(plot: &Plot) -> Area {
         });
         shown = boundaries.flatten().copied().filter(drawable).collect();
     }
-    let asked = match plot.map() {
+    let requested = match plot.map() {
         Some(map) => [range(&map.x), range(&map.y)],
         None => [plot.x.range, plot.y.range],
     };
-    let [x, y] = [0, 1].map(|k| resolve(asked[k], shown.iter().map(|point| point[k])));
+    let [x, y] = [0, 1].map(|k| resolve(requested[k], shown.iter().map(|point| point[k])));
     Area {
         rect: Rect::ZERO,
         x,
@@ -141,7 +141,7 @@ fn ranges(plot: &Plot) -> Area {
     }
 }
 
-/// The rectangle of a panel: the page without the texts beside it.
+/// The rectangle of a panel: the page without the texts next to it.
 fn inner_rect(page: Width, panels: &[Plot], areas: &[Area]) -> Rect {
     let (mut numbers, mut beside) = (0.0_f64, 0.0_f64);
     for (plot, area) in panels.iter().zip(areas) {
@@ -183,7 +183,7 @@ fn widened(Area { rect, x, y }: Area) -> Area {
 }
 
 /// Draws a smaller plot into a part of a frame.
-fn draw_inset(sheet: &mut Sheet, frame: Rect, inset: &Inset) {
+fn draw_inset(canvas: &mut SvgCanvas, frame: Rect, inset: &Inset) {
     /// The margin within its part.
     const AIR: f64 = 3.0;
     let Inset { plot, place } = inset;
@@ -193,9 +193,9 @@ fn draw_inset(sheet: &mut Sheet, frame: Rect, inset: &Inset) {
         Point::new(frame.x0 + x * width, frame.y1 - y * height)
     };
     let part = Rect::from_points(at(left, bottom), at(right, top));
-    sheet.blank(part);
+    canvas.blank(part);
     let mut area = ranges(plot);
-    // Space for the numbers beside and below; those of the widened range may be longer.
+    // Space for the numbers to the side and below; those of the widened range may be longer.
     for _ in 0..2 {
         let numbers = widest(ticks(plot.y.ticks, area.y).texts());
         let half = widest(ticks(plot.x.ticks, area.x).texts().last().into_iter()) / 2.0;
@@ -209,23 +209,23 @@ fn draw_inset(sheet: &mut Sheet, frame: Rect, inset: &Inset) {
             area = widened(area);
         }
     }
-    draw_layers(sheet, area, plot);
-    draw_y_axis(sheet, "", &ticks(plot.y.ticks, area.y), &area);
+    draw_layers(canvas, area, plot);
+    draw_y_axis(canvas, "", &ticks(plot.y.ticks, area.y), &area);
     let unnamed = Axis {
         label: String::new(),
         ..plot.x.clone()
     };
-    draw_x_axis(sheet, &unnamed, &area, true);
+    draw_x_axis(canvas, &unnamed, &area, true);
 }
 
 /// Draws the title below `top`; this and the following functions return the position where they
 /// end.
-fn draw_title(sheet: &mut Sheet, plot: &Plot, area: &Area, top: f64) -> f64 {
+fn draw_title(canvas: &mut SvgCanvas, plot: &Plot, area: &Area, top: f64) -> f64 {
     if plot.title.is_empty() {
         return top;
     }
     let size = fitted(&plot.title, LABEL, area.rect.width());
-    sheet.text(
+    canvas.text(
         &plot.title,
         Point::new(area.rect.x0, top + LABEL),
         size,
@@ -235,30 +235,30 @@ fn draw_title(sheet: &mut Sheet, plot: &Plot, area: &Area, top: f64) -> f64 {
 }
 
 /// Draws the powers of ten of the y axis and of the colour bar.
-fn draw_factors(sheet: &mut Sheet, y: &Ticks, bar: Option<&Bar>, rect: Rect, top: f64) -> f64 {
+fn draw_factors(canvas: &mut SvgCanvas, y: &Ticks, bar: Option<&Bar>, rect: Rect, top: f64) -> f64 {
     let of_bar = bar.map_or("", |bar| &bar.ticks.factor);
-    for (factor, left) in [(y.factor.as_str(), rect.x0), (of_bar, rect.x1 + BESIDE)] {
-        sheet.text(factor, Point::new(left, top + SMALL), SMALL, Anchor::Start);
+    for (factor, left) in [(y.factor.as_str(), rect.x0), (of_bar, rect.x1 + BAR_GAP)] {
+        canvas.text(factor, Point::new(left, top + SMALL), SMALL, Anchor::Start);
     }
     let none = y.factor.is_empty() && of_bar.is_empty();
     top + if none { 0.0 } else { ROW }
 }
 
-fn draw_y_axis(sheet: &mut Sheet, label: &str, ticks: &Ticks, area: &Area) {
+fn draw_y_axis(canvas: &mut SvgCanvas, label: &str, ticks: &Ticks, area: &Area) {
     let left = area.rect.x0;
     for (value, text) in &ticks.at {
         let at = area.to_page([area.x.0, *value]);
-        sheet.segment(Point::new(left - TICK, at.y), Point::new(left, at.y), FRAME);
+        canvas.segment(Point::new(left - TICK, at.y), Point::new(left, at.y), FRAME);
         let base = Point::new(left - TICK - TICK_GAP, at.y + 0.5 * CAP_HEIGHT * SMALL);
-        sheet.text(text, base, SMALL, Anchor::End);
+        canvas.text(text, base, SMALL, Anchor::End);
     }
     let size = fitted(label, LABEL, area.rect.height() + BETWEEN);
     let middle = Point::new(RIM + 0.8 * LABEL, area.rect.center().y);
-    sheet.text_upwards(label, middle, size);
+    canvas.text_upwards(label, middle, size);
 }
 
 /// Draws ticks and, for the lowest panel, numbers and label; returns where the page may end.
-fn draw_x_axis(sheet: &mut Sheet, axis: &Axis, area: &Area, numbered: bool) -> f64 {
+fn draw_x_axis(canvas: &mut SvgCanvas, axis: &Axis, area: &Area, numbered: bool) -> f64 {
     let bottom = area.rect.y1;
     let Ticks { at, factor } = ticks(axis.ticks, area.x);
     let numbers_at = bottom + TICK + TICK_GAP + CAP_HEIGHT * SMALL;
@@ -273,9 +273,9 @@ fn draw_x_axis(sheet: &mut Sheet, axis: &Axis, area: &Area, numbered: bool) -> f
         .fold(f64::INFINITY, f64::min);
     let every = ((widest(at.iter().map(|(_, text)| text.as_str())) + 5.0) / apart).ceil();
     for (index, (x, text)) in places.into_iter().enumerate() {
-        sheet.segment(Point::new(x, bottom), Point::new(x, bottom + TICK), FRAME);
+        canvas.segment(Point::new(x, bottom), Point::new(x, bottom + TICK), FRAME);
         if numbered && index.is_multiple_of((every as usize).max(1)) {
-            sheet.text(text, Point::new(x, numbers_at), SMALL, Anchor::Middle);
+            canvas.text(text, Point::new(x, numbers_at), SMALL, Anchor::Middle);
         }
     }
     if !numbered {
@@ -283,7 +283,7 @@ fn draw_x_axis(sheet: &mut Sheet, axis: &Axis, area: &Area, numbered: bool) -> f
     }
     let label_at = numbers_at + 4.0 + CAP_HEIGHT * LABEL;
     let taken = width(&factor) * SMALL;
-    sheet.text(
+    canvas.text(
         &factor,
         Point::new(area.rect.x1, label_at),
         SMALL,
@@ -291,6 +291,6 @@ fn draw_x_axis(sheet: &mut Sheet, axis: &Axis, area: &Area, numbered: bool) -> f
     );
     let size = fitted(&axis.label, LABEL, area.rect.width() - 2.0 * taken);
     let middle = Point::new(area.rect.center().x, label_at);
-    sheet.text(&axis.label, middle, size, Anchor::Middle);
+    canvas.text(&axis.label, middle, size, Anchor::Middle);
     label_at + 0.24 * LABEL
 }

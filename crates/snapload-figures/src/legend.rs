@@ -4,7 +4,7 @@ use crate::area::Area;
 use crate::layers::marker_radius;
 use crate::map::samples;
 use crate::plot::{Colour, Layer, Plot, Shape, Stroke, drawable};
-use crate::svg::{Anchor, Fill, Sheet};
+use crate::svg::{Anchor, Fill, SvgCanvas};
 use crate::text::{CAP_HEIGHT, ROW, SMALL, fitted, width};
 use kurbo::{Point, Rect, Vec2};
 
@@ -33,20 +33,20 @@ impl Sample {
     }
 
     /// Draws it to the right of `at`, on the base line of its text.
-    fn draw(self, sheet: &mut Sheet, at: Point) {
+    fn draw(self, canvas: &mut SvgCanvas, at: Point) {
         let width = self.width();
         let left = at - Vec2::new(0.0, 0.5 * CAP_HEIGHT * SMALL);
         match self {
-            Self::Line(stroke) => sheet.segment(left, left + Vec2::new(width, 0.0), stroke),
+            Self::Line(stroke) => canvas.segment(left, left + Vec2::new(width, 0.0), stroke),
             Self::Marker(shape, colour) => {
                 let middle = left + Vec2::new(width / 2.0, 0.0);
-                sheet.markers(&[middle], shape, marker_radius(1), colour);
+                canvas.markers(&[middle], shape, marker_radius(1), colour);
             }
-            Self::Shade => sheet.shade(Rect::new(at.x, left.y - 3.0, at.x + width, left.y + 3.0)),
+            Self::Shade => canvas.shade(Rect::new(at.x, left.y - 3.0, at.x + width, left.y + 3.0)),
             Self::Cell(fill) => {
                 let square = Rect::new(at.x, at.y - width + 1.0, at.x + width, at.y + 1.0);
-                sheet.rects(&[square], fill);
-                sheet.frame(square);
+                canvas.rects(&[square], fill);
+                canvas.frame(square);
             }
         }
     }
@@ -84,7 +84,13 @@ pub(crate) struct Legend {
 
 impl Legend {
     /// Draws the new entries of this panel below `top`; returns where the rows end.
-    pub(crate) fn draw(&mut self, sheet: &mut Sheet, plot: &Plot, area: &Area, top: f64) -> f64 {
+    pub(crate) fn draw(
+        &mut self,
+        canvas: &mut SvgCanvas,
+        plot: &Plot,
+        area: &Area,
+        top: f64,
+    ) -> f64 {
         let (left, right) = (area.rect.x0, area.rect.x1);
         let mut at = Point::new(left, top);
         for entry in plot.layers.iter().flat_map(|layer| entries(layer, area)) {
@@ -100,8 +106,8 @@ impl Legend {
                 at = Point::new(left, at.y + ROW);
             }
             let base = at - Vec2::new(0.0, 2.5);
-            sample.draw(sheet, base);
-            sheet.text(words, base + Vec2::new(words_at, 0.0), size, Anchor::Start);
+            sample.draw(canvas, base);
+            canvas.text(words, base + Vec2::new(words_at, 0.0), size, Anchor::Start);
             at.x += wide + BETWEEN;
             self.drawn.push(entry);
         }

@@ -3,7 +3,7 @@
 use crate::area::Area;
 use crate::axis::{Span, Ticks, resolve, ticks, union};
 use crate::plot::{Cell, Colour, Map, Range, TickStyle};
-use crate::svg::{Anchor, FRAME, Fill, Sheet};
+use crate::svg::{Anchor, FRAME, Fill, SvgCanvas};
 use crate::text::{CAP_HEIGHT, LABEL, SMALL, TICK, TICK_GAP, fitted, widest};
 use kurbo::{Point, Rect, Vec2};
 use std::collections::BTreeMap;
@@ -11,7 +11,7 @@ use std::collections::BTreeMap;
 /// The width of the colour bar, in points.
 const BAR: f64 = 9.0;
 /// The distance from the map to the bar.
-pub(crate) const BESIDE: f64 = 8.0;
+pub(crate) const BAR_GAP: f64 = 8.0;
 /// The number of shades of a scale: more can not be distinguished, and fewer keep a file small.
 const LEVELS: usize = 64;
 /// Points of the scale viridis of matplotlib (CC0), evenly spaced: its lightness increases evenly,
@@ -65,7 +65,7 @@ fn fill(cell: Cell, values: Span) -> Fill {
     match cell {
         Cell::Value(value) if value.is_finite() => shade(level(value, values)),
         Cell::Class(index) => class(index),
-        Cell::Fault => Fill::Hatch,
+        Cell::Illegal => Fill::Hatch,
         Cell::Value(_) | Cell::Empty => Fill::Blank,
     }
 }
@@ -107,19 +107,19 @@ fn values_of(map: &Map) -> Option<Span> {
     Some(resolve(Range::Fixed(low, high), std::iter::once(low)))
 }
 
-/// Draws one path for all the cells of a colour, and one for the doubtful ones on top.
-pub(crate) fn draw_cells(sheet: &mut Sheet, map: &Map, area: Area) {
+/// Draws one path for all the cells of a colour, and one for the uncertain ones on top.
+pub(crate) fn draw_cells(canvas: &mut SvgCanvas, map: &Map, area: Area) {
     let values = values_of(map).unwrap_or_default();
     let colour = |k: usize| {
         let cell = map.cells.get(k).copied();
         Some(fill(cell.unwrap_or_default(), values))
     };
-    let doubt = |k: usize| is_doubtful(map, k).then_some(Fill::Doubt);
+    let uncertain = |k: usize| is_uncertain(map, k).then_some(Fill::Uncertain);
     for (fill, rects) in rects(map, area, colour) {
-        sheet.rects(&rects, fill);
+        canvas.rects(&rects, fill);
     }
-    for (fill, rects) in rects(map, area, doubt) {
-        sheet.rects(&rects, fill);
+    for (fill, rects) in rects(map, area, uncertain) {
+        canvas.rects(&rects, fill);
     }
 }
 
@@ -146,31 +146,31 @@ fn rects(map: &Map, area: Area, fill: impl Fn(usize) -> Option<Fill>) -> BTreeMa
     of_fill
 }
 
-/// Whether a cell, by index, is doubtful; an empty cell is not.
-fn is_doubtful(map: &Map, k: usize) -> bool {
+/// Whether a cell, by index, is uncertain; an empty cell is not.
+fn is_uncertain(map: &Map, k: usize) -> bool {
     let something = matches!(map.cells.get(k), Some(Cell::Value(_) | Cell::Class(_)));
-    something && map.doubtful.get(k) == Some(&true)
+    something && map.uncertain.get(k) == Some(&true)
 }
 
-/// Whether any cell is doubtful.
-pub(crate) fn has_doubts(map: &Map) -> bool {
-    (0..map.cells.len()).any(|k| is_doubtful(map, k))
+/// Whether any cell is uncertain.
+pub(crate) fn has_uncertain(map: &Map) -> bool {
+    (0..map.cells.len()).any(|k| is_uncertain(map, k))
 }
 
-/// The classes that occur, cells without a value, and doubtful ones, for the legend.
+/// The classes that occur, cells without a value, and uncertain ones, for the legend.
 pub(crate) fn samples(map: &Map) -> Vec<(Fill, String)> {
     let classes = map.classes.iter().enumerate();
     let classes = classes.map(|(index, name)| (Cell::Class(index), name.as_str()));
-    let others = [(Cell::Empty, "no value"), (Cell::Fault, "no legal case")];
+    let others = [(Cell::Empty, "no value"), (Cell::Illegal, "no legal case")];
     let occurring = classes
         .chain(others)
         .filter(|(cell, _)| map.cells.contains(cell));
     let sample = |(cell, words): (Cell, &str)| (fill(cell, (0.0, 1.0)), words.to_owned());
-    let doubt = has_doubts(map).then(|| (Fill::Doubt, "not certain".to_owned()));
-    occurring.map(sample).chain(doubt).collect()
+    let uncertain = has_uncertain(map).then(|| (Fill::Uncertain, "not certain".to_owned()));
+    occurring.map(sample).chain(uncertain).collect()
 }
 
-/// The colour bar beside a map of values.
+/// The colour bar next to a map of values.
 pub(crate) struct Bar<'a> {
     values: Span,
     label: &'a str,
@@ -192,7 +192,7 @@ impl<'a> Bar<'a> {
     /// The distance from the map to the label of the bar, which depends on the width of its
     /// numbers.
     fn label_at(&self) -> f64 {
-        BESIDE + BAR + TICK + TICK_GAP + widest(self.ticks.texts())
+        BAR_GAP + BAR + TICK + TICK_GAP + widest(self.ticks.texts())
     }
 
     /// The space that it needs to the right of the map.
@@ -205,9 +205,9 @@ impl<'a> Bar<'a> {
         self.label_at() + label
     }
 
-    /// Draws it beside the frame of the map.
-    pub(crate) fn draw(&self, sheet: &mut Sheet, map: Rect) {
-        let x0 = map.x1 + BESIDE;
+    /// Draws it next to the frame of the map.
+    pub(crate) fn draw(&self, canvas: &mut SvgCanvas, map: Rect) {
+        let x0 = map.x1 + BAR_GAP;
         let rect = Rect {
             x0,
             x1: x0 + BAR,
@@ -216,7 +216,7 @@ impl<'a> Bar<'a> {
         let step = rect.height() / LEVELS as f64;
         for level in 0..LEVELS {
             let y0 = rect.y1 - (level + 1) as f64 * step;
-            sheet.rects(
+            canvas.rects(
                 &[Rect {
                     y0,
                     y1: y0 + step,
@@ -225,7 +225,7 @@ impl<'a> Bar<'a> {
                 shade(level),
             );
         }
-        sheet.frame(rect);
+        canvas.frame(rect);
         let area = Area {
             rect,
             x: (0.0, 1.0),
@@ -233,12 +233,12 @@ impl<'a> Bar<'a> {
         };
         for (value, text) in &self.ticks.at {
             let at = area.to_page([1.0, *value]);
-            sheet.segment(at, at + Vec2::new(TICK, 0.0), FRAME);
+            canvas.segment(at, at + Vec2::new(TICK, 0.0), FRAME);
             let base = at + Vec2::new(TICK + TICK_GAP, 0.5 * CAP_HEIGHT * SMALL);
-            sheet.text(text, base, SMALL, Anchor::Start);
+            canvas.text(text, base, SMALL, Anchor::Start);
         }
         let size = fitted(self.label, LABEL, rect.height());
         let x = map.x1 + self.label_at() + 3.0 + 0.8 * LABEL;
-        sheet.text_upwards(self.label, Point::new(x, rect.center().y), size);
+        canvas.text_upwards(self.label, Point::new(x, rect.center().y), size);
     }
 }

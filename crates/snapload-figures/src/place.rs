@@ -1,7 +1,7 @@
-//! Places texts inside a plot: beside the object that they name, where the least is drawn.
+//! Places texts inside a plot: next to the object that they name, where the least is drawn.
 
 use crate::polyline::holds;
-use crate::svg::{Anchor, FRAME, Sheet};
+use crate::svg::{Anchor, FRAME, SvgCanvas};
 use crate::text::{CAP_HEIGHT, SMALL, width};
 use kurbo::{Point, Rect, Size, Vec2};
 
@@ -9,27 +9,27 @@ use kurbo::{Point, Rect, Size, Vec2};
 const DOT: f64 = 1.6;
 /// Dots closer than this on paper coincide.
 const SAME_PLACE: f64 = 2.5 * DOT;
-/// The ink of a text or a dot, in units of that of a line: lines may be crossed, texts may not.
+/// The weight of a text or a dot, in units of that of a line: lines may be crossed, texts may not.
 const WORD: u32 = 50;
 /// The distance between texts.
 const APART: f64 = 4.0;
 /// A letter farther than this from its dot is connected to it by a line.
-const FAR: f64 = 10.0;
+const CONNECTED_FROM: f64 = 10.0;
 /// The cost of each point of distance between a letter and its dot, in units of that of a crossed
 /// line.
-const AWAY: f64 = 0.4;
+const DISTANCE_COST: f64 = 0.4;
 /// A letter may be mistaken for that of another dot, unless that is this many times as far away as
 /// its own.
 const NEARER: f64 = 2.0;
 /// The cost of that.
-const TAKEN: f64 = 200.0;
+const MISTAKEN_COST: f64 = 200.0;
 /// The distance of texts from the frame, near which an I looks like a tick.
 const RIM: f64 = 3.0;
 /// The number of positions along a boundary that are tried for its name.
 const TRIES: usize = 60;
 /// From this distance on, the name of one boundary is not mistaken for that of another.
-const UNMISTAKABLE: f64 = 40.0;
-/// The eight directions in which a text can be placed beside a point, the best first.
+const DISTINCT_FROM: f64 = 40.0;
+/// The eight directions in which a text can be placed next to a point, the best first.
 const DIRECTIONS: [Vec2; 8] = [
     Vec2::new(1.0, -0.6),
     Vec2::new(-1.0, -0.6),
@@ -41,14 +41,14 @@ const DIRECTIONS: [Vec2; 8] = [
     Vec2::new(0.0, 1.0),
 ];
 
-/// The amount drawn on each square point of a plot.
-pub(crate) struct Ink {
+/// The weight of what is drawn on each square point of a plot.
+pub(crate) struct OccupiedAreas {
     frame: Rect,
     columns: usize,
     cells: Vec<u32>,
 }
 
-impl Ink {
+impl OccupiedAreas {
     pub(crate) fn new(frame: Rect) -> Self {
         let [columns, rows] = [frame.width(), frame.height()].map(|side| side.ceil() as usize + 1);
         let cells = vec![0; columns * rows];
@@ -81,29 +81,29 @@ impl Ink {
         holds(self.frame, at).then_some(row * self.columns + column)
     }
 
-    /// The ink under a rectangle; none if it is too close to the frame.
+    /// The weight of what is drawn under a rectangle; none if it is too close to the frame.
     fn under(&self, rect: Rect) -> Option<u32> {
-        let ink = |at| self.index(at).and_then(|at| self.cells.get(at));
+        let weight = |at| self.index(at).and_then(|at| self.cells.get(at));
         let with_rim = rect.inflate(RIM, RIM);
         let inside = self.frame.inflate(1e-6, 1e-6).contains_rect(with_rim);
-        inside.then(|| cells_of(rect).filter_map(ink).sum())
+        inside.then(|| cells_of(rect).filter_map(weight).sum())
     }
 
-    /// Writes a text at the candidate with the least ink under it; of equal ones, at the first.
+    /// Writes a text at the candidate with the least weight under it; of equal ones, at the first.
     /// Returns its position.
     fn write(
         &mut self,
-        sheet: &mut Sheet,
+        canvas: &mut SvgCanvas,
         word: &str,
         candidates: impl Iterator<Item = (Rect, f64)>,
     ) -> Option<Rect> {
         let costs = candidates.filter_map(|(rect, cost)| {
-            let ink = self.under(rect)?;
-            Some((rect, f64::from(ink) + cost))
+            let weight = self.under(rect)?;
+            Some((rect, f64::from(weight) + cost))
         });
         let (rect, _) = costs.min_by(|a, b| a.1.total_cmp(&b.1))?;
         self.add_rect(rect.inflate(APART, 0.0));
-        sheet.text_with_halo(word, Point::new(rect.x0, rect.y1), SMALL, Anchor::Start);
+        canvas.text_with_halo(word, Point::new(rect.x0, rect.y1), SMALL, Anchor::Start);
         Some(rect)
     }
 }
@@ -127,8 +127,8 @@ fn along(pieces: &[Vec<Point>], step: f64) -> impl Iterator<Item = Point> {
     })
 }
 
-/// Rectangles for a text beside a point, each with the cost of its distance.
-fn beside(at: Point, word: &str, gap: f64) -> impl Iterator<Item = (Rect, f64)> {
+/// Rectangles for a text next to a point, each with the cost of its distance.
+fn positions_next_to(at: Point, word: &str, gap: f64) -> impl Iterator<Item = (Rect, f64)> {
     let size = Size::new(width(word) * SMALL, CAP_HEIGHT * SMALL);
     let reach = size / 2.0 + Size::new(gap, gap);
     DIRECTIONS.into_iter().map(move |d| {
@@ -142,8 +142,12 @@ fn nearest(rect: Rect, to: Point) -> Point {
     Point::new(to.x.clamp(rect.x0, rect.x1), to.y.clamp(rect.y0, rect.y1))
 }
 
-/// Draws dots, and their letters beside them; letters of coinciding dots are joined.
-pub(crate) fn place_letters(sheet: &mut Sheet, ink: &mut Ink, marks: &[(Point, &str)]) {
+/// Draws dots, and their letters next to them; letters of coinciding dots are joined.
+pub(crate) fn place_letters(
+    canvas: &mut SvgCanvas,
+    occupied: &mut OccupiedAreas,
+    marks: &[(Point, &str)],
+) {
     let mut places: Vec<(Point, String)> = Vec::new();
     for &(at, letter) in marks {
         match places
@@ -155,32 +159,35 @@ pub(crate) fn place_letters(sheet: &mut Sheet, ink: &mut Ink, marks: &[(Point, &
         }
     }
     for &(at, _) in &places {
-        ink.add_rect(Rect::from_center_size(at, (2.0 * DOT, 2.0 * DOT)));
-        sheet.dot(at, DOT);
+        occupied.add_rect(Rect::from_center_size(at, (2.0 * DOT, 2.0 * DOT)));
+        canvas.dot(at, DOT);
     }
     for (own, (at, letters)) in places.iter().enumerate() {
         let others = || places[..own].iter().chain(&places[own + 1..]);
         let gaps = [3.0, 5.0, 8.0, 12.0, 20.0, 30.0, 42.0].into_iter();
-        let candidates = gaps.flat_map(|gap| beside(*at, letters, DOT + gap - 1.5));
+        let candidates = gaps.flat_map(|gap| positions_next_to(*at, letters, DOT + gap - 1.5));
         let candidates = candidates.map(|(rect, cost)| {
             let distances = others().map(|(other, _)| nearest(rect, *other).distance(*other));
             let other = distances.fold(f64::INFINITY, f64::min);
             let is_taken = other < NEARER * nearest(rect, *at).distance(*at);
-            (rect, AWAY * cost + if is_taken { TAKEN } else { 0.0 })
+            (
+                rect,
+                DISTANCE_COST * cost + if is_taken { MISTAKEN_COST } else { 0.0 },
+            )
         });
-        if let Some(rect) = ink.write(sheet, letters, candidates) {
+        if let Some(rect) = occupied.write(canvas, letters, candidates) {
             let near = nearest(rect, *at);
-            if near.distance(*at) > FAR {
-                sheet.segment(*at, near.lerp(*at, 2.0 / near.distance(*at)), FRAME);
+            if near.distance(*at) > CONNECTED_FROM {
+                canvas.segment(*at, near.lerp(*at, 2.0 / near.distance(*at)), FRAME);
             }
         }
     }
 }
 
-/// Writes the names of boundaries, each beside its own and away from the others.
+/// Writes the names of boundaries, each next to its own and away from the others.
 pub(crate) fn name_boundaries(
-    sheet: &mut Sheet,
-    ink: &mut Ink,
+    canvas: &mut SvgCanvas,
+    occupied: &mut OccupiedAreas,
     boundaries: &[(Vec<Vec<Point>>, &str)],
 ) {
     let traces = boundaries
@@ -194,9 +201,9 @@ pub(crate) fn name_boundaries(
             .step_by((traces[own].len() / TRIES).max(1));
         let candidates = candidates.flat_map(|&at| {
             let distances = others().map(|other| other.distance(at));
-            let ambiguity = 2.0 * (UNMISTAKABLE - distances.fold(UNMISTAKABLE, f64::min));
-            beside(at, name, 2.5).map(move |(rect, cost)| (rect, cost + ambiguity))
+            let ambiguity = 2.0 * (DISTINCT_FROM - distances.fold(DISTINCT_FROM, f64::min));
+            positions_next_to(at, name, 2.5).map(move |(rect, cost)| (rect, cost + ambiguity))
         });
-        ink.write(sheet, name, candidates);
+        occupied.write(canvas, name, candidates);
     }
 }

@@ -96,18 +96,18 @@ pub enum Layer {
     /// A light grey background from one x to another, which may be infinite, and its text. It is
     /// not included in an automatic range.
     Shade(f64, f64, String),
-    /// Dots with letters beside them. Where dots coincide on paper the letters are joined: "S,G".
+    /// Dots with letters next to them. Where dots coincide on paper the letters are joined: "S,G".
     Letters(Vec<Mark>),
     /// A value or a class for every cell of a grid. The axes end where the grid does.
     Map(Map),
 }
 
-/// A dot with a letter (or a short word) beside it.
+/// A dot with a letter (or a short word) next to it.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Mark {
     /// The position of the dot.
     pub at: Point,
-    /// The text beside it.
+    /// The text next to it.
     pub letter: String,
 }
 
@@ -124,9 +124,9 @@ pub struct Map {
     pub value_label: String,
     /// The names of the classes.
     pub classes: Vec<String>,
-    /// Which cells are doubtful, in the order of the cells; these are hatched. Cells for which the
+    /// Which cells are uncertain, in the order of the cells; these are hatched. Cells for which the
     /// list has no entry are not.
-    pub doubtful: Vec<bool>,
+    pub uncertain: Vec<bool>,
 }
 
 /// The contents of a cell of a [`Map`].
@@ -140,7 +140,7 @@ pub enum Cell {
     #[default]
     Empty,
     /// A value that could not be computed; hatched.
-    Fault,
+    Illegal,
 }
 
 /// The appearance of a line.

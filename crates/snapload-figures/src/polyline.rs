@@ -10,9 +10,9 @@ const TOLERANCE: f64 = 0.05;
 /// The width of the columns in which a long line over time keeps only its extremes.
 const COLUMN: f64 = 0.1;
 /// The number of points from which on a line is reduced to its columns' extremes.
-const LONG: usize = 5_000;
+const LONG_LINE: usize = 5_000;
 /// The simplification works on parts of this length, which limits its time.
-const STRETCH: usize = 1_000;
+const SEGMENT_POINTS: usize = 1_000;
 
 /// Whether a point is in a frame; one on the edge is, whatever the rounding of its position.
 pub(crate) fn holds(frame: Rect, point: Point) -> bool {
@@ -71,7 +71,7 @@ fn clip_segment(from: Point, to: Point, frame: Rect) -> Option<(Point, Point)> {
 
 /// A polyline with the same appearance and far fewer points.
 pub(crate) fn thin(points: &[Point]) -> Vec<Point> {
-    if points.len() > LONG && points.is_sorted_by(|a, b| a.x <= b.x) {
+    if points.len() > LONG_LINE && points.is_sorted_by(|a, b| a.x <= b.x) {
         simplify(&columns(points))
     } else {
         simplify(points)
@@ -100,9 +100,9 @@ fn simplify(points: &[Point]) -> Vec<Point> {
     }
     let last = points.len() - 1;
     let mut keep = vec![false; points.len()];
-    let stretches = (0..last).step_by(STRETCH);
+    let stretches = (0..last).step_by(SEGMENT_POINTS);
     let mut open: Vec<(usize, usize)> = stretches
-        .map(|start| (start, (start + STRETCH).min(last)))
+        .map(|start| (start, (start + SEGMENT_POINTS).min(last)))
         .collect();
     while let Some((from, to)) = open.pop() {
         keep[from] = true;

@@ -54,14 +54,14 @@ impl RunPlot {
 #[derive(Clone, Debug)]
 pub struct RunPlots<'a> {
     run: &'a Trajectory,
-    stretches: Vec<Stretch>,
+    segments: Vec<Segment>,
     horizon: Option<f64>,
 }
 
-/// A stretch of motion between two events, at the times at which it is drawn: the last one is just
+/// A segment of motion between two events, at the times at which it is drawn: the last one is just
 /// before the event at its end.
 #[derive(Clone, Debug)]
-struct Stretch {
+struct Segment {
     taut: TautSet,
     motion: Vec<Motion>,
 }
@@ -77,22 +77,22 @@ impl<'a> RunPlots<'a> {
         events.sort_by(f64::total_cmp);
         events.dedup();
         let step = STEP.max(end / MOST_STEPS);
-        let stretches = events.windows(2).map(|pair| {
+        let segments = events.windows(2).map(|pair| {
             let (from, to) = (pair[0], pair[1]);
             // A flight is a curve however long the run; very short ones are not visible as curves.
             let curved = ((to - from) / SHORTEST).ceil().min(16.0);
             let pieces = ((to - from) / step).ceil().max(curved).max(1.0) as usize;
             let inner = (0..pieces).map(|k| from + (to - from) * k as f64 / pieces as f64);
             let times = inner.chain([to.next_down()]);
-            Stretch {
+            Segment {
                 taut: playback.at(from).taut,
                 motion: times.map(|t| playback.at(t)).collect(),
             }
         });
-        let stretches = stretches.collect();
+        let segments = segments.collect();
         Self {
             run,
-            stretches,
+            segments,
             horizon: None,
         }
     }
@@ -105,7 +105,7 @@ impl<'a> RunPlots<'a> {
 
     /// One of the plots.
     pub fn plot(&self, which: RunPlot) -> Plot {
-        let over_time = |of: fn(&Motion) -> f64| joined(&self.stretches, |m| [m.t, of(m)]);
+        let over_time = |of: fn(&Motion) -> f64| joined(&self.segments, |m| [m.t, of(m)]);
         let mut plot = match which {
             RunPlot::Trajectory => return self.trajectory(),
             RunPlot::Rotation => figures::rotation(&over_time(|m| m.state.theta), self.horizon),
@@ -160,19 +160,19 @@ impl<'a> RunPlots<'a> {
 
     /// y against x, with the region's boundaries and the letters of chapter Figs 6.43 and 6.45.
     fn trajectory(&self) -> Plot {
-        let mode_of = |stretch: &Stretch| {
-            let begins = stretch.motion.first().map_or(0.0, |motion| motion.t);
-            match stretch.taut.mode() {
+        let mode_of = |segment: &Segment| {
+            let begins = segment.motion.first().map_or(0.0, |motion| motion.t);
+            match segment.taut.mode() {
                 _ if self.horizon.is_some_and(|horizon| begins >= horizon) => Mode::BeyondHorizon,
                 snapload::Mode::Slack => Mode::Slack,
                 snapload::Mode::Sliding => Mode::Sliding,
                 snapload::Mode::Rocking => Mode::Rocking,
             }
         };
-        let same = |a: &Stretch, b: &Stretch| mode_of(a) == mode_of(b);
-        let legs = self.stretches.chunk_by(same).map(|stretches| Leg {
-            mode: mode_of(&stretches[0]),
-            points: joined(stretches, place),
+        let same = |a: &Segment, b: &Segment| mode_of(a) == mode_of(b);
+        let legs = self.segments.chunk_by(same).map(|segments| Leg {
+            mode: mode_of(&segments[0]),
+            points: joined(segments, place),
         });
         let legs: Vec<Leg> = legs.collect();
         let boundaries = [0, 1].map(|cable| boundary(self.run, cable));
@@ -187,8 +187,8 @@ impl<'a> RunPlots<'a> {
 
     /// The tension of a cable in each piece of time during which it is taut.
     fn tensions(&self, cable: usize) -> Vec<Vec<Point>> {
-        let is_taut = |stretch: &Stretch| stretch.taut.contains(cable);
-        let pieces = self.stretches.chunk_by(|a, b| is_taut(a) == is_taut(b));
+        let is_taut = |segment: &Segment| segment.taut.contains(cable);
+        let pieces = self.segments.chunk_by(|a, b| is_taut(a) == is_taut(b));
         let taut = pieces.filter(|piece| is_taut(&piece[0]));
         let tension = |motion: &Motion| [motion.t, motion.tensions[cable]];
         taut.map(|piece| joined(piece, tension)).collect()
@@ -220,9 +220,9 @@ impl<'a> RunPlots<'a> {
     }
 }
 
-/// A point for each time of some stretches.
-fn joined(stretches: &[Stretch], of: impl Fn(&Motion) -> Point) -> Vec<Point> {
-    let motions = stretches.iter().flat_map(|stretch| &stretch.motion);
+/// A point for each time of some segments.
+fn joined(segments: &[Segment], of: impl Fn(&Motion) -> Point) -> Vec<Point> {
+    let motions = segments.iter().flat_map(|segment| &segment.motion);
     motions.map(of).collect()
 }
 

@@ -37,17 +37,18 @@ pub(crate) enum Fill {
     Blank,
     /// Grey lines, which differ from every colour in print, too.
     Hatch,
-    /// Thin lines on top of a colour, black beside white, so that they are visible on every colour.
-    Doubt,
+    /// Thin lines on top of a colour, black next to white, so that they are visible on every
+    /// colour.
+    Uncertain,
 }
 
 /// The elements drawn so far.
 #[derive(Debug, Default)]
-pub(crate) struct Sheet {
+pub(crate) struct SvgCanvas {
     body: String,
 }
 
-impl Sheet {
+impl SvgCanvas {
     /// One path for all the pieces of a line.
     pub(crate) fn line(&mut self, pieces: &[Vec<Point>], stroke: Stroke) {
         let d: String = pieces.iter().map(|piece| path(piece)).collect();
@@ -139,8 +140,8 @@ impl Sheet {
         )));
     }
 
-    /// The lines of [`Fill::Doubt`], which lean the other way.
-    pub(crate) fn define_doubt(&mut self) {
+    /// The lines of [`Fill::Uncertain`], which lean the other way.
+    pub(crate) fn define_uncertain(&mut self) {
         self.push(format_args!(concat!(
             r#"<pattern id="doubt" width="3.6" height="3.6" patternUnits="userSpaceOnUse" "#,
             r#"patternTransform="rotate(-45)">"#,
@@ -162,7 +163,7 @@ impl Sheet {
             Fill::Colour(colour) => hex(colour),
             Fill::Blank => "#fff".to_string(),
             Fill::Hatch => "url(#hatch)".to_string(),
-            Fill::Doubt => "url(#doubt)".to_string(),
+            Fill::Uncertain => "url(#doubt)".to_string(),
         };
         self.push(format_args!(
             r#"<path d="{d}" fill="{paint}" shape-rendering="crispEdges"/>"#

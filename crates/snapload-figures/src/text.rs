@@ -10,7 +10,7 @@ pub(crate) const ITALIC: &[u8] = include_bytes!("../assets/DejaVuSans-Oblique-su
 pub(crate) const FAMILY: &str = "DejaVu Sans, Helvetica, Arial, sans-serif";
 /// The height of a capital letter or a digit, in units of the font size.
 pub(crate) const CAP_HEIGHT: f64 = 0.729;
-/// The size of letters beside ticks, in legends and at marks, in points.
+/// The size of letters next to ticks, in legends and at marks, in points.
 pub(crate) const SMALL: f64 = 7.0;
 /// The size of titles and of the labels of axes.
 pub(crate) const LABEL: f64 = 8.0;

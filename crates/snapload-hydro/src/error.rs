@@ -15,32 +15,32 @@ pub enum HydroError {
         advice: String,
     },
     /// It is there, but not in the form that the format prescribes.
-    #[error("{what}: {found}; {wanted}")]
+    #[error("{what}: {found}; {expected}")]
     Layout {
         /// The variable.
         what: String,
         /// What was found.
         found: String,
         /// The expected form.
-        wanted: String,
+        expected: String,
     },
     /// A number that is not possible.
-    #[error("{what} = {value}: {wanted}")]
+    #[error("{what} = {value}: {expected}")]
     Value {
         /// The quantity, and where it is.
         what: String,
         /// The value.
         value: f64,
         /// What is allowed.
-        wanted: String,
+        expected: String,
     },
     /// The numbers do not agree with the format's conventions of signs, phases or units.
-    #[error("{what}: {words}")]
+    #[error("{what}: {message}")]
     Convention {
         /// The convention.
         what: &'static str,
         /// What was found, what was expected, and the probable cause.
-        words: String,
+        message: String,
     },
     /// The file and the case contradict each other.
     #[error("{what} is {file} in the file and {case} in the case; they must agree")]
@@ -68,27 +68,27 @@ impl HydroError {
     pub(crate) fn layout(
         what: impl Into<String>,
         found: impl Into<String>,
-        wanted: impl Into<String>,
+        expected: impl Into<String>,
     ) -> Self {
         Self::Layout {
             what: what.into(),
             found: found.into(),
-            wanted: wanted.into(),
+            expected: expected.into(),
         }
     }
 
-    pub(crate) fn value(what: impl Into<String>, value: f64, wanted: impl Into<String>) -> Self {
+    pub(crate) fn value(what: impl Into<String>, value: f64, expected: impl Into<String>) -> Self {
         Self::Value {
             what: what.into(),
             value,
-            wanted: wanted.into(),
+            expected: expected.into(),
         }
     }
 
-    pub(crate) fn convention(what: &'static str, words: impl Into<String>) -> Self {
+    pub(crate) fn convention(what: &'static str, message: impl Into<String>) -> Self {
         Self::Convention {
             what,
-            words: words.into(),
+            message: message.into(),
         }
     }
 }
@@ -99,14 +99,15 @@ pub struct Warning {
     /// Its subject, in a word or two.
     pub what: &'static str,
     /// What was found, and what it means.
-    pub words: String,
+    #[serde(rename = "words")]
+    pub message: String,
 }
 
 impl Warning {
-    pub(crate) fn new(what: &'static str, words: impl Into<String>) -> Self {
+    pub(crate) fn new(what: &'static str, message: impl Into<String>) -> Self {
         Self {
             what,
-            words: words.into(),
+            message: message.into(),
         }
     }
 }

@@ -26,7 +26,7 @@ pub use error::{HydroError, Warning};
 pub use linear::{
     Body, Decay, Line, Mode, Natural, Peak, Response, Rest, Swing, Weight, decay,
     decay_of_the_damping, eigenvalues, fine_responses, natural_of_the_file, natural_of_the_memory,
-    response_of_the_file, response_of_the_memory, rest, rest_adrift, significant, swings,
+    response_of_the_file, response_of_the_memory, rest, rest_without_tension, significant, swings,
 };
 pub use memory::{
     BlockQuality, DampingCurve, EntryQuality, Fit, FitOptions, MOST_PAIRS, Memory, Term, TermRow,
@@ -36,7 +36,7 @@ pub use read::{
     Dataset, FirstColumn, Format, Given, Reading, Values, Variable, WamitText, from_dataset,
     from_nemoh, from_wamit, read,
 };
-pub use report::{Floating, GivenMemory, Json, Report, Request, page, periods_in_words};
+pub use report::{Floating, GivenMemory, Json, Report, Request, page, periods_summary};
 pub use sections::{Place, Shape, added_mass_of_section};
 pub use spline::Spline;
 pub use textbook::SectionBody;

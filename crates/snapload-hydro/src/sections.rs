@@ -111,11 +111,11 @@ pub fn added_mass_of_section(
 fn rectangle(b: f64, t: f64) -> Result<(f64, [f64; 3], f64), HydroError> {
     let (ratio, widest) = (b / t, SUBMERGED[SUBMERGED.len() - 1][0]);
     if !(0.999_999 / widest..=1.000_001 * widest).contains(&ratio) {
-        let wanted = format!("{} to {widest} are tabulated for rectangles", 1.0 / widest);
+        let expected = format!("{} to {widest} are tabulated for rectangles", 1.0 / widest);
         return Err(HydroError::value(
             "half the width over the height",
             ratio,
-            wanted,
+            expected,
         ));
     }
     // The ratio of the diagonal to the longer side.

@@ -26,7 +26,7 @@ use std::f64::consts::PI;
 const RANGE_RAD_S: [f64; 2] = [0.02, 60.0];
 const FREQUENCIES: u32 = 400;
 /// The ends reduce the added mass by 5 % and more if the body is shorter than this many widths.
-const LONG: f64 = 10.0;
+const SLENDER: f64 = 10.0;
 
 /// A floating body of one section.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -165,18 +165,18 @@ impl SectionBody {
 
     /// The warnings about its limits.
     fn limits(&self) -> Vec<Warning> {
-        let words = "textbook values of a section have no damping by the waves that the body makes: \
+        let message = "textbook values of a section have no damping by the waves that the body makes: \
                      without [float] damping a resonance of heave or pitch is not reliable, and the \
                      force of waves is wrong unless they are long compared with the body. Compute a \
                      file with a panel code";
-        let mut warnings = vec![Warning::new("textbook section", words.to_owned())];
+        let mut warnings = vec![Warning::new("textbook section", message.to_owned())];
         let ratio = self.length_m / (2.0 * self.half_width_m);
-        if ratio < LONG {
-            let words = format!(
+        if ratio < SLENDER {
+            let message = format!(
                 "the body is {ratio:.1} times as long across the plane as it is wide: flow round its \
-                 ends reduces the added mass, by 5 % or more below a ratio of {LONG}"
+                 ends reduces the added mass, by 5 % or more below a ratio of {SLENDER}"
             );
-            warnings.push(Warning::new("ends", words));
+            warnings.push(Warning::new("ends", message));
         }
         warnings
     }

@@ -3,14 +3,14 @@
 use crate::basin::Window;
 use crate::hybrid::{Point, distance};
 use crate::moored::Moored;
-use crate::orbit::{Orbit, Wanted};
-use crate::section::{Section, Stretch, start_of};
+use crate::orbit::{Orbit, OrbitRequest};
+use crate::section::{Section, SectionOptions, start_of};
 use snapload::analysis::{Counter, OnProgress, Unfinished, in_parallel, no_progress};
 use snapload::{Case, Parameters, Stop};
 
 /// The long-term behaviour of a start.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Fate {
+pub enum CellOutcome {
     /// The start is not legal.
     Illegal,
     /// It reached a limit, at this time.
@@ -40,7 +40,7 @@ pub struct Attraction {
     /// The window.
     pub window: Window,
     /// The cells, the second key varying fastest.
-    pub fates: Vec<Fate>,
+    pub outcomes: Vec<CellOutcome>,
     /// The attractors, ordered by their number of cells, the largest first.
     pub attractors: Vec<Attractor>,
 }
@@ -48,11 +48,11 @@ pub struct Attraction {
 /// Section points nearer than this belong to one attractor.
 const SAME: f64 = 1e-4;
 /// Periods that are examined after the transient: enough for eight laps of sixteen periods.
-const LOOKED_AT: u64 = 136;
+const SAMPLED_PERIODS: u64 = 136;
 
 /// The result of a run, before the attractors are numbered.
-enum Met {
-    Fate(Fate),
+enum Followed {
+    CellOutcome(CellOutcome),
     Periodic(Vec<Point>),
 }
 
@@ -64,33 +64,35 @@ impl Attraction {
     pub fn of(window: Window, transient: u64, on_progress: OnProgress) -> Result<Self, Unfinished> {
         window.check()?;
         crate::section::period_of(&window.base)?;
-        let stretch = Stretch {
+        let options = SectionOptions {
             phase: 0.0,
             skip: transient,
-            keep: LOOKED_AT,
+            keep: SAMPLED_PERIODS,
             exponents: false,
             impacts: false,
         };
         let counter = Counter::new("cells", 0, window.count() as u64, on_progress);
-        let met = in_parallel(window.count(), |k| {
+        let followed = in_parallel(window.count(), |k| {
             counter.add(1)?;
-            met(&window.parameters(window.at(k)), &stretch)
+            follow_start(&window.parameters(window.at(k)), &options)
         })?;
         let mut attractors: Vec<(Attractor, Vec<Point>)> = Vec::new();
-        let mut fates: Vec<Fate> = Vec::with_capacity(met.len());
-        for met in met {
-            fates.push(match met {
-                Met::Fate(fate) => fate,
-                Met::Periodic(points) => Fate::Attracted(known(&mut attractors, points)),
+        let mut outcomes: Vec<CellOutcome> = Vec::with_capacity(followed.len());
+        for followed in followed {
+            outcomes.push(match followed {
+                Followed::CellOutcome(outcome) => outcome,
+                Followed::Periodic(points) => {
+                    CellOutcome::Attracted(known(&mut attractors, points))
+                }
             });
         }
-        Ok(Self::sorted(window, fates, attractors))
+        Ok(Self::sorted(window, outcomes, attractors))
     }
 
     /// Numbers the attractors by their number of cells, and closes their orbits.
     fn sorted(
         window: Window,
-        mut fates: Vec<Fate>,
+        mut outcomes: Vec<CellOutcome>,
         attractors: Vec<(Attractor, Vec<Point>)>,
     ) -> Self {
         let mut order: Vec<usize> = (0..attractors.len()).collect();
@@ -99,8 +101,8 @@ impl Attraction {
         for (place, k) in order.iter().enumerate() {
             places[*k] = place;
         }
-        for fate in &mut fates {
-            if let Fate::Attracted(k) = fate {
+        for outcome in &mut outcomes {
+            if let CellOutcome::Attracted(k) = outcome {
                 *k = places[*k];
             }
         }
@@ -108,42 +110,43 @@ impl Attraction {
         let are_starts = window.are_starts();
         let close = |k: &usize| {
             let mut attractor = attractors[*k].0.clone();
-            let wanted = Wanted {
+            let request = OrbitRequest {
                 periods: Some(attractor.period as u32),
-                ..Wanted::default()
+                ..OrbitRequest::default()
             };
             if are_starts {
-                attractor.orbit = Orbit::come_to(&family, [0.0; 2], &attractor.z, &wanted).ok();
+                attractor.orbit =
+                    Orbit::find_near_end_of_motion(&family, [0.0; 2], &attractor.z, &request).ok();
             }
             attractor
         };
         Self {
             attractors: order.iter().map(close).collect(),
             window,
-            fates,
+            outcomes,
         }
     }
 }
 
 /// Follows one start.
-fn met(parameters: &Parameters, stretch: &Stretch) -> Result<Met, Unfinished> {
+fn follow_start(parameters: &Parameters, options: &SectionOptions) -> Result<Followed, Unfinished> {
     let free = Parameters {
         stop_when_settled: false,
         stop_when_sliding: false,
         ..*parameters
     };
     let Ok(case) = Case::new(free) else {
-        return Ok(Met::Fate(Fate::Illegal));
+        return Ok(Followed::CellOutcome(CellOutcome::Illegal));
     };
     let z = start_of(case.parameters());
-    let section = Section::from(&free, (0.0, &z), stretch, &no_progress)?;
+    let section = Section::from(&free, (0.0, &z), options, &no_progress)?;
     Ok(match (section.stop, section.period()) {
-        (Some(stop), _) => Met::Fate(Fate::Stopped(stop, section.end.1)),
+        (Some(stop), _) => Followed::CellOutcome(CellOutcome::Stopped(stop, section.end.1)),
         (None, Some(period)) => {
             let points = &section.points;
-            Met::Periodic(points[points.len() - period..].to_vec())
+            Followed::Periodic(points[points.len() - period..].to_vec())
         }
-        (None, None) => Met::Fate(Fate::Aperiodic),
+        (None, None) => Followed::CellOutcome(CellOutcome::Aperiodic),
     })
 }
 

@@ -1,20 +1,20 @@
 //! Orbits found from long motions: on the attractor of one start, or from many random starts.
 
 use crate::hybrid::{Family, Point, distance};
-use crate::in_words::{exponent_in_words, periods};
 use crate::lap::SAME;
 use crate::moored::Moored;
 use crate::multipliers::Stability;
-use crate::orbit::{NoOrbit, Orbit, Wanted};
-use crate::section::{LONGEST_PERIOD, Section, Stretch, period_of};
+use crate::orbit::{NoOrbit, Orbit, OrbitRequest};
+use crate::section::{LONGEST_PERIOD, Section, SectionOptions, period_of};
+use crate::summary::{exponent_text, periods};
 use snapload::analysis::{Counter, OnProgress, Unfinished, on_all_threads};
 use snapload::{Case, Limit, Parameters};
 
 /// Periods that are left out as the transient, and periods that are examined after it.
 pub const TRANSIENT: u64 = 400;
-const LOOKED_AT: u64 = 600;
+const SAMPLED_PERIODS: u64 = 600;
 /// The number of all these periods.
-pub const ATTRACTOR_PERIODS: u64 = TRANSIENT + LOOKED_AT;
+pub const ATTRACTOR_PERIODS: u64 = TRANSIENT + SAMPLED_PERIODS;
 
 /// The orbit that the motion of a case approaches, if it is periodic.
 ///
@@ -22,17 +22,17 @@ pub const ATTRACTOR_PERIODS: u64 = TRANSIENT + LOOKED_AT;
 /// [`NoOrbit`] describes what the motion does instead.
 pub fn of_attractor(
     parameters: &Parameters,
-    wanted: &Wanted,
+    request: &OrbitRequest,
     on_progress: OnProgress,
 ) -> Result<Result<Orbit, NoOrbit>, Unfinished> {
-    let stretch = Stretch {
-        phase: wanted.phase,
+    let options = SectionOptions {
+        phase: request.phase,
         skip: TRANSIENT,
-        keep: LOOKED_AT,
+        keep: SAMPLED_PERIODS,
         exponents: true,
         impacts: false,
     };
-    let section = Section::of(parameters, &stretch, on_progress)?;
+    let section = Section::of(parameters, &options, on_progress)?;
     if let Some(stop) = section.stop {
         let t = section.end.1;
         return Ok(Err(NoOrbit(format!(
@@ -43,14 +43,14 @@ pub fn of_attractor(
     }
     let Some(period) = section.period() else {
         let largest = section.exponents.first().copied();
-        let exponent = exponent_in_words(largest.unwrap_or([f64::NAN; 2]));
+        let exponent = exponent_text(largest.unwrap_or([f64::NAN; 2]));
         return Ok(Err(NoOrbit(format!(
             "the motion from this start repeats itself after no number of periods of the forcing up to \
              {LONGEST_PERIOD}, judged by {ATTRACTOR_PERIODS} of them (largest Lyapunov exponent \
              {exponent}); search for unstable orbits with --find N, or look at snapload section"
         ))));
     };
-    if wanted
+    if request
         .periods
         .is_some_and(|periods| period as u32 != periods)
     {
@@ -58,26 +58,26 @@ pub fn of_attractor(
             "the motion from this start repeats itself after {} of the forcing, but an orbit of {} was \
              requested; leave the periods out, or give a state near it",
             periods(period),
-            periods(wanted.periods.unwrap_or(1) as usize)
+            periods(request.periods.unwrap_or(1) as usize)
         ))));
     }
-    let wanted = Wanted {
+    let request = OrbitRequest {
         periods: Some(period as u32),
-        ..wanted.clone()
+        ..request.clone()
     };
     let last = section.points.last().copied().unwrap_or(section.end.0);
     let family = Moored::case(*parameters, [None; 2]);
-    // If certain snaps are asked for, another orbit than that of the motion may be meant.
-    let find = match wanted.struck {
-        None => Orbit::come_to,
+    // If certain snaps are requested, another orbit than that of the motion may be meant.
+    let find = match request.struck {
+        None => Orbit::find_near_end_of_motion,
         Some(_) => Orbit::find,
     };
-    Ok(find(&family, [0.0; 2], &last, &wanted))
+    Ok(find(&family, [0.0; 2], &last, &request))
 }
 
 /// Starts for each unit of work.
 const BATCH: usize = 16;
-/// Starts from which orbits are looked for.
+/// Starts from which orbits are searched for.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Starts<'a> {
     /// The number of random starts.
@@ -91,14 +91,14 @@ pub struct Starts<'a> {
 /// All admissible orbits that Newton's method finds from given starts and from random ones in the
 /// box |x| ≤ w, −w ≤ y ≤ h, |v| ≤ 1, |θ| ≤ π/3, |θ̇| ≤ 2, with w half the cables' length, or less.
 /// Each is listed once, whichever of its periods it was found in, the most stable ones first. An
-/// orbit that repeats itself after fewer periods than asked for is left out.
+/// orbit that repeats itself after fewer periods than requested is left out.
 ///
 /// # Errors
 /// [`Unfinished`] if the case is not legal, or the work is cancelled.
 pub fn find_orbits(
     parameters: &Parameters,
     starts: &Starts,
-    wanted: &Wanted,
+    request: &OrbitRequest,
     on_progress: OnProgress,
 ) -> Result<Vec<Orbit>, Unfinished> {
     period_of(parameters)?;
@@ -110,31 +110,32 @@ pub fn find_orbits(
         None => starts.near.get(k).copied(),
         Some(k) => random_start(parameters, starts.seed, k as u64),
     };
-    let made = on_all_threads(batches, |numbers| {
-        let mut made = Vec::new();
-        for batch in numbers {
-            let first = batch * BATCH;
-            let last = (first + BATCH).min(all);
-            let mut found: Vec<Orbit> = Vec::new();
-            for k in first..last {
-                found.extend(
-                    start(k).and_then(|z| crate::orbit_search::from_afar(&family, &z, wanted)),
-                );
+    let made =
+        on_all_threads(batches, |numbers| {
+            let mut made = Vec::new();
+            for batch in numbers {
+                let first = batch * BATCH;
+                let last = (first + BATCH).min(all);
+                let mut found: Vec<Orbit> = Vec::new();
+                for k in first..last {
+                    found.extend(start(k).and_then(|z| {
+                        crate::orbit_search::find_from_far_start(&family, &z, request)
+                    }));
+                }
+                counter.add((last - first) as u64)?;
+                made.push(found);
             }
-            counter.add((last - first) as u64)?;
-            made.push(found);
-        }
-        Ok::<_, snapload::analysis::Cancelled>(made)
-    })?;
+            Ok::<_, snapload::analysis::Cancelled>(made)
+        })?;
     let mut orbits: Vec<Orbit> = Vec::new();
-    let mut met: Vec<Point> = Vec::new();
+    let mut seen: Vec<Point> = Vec::new();
     let is_in = |points: &[Point], z: &Point| points.iter().any(|p| distance(p, z) < SAME);
     for orbit in made.into_vec().into_iter().flatten() {
-        if is_in(&met, &orbit.z) {
+        if is_in(&seen, &orbit.z) {
             continue;
         }
         if orbit.smallest_periods == orbit.periods {
-            met.extend(sections(&family, &orbit));
+            seen.extend(sections(&family, &orbit));
             orbits.push(orbit);
         }
     }

@@ -40,7 +40,7 @@ pub struct Basin {
     /// The cells, the second key varying fastest.
     pub cells: Vec<Cell>,
     /// Whether neighbours and horizons were computed.
-    pub looked_beside: bool,
+    pub neighbours_run: bool,
     /// Measures of its safe part.
     pub measures: Measures,
 }
@@ -74,9 +74,9 @@ pub struct Measures {
 }
 
 /// The distance of neighbours, along either key and along both.
-const BESIDE: f64 = 1e-8;
+const NEIGHBOUR_DISTANCE: f64 = 1e-8;
 /// Where rounding may decide a run, neighbours at all of these distances are used.
-const NEARER: [f64; 3] = [BESIDE, 1e-10, 1e-12];
+const NEIGHBOUR_DISTANCES: [f64; 3] = [NEIGHBOUR_DISTANCE, 1e-10, 1e-12];
 const NEIGHBOURS: [[f64; 2]; 8] = [
     [1.0, 0.0],
     [-1.0, 0.0],
@@ -192,7 +192,7 @@ impl Window {
     /// What else than the two keys keeps every start of a plane of starts away from the equilibrium,
     /// where all start values are 0: keys that are not 0. Distances from it are not those of the plane
     /// then.
-    pub(crate) fn away_from_equilibrium(&self) -> Vec<(&'static str, f64)> {
+    pub(crate) fn keys_off_equilibrium(&self) -> Vec<(&'static str, f64)> {
         let others = STARTS.iter().filter(|key| !self.keys.contains(key));
         let values = others.filter_map(|key| Some((*key, self.base.get(key)?.number()?)));
         values.filter(|(_, value)| *value != 0.0).collect()
@@ -208,27 +208,27 @@ impl Basin {
         window.check()?;
         // Progress is reported over both stages together, in runs, as far as their number is known.
         let count = window.count() as f64;
-        let beside = if trust {
+        let neighbours = if trust {
             count * NEIGHBOURS.len() as f64
         } else {
             0.0
         };
-        let of = count + beside;
+        let of = count + neighbours;
         let share =
             |progress: Progress| on_progress(Progress::new(progress.doing, progress.done, of));
         let mut cells = centres(&window, trust, &share)?;
         if trust {
             let share = |progress: Progress| {
-                let done = count + beside * progress.done / progress.of;
+                let done = count + neighbours * progress.done / progress.of;
                 on_progress(Progress::new(progress.doing, done, of))
             };
-            look_beside(&window, &mut cells, &share)?;
+            run_neighbours(&window, &mut cells, &share)?;
         }
         let measures = Measures::of(&window, &cells);
         Ok(Self {
             window,
             cells,
-            looked_beside: trust,
+            neighbours_run: trust,
             measures,
         })
     }
@@ -281,30 +281,37 @@ fn run(
         decided: true,
         trusted,
     };
-    let told: Vec<Cell> = if trust {
-        let told = Certainty::with_outcomes(Lanes::best(), cases, counter)?;
+    let ended_cells: Vec<Cell> = if trust {
+        let ended_cells = Certainty::with_outcomes(Lanes::best(), cases, counter)?;
         let cell = |(outcome, certainty): (Outcome, Certainty)| {
             ended(outcome, certainty.decides_the_end())
         };
-        told.into_iter().map(cell).collect()
+        ended_cells.into_iter().map(cell).collect()
     } else {
-        let told = outcomes_on_one_thread(cases, counter)?;
-        told.into_iter()
+        let ended_cells = outcomes_on_one_thread(cases, counter)?;
+        ended_cells
+            .into_iter()
             .map(|outcome| ended(outcome, true))
             .collect()
     };
-    let mut told = told.into_iter();
+    let mut ended_cells = ended_cells.into_iter();
     let illegal = Cell {
         end: None,
         decided: true,
         trusted: true,
     };
-    let cell = |legal| if legal { told.next() } else { Some(illegal) };
+    let cell = |legal| {
+        if legal {
+            ended_cells.next()
+        } else {
+            Some(illegal)
+        }
+    };
     Ok(legal.into_iter().filter_map(cell).collect())
 }
 
 /// Runs the neighbours of the legal cells.
-fn look_beside(
+fn run_neighbours(
     window: &Window,
     cells: &mut [Cell],
     on_progress: OnProgress,
@@ -316,9 +323,9 @@ fn look_beside(
         .filter(|(_, cell)| cell.end.is_some())
     {
         let distances = if cell.trusted {
-            &NEARER[..1]
+            &NEIGHBOUR_DISTANCES[..1]
         } else {
-            &NEARER[..]
+            &NEIGHBOUR_DISTANCES[..]
         };
         for distance in distances {
             neighbours.extend(NEIGHBOURS.map(|[a, b]| (k, [a * distance, b * distance])));
@@ -348,15 +355,15 @@ impl Measures {
         let legal = cells.iter().filter(|cell| cell.end.is_some()).count();
         let unsafe_cells = cells.iter().filter(|cell| cell.escapes()).count();
         let undecided = cells.iter().filter(|cell| !cell.decided).count();
-        let doubtful = cells.iter().filter(|cell| !cell.decided);
-        let undecided_safe = doubtful.filter(|cell| !cell.escapes()).count();
+        let undecided_cells = cells.iter().filter(|cell| !cell.decided);
+        let undecided_safe = undecided_cells.filter(|cell| !cell.escapes()).count();
         let past_horizon = cells.iter().filter(|cell| !cell.trusted).count();
         let safe = legal - unsafe_cells;
         let integrity_factor = match window.are_starts() {
             true => largest_disc(window, cells),
             false => None,
         };
-        let [lim, iim] = match window.are_starts() && window.away_from_equilibrium().is_empty() {
+        let [lim, iim] = match window.are_starts() && window.keys_off_equilibrium().is_empty() {
             true => [
                 nearest_unsafe(window, cells),
                 nearest_along_velocity(window, cells),

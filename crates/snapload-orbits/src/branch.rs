@@ -11,7 +11,7 @@ use snapload::analysis::{Cancelled, OnProgress, Progress};
 
 /// How a branch is followed.
 #[derive(Clone, Copy, Debug)]
-pub struct Along {
+pub struct BranchOptions {
     /// The least and the greatest value of the parameter.
     pub range: [f64; 2],
     /// The length of the first step, in the space of state, times and parameter.
@@ -25,7 +25,7 @@ pub struct Along {
 pub struct BranchPoint {
     /// The orbit, which may be inadmissible.
     pub orbit: Orbit,
-    /// The length along the branch from the orbit with which it was begun.
+    /// The length along the branch from the orbit with which it was started.
     pub arclength: f64,
 }
 
@@ -50,20 +50,20 @@ pub struct Branch {
 }
 
 /// The longest and the shortest step, in units of the first.
-const LONGER: f64 = 6.0;
-const SHORTER: f64 = 1e-7;
+const LONGEST_STEP: f64 = 6.0;
+const SHORTEST_STEP: f64 = 1e-7;
 /// From the first number of the corrector's iterations on, the next step is made shorter; up to the
 /// second, longer.
-const MANY: usize = 5;
-const FEW: usize = 3;
+const SHORTEN_FROM: usize = 5;
+const LENGTHEN_TO: usize = 3;
 /// The time between two events does not change by more than this in one step.
-const TIMES: f64 = 0.3;
+const LONGEST_TIME_CHANGE: f64 = 0.3;
 /// A gap of more than this, by which a cable would have to be longer, ends a branch.
-const DEEP: f64 = 0.02;
+const LARGEST_GAP: f64 = 0.02;
 /// A branch that returns to its first point within this part of its step is closed.
-const BACK: f64 = 0.5;
+const CLOSED_WITHIN: f64 = 0.5;
 /// A closed branch is at least this many steps long.
-const FAR: f64 = 10.0;
+const CLOSED_AFTER: f64 = 10.0;
 /// A value this close to the border of the range is set to the border.
 const ON_BORDER: f64 = 1e-13;
 
@@ -75,7 +75,7 @@ impl Branch {
     pub fn of<F: Family>(
         family: &F,
         orbit: &Orbit,
-        along: &Along,
+        options: &BranchOptions,
         on_progress: OnProgress,
     ) -> Result<Self, Cancelled> {
         let continuation = Continuation {
@@ -100,16 +100,16 @@ impl Branch {
                 ends: [end.clone(), end],
             });
         };
-        let mut walk = Walk {
-            along,
+        let mut follower = Follower {
+            options,
             on_progress,
             done: 0,
         };
-        let backward = walk.run(&continuation, &start, &(-&up), orbit)?;
+        let backward = follower.run(&continuation, &start, &(-&up), orbit)?;
         let forward = if backward.closed {
-            Side::nowhere(orbit.at[0], "the branch is closed")
+            HalfBranch::empty(orbit.at[0], "the branch is closed")
         } else {
-            walk.run(&continuation, &start, &up, orbit)?
+            follower.run(&continuation, &start, &up, orbit)?
         };
         Ok(joined(orbit, backward, forward))
     }
@@ -117,7 +117,7 @@ impl Branch {
 
 impl Branch {
     /// Of the events of a kind, the one that is nearest along the branch to the orbit with which it
-    /// was begun, or the one with a given number, counted from 1 in their order.
+    /// was started, or the one with a given number, counted from 1 in their order.
     ///
     /// # Errors
     /// [`NoOrbit`] lists the events that there are.
@@ -152,20 +152,20 @@ impl Branch {
     pub fn of_doubling<F: Family>(
         family: &F,
         event: &BranchEvent,
-        along: &Along,
+        options: &BranchOptions,
         on_progress: OnProgress,
     ) -> Result<Option<Self>, Cancelled> {
         let Some((continuation, start, apart)) = doubled(family, event) else {
             return Ok(None);
         };
         let orbit = Orbit::of(&continuation.lap(start.at), &start.closed());
-        let mut walk = Walk {
-            along,
+        let mut follower = Follower {
+            options,
             on_progress,
             done: 0,
         };
-        let born = Side::nowhere(orbit.at[0], "the period doubling");
-        let forward = walk.run(&continuation, &start, &apart, &orbit)?;
+        let born = HalfBranch::empty(orbit.at[0], "the period doubling");
+        let forward = follower.run(&continuation, &start, &apart, &orbit)?;
         Ok(Some(joined(&orbit, born, forward)))
     }
 }
@@ -175,15 +175,15 @@ fn point(orbit: Orbit, arclength: f64) -> BranchPoint {
 }
 
 /// The branch in one direction.
-struct Side {
+struct HalfBranch {
     points: Vec<BranchPoint>,
     events: Vec<BranchEvent>,
     end: BranchEnd,
     closed: bool,
 }
 
-impl Side {
-    fn nowhere(at: f64, because: &str) -> Self {
+impl HalfBranch {
+    fn empty(at: f64, because: &str) -> Self {
         Self {
             points: Vec::new(),
             events: Vec::new(),
@@ -196,7 +196,7 @@ impl Side {
     }
 }
 
-fn joined(orbit: &Orbit, backward: Side, forward: Side) -> Branch {
+fn joined(orbit: &Orbit, backward: HalfBranch, forward: HalfBranch) -> Branch {
     let turned = |mut p: BranchPoint| {
         p.arclength = -p.arclength;
         p
@@ -228,34 +228,34 @@ struct Stepped {
 }
 
 /// Follows branches.
-struct Walk<'a> {
-    along: &'a Along,
+struct Follower<'a> {
+    options: &'a BranchOptions,
     on_progress: OnProgress<'a>,
     done: usize,
 }
 
-impl Walk<'_> {
+impl Follower<'_> {
     fn run<F: Family>(
         &mut self,
         continuation: &Continuation<F>,
         start: &Unknowns,
         tangent: &DVector<f64>,
         orbit: &Orbit,
-    ) -> Result<Side, Cancelled> {
+    ) -> Result<HalfBranch, Cancelled> {
         let mut continuation = continuation.clone();
         let (mut here, mut tangent) = (start.clone(), tangent.clone());
         let mut tests = tests_of(orbit, &tangent);
-        let mut side = Side::nowhere(orbit.at[0], "");
-        let (mut step, mut arclength) = (self.along.step, 0.0);
-        while side.end.because.is_empty() {
-            if side.points.len() >= self.along.most {
-                side.end.because = format!("the limit of {} points is reached", self.along.most);
+        let mut half = HalfBranch::empty(orbit.at[0], "");
+        let (mut step, mut arclength) = (self.options.step, 0.0);
+        while half.end.because.is_empty() {
+            if half.points.len() >= self.options.most {
+                half.end.because = format!("the limit of {} points is reached", self.options.most);
                 break;
             }
             let Some(there) = self.stepped(&continuation, &here, &tangent, step) else {
                 step *= 0.5;
-                if step < self.along.step * SHORTER {
-                    side.end.because = "Newton's method finds no further point".to_owned();
+                if step < self.options.step * SHORTEST_STEP {
+                    half.end.because = "Newton's method finds no further point".to_owned();
                 }
                 continue;
             };
@@ -267,31 +267,32 @@ impl Walk<'_> {
                 tangent: &tangent,
                 length: there.length,
             };
-            let ended = self.take_events(&segment, [&tests, &reached], arclength, &mut side);
+            let ended = self.take_events(&segment, [&tests, &reached], arclength, &mut half);
             arclength += there.length;
             let ended = ended.or_else(|| {
-                side.end.at = found.at[0];
-                self.left(&found, arclength, start, orbit)
+                half.end.at = found.at[0];
+                self.reason_to_end(&found, arclength, start, orbit)
             });
             if let Some(because) = ended {
-                side.closed = because.contains("closed");
-                side.end.because = because;
+                half.closed = because.contains("closed");
+                half.end.because = because;
                 break;
             }
             (here, tangent, tests) = (there.at, there.direction, reached);
-            let anew = counted_anew(&mut continuation, &mut here, &mut tangent);
+            let renumbered = renumber_events(&mut continuation, &mut here, &mut tangent);
             if there.length > 0.0 {
-                side.points.push(point(anew.unwrap_or(found), arclength));
+                half.points
+                    .push(point(renumbered.unwrap_or(found), arclength));
             }
             if there.is_last {
-                side.end.because = "the end of the range".to_owned();
+                half.end.because = "the end of the range".to_owned();
             }
             self.done += 1;
-            let of = (2 * self.along.most) as f64;
+            let of = (2 * self.options.most) as f64;
             Progress::new("points", self.done as f64, of).report(self.on_progress)?;
             step = self.next_step(step, there.steps);
         }
-        Ok(side)
+        Ok(half)
     }
 
     /// The next point, if the corrector finds one near enough; it is on the border of the range if
@@ -304,7 +305,7 @@ impl Walk<'_> {
         step: f64,
     ) -> Option<Stepped> {
         let (at, steps, direction) = stepped(continuation, here, tangent, step)?;
-        let [low, high] = self.along.range;
+        let [low, high] = self.options.range;
         let border = at.at[0].clamp(low, high);
         let beyond = |u: &Unknowns| u.at[0] - border;
         let mut there = Stepped {
@@ -335,8 +336,8 @@ impl Walk<'_> {
     /// The length of the next step, from the number of the corrector's iterations.
     fn next_step(&self, step: f64, steps: usize) -> f64 {
         match steps {
-            MANY.. => step * 0.6,
-            0..=FEW => (step * 1.4).min(self.along.step * LONGER),
+            SHORTEN_FROM.. => step * 0.6,
+            0..=LENGTHEN_TO => (step * 1.4).min(self.options.step * LONGEST_STEP),
             _ => step,
         }
     }
@@ -347,7 +348,7 @@ impl Walk<'_> {
         segment: &Segment<F>,
         [before, after]: [&[(Test, f64)]; 2],
         arclength: f64,
-        side: &mut Side,
+        half: &mut HalfBranch,
     ) -> Option<String> {
         let mut found: Vec<BranchEvent> = Vec::new();
         for ((test, a), (_, b)) in before.iter().zip(after) {
@@ -355,17 +356,17 @@ impl Walk<'_> {
                 found.extend(located(segment, *test, *a, *b));
             }
         }
-        let [low, high] = self.along.range;
+        let [low, high] = self.options.range;
         found.sort_by(|a, b| a.sigma.total_cmp(&b.sigma));
         for mut event in found {
             event.arclength = arclength + event.sigma;
             let within = (low..=high).contains(&event.value[0]);
             let (kind, virtually) = (event.kind, event.is_own_snap);
             if within {
-                side.events.push(event.clone());
+                half.events.push(event.clone());
             }
             if kind == Kind::Corner || (kind == Kind::Graze && virtually) {
-                side.end.at = event.value[0];
+                half.end.at = event.value[0];
                 return Some(match kind {
                     Kind::Corner => "corner: two cables snap at once, and come in the other order beyond it",
                     _ => "graze: a snap of the sequence has zero velocity here, and a negative one beyond it",
@@ -377,7 +378,7 @@ impl Walk<'_> {
     }
 
     /// Why a branch ends at a point that it has reached.
-    fn left(
+    fn reason_to_end(
         &self,
         found: &Orbit,
         arclength: f64,
@@ -385,27 +386,29 @@ impl Walk<'_> {
         first: &Orbit,
     ) -> Option<String> {
         let gap = found.survey.largest_gap.map_or(0.0, |gap| gap.value);
-        if gap > DEEP {
-            return Some(format!("a cable would have to be longer by {DEEP}"));
+        if gap > LARGEST_GAP {
+            return Some(format!("a cable would have to be longer by {LARGEST_GAP}"));
         }
         let near = |z: &Point| crate::distance(z, &start.z);
         let same = found.lap.sequence == first.lap.sequence;
         let back = near(&found.z).max((found.at[0] - start.at[0]).abs());
-        (arclength > FAR * self.along.step && same && back < BACK * self.along.step)
+        (arclength > CLOSED_AFTER * self.options.step
+            && same
+            && back < CLOSED_WITHIN * self.options.step)
             .then(|| "the branch is closed".to_owned())
     }
 }
 
 /// Renumbers the events if one has passed the section; returns the orbit then.
-fn counted_anew<F: Family>(
+fn renumber_events<F: Family>(
     continuation: &mut Continuation<F>,
     here: &mut Unknowns,
     tangent: &mut DVector<f64>,
 ) -> Option<Orbit> {
     let mut orbit = None;
-    while let Some((moved, anew, shift)) = continuation.renumbered(here) {
-        *tangent = moved.tangent_after(&anew, tangent, shift)?;
-        (*continuation, *here) = (moved, anew);
+    while let Some((moved, renumbered, shift)) = continuation.renumbered(here) {
+        *tangent = moved.tangent_after(&renumbered, tangent, shift)?;
+        (*continuation, *here) = (moved, renumbered);
         orbit = Some(Orbit::of(&continuation.lap(here.at), &here.closed()));
     }
     orbit
@@ -423,5 +426,6 @@ fn stepped<F: Family>(
     let most = moved.map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
     let off = here.distance(&next);
     let turned = direction.dot(tangent);
-    (most < TIMES && off <= 2.0 * step && turned > 0.9).then_some((next, steps, direction))
+    (most < LONGEST_TIME_CHANGE && off <= 2.0 * step && turned > 0.9)
+        .then_some((next, steps, direction))
 }

@@ -74,7 +74,7 @@ pub struct BranchEvent {
     pub sqrt_coefficient: Option<f64>,
     /// Whether a snap of the sequence itself grazes, and not a contact in addition to it.
     pub is_own_snap: bool,
-    /// The length along the branch from the orbit with which it was begun.
+    /// The length along the branch from the orbit with which it was started.
     pub arclength: f64,
     /// The position between the two points of the branch.
     pub(crate) sigma: f64,
@@ -82,21 +82,21 @@ pub struct BranchEvent {
 
 /// An orbit counts as special if a multiplier, a gap or a velocity is this close to its critical
 /// value.
-const THERE: f64 = 1e-6;
+const SPECIAL_WITHIN: f64 = 1e-6;
 
 impl BranchEvent {
     /// The event at an orbit that is itself special, such as one that was found as an event of a
     /// branch before.
     pub fn here(kind: Kind, orbit: &Orbit) -> Option<Self> {
         let values = &orbit.multipliers.values;
-        let near = |extreme: &Extreme| extreme.value.abs() < THERE;
+        let near = |extreme: &Extreme| extreme.value.abs() < SPECIAL_WITHIN;
         let gap = orbit.survey.largest_gap.filter(near);
         let speed = orbit.survey.least_speed.filter(near);
         let at = |place: f64| {
-            let near = |[re, im]: &[f64; 2]| (re - place).hypot(*im) < THERE;
+            let near = |[re, im]: &[f64; 2]| (re - place).hypot(*im) < SPECIAL_WITHIN;
             values.iter().filter(|value| near(value)).count() == 1
         };
-        let pair = |[re, im]: &[f64; 2]| *im > 0.0 && (re.hypot(*im) - 1.0).abs() < THERE;
+        let pair = |[re, im]: &[f64; 2]| *im > 0.0 && (re.hypot(*im) - 1.0).abs() < SPECIAL_WITHIN;
         let is_there = match kind {
             Kind::Fold => at(1.0),
             Kind::PeriodDoubling => at(-1.0),
@@ -151,7 +151,7 @@ impl Test {
 
 /// A test function smaller than this is taken as identically zero, as on a family of neutral
 /// orbits.
-const NOTHING: f64 = 1e-9;
+const NOT_CROSSING: f64 = 1e-9;
 /// The largest value of a test function that is accepted as a zero.
 const ZERO: f64 = 1e-6;
 
@@ -167,7 +167,7 @@ fn value(test: Test, orbit: &Orbit, tangent: &DVector<f64>) -> f64 {
     let extreme = |extreme: Option<Extreme>, none| extreme.map_or(none, |e: Extreme| e.value);
     let multipliers = &orbit.multipliers.values;
     let cleared = |value: f64| {
-        if value.abs() < NOTHING {
+        if value.abs() < NOT_CROSSING {
             f64::NAN
         } else {
             value

@@ -1,4 +1,4 @@
-//! Branches in the form of their JSON, and in words.
+//! Branches in the form of their JSON, and as text.
 
 use crate::branch::{Branch, BranchEnd, BranchPoint};
 use crate::branch_events::BranchEvent;
@@ -103,7 +103,7 @@ impl EventRow {
 }
 
 /// A summary of a branch in a few lines.
-pub fn branch_in_words(along: &str, branch: &Branch) -> String {
+pub fn branch_summary(along: &str, branch: &Branch) -> String {
     let real = branch
         .points
         .iter()

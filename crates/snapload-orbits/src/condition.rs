@@ -148,7 +148,7 @@ impl Condition {
     }
 
     /// The condition after the events were renumbered.
-    pub(crate) fn counted_anew<F: Family>(
+    pub(crate) fn renumbered<F: Family>(
         &self,
         continuation: &Continuation<F>,
         u: &Unknowns,

@@ -48,7 +48,7 @@ const CLOSED: f64 = 1e-11;
 const DONE: f64 = 1e-14;
 /// After a step below this the next one would be only rounding, and the derivatives are accurate
 /// enough for the direction of the branch.
-const LAST: f64 = 1e-8;
+const LAST_STEP: f64 = 1e-8;
 
 impl Unknowns {
     /// The largest difference of state and parameters from another point.
@@ -154,7 +154,7 @@ impl<F: Family> Continuation<'_, F> {
             if size < CLOSED && (moved < DONE || moved >= 0.25 * before) {
                 return Some((here, steps, Self::tangent_of(&jacobian, tangent)?));
             }
-            if moved < LAST {
+            if moved < LAST_STEP {
                 let there = from.moved(variables, &(&offset + &step));
                 return Some((there, steps, Self::tangent_of(&jacobian, tangent)?));
             }
@@ -171,7 +171,7 @@ impl<F: Family> Continuation<'_, F> {
     /// last one the next section; and the shift of the events' numbers.
     pub(crate) fn renumbered(&self, u: &Unknowns) -> Option<(Self, Unknowns, isize)> {
         let lap = self.lap(u.at);
-        let (begun, length) = lap.times();
+        let (t_start, length) = lap.times();
         let count = u.durations.len();
         if *u.durations.first()? >= 0.0 && lap.last_leg(&u.durations) >= 0.0 {
             return None;
@@ -195,7 +195,10 @@ impl<F: Family> Continuation<'_, F> {
             } else {
                 durations[0] = length + early;
             }
-            (system.flow(leg.held, leg.t, &leg.start, begun - leg.t), -1)
+            (
+                system.flow(leg.held, leg.t, &leg.start, t_start - leg.t),
+                -1,
+            )
         } else {
             // The last event is now the first one after the section.
             moved.sequence.events.rotate_right(1);
@@ -207,7 +210,7 @@ impl<F: Family> Continuation<'_, F> {
             if count > 1 {
                 durations[1] -= late;
             }
-            let z = system.flow(leg.held, leg.t, &leg.start, begun + length - leg.t);
+            let z = system.flow(leg.held, leg.t, &leg.start, t_start + length - leg.t);
             (z, 1)
         };
         let here = Unknowns {

@@ -18,7 +18,7 @@ use snapload::analysis::{Cancelled, OnProgress, Progress};
 
 /// How a curve is followed.
 #[derive(Clone, Copy, Debug)]
-pub struct Across {
+pub struct CurveOptions {
     /// The least and the greatest value of either parameter.
     pub ranges: [[f64; 2]; 2],
     /// The length of the first step, in the space of state, times and parameters.
@@ -69,18 +69,18 @@ pub struct Curve {
 }
 
 /// The longest and the shortest step, in units of the first.
-const LONGER: f64 = 6.0;
-const SHORTER: f64 = 1e-6;
+const LONGEST_STEP: f64 = 6.0;
+const SHORTEST_STEP: f64 = 1e-6;
 /// From the first number of the corrector's iterations on, the next step is made shorter; up to the
 /// second, longer.
-const MANY: usize = 7;
-const FEW: usize = 4;
+const SHORTEN_FROM: usize = 7;
+const LENGTHEN_TO: usize = 4;
 /// A gap of more than this, by which a cable would have to be longer, ends a curve.
-const DEEP: f64 = 0.02;
+const LARGEST_GAP: f64 = 0.02;
 /// A curve that returns to its first point within the first of these parts of its step is closed,
 /// if it is at least as many steps long as the second says.
-const BACK: f64 = 0.5;
-const FAR: f64 = 10.0;
+const CLOSED_WITHIN: f64 = 0.5;
+const CLOSED_AFTER: f64 = 10.0;
 
 impl Curve {
     /// The kinds of special orbits that have curves.
@@ -99,7 +99,7 @@ impl Curve {
     pub fn of<F: Family>(
         family: &F,
         event: &BranchEvent,
-        across: &Across,
+        options: &CurveOptions,
         on_progress: OnProgress,
     ) -> Result<Result<Self, NoOrbit>, Cancelled> {
         let orbit = &event.orbit;
@@ -114,7 +114,7 @@ impl Curve {
             durations: orbit.lap.durations.clone(),
             at: orbit.at,
         };
-        let Some(on_curve) = OnCurve::begun(continuation, start, event) else {
+        let Some(on_curve) = OnCurve::start_at(continuation, start, event) else {
             let name = event.kind.name().replace('_', " ");
             return Ok(Err(NoOrbit(format!(
                 "Newton's method finds no point of the curve from the {name} at {:.9}",
@@ -122,15 +122,15 @@ impl Curve {
             ))));
         };
         let first = point(&on_curve, on_curve.orbit(), 0.0);
-        let mut walk = Walk {
-            across,
+        let mut follower = Follower {
+            options,
             on_progress,
             done: 0,
         };
-        let backward = walk.run(on_curve.turned())?;
+        let backward = follower.run(on_curve.turned())?;
         let forward = match backward.closed {
-            true => Side::nowhere(on_curve.here.at, "the curve is closed"),
-            false => walk.run(on_curve)?,
+            true => HalfCurve::empty(on_curve.here.at, "the curve is closed"),
+            false => follower.run(on_curve)?,
         };
         let mut points: Vec<CurvePoint> = backward.points;
         points.reverse();
@@ -166,14 +166,14 @@ fn orient(points: &mut [CurvePoint]) {
 }
 
 /// The curve in one direction.
-struct Side {
+struct HalfCurve {
     points: Vec<CurvePoint>,
     end: CurveEnd,
     closed: bool,
 }
 
-impl Side {
-    fn nowhere(at: [f64; 2], because: &str) -> Self {
+impl HalfCurve {
+    fn empty(at: [f64; 2], because: &str) -> Self {
         Self {
             points: Vec::new(),
             end: CurveEnd {
@@ -268,24 +268,24 @@ const BORDERS: [&str; 6] = [
 const ON_BORDER: f64 = 1e-8;
 
 /// Follows curves.
-struct Walk<'a> {
-    across: &'a Across,
+struct Follower<'a> {
+    options: &'a CurveOptions,
     on_progress: OnProgress<'a>,
     done: usize,
 }
 
-impl Walk<'_> {
-    fn run<F: Family>(&mut self, mut on_curve: OnCurve<F>) -> Result<Side, Cancelled> {
+impl Follower<'_> {
+    fn run<F: Family>(&mut self, mut on_curve: OnCurve<F>) -> Result<HalfCurve, Cancelled> {
         let (start, first) = (
             on_curve.here.clone(),
             on_curve.continuation.sequence.clone(),
         );
-        let mut side = Side::nowhere(start.at, "");
+        let mut half = HalfCurve::empty(start.at, "");
         let mut margins = self.margins(&on_curve, &on_curve.orbit());
-        let (mut step, mut arclength) = (self.across.step, 0.0);
-        while side.end.because.is_empty() {
-            if side.points.len() >= self.across.most {
-                side.end.because = format!("the limit of {} points is reached", self.across.most);
+        let (mut step, mut arclength) = (self.options.step, 0.0);
+        while half.end.because.is_empty() {
+            if half.points.len() >= self.options.most {
+                half.end.because = format!("the limit of {} points is reached", self.options.most);
                 break;
             }
             let stepped = on_curve.stepped(step).map(|(next, steps)| {
@@ -299,54 +299,54 @@ impl Walk<'_> {
             let lost = border.as_ref().is_some_and(|border| border.place.is_none());
             let Some((next, steps, orbit, reached)) = stepped.filter(|_| !lost) else {
                 step *= 0.5;
-                if step < self.across.step * SHORTER {
-                    side.end.because = "Newton's method finds no further point".to_owned();
+                if step < self.options.step * SHORTEST_STEP {
+                    half.end.because = "Newton's method finds no further point".to_owned();
                 }
                 continue;
             };
             if let Some(border) = border {
-                side.end_on(border, arclength, &self.across.ranges);
+                half.end_on(border, arclength, &self.options.ranges);
                 break;
             }
             arclength += step;
-            side.end.at = next.here.at;
-            if let Some(because) = left(&next, &orbit) {
-                side.end.because = because;
+            half.end.at = next.here.at;
+            if let Some(because) = reason_to_end(&next, &orbit) {
+                half.end.because = because;
                 break;
             }
-            let far = arclength > FAR * self.across.step;
-            let back = next.here.distance(&start) < BACK * self.across.step;
+            let far = arclength > CLOSED_AFTER * self.options.step;
+            let back = next.here.distance(&start) < CLOSED_WITHIN * self.options.step;
             if far && back && next.continuation.sequence == first {
-                side.end.because = "the curve is closed".to_owned();
-                side.closed = true;
+                half.end.because = "the curve is closed".to_owned();
+                half.closed = true;
                 break;
             }
             (on_curve, margins) = (next, reached);
-            let orbit = match on_curve.counted_anew() {
+            let orbit = match on_curve.renumber_events() {
                 true => on_curve.orbit(),
                 false => orbit,
             };
-            side.points.push(point(&on_curve, orbit, arclength));
+            half.points.push(point(&on_curve, orbit, arclength));
             self.done += 1;
-            let of = (2 * self.across.most) as f64;
+            let of = (2 * self.options.most) as f64;
             Progress::new("points", self.done as f64, of).report(self.on_progress)?;
             step = self.next_length(step, steps);
         }
-        Ok(side)
+        Ok(half)
     }
 
     /// The length of the next step, from the number of Newton's iterations in the last one.
     fn next_length(&self, step: f64, steps: usize) -> f64 {
         match steps {
-            MANY.. => step * 0.6,
-            0..=FEW => (step * 1.4).min(self.across.step * LONGER),
+            SHORTEN_FROM.. => step * 0.6,
+            0..=LENGTHEN_TO => (step * 1.4).min(self.options.step * LONGEST_STEP),
             _ => step,
         }
     }
 
     /// The distance to each border.
     fn margins<F: Family>(&self, on_curve: &OnCurve<F>, orbit: &Orbit) -> [f64; 6] {
-        let [[a, b], [c, d]] = self.across.ranges;
+        let [[a, b], [c, d]] = self.options.ranges;
         let [x, y] = orbit.at;
         let corner = orbit.survey.corner_gap;
         let corner = corner.map_or(f64::INFINITY, |gap| -gap.value);
@@ -394,11 +394,11 @@ struct Border<'a, F: Family> {
 }
 
 /// Why a curve ends at a point that it has reached.
-fn left<F: Family>(on_curve: &OnCurve<F>, orbit: &Orbit) -> Option<String> {
+fn reason_to_end<F: Family>(on_curve: &OnCurve<F>, orbit: &Orbit) -> Option<String> {
     if !on_curve.condition.is_met(orbit) {
         let because = "the pair of multipliers is real from here on: a resonance of 1:1 or 1:2";
         return Some(because.to_owned());
     }
     let gap = orbit.survey.largest_gap.map_or(0.0, |gap| gap.value);
-    (gap > DEEP).then(|| format!("a cable would have to be longer by {DEEP}"))
+    (gap > LARGEST_GAP).then(|| format!("a cable would have to be longer by {LARGEST_GAP}"))
 }

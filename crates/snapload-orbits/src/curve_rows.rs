@@ -1,4 +1,4 @@
-//! Curves in the form of their JSON, and in words.
+//! Curves in the form of their JSON, and as text.
 
 use crate::branch_events::BranchEvent;
 use crate::branch_rows::EventRow;
@@ -76,7 +76,7 @@ impl PointRow {
 }
 
 /// A summary of a curve in a few lines.
-pub fn curve_in_words(along: [&str; 2], curve: &Curve, from: &BranchEvent) -> String {
+pub fn curve_summary(along: [&str; 2], curve: &Curve, from: &BranchEvent) -> String {
     let name = curve.kind.name().replace('_', " ");
     let [first, second] = along;
     let real = curve.points.iter();

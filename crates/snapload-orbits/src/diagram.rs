@@ -2,13 +2,13 @@
 //! one before.
 
 use crate::hybrid::Point;
-use crate::section::{Section, Stretch, period_of, start_of};
+use crate::section::{Section, SectionOptions, period_of, start_of};
 use snapload::analysis::{OnProgress, Progress, Unfinished};
 use snapload::{Parameters, Stop};
 
 /// The attractor at one value.
 #[derive(Clone, Debug)]
-pub struct At {
+pub struct DiagramPoint {
     /// The value of the key.
     pub value: f64,
     /// The state from which the motion started.
@@ -21,7 +21,7 @@ pub struct At {
     pub period: Option<usize>,
 }
 
-impl At {
+impl DiagramPoint {
     /// Why the motion stopped, if it did.
     pub fn stop(&self) -> Option<Stop> {
         self.section.stop
@@ -49,14 +49,14 @@ pub fn diagram(
     base: &Parameters,
     key: &str,
     values: &[f64],
-    stretch: &Stretch,
+    options: &SectionOptions,
     on_progress: OnProgress,
-) -> Result<Vec<At>, Unfinished> {
-    let mut found: Vec<At> = Vec::with_capacity(values.len());
+) -> Result<Vec<DiagramPoint>, Unfinished> {
+    let mut found: Vec<DiagramPoint> = Vec::with_capacity(values.len());
     for (done, value) in values.iter().enumerate() {
         let here = base.over(|name, other| if name == key { *value } else { other });
         here.check()?;
-        let begun = stretch.phase * period_of(&here)?;
+        let t_start = options.phase * period_of(&here)?;
         let share = |progress: Progress| {
             let part = done as f64 + progress.done / progress.of;
             on_progress(Progress::new(
@@ -69,20 +69,20 @@ pub fn diagram(
             .last()
             .filter(|at| at.stop().is_none())
             .map(|at| at.section.end.0);
-        let go_on = before.map(|seed| {
-            Section::from(&here, (begun, &seed), stretch, &share).map(|section| (section, seed))
+        let continued = before.map(|seed| {
+            Section::from(&here, (t_start, &seed), options, &share).map(|section| (section, seed))
         });
-        let (section, seed, restarted) = match go_on {
+        let (section, seed, restarted) = match continued {
             Some(Ok((section, seed))) => (section, seed, false),
             Some(Err(Unfinished::Cancelled(cancelled))) => return Err(cancelled.into()),
             Some(Err(Unfinished::Case(_))) | None => {
                 let seed = start_of(&here);
-                let section = Section::from(&here, (begun, &seed), stretch, &share)?;
+                let section = Section::from(&here, (t_start, &seed), options, &share)?;
                 (section, seed, true)
             }
         };
         let period = section.stop.is_none().then(|| section.period()).flatten();
-        found.push(At {
+        found.push(DiagramPoint {
             value: *value,
             seed,
             restarted,

@@ -56,8 +56,8 @@ impl Erosion {
     }
 
     /// Whether neighbours and horizons were computed: without them no cell counts as undecided.
-    pub fn looked_beside(&self) -> bool {
-        self.points.iter().all(|(_, basin)| basin.looked_beside)
+    pub fn neighbours_run(&self) -> bool {
+        self.points.iter().all(|(_, basin)| basin.neighbours_run)
     }
 
     /// The last value up to which the safe part of the decided cells does not fall below nine
@@ -83,7 +83,7 @@ impl Erosion {
         let part = |cells: usize, m: &Measures| cells as f64 / m.legal as f64;
         let low = |m: &Measures| part(m.safe - m.undecided_safe, m);
         let high = |m: &Measures| part(m.safe + m.undecided - m.undecided_safe, m);
-        self.looked_beside().then(|| {
+        self.neighbours_run().then(|| {
             [
                 self.knee_of(|m| (m.legal > 0).then(|| [high(m), low(m)])),
                 self.knee_of(|m| (m.legal > 0).then(|| [low(m), high(m)])),
@@ -120,7 +120,7 @@ mod tests {
 
     /// Basins of a hundred legal cells, given the numbers of safe, of undecided, and of undecided
     /// safe ones.
-    fn eroded(looked_beside: bool, counts: &[[usize; 3]]) -> Erosion {
+    fn eroded(neighbours_run: bool, counts: &[[usize; 3]]) -> Erosion {
         let basin = |&[safe, undecided, undecided_safe]: &[usize; 3]| Basin {
             window: Window {
                 base: Parameters::STANDARD,
@@ -128,7 +128,7 @@ mod tests {
                 values: [vec![0.0], vec![0.0]],
             },
             cells: Vec::new(),
-            looked_beside,
+            neighbours_run,
             measures: Measures {
                 legal: 100,
                 safe,
@@ -160,40 +160,40 @@ mod tests {
     }
 
     #[test]
-    fn without_neighbours_nothing_is_said_of_how_certain_the_knee_is() {
+    fn without_neighbours_nothing_is_claimed_of_how_certain_the_knee_is() {
         let erosion = eroded(false, &[[90, 0, 0], [40, 0, 0]]);
         assert_eq!(erosion.knee(), Some(0.0));
         assert_eq!(erosion.knee_between(), None);
-        let told = words(&erosion);
-        assert!(told.contains("neighbours were not run"), "{told}");
+        let text = text_after_table(&erosion);
+        assert!(text.contains("neighbours were not run"), "{text}");
     }
 
-    /// What is said after the table.
-    fn words(erosion: &Erosion) -> String {
-        let text = crate::erosion_in_words(erosion);
+    /// What is printed after the table.
+    fn text_after_table(erosion: &Erosion) -> String {
+        let text = crate::erosion_summary(erosion);
         text.split_once("\n\n").unwrap().1.to_owned()
     }
 
     #[test]
-    fn the_knee_is_told_with_the_value_that_it_is_measured_by() {
-        let told = words(&eroded(false, &[[90, 0, 0], [85, 0, 0], [40, 0, 0]]));
+    fn the_knee_is_reported_with_the_value_that_it_is_measured_by() {
+        let text = text_after_table(&eroded(false, &[[90, 0, 0], [85, 0, 0], [40, 0, 0]]));
         let safe =
             "Safe      0.9000 (0.0000 to 1.0000) at f_o = 0, 0.4000 (0.0000 to 1.0000) at f_o = 2";
-        assert!(told.contains(safe), "{told}");
+        assert!(text.contains(safe), "{text}");
         let knee =
             "at f_o = 1, up to which the safe part is at least 0.9 of that at f_o = 0, 0.9000\n";
-        assert!(told.contains(knee), "{told}");
-        let told = words(&eroded(
+        assert!(text.contains(knee), "{text}");
+        let text = text_after_table(&eroded(
             true,
             &[[90, 100, 90], [80, 0, 0], [75, 100, 75], [40, 0, 0]],
         ));
         let doubt = "is at least 0.9 of that at f_o = 1, 0.8000; from 0 to beyond the last value, depending on how";
-        assert!(told.contains(doubt), "{told}");
+        assert!(text.contains(doubt), "{text}");
     }
 
     #[test]
     fn the_table_has_the_cells_that_the_knee_leaves_out_and_the_part_that_it_is_measured_by() {
-        let text = crate::erosion_in_words(&eroded(true, &[[60, 20, 20], [45, 0, 0]]));
+        let text = crate::erosion_summary(&eroded(true, &[[60, 20, 20], [45, 0, 0]]));
         let rows: Vec<Vec<&str>> = text
             .lines()
             .take(3)
@@ -210,7 +210,7 @@ mod tests {
         );
         assert_eq!(rows[1], ["0", "0.6000", "20", "0.5000", "-", "-"]);
         assert_eq!(rows[2], ["1", "0.4500", "0", "0.4500", "-", "-"]);
-        let unknown = crate::erosion_in_words(&eroded(false, &[[60, 0, 0], [45, 0, 0]]));
+        let unknown = crate::erosion_summary(&eroded(false, &[[60, 0, 0], [45, 0, 0]]));
         assert!(
             unknown.contains("\n0            0.6000   -          -  "),
             "{unknown}"
@@ -218,12 +218,12 @@ mod tests {
     }
 
     #[test]
-    fn values_between_decimals_are_told_in_six_digits() {
+    fn values_between_decimals_are_printed_with_six_digits() {
         let mut erosion = eroded(false, &[[90, 0, 0], [85, 0, 0], [40, 0, 0]]);
         for (row, (value, _)) in erosion.points.iter_mut().enumerate() {
             *value = row as f64 / 3.0 - 1.0;
         }
-        let text = crate::erosion_in_words(&erosion);
+        let text = crate::erosion_summary(&erosion);
         assert!(text.contains("\n-0.666667    0.8500"), "{text}");
         assert!(
             text.contains("at f_o = -0.666667, up to which") && !text.contains("6666666"),
@@ -232,8 +232,8 @@ mod tests {
     }
 
     #[test]
-    fn why_there_is_no_knee_is_told() {
-        let told = |counts: &[[usize; 3]]| words(&eroded(false, counts));
+    fn why_there_is_no_knee_is_reported() {
+        let text = |counts: &[[usize; 3]]| text_after_table(&eroded(false, counts));
         for (counts, why) in [
             (
                 &[[90, 0, 0], [85, 0, 0]][..],
@@ -245,9 +245,9 @@ mod tests {
             ),
             (&[[90, 0, 0]], "f_o = 0 alone has a legal cell"),
         ] {
-            assert!(told(counts).contains(why), "{}", told(counts));
+            assert!(text(counts).contains(why), "{}", text(counts));
         }
-        let undecided = words(&eroded(true, &[[90, 100, 90], [80, 100, 80]]));
+        let undecided = text_after_table(&eroded(true, &[[90, 100, 90], [80, 100, 80]]));
         assert!(
             undecided.contains("no value has a decided cell"),
             "{undecided}"
@@ -260,16 +260,16 @@ mod tests {
         for k in [0, 3] {
             erosion.points[k].1.measures.legal = 0;
         }
-        let told = words(&erosion);
-        assert!(told.contains(" at f_o = 1, 0.4000 "), "{told}");
-        assert!(told.contains("Knee      at f_o = 1, up to which"), "{told}");
+        let text = text_after_table(&erosion);
+        assert!(text.contains(" at f_o = 1, 0.4000 "), "{text}");
+        assert!(text.contains("Knee      at f_o = 1, up to which"), "{text}");
         for (_, basin) in &mut erosion.points {
             basin.measures.legal = 0;
         }
-        let told = words(&erosion);
+        let text = text_after_table(&erosion);
         assert!(
-            told.contains("no start is legal at any value") && !told.contains("Safe"),
-            "{told}"
+            text.contains("no start is legal at any value") && !text.contains("Safe"),
+            "{text}"
         );
     }
 }

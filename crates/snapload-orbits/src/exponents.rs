@@ -23,7 +23,7 @@ pub(crate) struct Directions {
     /// The logarithms of the factors by which they have grown; −∞ for a closed one.
     logs: Vec<f64>,
     /// Whether directions that contact closes count as closed from now on.
-    counts: bool,
+    closes_for_good: bool,
 }
 
 /// If less than this part of a direction is independent of the others, it is rounding, and the
@@ -45,14 +45,14 @@ impl Directions {
             variables: family.variables(),
             directions: (0..count).map(|i| Some(unit(count, i))).collect(),
             logs: vec![0.0; count],
-            counts: false,
+            closes_for_good: false,
         }
     }
 
     /// From now on a direction that contact closes stays closed. A cable that was taut only in the
     /// beginning closes no direction of the long motion.
-    pub(crate) fn begin_to_count(&mut self) {
-        self.counts = true;
+    pub(crate) fn close_from_now_on(&mut self) {
+        self.closes_for_good = true;
     }
 
     /// ln of the factors by which the directions have grown.
@@ -80,11 +80,11 @@ impl Directions {
                 taken.push(left.clone());
                 left
             });
-            if direction.is_none() && self.counts {
+            if direction.is_none() && self.closes_for_good {
                 *log = f64::NEG_INFINITY;
             }
         }
-        if !self.counts {
+        if !self.closes_for_good {
             self.fill(taken.split_off(constraints));
         }
     }
@@ -180,7 +180,7 @@ mod tests {
     }
 
     #[test]
-    fn growth_by_a_power_of_time_is_told_as_not_settled() {
+    fn growth_by_a_power_of_time_is_reported_as_not_settled() {
         let [mean, error] = of(|t| 2.0 * t.ln());
         assert!(mean > 0.0 && error > 0.8 * mean, "{mean} +- {error}");
     }
@@ -205,15 +205,15 @@ mod tests {
     }
 
     #[test]
-    fn three_periods_tell_no_error() {
+    fn three_periods_give_no_error() {
         let [mean, error] = estimate(&[0.0, 0.5, 1.0, 1.5], 10.0);
         assert!(mean == 0.5 && error.is_nan());
     }
     #[test]
-    fn no_exponent_is_told_as_known_better_than_it_is() {
-        let told = crate::in_words::exponent_in_words;
-        assert_eq!(told([-0.5, 1e-14]), "-0.5000 +- 0.0001");
-        assert_eq!(told([-1e-9, 2.1e-4]), "0.0000 +- 0.0003");
-        assert!(told([0.5, f64::NAN]).contains("too few periods"));
+    fn no_exponent_is_reported_as_known_better_than_it_is() {
+        let text = crate::summary::exponent_text;
+        assert_eq!(text([-0.5, 1e-14]), "-0.5000 +- 0.0001");
+        assert_eq!(text([-1e-9, 2.1e-4]), "0.0000 +- 0.0003");
+        assert!(text([0.5, f64::NAN]).contains("too few periods"));
     }
 }

@@ -89,7 +89,7 @@ pub trait Family: Sync {
     }
 
     /// A gap that is given as a length, in the measure in which it is reported.
-    fn told_gap(&self, _system: &Self::Plain, _surface: usize, length: f64) -> f64 {
+    fn reported_gap(&self, _system: &Self::Plain, _surface: usize, length: f64) -> f64 {
         length
     }
 

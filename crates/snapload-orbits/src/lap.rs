@@ -14,7 +14,7 @@
 use crate::hybrid::{
     DURATION, Family, Hybrid, Jet, PARAMETER, Point, TIME, distance, values, variable,
 };
-use crate::sequence::{Event, Happening, Sequence};
+use crate::sequence::{Event, EventKind, Sequence};
 use nalgebra::{DMatrix, DVector};
 use snapload::TautSet;
 
@@ -51,7 +51,7 @@ pub struct Leg {
 pub(crate) const SAME: f64 = 1e-8;
 
 /// Up to this number of events all unknowns of a lap are solved for together.
-const MANY: usize = 64;
+const SOLVED_TOGETHER: usize = 64;
 
 /// The derivatives of a jet, without its value.
 type Slopes = [f64; 10];
@@ -84,8 +84,8 @@ impl<F: Family> Lap<'_, F> {
 
     /// The duration of the last leg, from the last event to the section.
     pub(crate) fn last_leg(&self, durations: &[f64]) -> f64 {
-        let (begun, length) = self.times();
-        begun + length - durations.iter().fold(begun, |t, s| t + s)
+        let (t_start, length) = self.times();
+        t_start + length - durations.iter().fold(t_start, |t, s| t + s)
     }
 
     /// Its legs over doubles.
@@ -116,8 +116,8 @@ impl<F: Family> Lap<'_, F> {
 
     /// The state at the section after a number of periods of the forcing, from its legs.
     fn section(&self, system: &F::Plain, legs: &[Leg], periods: u32) -> Point {
-        let (begun, length) = self.times();
-        let t = begun + length / f64::from(self.periods) * f64::from(periods);
+        let (t_start, length) = self.times();
+        let t = t_start + length / f64::from(self.periods) * f64::from(periods);
         let leg = legs.iter().rfind(|leg| leg.t <= t).unwrap_or(&legs[0]);
         match periods {
             0 => leg.start,
@@ -158,9 +158,9 @@ impl<F: Family> Lap<'_, F> {
             let leg = match self.sequence.events.get(k) {
                 None => Linear::new(None, &reached),
                 Some(event) => {
-                    let zero = match event.happening {
-                        Happening::Snap { .. } => system.gap(event.surface(), &reached),
-                        Happening::Release(_) => {
+                    let zero = match event.kind {
+                        EventKind::Snap { .. } => system.gap(event.surface(), &reached),
+                        EventKind::Release(_) => {
                             system.tension(event.surface(), held, at + lasts, &reached)
                         }
                     };
@@ -187,12 +187,12 @@ pub(crate) fn after<T: snapload::Real>(
     event: &Event,
     z: &Point<T>,
 ) -> Point<T> {
-    match event.happening {
-        Happening::Snap { struck, pulling } => {
+    match event.kind {
+        EventKind::Snap { struck, pulling } => {
             let (z, _) = system.law(struck, pulling, z);
             system.placed(TautSet::SLACK, event.after, &z)
         }
-        Happening::Release(_) => *z,
+        EventKind::Release(_) => *z,
     }
 }
 
@@ -232,7 +232,7 @@ impl Linearised {
         for i in 0..parameters {
             time[m + n + i] = self.start_slopes[i];
         }
-        let begun = time.clone();
+        let t_start = time.clone();
         for (k, leg) in self.legs.iter().enumerate() {
             let mut lasts = DMatrix::zeros(1, columns);
             match leg.event {
@@ -243,7 +243,7 @@ impl Linearised {
                     jacobian.row_mut(m + k).copy_from(&row);
                 }
                 None => {
-                    lasts = &begun - &time;
+                    lasts = &t_start - &time;
                     for i in 0..parameters {
                         lasts[m + n + i] += self.length_slopes[i];
                     }
@@ -265,12 +265,12 @@ impl Linearised {
     /// The largest residual of F, and Newton's step of the state's `variables` and the durations;
     /// none if the equations are singular.
     ///
-    /// Up to `MANY` events all unknowns are solved for together, so that a snap of zero velocity
+    /// Up to `SOLVED_TOGETHER` events all unknowns are solved for together, so that a snap of zero velocity
     /// does no harm. Longer sequences are those in which snaps accumulate; there the durations are
     /// eliminated one after the other, each by the event that ends it, as the cost of solving all
     /// together grows with the cube of their number.
     pub fn step(&self, z: &Point, variables: &[usize]) -> (f64, Option<DVector<f64>>) {
-        if self.events() > MANY {
+        if self.events() > SOLVED_TOGETHER {
             return self.step_in_turn(z, variables);
         }
         let (residual, jacobian) = self.equations(z, variables, 0);

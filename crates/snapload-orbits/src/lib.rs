@@ -7,7 +7,7 @@
 //!
 //! ```
 //! use snapload::Parameters;
-//! use snapload_orbits::{Moored, Orbit, Stability, Wanted};
+//! use snapload_orbits::{Moored, Orbit, OrbitRequest, Stability};
 //!
 //! let case = Parameters {
 //!     inertia: None, a: 0.0, r: 1.7, e: 0.35, f_o: 1.4, nu: 0.8, omega: 3.1,
@@ -15,7 +15,7 @@
 //! };
 //! let family = Moored::case(case, [None; 2]);
 //! let near = [-0.27, 0.38, 0.0, 0.81, -0.43, 0.0];
-//! let orbit = Orbit::find(&family, [0.0; 2], &near, &Wanted::default())?;
+//! let orbit = Orbit::find(&family, [0.0; 2], &near, &OrbitRequest::default())?;
 //! assert_eq!(orbit.lap.sequence.symbol(), ["2", "1"]);
 //! assert_eq!(orbit.stability(), Stability::Stable);
 //! # Ok::<(), snapload_orbits::NoOrbit>(())
@@ -37,10 +37,9 @@ mod erosion;
 mod exponents;
 mod hybrid;
 mod impact_map;
-mod in_words;
 mod lap;
 mod moored;
-mod moored_questions;
+mod moored_searches;
 mod multipliers;
 mod newton;
 mod normal_form;
@@ -54,42 +53,43 @@ mod rows;
 mod scan;
 mod section;
 mod sequence;
+mod summary;
 mod survey;
 mod switch;
 
-pub use attraction::{Attraction, Attractor, Fate};
+pub use attraction::{Attraction, Attractor, CellOutcome};
 pub use attractor::{ATTRACTOR_PERIODS, Starts, TRANSIENT, attracts, find_orbits, of_attractor};
 pub use basin::{Basin, Cell, Measures, Window};
-pub use branch::{Along, Branch, BranchEnd, BranchPoint};
+pub use branch::{Branch, BranchEnd, BranchOptions, BranchPoint};
 pub use branch_events::{BranchEvent, Kind};
-pub use branch_rows::{BranchRow, branch_in_words};
-pub use curve::{Across, Curve, CurveEnd, CurvePoint};
-pub use curve_rows::{CurveRow, curve_in_words};
-pub use diagram::{At, diagram};
+pub use branch_rows::{BranchRow, branch_summary};
+pub use curve::{Curve, CurveEnd, CurveOptions, CurvePoint};
+pub use curve_rows::{CurveRow, curve_summary};
+pub use diagram::{DiagramPoint, diagram};
 pub use erosion::{Erosion, KNEE};
 pub use hybrid::{
     DURATION, Family, Hybrid, Jet, Limits, PARAMETER, Point, Simulated, TIME, constant, distance,
     values, variable,
 };
 pub use impact_map::{ImpactPoint, Impacts, MOST_KEPT};
-pub use in_words::{
-    attraction_in_words, basin_in_words, diagram_in_words, erosion_in_words, orbit_in_words,
-    section_in_words, without_points_in_words,
-};
 pub use lap::{Lap, Leg, Linearised};
 pub use moored::{Cables, Moored};
-pub use moored_questions::OnLap;
+pub use moored_searches::OnLap;
 pub use multipliers::{Multipliers, Stability, multipliers};
 pub use newton::{Closed, close};
 pub use options::{
-    BASIN_TRANSIENT, KEEP, ORBIT_PERIODS, PERIODS, POINTS, STARTS, across, along, check_start,
-    check_start_of_system, checked_phase, followed, stretch,
+    BASIN_TRANSIENT, KEEP, ORBIT_PERIODS, PERIODS, POINTS, STARTS, branch_options, check_start,
+    check_start_of_system, checked_phase, curve_options, followed_key, section_options,
 };
-pub use orbit::{EventRow, NoOrbit, Orbit, Proof, Wanted};
+pub use orbit::{EventRow, NoOrbit, Orbit, OrbitRequest, Proof};
 pub use orbit_row::OrbitRow;
 pub use proof::{Proofs, prove_all};
 pub use rows::{AttractionRow, BasinRow, DiagramRow, ErosionRow, SectionRow};
 pub use scan::scan;
-pub use section::{LONGEST_PERIOD, Section, Stretch, period_of, start_of};
-pub use sequence::{Event, Happening, Sequence, Timed, words};
+pub use section::{LONGEST_PERIOD, Section, SectionOptions, period_of, start_of};
+pub use sequence::{Event, EventKind, Sequence, Timed, symbol_text};
+pub use summary::{
+    attraction_summary, basin_summary, diagram_summary, erosion_summary, orbit_summary,
+    section_summary, without_points_summary,
+};
 pub use survey::{Extreme, Survey, survey};

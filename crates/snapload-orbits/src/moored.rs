@@ -1,7 +1,7 @@
 //! Bodies on cables as hybrid systems.
 
 use crate::hybrid::{Family, Hybrid, Jet, Limits, PARAMETER, Point, Simulated};
-use crate::sequence::{Event, Happening, Sequence, Timed};
+use crate::sequence::{Event, EventKind, Sequence, Timed};
 use snapload::{
     Limit, Parameters, PerCable, PrescribedTaut, Real, Rules, Simulation, State, System, TautSet,
     Value,
@@ -212,7 +212,7 @@ impl Family for Moored {
     }
 
     /// g = |P − A|² − r².
-    fn told_gap(&self, system: &Cables<f64>, surface: usize, length: f64) -> f64 {
+    fn reported_gap(&self, system: &Cables<f64>, surface: usize, length: f64) -> f64 {
         2.0 * system.system().cables[surface].length() * length
     }
 
@@ -277,14 +277,14 @@ fn event_of(step: &snapload::Step) -> Option<(Event, f64)> {
             speed = speed.max(impact.v_n);
         }
     }
-    let happening = if !struck.is_empty() {
-        Happening::Snap { struck, pulling }
+    let kind = if !struck.is_empty() {
+        EventKind::Snap { struck, pulling }
     } else if step.taut != step.taut_after {
         let gone = step.taut.iter().filter(|&k| !step.taut_after.contains(k));
-        Happening::Release(gone.collect())
+        EventKind::Release(gone.collect())
     } else {
         return None;
     };
     let after = step.taut_after;
-    Some((Event { happening, after }, speed))
+    Some((Event { kind, after }, speed))
 }

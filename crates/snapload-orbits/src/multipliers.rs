@@ -145,7 +145,7 @@ struct Cut {
 
 /// Cuts a lap in the middle of a leg.
 fn cut_within<F: Family>(lap: &Lap<F>, system: &F::Plain, legs: &[Leg], leg: usize) -> Cut {
-    let (begun, length) = lap.times();
+    let (t_start, length) = lap.times();
     let here = &legs[leg];
     // The first and the last leg are joined, as the section cuts one leg.
     let half = here.s * 0.5;
@@ -169,7 +169,7 @@ fn cut_within<F: Family>(lap: &Lap<F>, system: &F::Plain, legs: &[Leg], leg: usi
         },
         durations,
         z,
-        phase: lap.phase + (cut - begun) / length * f64::from(lap.periods),
+        phase: lap.phase + (cut - t_start) / length * f64::from(lap.periods),
     }
 }
 

@@ -8,7 +8,7 @@ use nalgebra::DVector;
 /// The most steps of Newton's method.
 const MOST_STEPS: usize = 25;
 /// The largest change of a component of the state in one step.
-const LONGEST: f64 = 0.15;
+const LONGEST_STEP: f64 = 0.15;
 /// The longest duration in laps: a step of Newton's method that asks for more has diverged, and to
 /// follow a taut motion that far would take too long.
 const LAPS: f64 = 2.0;
@@ -54,7 +54,7 @@ pub fn close<F: Family>(lap: &Lap<F>, z: &Point, durations: &[f64]) -> Option<Cl
         if !step.iter().all(|part| part.is_finite()) {
             return best;
         }
-        let scale = (LONGEST / moved).min(1.0);
+        let scale = (LONGEST_STEP / moved).min(1.0);
         add(&mut z, &mut durations, variables, &(&step * scale));
         if durations.iter().any(|s| s.abs() > LAPS * length) {
             return best;
@@ -78,7 +78,7 @@ pub(crate) fn add(z: &mut Point, durations: &mut [f64], variables: &[usize], ste
     }
 }
 
-/// One step z + (1 − M)⁻¹ (P z − z), no longer than [`LONGEST`], from a simulated lap.
+/// One step z + (1 − M)⁻¹ (P z − z), no longer than [`LONGEST_STEP`], from a simulated lap.
 pub(crate) fn step_of_map<F: Family>(
     family: &F,
     at: [f64; 2],
@@ -103,7 +103,7 @@ pub(crate) fn step_of_map<F: Family>(
         return None;
     }
     let mut next = *z;
-    let scale = (LONGEST / size).min(1.0);
+    let scale = (LONGEST_STEP / size).min(1.0);
     add(&mut next, &mut [], variables, &(&step * scale));
     Some((next, size))
 }

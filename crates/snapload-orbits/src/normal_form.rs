@@ -70,8 +70,8 @@ pub(crate) fn coefficient<F: Family>(
     }
     let n = whole.nrows();
     let back = (DMatrix::identity(n, n) - &whole).lu().solve(&square)?;
-    let beside = |by: f64| map.monodromy(&(&q * by)).map(|there| there * &q);
-    let cube = (beside(SECOND)? + beside(-SECOND)? - (&whole * &q) * 2.0) / (SECOND * SECOND);
+    let neighbour = |by: f64| map.monodromy(&(&q * by)).map(|there| there * &q);
+    let cube = (neighbour(SECOND)? + neighbour(-SECOND)? - (&whole * &q) * 2.0) / (SECOND * SECOND);
     let value = p.dot(&cube) / 6.0 + 0.5 * p.dot(&map.second(&q, &back)?);
     value.is_finite().then_some(Coefficient {
         value,
@@ -98,7 +98,7 @@ struct Map<'a, 'b, F: Family> {
 }
 
 impl<F: Family> Map<'_, '_, F> {
-    /// The monodromy matrix from a state beside that of the lap.
+    /// The monodromy matrix from a state near that of the lap.
     fn monodromy(&self, by: &DVector<f64>) -> Option<DMatrix<f64>> {
         let variables = self.continuation.family.variables();
         let mut z: Point = self.u.z;

@@ -14,9 +14,9 @@ const CLOSED: f64 = 1e-11;
 /// A step below this is only rounding.
 const DONE: f64 = 1e-13;
 /// The time between two events does not change by more than this in one step.
-const TIMES: f64 = 0.3;
+const LONGEST_TIME_CHANGE: f64 = 0.3;
 /// The least cosine of the angle by which the direction may turn in one step.
-const TURN: f64 = 0.95;
+const LEAST_COSINE: f64 = 0.95;
 
 /// A point on a curve, and the direction in which it is followed.
 pub(crate) struct OnCurve<'a, F: Family> {
@@ -30,7 +30,7 @@ impl<'a, F: Family> OnCurve<'a, F> {
     /// The point at an event of a branch, closed again at the same value of the second parameter,
     /// in the direction in which that increases; if it does not change, in that in which the first
     /// one increases.
-    pub(crate) fn begun(
+    pub(crate) fn start_at(
         continuation: Continuation<'a, F>,
         start: Unknowns,
         event: &BranchEvent,
@@ -151,15 +151,16 @@ impl<'a, F: Family> OnCurve<'a, F> {
         let most = times.map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
         let off = self.here.distance(&next.here);
         let turned = next.tangent.dot(&self.tangent);
-        (most < TIMES && off <= 2.0 * step && turned > TURN).then_some((next, steps))
+        (most < LONGEST_TIME_CHANGE && off <= 2.0 * step && turned > LEAST_COSINE)
+            .then_some((next, steps))
     }
 
     /// Renumbers the events if one has passed the section, and returns whether it has.
-    pub(crate) fn counted_anew(&mut self) -> bool {
-        let mut anew = false;
+    pub(crate) fn renumber_events(&mut self) -> bool {
+        let mut renumbered = false;
         while let Some((continuation, here, shift)) = self.continuation.renumbered(&self.here) {
-            let Some(condition) = self.condition.counted_anew(&continuation, &here, shift) else {
-                return anew;
+            let Some(condition) = self.condition.renumbered(&continuation, &here, shift) else {
+                return renumbered;
             };
             let along = self.along_after(shift);
             let next = Self {
@@ -169,12 +170,12 @@ impl<'a, F: Family> OnCurve<'a, F> {
                 tangent: along.clone(),
             };
             let Some(tangent) = next.direction(&along) else {
-                return anew;
+                return renumbered;
             };
             *self = Self { tangent, ..next };
-            anew = true;
+            renumbered = true;
         }
-        anew
+        renumbered
     }
 
     /// The parts of the direction that keep their meaning when events are renumbered: those of the

@@ -1,11 +1,11 @@
 //! Checks of the options of the questions, shared by the command and Python.
 
-use crate::branch::Along;
-use crate::curve::Across;
+use crate::branch::BranchOptions;
+use crate::curve::CurveOptions;
 use crate::hybrid::{Family, Hybrid, Point};
 use crate::moored::Moored;
-use crate::orbit_search::NEAR;
-use crate::section::Stretch;
+use crate::orbit_search::NEARLY_TAUT;
+use crate::section::SectionOptions;
 use snapload::analysis::UNCERTAIN_KEYS;
 use snapload::{Case, CaseError, Key, Kind, Parameters, Value, check_entry, key_named};
 
@@ -15,11 +15,11 @@ pub const PERIODS: Key = Key::option("periods", Kind::Count(1, 100_000_000));
 pub const KEEP: Key = Key::option("keep", Kind::Count(1, 1_000_000));
 /// The length of an orbit in periods of the forcing.
 pub const ORBIT_PERIODS: Key = Key::option("periods", Kind::Count(1, 1024));
-/// Random starts from which orbits are looked for.
+/// Random starts from which orbits are searched for.
 pub const STARTS: Key = Key::option("starts", Kind::Count(1, 10_000_000));
 /// Points of a branch or of a curve in either direction, at most.
 pub const POINTS: Key = Key::option("points", Kind::Count(1, 1_000_000));
-/// Periods of the forcing before attractors are looked at.
+/// Periods of the forcing before attractors are examined.
 pub const BASIN_TRANSIENT: Key = Key::option("transient", Kind::Count(1, 10_000_000));
 
 /// A time of the section, in periods of the forcing.
@@ -78,19 +78,20 @@ fn is_within_reach(family: &Moored, start: &Point) -> bool {
     let system = family.plain([0.0; 2]);
     let mut surfaces = system.surfaces().iter();
     let mut limits = family.limits(&system, start).into_iter();
-    surfaces.all(|surface| system.gap(surface, start) < NEAR) && limits.all(|beyond| beyond <= 0.0)
+    surfaces.all(|surface| system.gap(surface, start) < NEARLY_TAUT)
+        && limits.all(|beyond| beyond <= 0.0)
 }
 
 /// A number of periods in all, of which the last `keep` are kept.
 ///
 /// # Errors
 /// A [`CaseError`] if more are to be kept than there are, or if the phase is not allowed.
-pub fn stretch(periods: u64, keep: u64, phase: f64) -> Result<Stretch, CaseError> {
+pub fn section_options(periods: u64, keep: u64, phase: f64) -> Result<SectionOptions, CaseError> {
     let Some(skip) = periods.checked_sub(keep) else {
         let allowed = format!("at most periods = {periods}");
         return Err(CaseError::value("keep", keep, allowed));
     };
-    Ok(Stretch {
+    Ok(SectionOptions {
         phase: checked_phase(phase)?,
         skip,
         keep,
@@ -104,18 +105,18 @@ pub fn stretch(periods: u64, keep: u64, phase: f64) -> Result<Stretch, CaseError
 /// # Errors
 /// A [`CaseError`] if the key is no number of the body, if the value of the case is outside the
 /// range, or if the step is not allowed.
-pub fn along(
+pub fn branch_options(
     parameters: &Parameters,
     key: &str,
     [low, high]: [f64; 2],
     step: f64,
     most: usize,
-) -> Result<(&'static str, f64, Along), CaseError> {
-    let (key, value) = followed("along", parameters, key)?;
+) -> Result<(&'static str, f64, BranchOptions), CaseError> {
+    let (key, value) = followed_key("along", parameters, key)?;
     check_range(key, value, [low, high])?;
     let step = checked_step(step)?;
     let range = [low, high];
-    Ok((key, value, Along { range, step, most }))
+    Ok((key, value, BranchOptions { range, step, most }))
 }
 
 /// Two keys along which a curve is followed, each with its range, and how it is followed. A key
@@ -123,15 +124,15 @@ pub fn along(
 /// allowed.
 ///
 /// # Errors
-/// As for [`along`], and if both keys are the same.
-pub fn across(
+/// As for [`branch_options`], and if both keys are the same.
+pub fn curve_options(
     parameters: &Parameters,
     keys: [(&str, Option<[f64; 2]>); 2],
     step: f64,
     most: usize,
-) -> Result<([&'static str; 2], Across), CaseError> {
+) -> Result<([&'static str; 2], CurveOptions), CaseError> {
     let of = |(key, range): (&str, Option<[f64; 2]>)| {
-        let (key, value) = followed("along", parameters, key)?;
+        let (key, value) = followed_key("along", parameters, key)?;
         let range = match range {
             Some(range) => range,
             None => usual_range(key, value)?,
@@ -143,12 +144,12 @@ pub fn across(
     if first == second {
         return Err(CaseError::value("along", first, "two different keys"));
     }
-    let across = Across {
+    let options = CurveOptions {
         ranges: [a, b],
         step: checked_step(step)?,
         most,
     };
-    Ok(([first, second], across))
+    Ok(([first, second], options))
 }
 
 fn usual_range(key: &str, value: f64) -> Result<[f64; 2], CaseError> {
@@ -167,7 +168,7 @@ fn usual_range(key: &str, value: f64) -> Result<[f64; 2], CaseError> {
 ///
 /// # Errors
 /// A [`CaseError`] if it is no such key.
-pub fn followed(
+pub fn followed_key(
     option: &'static str,
     parameters: &Parameters,
     key: &str,

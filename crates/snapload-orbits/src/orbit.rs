@@ -4,7 +4,7 @@ use crate::hybrid::{Family, Hybrid, Point, distance};
 use crate::lap::{Lap, Leg};
 use crate::multipliers::{Multipliers, Stability, multipliers};
 use crate::newton::Closed;
-use crate::sequence::{Timed, words};
+use crate::sequence::{Timed, symbol_text};
 use crate::survey::{Survey, survey};
 use snapload_certificate::ProvedOrbit;
 use std::fmt;
@@ -66,7 +66,7 @@ pub struct EventRow {
 
 /// The orbit that is searched for.
 #[derive(Clone, Debug, Default)]
-pub struct Wanted {
+pub struct OrbitRequest {
     /// Its number of periods of the forcing; 1 if not given.
     pub periods: Option<u32>,
     /// The surfaces struck, one after the other, from 0; any if not given.
@@ -88,7 +88,7 @@ impl fmt::Display for NoOrbit {
 impl std::error::Error for NoOrbit {}
 
 /// The largest return error of a simulated motion that counts as the orbit, if |μ| is 1.
-const RETURNS: f64 = 1e-9;
+const LARGEST_RETURN_ERROR: f64 = 1e-9;
 
 impl Orbit {
     /// The orbit of a closed lap.
@@ -117,8 +117,8 @@ impl Orbit {
         let gaps = [survey.largest_gap, survey.corner_gap]
             .into_iter()
             .flatten();
-        let told = gaps.map(|gap| family.told_gap(&system, gap.surface, gap.value));
-        let largest_gap = told.max_by(f64::total_cmp);
+        let reported = gaps.map(|gap| family.reported_gap(&system, gap.surface, gap.value));
+        let largest_gap = reported.max_by(f64::total_cmp);
         Self {
             at: lap.at,
             phase: lap.phase,
@@ -201,9 +201,9 @@ fn run_once<F: Family>(
     }
     let error = distance(&simulated.end, &closed.z);
     if !simulated.lap.same_events(timed) {
-        let others = words(&simulated.lap.sequence);
+        let others = symbol_text(&simulated.lap.sequence);
         why_not.push(format!("the motion has other events: {others}"));
-    } else if error > RETURNS * (1.0 + largest) {
+    } else if error > LARGEST_RETURN_ERROR * (1.0 + largest) {
         why_not.push(format!(
             "after one lap the motion differs from its start by {error:.1e}"
         ));

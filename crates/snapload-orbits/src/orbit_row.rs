@@ -65,7 +65,7 @@ impl ProofRow {
                         v_n: v_n.clone(),
                     })
                     .collect(),
-                alone_within: proved.alone_within,
+                alone_within: proved.unique_within,
                 prime: proved.is_prime(),
             },
             Err(why_not) => Self::NotProved {
@@ -196,12 +196,12 @@ impl OrbitRow {
 }
 
 fn modes(orbit: &Orbit) -> Vec<ModeRow> {
-    let begun = orbit.phase / f64::from(orbit.periods) * orbit.length;
-    let mut from = begun;
+    let t_start = orbit.phase / f64::from(orbit.periods) * orbit.length;
+    let mut from = t_start;
     let mut rows: Vec<ModeRow> = Vec::new();
     let ends = orbit.lap.durations.iter().copied().map(Some).chain([None]);
     for (held, lasts) in orbit.lap.sequence.held().into_iter().zip(ends) {
-        let to = lasts.map_or(begun + orbit.length, |s| from + s);
+        let to = lasts.map_or(t_start + orbit.length, |s| from + s);
         let taut = numbers(held);
         match rows.last_mut() {
             Some(last) if last.taut == taut => last.to = to,

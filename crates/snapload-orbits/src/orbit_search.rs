@@ -3,23 +3,23 @@
 use crate::hybrid::{Family, Hybrid, Point, distance};
 use crate::lap::Lap;
 use crate::newton::{close, step_of_map};
-use crate::orbit::{NoOrbit, Orbit, Wanted};
+use crate::orbit::{NoOrbit, Orbit, OrbitRequest};
 use crate::scan::scan;
-use crate::sequence::{Sequence, Timed, words};
+use crate::sequence::{Sequence, Timed, symbol_text};
 use snapload::TautSet;
 
 /// The most laps that are simulated on the way from a start to an orbit.
 const MOST_LAPS: usize = 40;
 /// A surface that is closer than the first number, with a velocity below the second, may be held on
 /// the orbit.
-pub(crate) const NEAR: f64 = 5e-3;
-const SLOW: f64 = 5e-2;
+pub(crate) const NEARLY_TAUT: f64 = 5e-3;
+const NEARLY_STILL: f64 = 5e-2;
 /// An orbit within this distance of the start of the search counts as the one that was meant.
-const BESIDE: f64 = 0.02;
+const NEAR_START: f64 = 0.02;
 /// The largest distance between the last state of a motion and the orbit that it has approached.
 /// The motion repeats itself within 1e-8 there; if each lap reduces the distance by a part p, the
 /// orbit is 1e-8/p away, which is less than this for every p above 1e-5.
-const COME_TO: f64 = 1e-3;
+const NEAR_END: f64 = 1e-3;
 
 impl Orbit {
     /// The orbit near `start`: by Newton's method on the simulated map, from the start itself and
@@ -32,24 +32,24 @@ impl Orbit {
         family: &F,
         at: [f64; 2],
         start: &Point,
-        wanted: &Wanted,
+        request: &OrbitRequest,
     ) -> Result<Self, NoOrbit> {
-        Self::find_beside(family, at, start, wanted, BESIDE)
+        Self::find_near(family, at, start, request, NEAR_START)
     }
 
     /// The orbit that a motion has approached, whose last state is `last`.
     ///
     /// # Errors
     /// [`NoOrbit`] also if the orbit found is another one.
-    pub(crate) fn come_to<F: Family>(
+    pub(crate) fn find_near_end_of_motion<F: Family>(
         family: &F,
         at: [f64; 2],
         last: &Point,
-        wanted: &Wanted,
+        request: &OrbitRequest,
     ) -> Result<Self, NoOrbit> {
-        let orbit = Self::find_beside(family, at, last, wanted, COME_TO)?;
+        let orbit = Self::find_near(family, at, last, request, NEAR_END)?;
         let far = distance(&orbit.z, last);
-        if far < COME_TO {
+        if far < NEAR_END {
             return Ok(orbit);
         }
         Err(NoOrbit(format!(
@@ -62,26 +62,33 @@ impl Orbit {
     /// The distance of its section from the start of the search, if it is so large that another
     /// orbit may have been meant.
     pub fn far_from(&self, start: &Point) -> Option<f64> {
-        Some(distance(&self.z, start)).filter(|far| *far >= BESIDE)
+        Some(distance(&self.z, start)).filter(|far| *far >= NEAR_START)
     }
 
-    fn find_beside<F: Family>(
+    fn find_near<F: Family>(
         family: &F,
         at: [f64; 2],
         start: &Point,
-        wanted: &Wanted,
-        beside: f64,
+        request: &OrbitRequest,
+        largest_distance: f64,
     ) -> Result<Self, NoOrbit> {
-        let is_far = |orbit: &Self| distance(&orbit.z, start) >= beside;
+        let is_far = |orbit: &Self| distance(&orbit.z, start) >= largest_distance;
         let system = family.plain(at);
         let near: TautSet = system
             .surfaces()
             .iter()
-            .filter(|&k| system.gap(k, start).abs() < NEAR && system.speed(k, start).abs() < SLOW)
+            .filter(|&k| {
+                system.gap(k, start).abs() < NEARLY_TAUT
+                    && system.speed(k, start).abs() < NEARLY_STILL
+            })
             .collect();
         let mut sets: Vec<TautSet> = near.subsets().collect();
         sets.reverse();
-        let search = Search { family, at, wanted };
+        let search = Search {
+            family,
+            at,
+            request,
+        };
         let (mut found, mut failures) = (Vec::new(), Vec::new());
         for closed in &sets {
             let z = system.placed(*closed, *closed, start);
@@ -116,11 +123,15 @@ impl Orbit {
 
 /// The orbit to which Newton's method converges from a start that may be far away; only an
 /// admissible one.
-pub(crate) fn from_afar<F: Family>(family: &F, start: &Point, wanted: &Wanted) -> Option<Orbit> {
+pub(crate) fn find_from_far_start<F: Family>(
+    family: &F,
+    start: &Point,
+    request: &OrbitRequest,
+) -> Option<Orbit> {
     let search = Search {
         family,
         at: [0.0; 2],
-        wanted,
+        request,
     };
     search
         .by_simulation(start)
@@ -132,12 +143,12 @@ pub(crate) fn from_afar<F: Family>(family: &F, start: &Point, wanted: &Wanted) -
 struct Search<'a, F: Family> {
     family: &'a F,
     at: [f64; 2],
-    wanted: &'a Wanted,
+    request: &'a OrbitRequest,
 }
 
 impl<F: Family> Search<'_, F> {
     fn periods(&self) -> u32 {
-        self.wanted.periods.unwrap_or(1)
+        self.request.periods.unwrap_or(1)
     }
 
     fn lap<'b>(&'b self, sequence: &'b Sequence) -> Lap<'b, F> {
@@ -145,31 +156,32 @@ impl<F: Family> Search<'_, F> {
             family: self.family,
             at: self.at,
             sequence,
-            phase: self.wanted.phase,
+            phase: self.request.phase,
             periods: self.periods(),
         }
     }
 
-    fn is_wanted(&self, sequence: &Sequence) -> bool {
-        let wanted = self.wanted.struck.as_ref();
-        wanted.is_none_or(|struck| *struck == sequence.struck())
+    fn matches_request(&self, sequence: &Sequence) -> bool {
+        let request = self.request.struck.as_ref();
+        request.is_none_or(|struck| *struck == sequence.struck())
     }
 
-    /// Why a closed lap is not accepted: it is inadmissible, or its snaps are not those asked for.
+    /// Why a closed lap is not accepted: it is inadmissible, or its snaps are not the requested
+    /// ones.
     fn why_refused(&self, orbit: &Orbit) -> String {
         let mut reasons = orbit.why_not.clone();
-        let wanted = self.wanted.struck.as_ref();
-        if let Some(struck) = wanted.filter(|_| !self.is_wanted(&orbit.lap.sequence)) {
+        let request = self.request.struck.as_ref();
+        if let Some(struck) = request.filter(|_| !self.matches_request(&orbit.lap.sequence)) {
             let cables: Vec<String> = struck.iter().map(|k| (k + 1).to_string()).collect();
-            let asked = match cables.is_empty() {
+            let requested = match cables.is_empty() {
                 true => "none".to_owned(),
                 false => cables.join(", "),
             };
             reasons.push(format!(
-                "the requested snaps are {asked}; leave the symbol out, or begin near another state"
+                "the requested snaps are {requested}; leave the symbol out, or begin near another state"
             ));
         }
-        let (found, but) = (words(&orbit.lap.sequence), reasons.join("; "));
+        let (found, but) = (symbol_text(&orbit.lap.sequence), reasons.join("; "));
         format!("a lap closes with the events {found}, but {but}")
     }
 
@@ -177,7 +189,7 @@ impl<F: Family> Search<'_, F> {
     /// change.
     fn by_simulation(&self, start: &Point) -> Result<Orbit, NoOrbit> {
         let period = self.family.forcing_period(self.at).value;
-        let t = self.wanted.phase * period;
+        let t = self.request.phase * period;
         let t_end = t + f64::from(self.periods()) * period;
         let mut z = *start;
         let mut closing: Option<Orbit> = None;
@@ -206,16 +218,16 @@ impl<F: Family> Search<'_, F> {
             let lap = self.lap(sequence);
             if let Some(closed) = close(&lap, &z, durations) {
                 let orbit = Orbit::of(&lap, &closed);
-                if orbit.is_admissible() && self.is_wanted(sequence) {
+                if orbit.is_admissible() && self.matches_request(sequence) {
                     return Ok(orbit);
                 }
                 why = self.why_refused(&orbit);
-                if closing.is_none() && self.is_wanted(sequence) {
+                if closing.is_none() && self.matches_request(sequence) {
                     closing = Some(orbit);
                 }
             }
             let guess = (&z, &durations[..]);
-            let phase = self.wanted.phase;
+            let phase = self.request.phase;
             let step = step_of_map(self.family, self.at, sequence, phase, self.periods(), guess);
             match step {
                 Some((next, size)) if size > 1e-13 => z = next,
@@ -231,10 +243,10 @@ impl<F: Family> Search<'_, F> {
     /// Closes a lap on which the closed surfaces are held throughout.
     fn by_holding(&self, held: TautSet, start: &Point) -> Option<Orbit> {
         let period = self.family.forcing_period(self.at).value;
-        let t = self.wanted.phase * period;
+        let t = self.request.phase * period;
         let length = f64::from(self.periods()) * period;
         let found = scan(self.family, self.at, held, (t, start), length)?;
-        if !self.is_wanted(&found.sequence) {
+        if !self.matches_request(&found.sequence) {
             return None;
         }
         let lap = self.lap(&found.sequence);

@@ -8,7 +8,7 @@ use crate::orbit::{Orbit, Proof};
 use serde::Serialize;
 use snapload::TautSet;
 use snapload::analysis::{Cancelled, Counter, OnProgress, in_parallel};
-use snapload_certificate::{ExactCase, ProvedOrbit, Supposed, prove_orbit};
+use snapload_certificate::{CandidateOrbit, ExactCase, ProvedOrbit, prove_orbit};
 
 /// The number of orbits that are proved.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
@@ -34,20 +34,20 @@ impl Orbit {
         if let Some(why) = self.why_not.first() {
             return Err(format!("the orbit is not admissible: {why}"));
         }
-        let supposed = Supposed {
+        let candidate = CandidateOrbit {
             phase: self.phase,
             periods: self.periods,
             state: self.z,
             struck: &self.lap.sequence.struck(),
         };
-        prove_orbit(case, &supposed)
+        prove_orbit(case, &candidate)
     }
 }
 
 /// Proves orbits of one case on all threads, and counts those that are certainly different ones.
 ///
 /// # Errors
-/// [`Cancelled`] if it is told to end.
+/// [`Cancelled`] if it is cancelled.
 pub fn prove_all(
     orbits: &mut [Orbit],
     case: &ExactCase,
@@ -65,7 +65,7 @@ pub fn prove_all(
         .filter_map(|proof| proof.as_ref().ok())
         .collect();
     for orbit in &proved {
-        if distinct.iter().all(|other| orbit.is_another_than(other)) {
+        if distinct.iter().all(|other| orbit.differs_from(other)) {
             distinct.push(orbit);
         }
     }

@@ -1,8 +1,8 @@
 //! The answers in the form of their JSON.
 
-use crate::attraction::{Attraction, Fate};
+use crate::attraction::{Attraction, CellOutcome};
 use crate::basin::Basin;
-use crate::diagram::At;
+use crate::diagram::DiagramPoint;
 use crate::erosion::{Erosion, decided_part};
 use crate::hybrid::Point;
 use crate::impact_map::ImpactPoint;
@@ -96,7 +96,7 @@ pub struct DiagramRow {
 
 impl DiagramRow {
     /// Of what there is at one value.
-    pub fn new(at: &At) -> Self {
+    pub fn new(at: &DiagramPoint) -> Self {
         let xs = || at.section.points.iter().map(|point| point[0]);
         let exponent = at.section.exponents.first().filter(|_| at.stop().is_none());
         Self {
@@ -168,8 +168,8 @@ impl BasinRow {
             safe: measures.safe,
             fraction: measures.gim,
             interval95: measures.interval,
-            undecided: basin.looked_beside.then_some(measures.undecided),
-            past_horizon: basin.looked_beside.then_some(measures.past_horizon),
+            undecided: basin.neighbours_run.then_some(measures.undecided),
+            past_horizon: basin.neighbours_run.then_some(measures.past_horizon),
             by_outcome: ByOutcome(ended.iter().map(|(stop, n)| (stop.name(), *n)).collect()),
             gim: measures.gim,
             lim: measures.lim,
@@ -242,21 +242,25 @@ impl AttractionRow {
     pub fn new(found: &Attraction) -> Self {
         let [first, second] = found.window.keys;
         let [height, width] = found.window.cell();
-        let count = |is: &dyn Fn(&Fate) -> bool| found.fates.iter().filter(|f| is(f)).count();
-        let legal = count(&|fate| *fate != Fate::Illegal);
+        let count =
+            |is: &dyn Fn(&CellOutcome) -> bool| found.outcomes.iter().filter(|f| is(f)).count();
+        let legal = count(&|outcome| *outcome != CellOutcome::Illegal);
         let mut by_outcome: Vec<(&'static str, usize)> = snapload::Stop::ALL
             .iter()
             .map(|stop| {
-                let is = |fate: &Fate| matches!(fate, Fate::Stopped(s, _) if s == stop);
+                let is = |outcome: &CellOutcome| matches!(outcome, CellOutcome::Stopped(s, _) if s == stop);
                 (stop.name(), count(&is))
             })
             .filter(|(_, cells)| *cells > 0)
             .collect();
         by_outcome.push((
             "attracted",
-            count(&|fate| matches!(fate, Fate::Attracted(_))),
+            count(&|outcome| matches!(outcome, CellOutcome::Attracted(_))),
         ));
-        by_outcome.push(("aperiodic", count(&|fate| *fate == Fate::Aperiodic)));
+        by_outcome.push((
+            "aperiodic",
+            count(&|outcome| *outcome == CellOutcome::Aperiodic),
+        ));
         let attractors = found.attractors.iter().zip(1..);
         let attractors = attractors.map(|(attractor, number)| AttractorRow {
             attractor: number,

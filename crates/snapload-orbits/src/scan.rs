@@ -3,7 +3,7 @@
 
 use crate::hybrid::{Family, Hybrid, Point};
 use crate::lap::after;
-use crate::sequence::{Event, Happening, Sequence, Timed};
+use crate::sequence::{Event, EventKind, Sequence, Timed};
 use crate::survey::root;
 use snapload::TautSet;
 
@@ -62,7 +62,7 @@ pub fn scan<F: Family>(
             .filter(|&k| k == surface || impulse[k] > 0.0)
             .collect();
         let event = Event {
-            happening: Happening::Snap { struck, pulling },
+            kind: EventKind::Snap { struck, pulling },
             after: held,
         };
         lap.durations.push(t + s - since);

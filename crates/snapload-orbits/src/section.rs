@@ -15,10 +15,10 @@ pub struct Section {
     pub first: u64,
     /// Snaps in the kept periods.
     pub snaps: u64,
-    /// The impacts one by one, if they were asked for.
+    /// The impacts one by one, if they were requested.
     pub impacts: Option<Impacts>,
     /// The Lyapunov exponents over the kept periods, the largest first, each with its standard
-    /// error, which is NaN if there are too few periods; empty if they were not asked for. For a
+    /// error, which is NaN if there are too few periods; empty if they were not requested. For a
     /// direction that contact closes it is −∞.
     pub exponents: Vec<[f64; 2]>,
     /// The state at the end of the motion, and its time.
@@ -33,7 +33,7 @@ pub struct Section {
 
 /// How long a motion is followed.
 #[derive(Clone, Copy, Debug)]
-pub struct Stretch {
+pub struct SectionOptions {
     /// Time of the section, in periods of the forcing.
     pub phase: f64,
     /// Periods that are left out.
@@ -50,7 +50,7 @@ pub struct Stretch {
 /// that follows.
 const SAME: f64 = 1e-8;
 const LAPS: usize = 8;
-/// The longest period that is looked for.
+/// The longest period that is searched for.
 pub const LONGEST_PERIOD: usize = 64;
 
 impl Section {
@@ -60,13 +60,13 @@ impl Section {
     /// A [`CaseError`] if the start is not legal; [`Cancelled`] if the work is cancelled.
     pub fn of(
         parameters: &Parameters,
-        stretch: &Stretch,
+        options: &SectionOptions,
         on_progress: OnProgress,
     ) -> Result<Self, snapload::analysis::Unfinished> {
         let period = period_of(parameters)?;
         let z = start_of(parameters);
-        let begun = stretch.phase * period;
-        Self::from(parameters, (begun, &z), stretch, on_progress)
+        let t_start = options.phase * period;
+        Self::from(parameters, (t_start, &z), options, on_progress)
     }
 
     /// The same from a state at a time.
@@ -76,11 +76,11 @@ impl Section {
     pub fn from(
         parameters: &Parameters,
         (t, z): (f64, &Point),
-        stretch: &Stretch,
+        options: &SectionOptions,
         on_progress: OnProgress,
     ) -> Result<Self, snapload::analysis::Unfinished> {
         let period = period_of(parameters)?;
-        let last = stretch.skip + stretch.keep;
+        let last = options.skip + options.keep;
         let mut rules = parameters.rules();
         (rules.settled_below, rules.sliding_above) = (None, None);
         rules.t_end = t + period * last as f64;
@@ -96,7 +96,7 @@ impl Section {
         })?;
         let prescribed = PrescribedTaut::new(parameters.system());
         let mut follow = Follow {
-            linearised: stretch.exponents.then(|| {
+            linearised: options.exponents.then(|| {
                 (
                     Tangent::new(prescribed.system()),
                     Directions::new(parameters),
@@ -104,14 +104,14 @@ impl Section {
             }),
             prescribed,
             logs: Vec::new(),
-            next: stretch.skip,
+            next: options.skip,
             period,
-            begun: t,
+            t_start: t,
             section: Section {
                 points: Vec::new(),
-                first: stretch.skip,
+                first: options.skip,
                 snaps: 0,
-                impacts: stretch.impacts.then(Impacts::default),
+                impacts: options.impacts.then(Impacts::default),
                 exponents: Vec::new(),
                 end: (*z, t),
                 y_max: z[1],
@@ -173,7 +173,7 @@ struct Follow {
     /// The next section.
     next: u64,
     period: f64,
-    begun: f64,
+    t_start: f64,
     section: Section,
 }
 
@@ -184,7 +184,7 @@ impl Follow {
         last: u64,
         on_progress: OnProgress,
     ) -> Result<(), Cancelled> {
-        let kept_from = self.begun + self.period * self.section.first as f64;
+        let kept_from = self.t_start + self.period * self.section.first as f64;
         while let Some(step) = simulation.step() {
             self.sections_within(&step, last);
             if step.t_end > kept_from {
@@ -198,7 +198,7 @@ impl Follow {
                 let map = tangent.of_step(&simulation, &step);
                 directions.follow(&map, step.taut_after, &step.after.components());
             }
-            let periods = (step.t_end - self.begun) / self.period;
+            let periods = (step.t_end - self.t_start) / self.period;
             Progress::new("following the motion", periods, last as f64).report(on_progress)?;
         }
         let section = &mut self.section;
@@ -216,7 +216,7 @@ impl Follow {
     /// Keeps the sections before the end of a step; the last one is the end of the motion.
     fn sections_within(&mut self, step: &Step, last: u64) {
         while self.next < last {
-            let t = self.begun + self.period * self.next as f64;
+            let t = self.t_start + self.period * self.next as f64;
             if t >= step.t_end {
                 return;
             }
@@ -226,7 +226,7 @@ impl Follow {
                 .carried(step.taut, step.t_start, &step.start, s);
             self.section.points.push(state.components());
             if let Some((_, directions)) = &mut self.linearised {
-                directions.begin_to_count();
+                directions.close_from_now_on();
                 self.logs.push(directions.logs());
             }
             self.next += 1;

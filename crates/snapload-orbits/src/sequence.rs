@@ -4,7 +4,7 @@ use snapload::TautSet;
 
 /// What happens at an event.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Happening {
+pub enum EventKind {
     /// Surfaces are struck; those of `pulling` take impulses.
     Snap {
         /// The ones that are struck.
@@ -20,7 +20,7 @@ pub enum Happening {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Event {
     /// What happens.
-    pub happening: Happening,
+    pub kind: EventKind,
     /// The held surfaces after it.
     pub after: TautSet,
 }
@@ -73,43 +73,43 @@ impl Sequence {
         struck.collect()
     }
 
-    /// In words: `2` is a snap of cable 2, `stick 2` that it stays taut, `release 2` that it lets
+    /// As text: `2` is a snap of cable 2, `stick 2` that it stays taut, `release 2` that it lets
     /// go.
     pub fn symbol(&self) -> Vec<String> {
-        let mut words = Vec::new();
+        let mut parts = Vec::new();
         for (event, before) in self.events.iter().zip(self.held()) {
-            words.extend(event.struck().iter().map(|cable| (cable + 1).to_string()));
+            parts.extend(event.struck().iter().map(|cable| (cable + 1).to_string()));
             let gone = before.iter().filter(|&cable| !event.after.contains(cable));
-            words.extend(gone.map(|cable| format!("release {}", cable + 1)));
+            parts.extend(gone.map(|cable| format!("release {}", cable + 1)));
             let new = event.after.iter().filter(|&cable| !before.contains(cable));
-            words.extend(new.map(|cable| format!("stick {}", cable + 1)));
+            parts.extend(new.map(|cable| format!("stick {}", cable + 1)));
         }
-        words
+        parts
     }
 }
 
 impl Event {
     /// The surfaces struck.
     pub fn struck(&self) -> TautSet {
-        match self.happening {
-            Happening::Snap { struck, .. } => struck,
-            Happening::Release(_) => TautSet::SLACK,
+        match self.kind {
+            EventKind::Snap { struck, .. } => struck,
+            EventKind::Release(_) => TautSet::SLACK,
         }
     }
 
     /// The surfaces that take an impulse.
     pub fn pulling(&self) -> TautSet {
-        match self.happening {
-            Happening::Snap { pulling, .. } => pulling,
-            Happening::Release(_) => TautSet::SLACK,
+        match self.kind {
+            EventKind::Snap { pulling, .. } => pulling,
+            EventKind::Release(_) => TautSet::SLACK,
         }
     }
 
     /// The surface whose gap, or whose tension, is zero at the event.
     pub fn surface(&self) -> usize {
-        let set = match self.happening {
-            Happening::Snap { struck, .. } => struck,
-            Happening::Release(released) => released,
+        let set = match self.kind {
+            EventKind::Snap { struck, .. } => struck,
+            EventKind::Release(released) => released,
         };
         set.iter().next().unwrap_or(0)
     }
@@ -147,7 +147,7 @@ impl Timed {
 }
 
 /// A symbol in one line.
-pub fn words(sequence: &Sequence) -> String {
+pub fn symbol_text(sequence: &Sequence) -> String {
     let symbol = sequence.symbol();
     if symbol.is_empty() {
         "none".to_owned()

@@ -12,14 +12,14 @@ use snapload::{Limit, TautSet};
 /// number of samples of a leg.
 const SAMPLES: f64 = 160.0;
 const HELD_SAMPLES: f64 = 64.0;
-const FEWEST: f64 = 6.0;
+const FEWEST_SAMPLES: f64 = 6.0;
 /// The most iterations by which an extreme is refined.
-const REFINED: usize = 60;
+const MOST_REFINEMENTS: usize = 60;
 /// The accuracy of an extreme's position, as a part of a sample's width; its value is known to the
 /// square of that.
-const FLAT: f64 = 1e-5;
+const POSITION_ERROR: f64 = 1e-5;
 /// A limit that is never closer than this needs no refinement.
-const FAR: f64 = 0.05;
+const FAR_FROM_LIMIT: f64 = 0.05;
 
 /// An extreme value along a lap.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -115,7 +115,7 @@ pub fn survey<F: Family>(lap: &Lap<F>, system: &F::Plain, legs: &[Leg]) -> Surve
         limits: [f64::NEG_INFINITY; Limit::ALL.len()],
     };
     let period = lap.family.forcing_period(lap.at).value;
-    let watch = Watch {
+    let sampler = Sampler {
         family: lap.family,
         system,
         period,
@@ -123,7 +123,7 @@ pub fn survey<F: Family>(lap: &Lap<F>, system: &F::Plain, legs: &[Leg]) -> Surve
     let mut before = lap.sequence.last();
     for (k, leg) in legs.iter().enumerate() {
         if leg.s > 0.0 {
-            watch.leg(k, leg, before, &mut found);
+            sampler.leg(k, leg, before, &mut found);
         }
         let Some(event) = lap.sequence.events.get(k) else {
             continue;
@@ -169,20 +169,20 @@ fn most(kept: &mut Option<Extreme>, other: Extreme) {
 }
 
 /// Finds extremes along legs.
-struct Watch<'a, F: Family> {
+struct Sampler<'a, F: Family> {
     family: &'a F,
     system: &'a F::Plain,
     period: f64,
 }
 
-impl<F: Family> Watch<'_, F> {
+impl<F: Family> Sampler<'_, F> {
     fn leg(&self, k: usize, leg: &Leg, before: TautSet, found: &mut Survey) {
         let density = if leg.held.is_empty() {
             SAMPLES
         } else {
             HELD_SAMPLES
         };
-        let count = (density * leg.s / self.period).ceil().max(FEWEST) as usize;
+        let count = (density * leg.s / self.period).ceil().max(FEWEST_SAMPLES) as usize;
         let path = self.system.path(leg.held, leg.t, &leg.start, leg.s);
         let sampled = Sampled {
             width: leg.s / count as f64,
@@ -218,7 +218,7 @@ impl<F: Family> Watch<'_, F> {
                     .iter()
                     .map(|z| beyond(0.0, z))
                     .fold(f64::MIN, f64::max);
-                let value = if rough > -FAR {
+                let value = if rough > -FAR_FROM_LIMIT {
                     sampled.highest(&beyond).0
                 } else {
                     rough
@@ -310,7 +310,7 @@ impl Sampled<'_> {
 /// The zero of a function between two places at which it has opposite signs: regula falsi
 /// (Illinois).
 pub(crate) fn root(of: &dyn Fn(f64) -> f64, mut a: (f64, f64), mut b: (f64, f64)) -> f64 {
-    for _ in 0..REFINED {
+    for _ in 0..MOST_REFINEMENTS {
         let mut middle = (a.0 * b.1 - b.0 * a.1) / (b.1 - a.1);
         if !middle.is_finite() {
             middle = 0.5 * (a.0 + b.0);
@@ -338,8 +338,8 @@ fn golden(of: &dyn Fn(f64) -> f64, width: f64) -> (f64, f64) {
     let (mut low, mut high) = (0.0, width);
     let mut inner = [high - PART * (high - low), low + PART * (high - low)];
     let mut values = inner.map(of);
-    for _ in 0..REFINED {
-        if high - low <= FLAT * width {
+    for _ in 0..MOST_REFINEMENTS {
+        if high - low <= POSITION_ERROR * width {
             break;
         }
         if values[0] > values[1] {

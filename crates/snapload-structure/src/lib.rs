@@ -16,26 +16,26 @@ mod report;
 mod runs;
 mod schema;
 mod structure;
-mod words;
+mod text_layout;
 
 pub use catalogue::{Section, section};
 pub use options::{EVERY, NEIGHBOURS, PAIRS, SEEDS, SEGMENTS, STIFFER, checked_every};
-pub use physics::afloat::HeldMotion;
+pub use physics::afloat::TautMode;
 pub use physics::elastic::{ElasticRun, Pull, Sample, Spring, damping_ratio, run_elastic, springs};
 pub use physics::equilibrium::{Equilibrium, equilibrium};
 pub use physics::gumbel::{Estimate, Gumbel, reduced_variate};
 pub use physics::model::{Groups, Model, Scales, force_per_acceleration};
+pub use physics::model_at_rest::ModelAtRest;
 pub use physics::periods::{NaturalMode, NaturalPeriods};
-pub use physics::prepared::Prepared;
 pub use physics::sea::{Component, Spectrum, components};
 pub use physics::snap::{SLOWEST_M_S, Snap, snaps};
 pub use physics::warnings::{Warning, warnings};
 pub use physics::waterline::Waterline;
 pub use physics::wave::LinearWave;
-pub use report::{Standing, Verdict, end_words};
+pub use report::{Verdict, VerdictKind, end_text};
 pub use runs::assess::{Assessment, ByRestitution, DEFAULT_NEIGHBOURS, NEIGHBOUR, assess};
-pub use runs::both::{BothModels, Inextensible, both_models};
 pub use runs::design::{Answer, Check, Criterion, RecordsCheck};
+pub use runs::elastic_comparison::{ElasticComparison, Inextensible, compare_elastic};
 pub use runs::motion::MotionSi;
 pub use runs::outcome::{LineOutcome, Outcome};
 pub use runs::quantile::quantile;
@@ -43,7 +43,7 @@ pub use runs::seas::{Lines, SeaOutcome, Seas, seas};
 pub use schema::{STRUCTURE, is_structure};
 pub use snapload_hydro::wave_number;
 pub use structure::{
-    AddedMass, Afloat, BodySi, ByDefault, DesignRule, IrregularSea, LineSi, Outline, Project,
-    READS_NO_FILES, Site, SpectrumShape, Structure, THREE_HOURS_S, Water, Wave,
+    AddedMass, AddedMassDefaults, Afloat, BodySi, DesignRule, IrregularSea, LineSi, NO_FILES_HERE,
+    Outline, Project, Site, SpectrumShape, Structure, THREE_HOURS_S, Water, Wave,
 };
-pub use words::told;
+pub use text_layout::labelled_row;

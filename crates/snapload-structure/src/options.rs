@@ -1,4 +1,4 @@
-//! What may be asked of a structure beside its case: said here once for the command and for Python.
+//! The options of questions about a structure, defined once for the command and for Python.
 
 use snapload::{CaseError, Key, Kind, Sampling, Value};
 use snapload_hydro::MOST_PAIRS;

@@ -6,10 +6,10 @@ mod check;
 mod design;
 mod read;
 
-pub use added_mass::{AddedMass, ByDefault};
-pub use afloat::{Afloat, READS_NO_FILES};
+pub use added_mass::{AddedMass, AddedMassDefaults};
+pub use afloat::{Afloat, NO_FILES_HERE};
 
-use crate::words::kilo;
+use crate::text_layout::kilo;
 use std::f64::consts::PI;
 use std::sync::Arc;
 
@@ -318,7 +318,7 @@ impl Structure {
     }
 
     /// The added mass in words, if the case leaves some of it to the textbook.
-    pub fn default_words(&self) -> Option<String> {
+    pub fn default_text(&self) -> Option<String> {
         let (body, added) = (&self.body, &self.body.added_mass);
         let source = self.added_mass_source()?;
         let tonnes = |kilograms: f64| kilo(&kilograms, 1);
@@ -341,7 +341,7 @@ impl Structure {
     }
 
     /// The constant loads besides weight and buoyancy, in words; none if there are none.
-    pub fn steady_words(&self) -> Option<String> {
+    pub fn steady_text(&self) -> Option<String> {
         let (current, [x, z]) = (self.site.current_m_s, self.body.constant_force_n);
         let mut parts = Vec::new();
         if current != 0.0 {

@@ -107,7 +107,7 @@ impl StudyPicture {
         // If an axis needs less than its share of the cells, the other gets the rest.
         let of_x = Thinned::of(x, side.max(MOST_CELLS / y.count().min(side)));
         let of_y = Thinned::of(y, MOST_CELLS / of_x.values.len() as u64);
-        let (mut cells, mut doubtful) = (Vec::new(), Vec::new());
+        let (mut cells, mut uncertain) = (Vec::new(), Vec::new());
         // The end of trust itself is not uncertain beyond the horizon.
         let of_trust = ["certain", "horizon_t", "horizon_impact"];
         let of_motion = !of_trust.contains(&self.column.name);
@@ -115,7 +115,7 @@ impl StudyPicture {
             let (i, j) = (row / y.count(), row % y.count());
             if i.is_multiple_of(of_x.step) && j.is_multiple_of(of_y.step) {
                 cells.push(cell);
-                doubtful.push(doubt && of_motion);
+                uncertain.push(doubt && of_motion);
             }
         })?;
         let words = self.column.words().into_iter();
@@ -125,7 +125,7 @@ impl StudyPicture {
             cells,
             value_label: self.label(),
             classes: words.map(|word| word.replace('_', " ")).collect(),
-            doubtful,
+            uncertain,
         };
         Ok(Plot {
             description: format!("{} over {} and {}", self.column.name, x.key(), y.key()),
@@ -138,7 +138,7 @@ impl StudyPicture {
 
     fn read(&self, file: &Path, mut visit: impl FnMut(u64, Cell, bool)) -> Result<(), StudyError> {
         let words = self.column.words();
-        read_shown(file, self.column, |row, shown, doubtful| {
+        read_shown(file, self.column, |row, shown, uncertain| {
             let cell = match shown {
                 ShownValue::Number(value) => Cell::Value(value),
                 ShownValue::Word(word) => {
@@ -146,9 +146,9 @@ impl StudyPicture {
                     class.map_or(Cell::Empty, Cell::Class)
                 }
                 ShownValue::Nothing => Cell::Empty,
-                ShownValue::Fault => Cell::Fault,
+                ShownValue::Fault => Cell::Illegal,
             };
-            visit(row, cell, doubtful);
+            visit(row, cell, uncertain);
         })
     }
 
@@ -190,7 +190,7 @@ fn shades(at: &[f64], cells: &[Cell]) -> Vec<Layer> {
         _ => 0.0,
     };
     let along: Vec<(f64, bool)> = (at.iter().zip(cells))
-        .map(|(x, cell)| (*x, *cell == Cell::Fault))
+        .map(|(x, cell)| (*x, *cell == Cell::Illegal))
         .collect();
     let runs = along.chunk_by(|a, b| a.1 == b.1);
     let shade = |run: &[(f64, bool)]| match run {

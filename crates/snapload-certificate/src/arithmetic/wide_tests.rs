@@ -154,7 +154,7 @@ proptest! {
     }
 
     #[test]
-    fn what_is_said_of_a_ball_holds_of_every_member((x, p) in member(), (y, q) in member()) {
+    fn what_is_claimed_of_a_ball_holds_of_every_member((x, p) in member(), (y, q) in member()) {
         prop_assert!(Exact::of_radius(x.lower()).is_at_most(&p.size()));
         prop_assert!(p.size().is_at_most(&Exact::of_radius(x.upper())));
         prop_assert!(!x.is_positive() || p.sign() == Ordering::Greater);

@@ -16,7 +16,7 @@ pub(super) struct Laps {
     case: ExactCase,
     fine: Model,
     coarse: Model,
-    begin: Ball,
+    start: Ball,
     /// The ends of the periods of the forcing within a lap, as times since its beginning.
     sections: Vec<Ball>,
 }
@@ -44,22 +44,22 @@ impl Laps {
         let mut fine = Model::new(case, limbs)?;
         let mut coarse = Model::new(case, limbs.div_ceil(3).max(2))?;
         if fine.is_steady {
-            return Err(ProofFailure::beyond("a constant force has no period"));
+            return Err(ProofFailure::not_covered("a constant force has no period"));
         }
         // T = 2π/|Ω|.
         let period = fine.functions.half_pi() * &fine.inverse_omega.abs();
         let period = period.scaled(2);
-        let begin = &period * phase;
+        let start = &period * phase;
         let sections: Vec<Ball> = (1..=periods)
             .map(|k| &period * &Ball::integer(i64::from(k)))
             .collect();
-        let end = sections.last().map_or(begin.clone(), |last| &begin + last);
+        let end = sections.last().map_or(start.clone(), |last| &start + last);
         (fine.t_end, coarse.t_end) = (end.clone(), end);
         Ok(Self {
             case: case.without_end(),
             fine,
             coarse,
-            begin,
+            start,
             sections,
         })
     }
@@ -68,14 +68,14 @@ impl Laps {
     /// states after it.
     pub(super) fn of(&self, states: &State, struck: &[usize]) -> Result<Lap, ProofFailure> {
         let models = [&self.fine, &self.coarse];
-        let mut run = Run::of_states(&self.case, models, &self.begin, states);
+        let mut run = Run::of_states(&self.case, models, &self.start, states);
         let mut derivative = unit();
         let (mut impacts, mut sections) = (Vec::new(), Vec::new());
         loop {
-            match run.fly()? {
+            match run.next_event()? {
                 Next::Impact(root) => {
                     self.pass(&run, &root.whole, &mut sections)?;
-                    let snap = run.strike(&root)?;
+                    let snap = run.apply_impact(&root)?;
                     let expected = struck.get(impacts.len()).copied();
                     if expected != Some(snap.impact.cable) {
                         return Err(other_events(snap.impact.cable, impacts.len()));
@@ -83,7 +83,7 @@ impl Laps {
                     if snap.stick.is_some() || snap.end.is_some() {
                         let what =
                             "a cable stays taut, but proofs of orbits cover slack flight only";
-                        return Err(ProofFailure::beyond(what));
+                        return Err(ProofFailure::not_covered(what));
                     }
                     derivative = product(&snap.jacobian, &derivative);
                     impacts.push(snap.impact);
@@ -92,7 +92,7 @@ impl Laps {
                     if impacts.len() < struck.len() {
                         let (found, all) = (impacts.len(), struck.len());
                         let what = format!("the lap has {found} snaps, not {all}");
-                        return Err(ProofFailure::False(what));
+                        return Err(ProofFailure::Refuted(what));
                     }
                     let left = &end.t - &run.t;
                     self.pass(&run, &left, &mut sections)?;
@@ -106,7 +106,7 @@ impl Laps {
                 Next::End(end) => {
                     let what = end.reason.name().replace('_', " ");
                     let t = end.t.to_f64();
-                    return Err(ProofFailure::False(format!(
+                    return Err(ProofFailure::Refuted(format!(
                         "the motion ends at t = {t:.6}: {what}"
                     )));
                 }
@@ -119,7 +119,7 @@ impl Laps {
     fn pass(&self, run: &Run<'_>, end: &Ball, kept: &mut Vec<State>) -> Result<(), ProofFailure> {
         let within = self.sections.len() - 1;
         while let Some(section) = self.sections[..within].get(kept.len()) {
-            let tau = &self.begin + section - &run.t;
+            let tau = &self.start + section - &run.t;
             if end.is_below(&tau) {
                 break;
             }
@@ -150,7 +150,7 @@ fn unit() -> Matrix {
 }
 
 fn other_events(cable: usize, before: usize) -> ProofFailure {
-    ProofFailure::False(format!(
+    ProofFailure::Refuted(format!(
         "the motion has other snaps: one of cable {} follows after {before} snaps",
         cable + 1
     ))

@@ -9,7 +9,7 @@ use crate::run::Run;
 use crate::slack::impact::Impact;
 use crate::slack::search::{Zero, Zeros, name};
 use crate::slack::set::Set;
-use crate::taut::begin::Instants;
+use crate::taut::start::Instants;
 use crate::verdict::ProofFailure;
 
 /// A gap at the start within this distance of zero counts as closed.
@@ -36,7 +36,7 @@ impl<'a> Run<'a> {
         }
     }
 
-    pub(crate) fn begin(
+    pub(crate) fn from_start(
         case: &'a ExactCase,
         fine: &'a Model,
         coarse: &'a Model,
@@ -47,22 +47,22 @@ impl<'a> Run<'a> {
         let at_origin = case.start()[..3].iter().all(Decimal::is_zero);
         let tolerance = Decimal::parse(START_TOLERANCE).map(|d| d.ball(fine.limbs));
         let tolerance = tolerance.unwrap_or_else(Ball::zero);
-        for (which, watched) in fine.watched(&start).iter().enumerate() {
+        for (which, event_value) in fine.event_values(&start).iter().enumerate() {
             let clear = match which {
                 0..FIRST_TOP if at_origin => true,
-                0..FIRST_TOP => (&watched.value + &tolerance).is_negative(),
-                _ => watched.value.is_negative(),
+                0..FIRST_TOP => (&event_value.value + &tolerance).is_negative(),
+                _ => event_value.value.is_negative(),
             };
-            if !clear && (&watched.value - &tolerance).is_positive() {
+            if !clear && (&event_value.value - &tolerance).is_positive() {
                 let what = format!("the start is beyond {}", name(which));
-                return Err(ProofFailure::False(what));
+                return Err(ProofFailure::Refuted(what));
             }
             if !clear {
                 let what = format!(
                     "the start: {} is {:.2e} away, where a run moves the state onto it by a \
                      projection that the proof does not cover",
                     name(which),
-                    watched.value.to_f64()
+                    event_value.value.to_f64()
                 );
                 return Err(ProofFailure::undecided(what).at(0.0));
             }
@@ -78,7 +78,7 @@ impl<'a> Run<'a> {
                 let speed = Impact::new(fine, cable, &start)?.v_n;
                 if !(&speed + &tolerance).is_negative() {
                     let what = format!("how the run starts, with cable {} closed", cable + 1);
-                    return Err(ProofFailure::beyond(what).at(0.0));
+                    return Err(ProofFailure::not_covered(what).at(0.0));
                 }
                 run.zeros.push((cable, Zero::Opening));
             }
@@ -86,7 +86,7 @@ impl<'a> Run<'a> {
         Ok(run)
     }
 
-    /// Whether, for all states, the flight has begun by the time `tau` after T.
+    /// Whether, for all states, the flight has started by the time `tau` after T.
     pub(crate) fn is_under_way(&self, tau: &Ball) -> bool {
         Ball::bound(self.slack).is_below(tau)
     }

@@ -1,25 +1,25 @@
 //! Slack flight in closed form (docs/model.md, section 4), and bounds on the second and third
-//! derivatives of the watched values along it.
+//! derivatives of the event functions along it.
 
 use crate::arithmetic::ball::Ball;
 use crate::arithmetic::radius::Radius;
-use crate::model::{FIRST_TOP, Force, Model, State, Watched};
+use crate::model::{EventValue, FIRST_TOP, Force, Model, State};
 use crate::slack::search::{Path, name};
 
 /// A flight from a state at a time; the time is a single number.
 pub(crate) struct Flight<'a> {
     pub(crate) model: &'a Model,
-    pub(crate) begin: Ball,
+    pub(crate) start: Ball,
     pub(crate) state: State,
     force: Force,
 }
 
 impl<'a> Flight<'a> {
-    pub(crate) fn new(model: &'a Model, begin: Ball, state: State) -> Self {
-        let force = model.force(&begin);
+    pub(crate) fn new(model: &'a Model, start: Ball, state: State) -> Self {
+        let force = model.force(&start);
         Self {
             model,
-            begin,
+            start,
             state,
             force,
         }
@@ -29,7 +29,7 @@ impl<'a> Flight<'a> {
     /// then.
     pub(crate) fn velocity(&self, tau: &Ball) -> ([Ball; 2], Force) {
         let (m, start) = (self.model, &self.force);
-        let force = m.force(&(&self.begin + tau));
+        let force = m.force(&(&self.start + tau));
         let [.., vx, vy, _] = &self.state;
         let velocity = if m.is_steady {
             [vx + &(tau * &force.x), vy - tau]
@@ -70,16 +70,16 @@ impl Path for Flight<'_> {
         FIRST_TOP + if self.model.has_corners() { 2 } else { 1 }
     }
 
-    fn one_watched(&self, which: usize, tau: &Ball) -> Watched {
-        self.model.one_watched(which, &self.at(tau).0)
+    fn event_value(&self, which: usize, tau: &Ball) -> EventValue {
+        self.model.event_value(which, &self.at(tau).0)
     }
 
-    fn words(&self, which: usize) -> String {
+    fn event_name(&self, which: usize) -> String {
         name(which).to_owned()
     }
 
-    fn watched(&self, tau: &Ball) -> Vec<Watched> {
-        self.model.watched(&self.at(tau).0)
+    fn event_values(&self, tau: &Ball) -> Vec<EventValue> {
+        self.model.event_values(&self.at(tau).0)
     }
 
     /// The third derivative of a gap: g⃛ = 2 (3 Ṗ·P̈ + D·P⃛), with P̈ = f − θ̇² ρ and P⃛ = ḟ − θ̇³
@@ -107,7 +107,7 @@ impl Path for Flight<'_> {
         Some((turning + dx * &third[0] + dy * &third[1]).twice())
     }
 
-    /// Second derivatives of the watched values over a stretch of time about `middle`:
+    /// Second derivatives of the event functions over a stretch of time about `middle`:
     ///
     /// g̈ = 2 (|Ṗ|² + D·P̈),   P̈ = f − θ̇² ρ,
     ///

@@ -1,9 +1,9 @@
-//! The first of the watched values to reach zero along a flight, with the proof that none does so
+//! The first of the event functions to reach zero along a flight, with the proof that none does so
 //! earlier.
 
 use crate::arithmetic::ball::Ball;
 use crate::arithmetic::radius::Radius;
-use crate::model::Watched;
+use crate::model::EventValue;
 use crate::verdict::ProofFailure;
 
 /// The most pieces of one flight that are examined before the search gives up.
@@ -12,7 +12,7 @@ const MOST_PIECES: u32 = 4000;
 const MOST_HALVINGS: u32 = 60;
 
 /// A stretch of time in which one value crosses zero once, rising, for every flight of the set,
-/// while no other watched value reaches zero before its end.
+/// while no other event function reaches zero before its end.
 #[derive(Clone, Debug)]
 pub(crate) struct Crossing {
     pub(crate) which: usize,
@@ -22,21 +22,22 @@ pub(crate) struct Crossing {
     pub(crate) slope: Ball,
 }
 
-/// A stretch of motion along which values are watched, each of which has to stay below zero.
+/// A stretch of motion along which the event functions are followed, each of which has to stay
+/// below zero.
 pub(crate) trait Path {
-    /// How many values are watched.
+    /// How many event functions there are.
     fn count(&self) -> usize;
-    /// One watched value, at a ball of times.
-    fn one_watched(&self, which: usize, tau: &Ball) -> Watched;
+    /// The value of one event function, at a ball of times.
+    fn event_value(&self, which: usize, tau: &Ball) -> EventValue;
     /// The second derivatives of the values over all times that differ from `middle` by at most
     /// `half`.
     fn bends(&self, middle: &Ball, half: Radius) -> Vec<Ball>;
     /// The event that happens where a value reaches zero, in words.
-    fn words(&self, which: usize) -> String;
+    fn event_name(&self, which: usize) -> String;
     /// All of them.
-    fn watched(&self, tau: &Ball) -> Vec<Watched> {
+    fn event_values(&self, tau: &Ball) -> Vec<EventValue> {
         (0..self.count())
-            .map(|which| self.one_watched(which, tau))
+            .map(|which| self.event_value(which, tau))
             .collect()
     }
     /// The third derivative of one of them; none if it is not known.
@@ -51,7 +52,7 @@ pub(crate) enum Zero {
     /// Its rate is negative.
     Opening,
     /// Its rate is zero, too, and its second derivative is negative.
-    Lifting,
+    LeavingByAcceleration,
     /// Its rate and second derivative are zero, too, and its third derivative is negative.
     Released,
 }
@@ -59,8 +60,8 @@ pub(crate) enum Zero {
 /// Values that are zero at the instant at which the motion begins.
 pub(crate) type Zeros = Vec<(usize, Zero)>;
 
-/// A time, which is a single number, and the watched values at it.
-type Moment = (Ball, Vec<Watched>);
+/// A time, which is a single number, and the event functions at it.
+type Moment = (Ball, Vec<EventValue>);
 
 /// What is known of a piece of a flight.
 enum Piece {
@@ -73,17 +74,17 @@ enum Piece {
 }
 
 /// The first crossing in (lo, limit] of a motion that begins at some instant within the ball
-/// `begin`, no later than the number `lo`; none if there is none.
+/// `start`, no later than the number `lo`; none if there is none.
 ///
 /// # Errors
-/// [`ProofFailure`] where it can not be told.
+/// [`ProofFailure`] where it can not be decided.
 pub(crate) fn first_crossing(
     path: &impl Path,
-    (begin, lo): &(Ball, Ball),
+    (start, lo): &(Ball, Ball),
     zeros: &Zeros,
     limit: &Ball,
 ) -> Result<Option<Crossing>, ProofFailure> {
-    let first = beginning(path, begin, zeros)?;
+    let first = beginning(path, start, zeros)?;
     let mut length = likely_length(path, lo, &first, zeros);
     let mut at: Moment = (lo.clone(), first);
     let mut closed: Vec<usize> = zeros.iter().map(|(which, _)| *which).collect();
@@ -102,7 +103,7 @@ pub(crate) fn first_crossing(
                 to = limit.clone();
             }
             length *= 2.0;
-            ahead.push((to.clone(), path.watched(&to)));
+            ahead.push((to.clone(), path.event_values(&to)));
             continue;
         };
         match judge(path, &at, &next, &closed) {
@@ -123,9 +124,9 @@ pub(crate) fn first_crossing(
                 if !(at.0.is_below(&middle) && middle.is_below(&next.0)) {
                     return Err(undecided(path, &next));
                 }
-                let watched = path.watched(&middle);
+                let values = path.event_values(&middle);
                 ahead.push(next);
-                ahead.push((middle, watched));
+                ahead.push((middle, values));
             }
         }
     }
@@ -164,7 +165,7 @@ fn without_rate(
                 .is_some_and(|third| third.is_negative()),
             _ => bends[*which].is_negative(),
         });
-        let next: Moment = (to.clone(), path.watched(&to));
+        let next: Moment = (to.clone(), path.event_values(&to));
         let mut ends = skipped.iter().map(|which| &next.1[*which].value);
         let below = ends.all(Ball::is_negative);
         if falls && below && others_clear(path, at, &next, &known, &skipped) {
@@ -202,15 +203,15 @@ fn others_clear(
 }
 
 /// An error that names the value nearest to zero there, or the two that are equally near.
-fn undecided(path: &impl Path, (_, watched): &Moment) -> ProofFailure {
-    let size = |k: &usize| watched[*k].value.to_f64().abs();
-    let mut order: Vec<usize> = (0..watched.len()).collect();
+fn undecided(path: &impl Path, (_, values): &Moment) -> ProofFailure {
+    let size = |k: &usize| values[*k].value.to_f64().abs();
+    let mut order: Vec<usize> = (0..values.len()).collect();
     order.sort_by(|a, b| size(a).total_cmp(&size(b)));
     let near = |k: &&usize| size(k) <= 2.0 * size(&order[0]);
     let names: Vec<String> = order
         .iter()
         .take_while(near)
-        .map(|k| path.words(*k))
+        .map(|k| path.event_name(*k))
         .collect();
     let value = order.first().map_or(0.0, size);
     let which = match names.len() {
@@ -223,7 +224,7 @@ fn undecided(path: &impl Path, (_, watched): &Moment) -> ProofFailure {
     ))
 }
 
-/// The name of a watched value.
+/// The name of a event function.
 pub(crate) fn name(which: usize) -> &'static str {
     match which {
         0 => "the length of cable 1",
@@ -232,22 +233,29 @@ pub(crate) fn name(which: usize) -> &'static str {
     }
 }
 
-/// The watched values on the ball of times in which the motion begins. A value that is zero at the
+/// The event functions on the ball of times in which the motion begins. A value that is zero at the
 /// first instant is below zero from there to the end of the ball, as its rate is negative on it (or
 /// by a higher derivative, which the first piece examines); all others are below zero.
-fn beginning(path: &impl Path, begin: &Ball, zeros: &Zeros) -> Result<Vec<Watched>, ProofFailure> {
-    let first = path.watched(begin);
-    for (which, watched) in first.iter().enumerate() {
+fn beginning(
+    path: &impl Path,
+    start: &Ball,
+    zeros: &Zeros,
+) -> Result<Vec<EventValue>, ProofFailure> {
+    let first = path.event_values(start);
+    for (which, event_value) in first.iter().enumerate() {
         let zero = zeros.iter().find(|(zero, _)| *zero == which);
         let (holds, what) = match zero {
-            Some((_, Zero::Opening)) => (watched.rate.is_negative(), "the motion leaves"),
-            Some((_, Zero::Lifting | Zero::Released)) => (true, "the motion leaves"),
-            None => (watched.value.is_negative(), "the motion is still short of"),
+            Some((_, Zero::Opening)) => (event_value.rate.is_negative(), "the motion leaves"),
+            Some((_, Zero::LeavingByAcceleration | Zero::Released)) => (true, "the motion leaves"),
+            None => (
+                event_value.value.is_negative(),
+                "the motion is still short of",
+            ),
         };
         if !holds {
             let what = format!(
                 "whether {what} {} at the beginning of a stretch",
-                path.words(which)
+                path.event_name(which)
             );
             return Err(ProofFailure::undecided(what));
         }
@@ -257,15 +265,15 @@ fn beginning(path: &impl Path, begin: &Ball, zeros: &Zeros) -> Result<Vec<Watche
 
 /// A guess of how long no value reaches zero, from the parabolas through the values, rates and
 /// second derivatives now.
-fn likely_length(path: &impl Path, lo: &Ball, first: &[Watched], zeros: &Zeros) -> f64 {
+fn likely_length(path: &impl Path, lo: &Ball, first: &[EventValue], zeros: &Zeros) -> f64 {
     let bends = path.bends(lo, Radius::ZERO);
     let mut least = 0.4;
-    for (which, (watched, bend)) in first.iter().zip(bends).enumerate() {
-        let (rate, bend) = (watched.rate.to_f64(), bend.to_f64());
+    for (which, (event_value, bend)) in first.iter().zip(bends).enumerate() {
+        let (rate, bend) = (event_value.rate.to_f64(), bend.to_f64());
         let value = if zeros.iter().any(|(zero, _)| *zero == which) {
             0.0
         } else {
-            watched.value.to_f64()
+            event_value.value.to_f64()
         };
         // value + rate t + bend t²/2 = 0, without cancellation.
         let root = (rate * rate - 2.0 * bend * value).max(0.0).sqrt();
@@ -292,13 +300,13 @@ fn judge(path: &impl Path, from: &Moment, to: &Moment, closed: &[usize]) -> Piec
     let sag = length.squared().half();
     let mut crossed = None;
     for (which, bend) in bends.iter().enumerate() {
-        let (begin, end) = (&from.1[which], &to.1[which]);
+        let (start, end) = (&from.1[which], &to.1[which]);
         let known = closed.contains(&which);
-        if stays_below(begin, end, known, bend, &sag) {
+        if stays_below(start, end, known, bend, &sag) {
             continue;
         }
         let slope = match (known, crossed) {
-            (false, None) => rising(begin, end, bend, &length),
+            (false, None) => rising(start, end, bend, &length),
             _ => None,
         };
         let Some(slope) = slope else {
@@ -314,7 +322,7 @@ fn judge(path: &impl Path, from: &Moment, to: &Moment, closed: &[usize]) -> Piec
 
 /// Whether a value stays below zero from just after the beginning of a piece up to its end.
 ///
-/// Let f̈ ≥ −K on the piece of length H, f ≤ 0 at both ends and t the time since its begin. The
+/// Let f̈ ≥ −K on the piece of length H, f ≤ 0 at both ends and t the time since its start. The
 /// difference of f and the chord plus K t (H − t)/2 has a second derivative that is not negative
 /// and vanishes at both ends, so that f ≤ chord + K t (H − t)/2. With f < 0 at the end, f < 0 holds
 /// in between, too,
@@ -326,13 +334,13 @@ fn judge(path: &impl Path, from: &Moment, to: &Moment, closed: &[usize]) -> Piec
 ///
 /// `sag` is H²/2; the comparisons hold for every number of the balls.
 pub(crate) fn stays_below(
-    begin: &Watched,
-    end: &Watched,
+    start: &EventValue,
+    end: &EventValue,
     known: bool,
     bend: &Ball,
     sag: &Ball,
 ) -> bool {
-    if !end.value.is_negative() || !(known || begin.value.is_negative()) {
+    if !end.value.is_negative() || !(known || start.value.is_negative()) {
         return false;
     }
     if bend.is_positive() {
@@ -343,20 +351,20 @@ pub(crate) fn stays_below(
     if known {
         return beyond(&end.value, 0);
     }
-    beyond(&begin.value, 2) && beyond(&end.value, 2)
-        || beyond(&begin.value, 0)
+    beyond(&start.value, 2) && beyond(&end.value, 2)
+        || beyond(&start.value, 0)
         || beyond(&end.value, 0)
 }
 
 /// The rate of a value throughout a piece, if the value rises there from below zero to above.
-fn rising(begin: &Watched, end: &Watched, bend: &Ball, length: &Ball) -> Option<Ball> {
-    if !(begin.value.is_negative() && end.value.is_positive()) {
+fn rising(start: &EventValue, end: &EventValue, bend: &Ball, length: &Ball) -> Option<Ball> {
+    if !(start.value.is_negative() && end.value.is_positive()) {
         return None;
     }
     // The rate is enclosed by the rate at either end and its largest change over [0, H].
     let within = length.half().widened(length.upper().scaled(-1));
     let change = bend * &within;
-    [&begin.rate + &change, &end.rate - &change]
+    [&start.rate + &change, &end.rate - &change]
         .into_iter()
         .find(Ball::is_positive)
 }

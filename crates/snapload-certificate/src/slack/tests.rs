@@ -2,7 +2,7 @@
 use crate::arithmetic::ball::Ball;
 use crate::arithmetic::radius::Radius;
 use crate::case::ExactCase;
-use crate::model::{Model, State, Watched};
+use crate::model::{EventValue, Model, State};
 use crate::slack::flight::Flight;
 use crate::slack::impact::Impact;
 use crate::slack::search::{Path, stays_below};
@@ -29,8 +29,11 @@ fn rectangle() -> Parameters {
 fn root(flight: &Flight<'_>, cable: usize, guess: f64) -> Ball {
     let mut tau = Ball::double(guess).with_limbs(LIMBS);
     for _ in 0..14 {
-        let watched = flight.model.one_watched(cable, &flight.at(&tau).0);
-        let step = watched.value.over(&watched.rate).expect("it crosses");
+        let event_value = flight.model.event_value(cable, &flight.at(&tau).0);
+        let step = event_value
+            .value
+            .over(&event_value.rate)
+            .expect("it crosses");
         tau = (&tau - &step).centre();
     }
     tau
@@ -103,7 +106,7 @@ fn bends_hold_second_differences() {
                 let at = |shift: i64| {
                     let step = Ball::integer(shift).scaled(half - 7);
                     let place = Ball::integer(k).scaled(half - 3);
-                    flight.watched(&(Ball::double(middle).with_limbs(LIMBS) + place + step))
+                    flight.event_values(&(Ball::double(middle).with_limbs(LIMBS) + place + step))
                 };
                 let (before, now, after) = (at(-1), at(0), at(1));
                 for (i, bend) in bends.iter().enumerate() {
@@ -132,19 +135,19 @@ proptest! {
         let p = if known { 0.0 } else { p };
         let at = |t: f64| {
             let (t, half) = (Ball::double(t).with_limbs(4), Ball::double(s).half());
-            Watched {
+            EventValue {
                 value: Ball::double(p) + (Ball::double(q) + half * &t) * &t,
                 rate: Ball::double(q) + Ball::double(s) * &t,
             }
         };
         let sag = Ball::double(h).with_limbs(4).squared().half();
-        let says = stays_below(&at(0.0), &at(h), known, &Ball::double(s), &sag);
+        let certified = stays_below(&at(0.0), &at(h), known, &Ball::double(s), &sag);
         // In the interior the largest value is at t = −q/s, for s < 0.
         let top = if s < 0.0 { (-q / s).clamp(0.0, h) } else { 0.0 };
         let largest = at(top).value.to_f64().max(at(h).value.to_f64());
-        prop_assert!(!says || largest < 0.0 || (known && top == 0.0 && at(h).value.to_f64() < 0.0));
+        prop_assert!(!certified || largest < 0.0 || (known && top == 0.0 && at(h).value.to_f64() < 0.0));
         // The lemma is not vacuous: it holds wherever f is far below zero.
         let deep = p.max(at(h).value.to_f64()) + s.abs() * h * h / 2.0 < -1e-9;
-        prop_assert!(says || !deep || known);
+        prop_assert!(certified || !deep || known);
     }
 }

@@ -7,10 +7,10 @@ use crate::model::{Model, State};
 use crate::taut::series::{Program, Term};
 use crate::verdict::ProofFailure;
 
-/// The quantities that are watched along a taut motion: the motion ends where one of them reaches
+/// The event functions along a taut motion: the motion ends where one of them reaches
 /// zero from below.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Watch {
+pub(crate) enum EventFunction {
     /// −T of a taut cable, T its tension; by index from 0.
     Tension(usize),
     /// The gap of a slack one.
@@ -21,9 +21,9 @@ pub(crate) enum Watch {
     Top,
 }
 
-impl Watch {
+impl EventFunction {
     /// The event that ends the motion where it reaches zero, in words.
-    pub(crate) fn words(self) -> String {
+    pub(crate) fn event_name(self) -> String {
         match self {
             Self::Tension(cable) => format!("the end of the tension of cable {}", cable + 1),
             Self::Gap(cable) => format!("the length of cable {}", cable + 1),
@@ -33,16 +33,16 @@ impl Watch {
     }
 }
 
-/// The equations of motion as terms, with the watched quantities as their outputs.
+/// The equations of motion as terms, with the event functions as their outputs.
 pub(crate) struct Terms {
     pub(crate) program: Program,
-    pub(crate) watched: Vec<Watch>,
+    pub(crate) event_functions: Vec<EventFunction>,
 }
 
 impl Terms {
     /// Adds an output.
-    pub(crate) fn watch(&mut self, what: Watch, value: Term) {
-        self.watched.push(what);
+    pub(crate) fn add_event_function(&mut self, what: EventFunction, value: Term) {
+        self.event_functions.push(what);
         self.program.outputs.push(value);
     }
 
@@ -52,7 +52,7 @@ impl Terms {
         let minus_theta = self.program.negate(theta);
         for angle in [theta, minus_theta] {
             let over = self.program.subtract(angle, limit);
-            self.watch(Watch::Rotation, over);
+            self.add_event_function(EventFunction::Rotation, over);
         }
     }
 }

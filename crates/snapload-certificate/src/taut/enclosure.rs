@@ -59,7 +59,7 @@ pub(super) fn enclosed<'a, const N: usize>(
 }
 
 impl<const N: usize> Enclosed<'_, N> {
-    /// The coefficients of order n + 1 over the box, and their derivatives by the begin; none if
+    /// The coefficients of order n + 1 over the box, and their derivatives by the start; none if
     /// the box that is tried for the derivatives is too small.
     pub(super) fn rest(
         self,

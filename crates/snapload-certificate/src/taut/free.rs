@@ -20,7 +20,7 @@ impl Chart<6> for Free {
         program.outputs.clear();
         Terms {
             program,
-            watched: Vec::new(),
+            event_functions: Vec::new(),
         }
     }
 

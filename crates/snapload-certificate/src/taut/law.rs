@@ -16,7 +16,7 @@ pub(crate) enum Law {
     /// away: with q the impulse of that one, w p + W q = share v, W p + w_t q = v_t,
     ///
     /// p = (share v − W v_t/w_t)/(w − W²/w_t),   q = (v_t − W p)/w_t.
-    Beside {
+    KeepingTaut {
         struck: usize,
         taut: usize,
         share: Ball,
@@ -46,7 +46,7 @@ impl Law {
                 let impulse = p.scale(impulse, share.clone());
                 normal.u.map(|u| p.multiply(u, impulse))
             }
-            Self::Beside {
+            Self::KeepingTaut {
                 struck,
                 taut,
                 share,

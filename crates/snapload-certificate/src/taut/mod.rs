@@ -1,5 +1,4 @@
 //! The proof of motion with taut cables.
-pub(crate) mod begin;
 pub(crate) mod chart;
 mod enclosure;
 pub(crate) mod free;
@@ -9,6 +8,7 @@ pub(crate) mod run;
 pub(crate) mod series;
 pub(crate) mod sliding;
 pub(crate) mod snap;
+pub(crate) mod start;
 pub(crate) mod step;
 
 #[cfg(test)]

@@ -4,7 +4,7 @@
 use crate::arithmetic::ball::Ball;
 use crate::arithmetic::interval::Interval;
 use crate::model::{Model, State};
-use crate::taut::chart::{Chart, StateJets, Terms, Watch, force};
+use crate::taut::chart::{Chart, EventFunction, StateJets, Terms, force};
 use crate::taut::series::{Program, Term};
 use crate::verdict::ProofFailure;
 
@@ -42,7 +42,7 @@ impl Rocking {
     /// The branch on which the state is.
     ///
     /// # Errors
-    /// [`ProofFailure`] where that can not be told.
+    /// [`ProofFailure`] where that can not be decided.
     pub(crate) fn at(model: &Model, state: &State) -> Result<Self, ProofFailure> {
         let (sine, cosine) = model.turn(&state[2]);
         let middle = [
@@ -202,13 +202,13 @@ impl Chart<2> for Rocking {
         };
         let mut terms = Terms {
             program: p,
-            watched: Vec::new(),
+            event_functions: Vec::new(),
         };
         for (cable, tension) in tensions.into_iter().enumerate() {
-            terms.watch(Watch::Tension(cable), tension);
+            terms.add_event_function(EventFunction::Tension(cable), tension);
         }
         for top in tops {
-            terms.watch(Watch::Top, top);
+            terms.add_event_function(EventFunction::Top, top);
         }
         terms.watch_rotation(model, theta);
         terms

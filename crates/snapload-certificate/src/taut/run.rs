@@ -5,11 +5,11 @@ use crate::arithmetic::radius::Radius;
 use crate::model::Model;
 use crate::slack::search::{Crossing, Path, Zeros, first_crossing};
 use crate::slack::set::Set;
-use crate::taut::begin::{Begun, Instants, begin, hull_of};
-use crate::taut::chart::{Chart, Watch};
+use crate::taut::chart::{Chart, EventFunction};
 use crate::taut::law::Law;
 use crate::taut::rocking::Rocking;
 use crate::taut::sliding::Sliding;
+use crate::taut::start::{Instants, Started, hull_of, start_motion};
 use crate::taut::step::{Equations, Place, Step};
 use crate::verdict::ProofFailure;
 use snapload::Stop;
@@ -35,7 +35,7 @@ pub(crate) enum Event {
 }
 
 /// Where a motion with taut cables begins.
-pub(crate) struct Begin<'a> {
+pub(crate) struct StartData<'a> {
     /// The taut cables, by index from 0.
     pub(crate) taut: &'a [usize],
     /// The states before the laws of the event that makes the cables taut.
@@ -49,16 +49,16 @@ pub(crate) struct Begin<'a> {
 /// normal velocities.
 ///
 /// `on_step` receives the time of each step, and may end the work.
-pub(crate) fn hold(
+pub(crate) fn enclose_taut_motion(
     model: &Model,
-    begin: &Begin<'_>,
+    start: &StartData<'_>,
     on_step: &mut dyn FnMut(&Ball) -> Result<(), ProofFailure>,
 ) -> Result<TautEnd, ProofFailure> {
-    match begin.taut {
-        [cable] => follow(model, &Sliding(*cable), begin, on_step),
+    match start.taut {
+        [cable] => follow(model, &Sliding(*cable), start, on_step),
         _ => {
-            let (state, _) = hull_of(begin.instants);
-            follow(model, &Rocking::at(model, &state)?, begin, on_step)
+            let (state, _) = hull_of(start.instants);
+            follow(model, &Rocking::at(model, &state)?, start, on_step)
         }
     }
 }
@@ -66,24 +66,24 @@ pub(crate) fn hold(
 fn follow<const N: usize>(
     model: &Model,
     chart: &impl Chart<N>,
-    start: &Begin<'_>,
+    start: &StartData<'_>,
     on_step: &mut dyn FnMut(&Ball) -> Result<(), ProofFailure>,
 ) -> Result<TautEnd, ProofFailure> {
     let equations = Equations::of(chart, model);
     let place = Place::of(chart.place(model));
-    let Begun {
+    let Started {
         mut t,
         mut set,
         slack,
-    } = begin(&equations, chart, start.laws, start.instants)?;
+    } = start_motion(&equations, chart, start.laws, start.instants)?;
     // The motion begins within [0, slack] after T.
     let mut from = (
         Ball::within(slack.scaled(-1)) + Ball::bound(slack).half(),
         Ball::bound(slack),
     );
     let output = |cable: usize| {
-        let mut all = equations.watched.iter();
-        all.position(|watched| *watched == Watch::Gap(cable))
+        let mut all = equations.event_functions.iter();
+        all.position(|function| *function == EventFunction::Gap(cable))
     };
     let zeros = start.zeros.iter();
     let mut zeros: Zeros = zeros
@@ -96,7 +96,7 @@ fn follow<const N: usize>(
         // A little more than the last length that succeeded, as a length that is too large costs a
         // trial.
         most = LONGEST_STEP.min(1.06 * step.length.to_f64());
-        let now = Now {
+        let now = StepStart {
             t: &t,
             set: &set,
             left: &left,
@@ -120,7 +120,7 @@ fn follow<const N: usize>(
 
 /// The beginning of a step: its time, the states, the time that is left, when the motion begins,
 /// and which values are zero then.
-struct Now<'a, const N: usize> {
+struct StepStart<'a, const N: usize> {
     t: &'a Ball,
     set: &'a Set<N>,
     left: &'a Ball,
@@ -131,12 +131,12 @@ struct Now<'a, const N: usize> {
 /// The end of the motion within a step, if it ends there.
 fn ending<const N: usize>(
     step: &Step<'_, N>,
-    now: &Now<'_, N>,
+    now: &StepStart<'_, N>,
     place: &Place,
 ) -> Result<Option<TautEnd>, ProofFailure> {
     let (limit, left) = (&step.length, now.left);
-    let begun = &now.from.1;
-    if !begun.is_below(limit) {
+    let latest_start = &now.from.1;
+    if !latest_start.is_below(limit) {
         return Err(ProofFailure::undecided(
             "a beginning that lasts longer than a step",
         ));
@@ -147,14 +147,14 @@ fn ending<const N: usize>(
         None => None,
     };
     let root = roots.as_ref().map(|[_, whole]| whole);
-    if left.is_below(root.unwrap_or(limit)) && begun.is_below(left) {
+    if left.is_below(root.unwrap_or(limit)) && latest_start.is_below(left) {
         return Ok(Some(TautEnd {
             instants: step.at_time(now.t, left, place, now.set)?,
             event: Event::Stop(Stop::EndTime),
         }));
     }
     if let (Some(crossing), Some([centre, whole])) = (&found, &roots) {
-        if !(whole.is_below(left) && begun.is_below(whole)) {
+        if !(whole.is_below(left) && latest_start.is_below(whole)) {
             return Err(ProofFailure::undecided(
                 "two events of a taut motion at one instant",
             ));
@@ -164,7 +164,7 @@ fn ending<const N: usize>(
         let (image, jacobian) = map.ok_or_else(lost)?;
         return Ok(Some(TautEnd {
             instants: now.set.mapped(&image, &jacobian)?,
-            event: event(step.watch(crossing.which)),
+            event: event(step.event_function(crossing.which)),
         }));
     }
     if limit.is_below(left) {
@@ -176,16 +176,16 @@ fn ending<const N: usize>(
     }
 }
 
-fn event(watched: Watch) -> Event {
-    match watched {
-        Watch::Tension(cable) => Event::Released(cable),
-        Watch::Gap(cable) => Event::Struck(cable),
-        Watch::Rotation => Event::Stop(Stop::RotationLimit),
-        Watch::Top => Event::Stop(Stop::UpperBound),
+fn event(function: EventFunction) -> Event {
+    match function {
+        EventFunction::Tension(cable) => Event::Released(cable),
+        EventFunction::Gap(cable) => Event::Struck(cable),
+        EventFunction::Rotation => Event::Stop(Stop::RotationLimit),
+        EventFunction::Top => Event::Stop(Stop::UpperBound),
     }
 }
 
-/// The times at which a watched value crosses zero, for the centre and for every state of the set.
+/// The times at which a event function crosses zero, for the centre and for every state of the set.
 fn roots<const N: usize>(
     step: &Step<'_, N>,
     crossing: &Crossing,
@@ -195,14 +195,14 @@ fn roots<const N: usize>(
     let mut tau = (&low + &high).half().centre().with_limbs(step.limbs());
     let close = Radius::power_of_two(16 - 64 * step.limbs() as i64);
     for _ in 0..40 {
-        let value = step.one_watched(which, &tau).value.centre();
+        let value = step.event_value(which, &tau).value.centre();
         if value.is_negative() {
             low = tau.clone();
         } else {
             high = tau.clone();
         }
         let next = value
-            .over(&step.one_watched(which, &tau).rate.centre())
+            .over(&step.event_value(which, &tau).rate.centre())
             .map(|move_| (&tau - &move_).centre());
         let next = next.filter(|next| !(next.is_below(&low) || high.is_below(next)));
         let next = next.unwrap_or_else(|| (&low + &high).half().centre());
@@ -219,9 +219,9 @@ fn roots<const N: usize>(
     }
     // As for flights: τ − f(τ)/ḟ, first with the slope over the piece, then with the slope near the
     // root.
-    let value = step.one_watched(which, &tau).value;
+    let value = step.event_value(which, &tau).value;
     let first = &tau - &value.over(&crossing.slope).ok_or_else(flat)?;
-    let slope = step.one_watched(which, &tau.hull(&first)).rate;
+    let slope = step.event_value(which, &tau.hull(&first)).rate;
     if !slope.is_positive() {
         return Err(flat());
     }

@@ -30,7 +30,7 @@ pub(crate) struct Program<C = Ball> {
     operations: Vec<Operation<C>>,
     /// The derivatives of the coordinates by time.
     pub(crate) rates: Vec<Term>,
-    /// The watched quantities.
+    /// The event functions.
     pub(crate) outputs: Vec<Term>,
 }
 
@@ -130,13 +130,13 @@ impl<C: Clone> Program<C> {
     /// and a coordinate's coefficient from that of its rate, y_k = ẏ_{k−1}/k.
     pub(crate) fn expand<S: Scalar<Constant = C>, const N: usize>(
         &self,
-        begin: &[S; N],
+        start: &[S; N],
         time: &S,
         order: usize,
         functions: &Elementary,
     ) -> Option<Expansion<S, N>> {
         let mut list: Vec<Vec<S>> = self.operations.iter().map(|_| Vec::new()).collect();
-        let mut state: [Vec<S>; N] = std::array::from_fn(|j| vec![begin[j].clone()]);
+        let mut state: [Vec<S>; N] = std::array::from_fn(|j| vec![start[j].clone()]);
         for k in 0..=order {
             if k > 0 {
                 for (series, rate) in state.iter_mut().zip(&self.rates) {
@@ -159,10 +159,10 @@ impl<C: Clone> Program<C> {
     /// The outputs at given coordinates, which are taken as constant.
     pub(crate) fn evaluate<S: Scalar<Constant = C>, const N: usize>(
         &self,
-        begin: &[S; N],
+        start: &[S; N],
         functions: &Elementary,
     ) -> Option<Vec<S>> {
-        let found = self.expand(begin, &S::zero(), 0, functions)?;
+        let found = self.expand(start, &S::zero(), 0, functions)?;
         let outputs = found.outputs.into_iter();
         outputs.map(|series| series.into_iter().next()).collect()
     }

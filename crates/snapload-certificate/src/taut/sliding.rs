@@ -6,7 +6,7 @@ use crate::arithmetic::interval::Interval;
 use crate::arithmetic::radius::Radius;
 use crate::arithmetic::scalar::Scalar;
 use crate::model::{Model, State};
-use crate::taut::chart::{Chart, StateJets, Terms, Watch, arm, end, force, side};
+use crate::taut::chart::{Chart, EventFunction, StateJets, Terms, arm, end, force, side};
 use crate::taut::series::{Program, Term};
 use crate::verdict::ProofFailure;
 
@@ -61,9 +61,9 @@ impl Chart<4> for Sliding {
 
         let mut terms = Terms {
             program: p,
-            watched: Vec::new(),
+            event_functions: Vec::new(),
         };
-        terms.watch(Watch::Tension(self.0), minus_tension);
+        terms.add_event_function(EventFunction::Tension(self.0), minus_tension);
         let held = Held { a, n, turn, lever };
         self.watch_gap_and_tops(&mut terms, model, &held);
         terms.watch_rotation(model, theta);
@@ -182,13 +182,13 @@ impl Sliding {
         let r_squared = p.constant(model.r.squared());
         let gap = p.subtract(squared, r_squared);
         if model.has_corners() {
-            terms.watch(Watch::Top, reach[1]);
-            terms.watch(Watch::Top, dy);
+            terms.add_event_function(EventFunction::Top, reach[1]);
+            terms.add_event_function(EventFunction::Top, dy);
         } else {
             let size = p.constant(model.a.clone());
             let top = p.add(y, size);
-            terms.watch(Watch::Top, top);
+            terms.add_event_function(EventFunction::Top, top);
         }
-        terms.watch(Watch::Gap(1 - self.0), gap);
+        terms.add_event_function(EventFunction::Gap(1 - self.0), gap);
     }
 }

@@ -13,7 +13,7 @@ pub(crate) struct After {
     /// The law of impact, before remaining normal velocities are taken away.
     pub(crate) rebound: Vec<Law>,
     /// The laws after which the motion continues.
-    pub(crate) goes_on: Vec<Law>,
+    pub(crate) continuing_laws: Vec<Law>,
     /// The taut cables from now on, by index from 0.
     pub(crate) taut: Vec<usize>,
     /// The cables that leave, and how.
@@ -57,30 +57,30 @@ impl<'a> Pair<'a> {
     }
 
     /// The law of impact, and which cables are taut after it. `may_stick` says whether the struck
-    /// cable is slower than `v_stick` or e = 0; `in_turns` whether the snap is the last of a row of
-    /// slow snaps of both cables.
+    /// cable is slower than `v_stick` or e = 0; `alternating` whether the snap is the last of a row
+    /// of slow snaps of both cables.
     ///
     /// If the coupling W is positive, the impulse of the struck cable, p = (1 + e) v/w, opens the
     /// taut one: its normal velocity becomes −W p < 0. If W < 0 the impulse loads the taut cable,
     /// which keeps its zero normal velocity by an impulse of its own.
-    pub(crate) fn after(&self, may_stick: bool, in_turns: bool) -> Result<After, ProofFailure> {
+    pub(crate) fn after(&self, may_stick: bool, alternating: bool) -> Result<After, ProofFailure> {
         let all = Ball::integer(1) + &self.model.e;
         let unloads = sign(&self.coupling, "whether a snap unloads the taut cable")?;
         let rebound = if unloads {
-            self.alone(all)
+            self.without_taut(all)
         } else {
-            self.beside(all)
+            self.keeping_taut(all)
         };
-        if in_turns && self.leaves_slowly(unloads)? {
-            let halted = self.beside(Ball::integer(1));
+        if alternating && self.leaves_slowly(unloads)? {
+            let halted = self.keeping_taut(Ball::integer(1));
             let carries = self.carrying(&self.velocity(&halted)?, true)?;
             return Ok(self.at_rest(rebound, halted, carries));
         }
         if unloads {
-            return self.unloading(rebound, may_stick, in_turns);
+            return self.unloading(rebound, may_stick, alternating);
         }
         let halted = if may_stick {
-            self.beside(Ball::integer(1))
+            self.keeping_taut(Ball::integer(1))
         } else {
             rebound.clone()
         };
@@ -117,15 +117,19 @@ impl<'a> Pair<'a> {
         &self,
         rebound: Law,
         may_stick: bool,
-        in_turns: bool,
+        alternating: bool,
     ) -> Result<After, ProofFailure> {
         let [struck, taut] = self.cables;
         let leaves = (taut, Zero::Opening);
         let sticks = may_stick && sign(&self.struck.pull(self.state, &self.force), "the tension")?;
-        let halted = self.alone(Ball::integer(1));
-        let (goes_on, set, zeros) = match (sticks, in_turns) {
+        let halted = self.without_taut(Ball::integer(1));
+        let (continuing_laws, set, zeros) = match (sticks, alternating) {
             (true, _) => (halted, vec![struck], vec![leaves]),
-            (false, true) => (halted, Vec::new(), vec![leaves, (struck, Zero::Lifting)]),
+            (false, true) => (
+                halted,
+                Vec::new(),
+                vec![leaves, (struck, Zero::LeavingByAcceleration)],
+            ),
             (false, false) => {
                 let zeros = vec![leaves, (struck, self.struck_leaves())];
                 (rebound.clone(), Vec::new(), zeros)
@@ -133,20 +137,20 @@ impl<'a> Pair<'a> {
         };
         Ok(After {
             rebound: vec![rebound],
-            goes_on: vec![goes_on],
+            continuing_laws: vec![continuing_laws],
             taut: set,
             zeros,
         })
     }
 
-    fn alone(&self, share: Ball) -> Law {
+    fn without_taut(&self, share: Ball) -> Law {
         let [cable, _] = self.cables;
         Law::One { cable, share }
     }
 
-    fn beside(&self, share: Ball) -> Law {
+    fn keeping_taut(&self, share: Ball) -> Law {
         let [struck, taut] = self.cables;
-        Law::Beside {
+        Law::KeepingTaut {
             struck,
             taut,
             share,
@@ -157,7 +161,7 @@ impl<'a> Pair<'a> {
     /// = 0, by its acceleration.
     fn struck_leaves(&self) -> Zero {
         if self.model.e.is_zero() {
-            Zero::Lifting
+            Zero::LeavingByAcceleration
         } else {
             Zero::Opening
         }
@@ -199,7 +203,7 @@ impl<'a> Pair<'a> {
         let (taut, zeros) = self.carriers(carries);
         After {
             rebound: vec![rebound],
-            goes_on: vec![halted],
+            continuing_laws: vec![halted],
             taut,
             zeros,
         }
@@ -211,15 +215,20 @@ impl<'a> Pair<'a> {
         let mut taut: Vec<usize> = pairs().filter(|pair| pair.1).map(|pair| pair.0).collect();
         taut.sort_unstable();
         let others = pairs().filter(|pair| !pair.1);
-        (taut, others.map(|pair| (pair.0, Zero::Lifting)).collect())
+        (
+            taut,
+            others
+                .map(|pair| (pair.0, Zero::LeavingByAcceleration))
+                .collect(),
+        )
     }
 
     /// The case in which the impact loads the taut cable.
     fn loading(&self, rebound: Law, halted: Law, carries: [bool; 2]) -> After {
         let [struck, taut] = self.cables;
-        let lifts = (taut, Zero::Lifting);
+        let lifts = (taut, Zero::LeavingByAcceleration);
         let leaves = (struck, self.struck_leaves());
-        let (goes_on, set, zeros) = match carries {
+        let (continuing_laws, set, zeros) = match carries {
             [true, true] => (vec![halted], vec![0, 1], Vec::new()),
             [false, true] => (vec![rebound.clone()], vec![taut], vec![leaves]),
             [false, false] => (vec![rebound.clone()], Vec::new(), vec![lifts, leaves]),
@@ -231,7 +240,7 @@ impl<'a> Pair<'a> {
                     share: Ball::integer(1),
                 };
                 let zero = match self.struck_leaves() {
-                    Zero::Lifting => lifts,
+                    Zero::LeavingByAcceleration => lifts,
                     _ => (taut, Zero::Opening),
                 };
                 (vec![rebound.clone(), rest], vec![struck], vec![zero])
@@ -239,7 +248,7 @@ impl<'a> Pair<'a> {
         };
         After {
             rebound: vec![rebound],
-            goes_on,
+            continuing_laws,
             taut: set,
             zeros,
         }

@@ -5,10 +5,10 @@ use crate::arithmetic::elementary::Elementary;
 use crate::arithmetic::interval::Interval;
 use crate::arithmetic::radius::Radius;
 use crate::arithmetic::scalar::{Jet, Scalar};
-use crate::model::{Model, Watched};
+use crate::model::{EventValue, Model};
 use crate::slack::search::Path;
 use crate::slack::set::Set;
-use crate::taut::chart::{Chart, Watch};
+use crate::taut::chart::{Chart, EventFunction};
 use crate::taut::enclosure::enclosed;
 use crate::taut::series::{Expansion, Program};
 use crate::verdict::ProofFailure;
@@ -20,7 +20,7 @@ pub(crate) struct Equations<'a> {
     pub(crate) few: Program<Interval>,
     /// For intervals.
     pub(crate) functions: Elementary,
-    pub(crate) watched: Vec<Watch>,
+    pub(crate) event_functions: Vec<EventFunction>,
 }
 
 /// A program at full precision and in intervals of doubles.
@@ -46,7 +46,7 @@ impl<'a> Equations<'a> {
             few: terms.program.map(Interval::of),
             functions: Elementary::new(2),
             program: terms.program,
-            watched: terms.watched,
+            event_functions: terms.event_functions,
         }
     }
 }
@@ -146,8 +146,8 @@ impl<'a, const N: usize> Step<'a, N> {
         Err(ProofFailure::undecided("an enclosure of the taut motion"))
     }
 
-    pub(crate) fn watch(&self, which: usize) -> Watch {
-        self.equations.watched[which]
+    pub(crate) fn event_function(&self, which: usize) -> EventFunction {
+        self.equations.event_functions[which]
     }
 
     pub(crate) fn limbs(&self) -> usize {
@@ -195,7 +195,7 @@ impl<'a, const N: usize> Step<'a, N> {
         [centre, whole]: [&Ball; 2],
         place: &Place,
     ) -> Option<([Ball; 7], [[Ball; N]; 7])> {
-        let rate = Interval::of(&self.one_watched(which, whole).rate).reciprocal()?;
+        let rate = Interval::of(&self.event_value(which, whole).rate).reciprocal()?;
         let slope = slopes_of(&self.whole.outputs[which], Interval::of(whole));
         let instant = slope.map(|slope| Interval::zero().minus(&slope.times(&rate)));
         self.moved(time, [centre, whole], instant, place)
@@ -248,7 +248,7 @@ impl<'a, const N: usize> Step<'a, N> {
         set.mapped(&image, &jacobian)
     }
 
-    /// A watched value of the centre after τ.
+    /// A event function of the centre after τ.
     pub(crate) fn centre_value(&self, which: usize, tau: &Ball) -> Ball {
         polynomial(&self.centre.outputs[which], &self.whole.outputs[which], tau)
     }
@@ -265,7 +265,7 @@ fn power(tau: &Ball, n: usize) -> Ball {
     (1..n).fold(tau.clone(), |power, _| power * tau)
 }
 
-/// The derivatives of a polynomial at τ by the coordinates at the begin.
+/// The derivatives of a polynomial at τ by the coordinates at the start.
 pub(super) fn slopes_of<const N: usize>(
     whole: &[Jet<Interval, N>],
     tau: Interval,
@@ -314,14 +314,14 @@ impl<const N: usize> Path for Step<'_, N> {
         self.bends.len()
     }
 
-    fn words(&self, which: usize) -> String {
-        self.equations.watched[which].words()
+    fn event_name(&self, which: usize) -> String {
+        self.equations.event_functions[which].event_name()
     }
 
-    fn one_watched(&self, which: usize, tau: &Ball) -> Watched {
+    fn event_value(&self, which: usize, tau: &Ball) -> EventValue {
         let (centre, whole) = (&self.centre.outputs[which], &self.whole.outputs[which]);
         let (centre_rates, rates) = &self.rates[which];
-        Watched {
+        EventValue {
             value: self.with_spread(centre, whole, tau),
             rate: self.with_spread(centre_rates, rates, tau),
         }

@@ -8,14 +8,14 @@ use crate::case::ExactCase;
 use crate::model::Model;
 use crate::slack::search::Path;
 use crate::slack::set::Set;
-use crate::taut::begin::{Begun, begin, hull_of};
 use crate::taut::chart::Chart;
 use crate::taut::free::Free;
 use crate::taut::law::{Law, after};
 use crate::taut::rocking::Rocking;
-use crate::taut::run::{Begin, Event, hold};
+use crate::taut::run::{Event, StartData, enclose_taut_motion};
 use crate::taut::sliding::Sliding;
 use crate::taut::snap::Pair;
+use crate::taut::start::{Started, hull_of, start_motion};
 use crate::taut::step::{Equations, Step};
 use serde_json::Value;
 use snapload::{Parameters, Stop};
@@ -101,13 +101,13 @@ fn taut_motion_is_the_references() {
         let state = std::array::from_fn(|i| ball(&start[i]));
         let [x, y, theta, vx, vy, spin]: [Ball; 6] = state;
         let instants = Set::of_box(&[x, y, theta, vx, vy, spin, Ball::zero()]);
-        let begin = Begin {
+        let start = StartData {
             taut: &taut,
             instants: &instants,
             laws: &[],
             zeros: &Vec::new(),
         };
-        let end = hold(&model, &begin, &mut |_| Ok(()));
+        let end = enclose_taut_motion(&model, &start, &mut |_| Ok(()));
         let end = end.unwrap_or_else(|why| panic!("{}: {why:?}", case["id"]));
         let (state, t) = hull_of(&end.instants);
         if end.event == Event::Stop(Stop::UpperBound) {
@@ -280,8 +280,8 @@ fn followed<const N: usize>(
 }
 
 /// A step with few digits, where the remainder dominates, and a step from a wide box contain the
-/// results of many digits for the box's middle and corners: coordinates and watched values.
-fn steps_hold<const N: usize>(chart: &impl Chart<N>, start: [f64; N]) {
+/// results of many digits for the box's middle and corners: coordinates and event functions.
+fn steps_enclose_taut_motion<const N: usize>(chart: &impl Chart<N>, start: [f64; N]) {
     let [(_, fine), (_, few)] = [4, 2].map(|limbs| rectangle([1.5, 0.2, 0.1], limbs));
     let [exact, equations] = [&fine, &few].map(|model| Equations::of(chart, model));
     let time = 0.75;
@@ -320,9 +320,9 @@ fn steps_hold<const N: usize>(chart: &impl Chart<N>, start: [f64; N]) {
                 let now = exact.program.expand(&truth, &when, 1, &fine.functions);
                 let now = now.expect("no division by zero").outputs;
                 for (which, series) in now.iter().enumerate() {
-                    let watched = step.one_watched(which, &tau);
-                    pairs.push((watched.value, series[0].clone()));
-                    pairs.push((watched.rate, series[1].clone()));
+                    let event_value = step.event_value(which, &tau);
+                    pairs.push((event_value.value, series[0].clone()));
+                    pairs.push((event_value.rate, series[1].clone()));
                 }
                 for (ours, truth) in pairs {
                     let off = (&ours.centre() - &truth).lower();
@@ -335,20 +335,24 @@ fn steps_hold<const N: usize>(chart: &impl Chart<N>, start: [f64; N]) {
 
 #[test]
 fn steps_hold_the_motion() {
-    steps_hold(&Sliding(0), [0.3, -0.2, 0.7, -1.1]);
-    steps_hold(&Sliding(1), [0.3, -0.2, 0.7, -1.1]);
-    steps_hold(&Rocking::hanging(), [0.3, -1.1]);
+    steps_enclose_taut_motion(&Sliding(0), [0.3, -0.2, 0.7, -1.1]);
+    steps_enclose_taut_motion(&Sliding(1), [0.3, -0.2, 0.7, -1.1]);
+    steps_enclose_taut_motion(&Rocking::hanging(), [0.3, -1.1]);
 }
 
 /// The states of a box, each at an instant of its own, are carried to the beginning of a motion:
 /// the images of single states of the box are in the set. This is tested for all three kinds of
 /// motion, after a law.
-fn begins_hold<const N: usize>(chart: &impl Chart<N>, laws: &[Law], state: [f64; 7]) {
+fn starts_enclose_taut_motion<const N: usize>(
+    chart: &impl Chart<N>,
+    laws: &[Law],
+    state: [f64; 7],
+) {
     let (_, model) = rectangle([1.5, 0.2, 0.1], LIMBS);
     let equations = Equations::of(chart, &model);
     let wide = state.map(|x| number(x).widened(Radius::power_of_two(-60)));
-    let Begun { set, t, .. } =
-        begin(&equations, chart, laws, &Set::of_box(&wide)).expect("a begin");
+    let Started { set, t, .. } =
+        start_motion(&equations, chart, laws, &Set::of_box(&wide)).expect("a start");
     let hull = set.hull();
     for corner in 0..128u32 {
         let one: [Ball; 7] = std::array::from_fn(|i| {
@@ -383,15 +387,15 @@ fn begins_hold_every_state() {
             cable: 0,
             share: number(1.0),
         };
-        let both = Law::Beside {
+        let both = Law::KeepingTaut {
             struck: 0,
             taut: 1,
             share: number(1.0),
         };
-        begins_hold(&Free, &[], state);
-        begins_hold(&Free, std::slice::from_ref(&both), state);
-        begins_hold(&Sliding(0), std::slice::from_ref(&one), state);
-        begins_hold(&Sliding(1), &[one, both.clone()], state);
-        begins_hold(&Rocking::hanging(), &[both], state);
+        starts_enclose_taut_motion(&Free, &[], state);
+        starts_enclose_taut_motion(&Free, std::slice::from_ref(&both), state);
+        starts_enclose_taut_motion(&Sliding(0), std::slice::from_ref(&one), state);
+        starts_enclose_taut_motion(&Sliding(1), &[one, both.clone()], state);
+        starts_enclose_taut_motion(&Rocking::hanging(), &[both], state);
     }
 }

@@ -108,11 +108,11 @@ fn a_refusal_shows_where_the_digits_differ() {
         let claimed = altered["impacts"][place][field]
             .as_str()
             .expect("a decimal");
-        let Verdict::Refused(words) = check(&altered.to_string()) else {
+        let Verdict::Refused(message) = check(&altered.to_string()) else {
             panic!("passed");
         };
-        let said = format!("is {known}, but {claimed} is claimed");
-        assert!(words.contains(&said), "{words}");
+        let expected = format!("is {known}, but {claimed} is claimed");
+        assert!(message.contains(&expected), "{message}");
     }
 }
 

@@ -1,14 +1,14 @@
 //! `/api/structure/elastic`: the same structure on elastic lines, as by `snapload elastic`.
 use super::Latest;
 use super::motion::Columns;
-use super::opened::{Asked, Opened};
+use super::opened::{CaseRequest, Opened};
 use super::run::too_long;
 use crate::refusal::Refusal;
 use crate::work::Allowance;
 use serde::{Deserialize, Serialize};
 use serde_json::Value as JsonValue;
 use snapload::analysis::Progress;
-use snapload_structure::{Prepared, both_models};
+use snapload_structure::{ModelAtRest, compare_elastic};
 use std::time::Duration;
 
 /// Its time budget.
@@ -20,7 +20,7 @@ const MOST_KEPT: f64 = 200_000.0;
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct Request {
-    case: Asked,
+    case: CaseRequest,
     /// The time interval that is shown \[s\].
     window: [f64; 2],
 }
@@ -42,21 +42,25 @@ pub(crate) fn answer(
 ) -> Result<Vec<u8>, Refusal> {
     let case = request.case.read(start)?;
     let allowance = allowance.within(BUDGET);
-    let go_on = |progress: Progress| allowance.go_on(progress);
+    let on_progress = |progress: Progress| allowance.check(progress);
     let every_s = EVERY_S.max(case.structure.duration_s / MOST_KEPT);
-    let both = latest.both.of(&request.case.fingerprint(), || {
-        let prepared = Prepared::for_springs(case.structure.clone())?;
-        both_models(prepared, 1.0, every_s, &go_on)
+    let comparison = latest.comparison.of(&request.case.fingerprint(), || {
+        let prepared = ModelAtRest::for_elastic_lines(case.structure.clone())?;
+        compare_elastic(prepared, 1.0, every_s, &on_progress)
     });
-    let both = both.map_err(|unfinished| too_long(&case, BUDGET, unfinished))?;
-    let mut told = both.to_json(&case.opened.name);
-    if let Some(told) = told.as_object_mut() {
-        told.remove("pulls");
-        told.remove("inextensible");
+    let comparison = comparison.map_err(|unfinished| too_long(&case, BUDGET, unfinished))?;
+    let mut json = comparison.to_json(&case.opened.name);
+    if let Some(json) = json.as_object_mut() {
+        json.remove("pulls");
+        json.remove("inextensible");
     }
     let answer = Answer {
-        elastic: told,
-        motion: Columns::of_elastic(&both.elastic, &both.sprung.model.scales, request.window),
+        elastic: json,
+        motion: Columns::of_elastic(
+            &comparison.elastic,
+            &comparison.elastic_case.model.scales,
+            request.window,
+        ),
         shell: case.command("elastic"),
     };
     serde_json::to_vec(&answer).map_err(Refusal::failed)

@@ -1,7 +1,7 @@
 //! `/api/structure/export/NAME`: the case, its results and the page for a design note.
 use super::Latest;
-use super::opened::{Asked, Opened};
-use super::run::{Wanted, assessed, too_long};
+use super::opened::{CaseRequest, Opened};
+use super::run::{RunRequest, assessed, too_long};
 use crate::refusal::Refusal;
 use crate::work::Allowance;
 use serde::Deserialize;
@@ -12,7 +12,7 @@ use std::time::Duration;
 /// The time budget of a file: a run, its neighbours and other waves.
 const BUDGET: Duration = Duration::from_secs(120);
 
-/// A file that can be asked for.
+/// A file that can be requested.
 #[derive(Clone, Copy)]
 pub(crate) enum File {
     Case,
@@ -23,7 +23,7 @@ pub(crate) enum File {
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct Request {
-    case: Asked,
+    case: CaseRequest,
     /// Whether to report the progress, line by line.
     #[serde(default, rename = "told")]
     pub(crate) progress: bool,
@@ -63,18 +63,18 @@ impl File {
         }
         let allowance = allowance.within(BUDGET);
         // What was already computed for the page is not run again.
-        let wanted = Wanted {
+        let wanted_run = RunRequest {
             preview: false,
             neighbours: true,
             time: BUDGET,
         };
-        let assessment = assessed(&request.case, &case, wanted, latest, &allowance)?;
+        let assessment = assessed(&request.case, &case, wanted_run, latest, &allowance)?;
         let name = &case.opened.name;
         if matches!(self, Self::Assessment) {
             let answer = assessment.to_json(name);
             return serde_json::to_vec_pretty(&answer).map_err(Refusal::failed);
         }
-        let scan = note::scan(&case.structure, &|progress| allowance.go_on(progress));
+        let scan = note::scan(&case.structure, &|progress| allowance.check(progress));
         let scan =
             scan.map_err(|cancelled| too_long(&case, BUDGET, Unfinished::Cancelled(cancelled)))?;
         let command = case.command("assess");

@@ -20,14 +20,14 @@ pub(crate) use run::{Request as RunRequest, answer as run};
 pub(crate) use schema::{opened, schema};
 pub(crate) use waves::{Request as WavesRequest, answer as waves};
 
-use snapload_structure::{Assessment, BothModels};
+use snapload_structure::{Assessment, ElasticComparison};
 use std::sync::{Arc, Mutex, PoisonError};
 
 /// The latest runs, which are not repeated when a page shows another part of their time.
 #[derive(Default)]
 pub(crate) struct Latest {
     assessment: Kept<Assessment>,
-    both: Kept<BothModels>,
+    comparison: Kept<ElasticComparison>,
 }
 
 /// The latest result, with the request for which it was computed.
@@ -41,21 +41,25 @@ impl<T> Default for Kept<T> {
 
 impl<T> Kept<T> {
     /// The stored result for a request.
-    fn get(&self, asked: &str) -> Option<Arc<T>> {
+    fn get(&self, fingerprint: &str) -> Option<Arc<T>> {
         // A thread that panicked while it held the lock has stored nothing incomplete.
         let kept = self.0.lock().unwrap_or_else(PoisonError::into_inner);
-        let same = kept.as_ref().filter(|(of, _)| of == asked);
+        let same = kept.as_ref().filter(|(of, _)| of == fingerprint);
         same.map(|(_, found)| Arc::clone(found))
     }
 
     /// The stored result for a request, or one that is computed now and stored.
-    fn of<E>(&self, asked: &str, compute: impl FnOnce() -> Result<T, E>) -> Result<Arc<T>, E> {
-        if let Some(found) = self.get(asked) {
+    fn of<E>(
+        &self,
+        fingerprint: &str,
+        compute: impl FnOnce() -> Result<T, E>,
+    ) -> Result<Arc<T>, E> {
+        if let Some(found) = self.get(fingerprint) {
             return Ok(found);
         }
         let found = Arc::new(compute()?);
         let mut kept = self.0.lock().unwrap_or_else(PoisonError::into_inner);
-        *kept = Some((asked.to_owned(), Arc::clone(&found)));
+        *kept = Some((fingerprint.to_owned(), Arc::clone(&found)));
         Ok(found)
     }
 }

@@ -2,7 +2,7 @@
 use crate::refusal::Refusal;
 use serde::{Deserialize, Serialize};
 use snapload::{CaseError, Entries};
-use snapload_structure::{READS_NO_FILES, STRUCTURE, Structure};
+use snapload_structure::{NO_FILES_HERE, STRUCTURE, Structure};
 use std::fmt::Write as _;
 use std::path::PathBuf;
 
@@ -40,7 +40,7 @@ pub(crate) struct File {
 /// A case, as a request names it.
 #[derive(Clone, Debug, Deserialize, Serialize)]
 #[serde(deny_unknown_fields)]
-pub(crate) struct Asked {
+pub(crate) struct CaseRequest {
     /// A file in place of the one with which the program was started.
     #[serde(default)]
     file: Option<File>,
@@ -85,15 +85,15 @@ impl Opened {
     /// program was started may belong to another body: such a case may not name files.
     pub(crate) fn structure(&self) -> Result<Structure, CaseError> {
         let Some(folder) = &self.folder else {
-            let alone = Structure::from_entries(&self.entries);
-            return alone.map_err(|error| self.say_how_to_begin(error));
+            let structure = Structure::from_entries(&self.entries);
+            return structure.map_err(|error| self.with_folder_hint(error));
         };
         Structure::from_entries_beside(&self.entries, folder)
     }
 
     /// Adds a hint if the error is that a file is named.
-    fn say_how_to_begin(&self, error: CaseError) -> CaseError {
-        if &*error.allowed != READS_NO_FILES {
+    fn with_folder_hint(&self, error: CaseError) -> CaseError {
+        if &*error.allowed != NO_FILES_HERE {
             return error;
         }
         let name = &self.name;
@@ -133,7 +133,7 @@ impl Opened {
     }
 }
 
-impl Asked {
+impl CaseRequest {
     /// Reads and checks it; `start` is the case with which the program was started.
     pub(crate) fn read(&self, start: Option<&Opened>) -> Result<Case, Refusal> {
         let mut opened = match (&self.file, start) {

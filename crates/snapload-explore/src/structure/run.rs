@@ -1,7 +1,7 @@
 //! `/api/structure/run`: a structure as by `snapload assess`, with everything that the page draws.
 use super::Latest;
 use super::motion::Columns;
-use super::opened::{Asked, Case, Opened};
+use super::opened::{Case, CaseRequest, Opened};
 use crate::refusal::Refusal;
 use crate::work::Allowance;
 use serde::{Deserialize, Serialize};
@@ -23,7 +23,7 @@ const MOST_SHOWN: usize = 20_000;
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct Request {
-    case: Asked,
+    case: CaseRequest,
     /// Whether to run all of a long record, and not its beginning alone.
     #[serde(default)]
     whole: bool,
@@ -59,7 +59,7 @@ pub(crate) fn answer(
     let lasts_s = case.structure.duration_s;
     let preview =
         !request.whole && lasts_s > PREVIEW_S && matches!(case.structure.water, Water::Sea(_));
-    let wanted = Wanted {
+    let wanted_run = RunRequest {
         preview,
         neighbours: request.neighbours,
         time: if request.whole || request.neighbours {
@@ -68,14 +68,14 @@ pub(crate) fn answer(
             BUDGET
         },
     };
-    let assessment = assessed(&request.case, &case, wanted, latest, allowance)?;
+    let assessment = assessed(&request.case, &case, wanted_run, latest, allowance)?;
     let answer = Answer::new(&case, &assessment, request.window, preview, began);
     serde_json::to_vec(&answer).map_err(Refusal::failed)
 }
 
-/// The run of a case that is asked for.
+/// The requested run of a case.
 #[derive(Clone, Copy)]
-pub(super) struct Wanted {
+pub(super) struct RunRequest {
     /// The beginning of a long record only.
     pub(super) preview: bool,
     /// Also its neighbours and other restitutions.
@@ -84,36 +84,38 @@ pub(super) struct Wanted {
     pub(super) time: Duration,
 }
 
-/// The run that is asked for, which is not repeated if it was asked for before.
+/// The requested run, which is not repeated if it was requested before.
 pub(super) fn assessed(
-    asked: &Asked,
+    case_request: &CaseRequest,
     case: &Case,
-    wanted: Wanted,
+    wanted_run: RunRequest,
     latest: &Latest,
     allowance: &Allowance,
 ) -> Result<Arc<Assessment>, Refusal> {
     let kept = &latest.assessment;
-    let allowance = allowance.within(wanted.time);
-    let go_on = |progress: Progress| allowance.go_on(progress);
-    let refuse = |unfinished| too_long(case, wanted.time, unfinished);
-    let fingerprint = format!("{} {}", asked.fingerprint(), wanted.preview);
-    let beside = format!("{fingerprint} beside its neighbours");
-    if let Some(found) = kept.get(&beside) {
+    let allowance = allowance.within(wanted_run.time);
+    let on_progress = |progress: Progress| allowance.check(progress);
+    let refuse = |unfinished| too_long(case, wanted_run.time, unfinished);
+    let fingerprint = format!("{} {}", case_request.fingerprint(), wanted_run.preview);
+    let with_neighbours = format!("{fingerprint} beside its neighbours");
+    if let Some(found) = kept.get(&with_neighbours) {
         return Ok(found);
     }
-    let structure = match wanted.preview {
+    let structure = match wanted_run.preview {
         true => beginning(&case.structure),
         false => case.structure.clone(),
     };
-    let alone = kept
-        .of(&fingerprint, || Assessment::alone(structure, &go_on))
+    let single = kept
+        .of(&fingerprint, || {
+            Assessment::single_run(structure, &on_progress)
+        })
         .map_err(refuse)?;
-    if !wanted.neighbours {
-        return Ok(alone);
+    if !wanted_run.neighbours {
+        return Ok(single);
     }
-    let alone = Arc::unwrap_or_clone(alone);
-    kept.of(&beside, || {
-        alone.with_neighbours(DEFAULT_NEIGHBOURS, &go_on)
+    let single = Arc::unwrap_or_clone(single);
+    kept.of(&with_neighbours, || {
+        single.with_neighbours(DEFAULT_NEIGHBOURS, &on_progress)
     })
     .map_err(refuse)
 }
@@ -201,10 +203,10 @@ impl Answer {
         let window = window.unwrap_or_else(|| note::window(assessment));
         // Rounded to the millisecond, as in links.
         let window = [window[0], window[1].min(end)].map(|t| (t * 1e3).round() / 1e3);
-        let mut told = assessment.to_json(name);
-        if let Some(told) = told.as_object_mut() {
-            told.remove("snaps");
-            told.remove("neighbour_peaks_n");
+        let mut json = assessment.to_json(name);
+        if let Some(json) = json.as_object_mut() {
+            json.remove("snaps");
+            json.remove("neighbour_peaks_n");
         }
         let heading = case.structure.heading;
         let wave = |wave: &snapload_structure::LinearWave| {
@@ -212,10 +214,10 @@ impl Answer {
             [wave.amplitude_m, wave.omega_rad_s, k, wave.phase_rad]
         };
         Self {
-            assessment: told,
+            assessment: json,
             summary: assessment.summary(name),
             standing: assessment.verdict().standing.words(),
-            rebound: (!assessment.restitutions.is_empty()).then(|| assessment.rebound_words()),
+            rebound: (!assessment.restitutions.is_empty()).then(|| assessment.rebound_text()),
             preview,
             lasts_s: case.structure.duration_s,
             transient_s: prepared.structure.transient_s,
@@ -266,7 +268,7 @@ impl Snaps {
         Self {
             t: shown.iter().map(|snap| snap.t_s).collect(),
             line: shown.iter().map(|snap| snap.line + 1).collect(),
-            jolt: shown.iter().map(|snap| snap.is_jolt).collect(),
+            jolt: shown.iter().map(|snap| snap.is_impact_while_taut).collect(),
             speed: shown.iter().map(|snap| snap.effective_speed_m_s).collect(),
             peak: shown
                 .iter()

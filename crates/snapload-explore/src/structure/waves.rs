@@ -1,5 +1,5 @@
 //! `/api/structure/waves`: the same structure in regular waves of other heights and periods.
-use super::opened::{Asked, Opened};
+use super::opened::{CaseRequest, Opened};
 use super::run::too_long;
 use crate::refusal::Refusal;
 use crate::work::Allowance;
@@ -14,7 +14,7 @@ const BUDGET: Duration = Duration::from_secs(120);
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct Request {
-    case: Asked,
+    case: CaseRequest,
 }
 
 #[derive(Serialize)]
@@ -37,8 +37,8 @@ pub(crate) fn answer(
 ) -> Result<Vec<u8>, Refusal> {
     let case = request.case.read(start)?;
     let allowance = allowance.within(BUDGET);
-    let go_on = |progress: Progress| allowance.go_on(progress);
-    let scan = note::scan(&case.structure, &go_on)
+    let on_progress = |progress: Progress| allowance.check(progress);
+    let scan = note::scan(&case.structure, &on_progress)
         .map_err(|cancelled| too_long(&case, BUDGET, Unfinished::Cancelled(cancelled)))?
         .ok_or_else(|| {
             Refusal::values("other waves are computed around a regular wave; the case has none")

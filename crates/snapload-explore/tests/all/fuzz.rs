@@ -73,7 +73,7 @@ fn is_no_failure(server: &Running, bytes: &[u8]) {
 
 /// A client that waits briefly, and closes the connection if no answer comes: many of its requests
 /// are incomplete.
-fn said(server: &Running, bytes: &[u8]) {
+fn send_bytes(server: &Running, bytes: &[u8]) {
     let mut stream = server.connect();
     let _ = stream.write_all(bytes);
     let mut read = Vec::new();
@@ -114,20 +114,20 @@ fn the_server_survives_whatever_comes_in() {
 fn random_bytes(server: &Running) {
     let mut numbers = Numbers(1);
     for _ in 0..200 {
-        said(server, &numbers.bytes(2000));
+        send_bytes(server, &numbers.bytes(2000));
     }
-    said(server, &[b'a'; 200_000]);
-    said(
+    send_bytes(server, &[b'a'; 200_000]);
+    send_bytes(
         server,
         format!("GET /{} HTTP/1.1\r\n\r\n", "a".repeat(100_000)).as_bytes(),
     );
     let many = "X: y\r\n".repeat(5000);
-    said(server, format!("GET / HTTP/1.1\r\n{many}\r\n").as_bytes());
+    send_bytes(server, format!("GET / HTTP/1.1\r\n{many}\r\n").as_bytes());
 }
 
 fn mutated_requests(server: &Running) {
     let kind = "Content-Type: application/json\r\n";
-    let asked = format!(
+    let request = format!(
         r#"{{"case":{{"file":{STRUCTURE},"set":["wave.height=1.5"],"water":"wave"}},"window":[1,3]}}"#
     );
     let map = r#"{"values":{},"x":{"key":"f_o","low":0.1,"high":0.2,"count":2},"y":{"key":"e","low":0.5,"high":1,"count":2}}"#;
@@ -148,8 +148,8 @@ fn mutated_requests(server: &Running) {
             r#"{"values":{"f_o":0.31},"options":{"impacts":2}}"#,
         ),
         server.request("POST", "/api/structure", kind, STRUCTURE),
-        server.request("POST", "/api/structure/run", kind, &asked),
-        server.request("POST", "/api/structure/elastic", kind, &asked),
+        server.request("POST", "/api/structure/run", kind, &request),
+        server.request("POST", "/api/structure/elastic", kind, &request),
         server.request(
             "POST",
             "/api/export/modes.csv",
@@ -167,7 +167,7 @@ fn mutated_requests(server: &Running) {
         };
         let mut bytes = request[..from].to_vec();
         bytes.extend(numbers.mutated(&request[from..]));
-        said(server, &bytes);
+        send_bytes(server, &bytes);
     }
 }
 

@@ -50,7 +50,7 @@ fn refuse(path: &str, cases: impl IntoIterator<Item = (Value, u16, Value, &'stat
 }
 
 #[test]
-fn runs_that_ask_for_too_much_are_refused() {
+fn runs_that_request_too_much_are_refused() {
     let samples = "2 <= samples <= 20000";
     refuse(
         "/api/run",
@@ -100,7 +100,7 @@ fn runs_that_ask_for_too_much_are_refused() {
 }
 
 #[test]
-fn maps_that_ask_for_too_much_are_refused() {
+fn maps_that_request_too_much_are_refused() {
     let axis =
         |key: &str, count: i64| json!({ "key": key, "low": 0.1, "high": 0.2, "count": count });
     let map = |x: Value, y: Value| json!({ "values": {}, "x": x, "y": y });
@@ -233,8 +233,8 @@ fn bodies_that_are_no_json_or_too_large_are_refused() {
     let large = format!("{{\"values\":{{\"body\":\"{}\"}}}}", "x".repeat(65 << 10));
     let refused = server.post_text("/api/run", &large);
     assert_eq!(refused.status, 413);
-    let said = String::from_utf8_lossy(&refused.body);
-    assert!(said.contains("more than 64 KiB"), "{said}");
+    let message = String::from_utf8_lossy(&refused.body);
+    assert!(message.contains("more than 64 KiB"), "{message}");
     // The same without announcing its length.
     let chunked = format!(
         "POST /api/run HTTP/1.1\r\nHost: 127.0.0.1:{}\r\nConnection: close\r\nTransfer-Encoding: chunked\r\n{kind}\r\n\

@@ -70,18 +70,19 @@ fn files_outside_the_page_are_not_served() {
 }
 
 #[test]
-fn the_schema_tells_every_key_and_makes_every_case() {
+fn the_schema_has_every_key_and_makes_every_case() {
     let schema = serve().get("/api/schema").json();
     let names: Vec<&str> = KEYS.iter().map(|key| key.name).collect();
-    let told = schema["keys"].as_array().unwrap();
+    let answer = schema["keys"].as_array().unwrap();
     assert!(
-        told.iter()
+        answer
+            .iter()
             .map(|key| key["name"].as_str().unwrap())
             .eq(names)
     );
-    for (case, told) in named_cases().zip(schema["cases"].as_array().unwrap()) {
-        assert_eq!(told["code"], case.code);
-        let values = told["values"].as_object().unwrap();
+    for (case, answer) in named_cases().zip(schema["cases"].as_array().unwrap()) {
+        assert_eq!(answer["code"], case.code);
+        let values = answer["values"].as_object().unwrap();
         let entries = values.iter().map(|(key, value)| {
             let number = value.as_f64().map(snapload::Value::Number);
             (
@@ -122,8 +123,8 @@ fn a_run_has_the_numbers_of_the_library() {
     ] {
         let case = case(&entries);
         let (run, trust) = trusted_run(&case, &Uncertainty::default(), &no_progress).unwrap();
-        let told = server.run(values);
-        let impacts = &told["impacts"];
+        let answer = server.run(values);
+        let impacts = &answer["impacts"];
         assert!(run.impacts().iter().map(|i| i.t).eq(numbers(&impacts["t"])));
         assert!(
             run.impacts()
@@ -146,26 +147,26 @@ fn a_run_has_the_numbers_of_the_library() {
                 && digits[known..].iter().skip(2).all(Value::is_null)
         );
         assert_eq!(
-            told["horizon"]["t"].as_f64(),
+            answer["horizon"]["t"].as_f64(),
             trust.horizon.map(|horizon| horizon.t)
         );
-        assert_eq!(told["horizon"]["certain"], trust.decides_the_end());
-        assert_eq!(told["end"]["t"], run.end().t);
-        assert_eq!(told["norms"]["rho3"], run.norms().rho3);
-        assert_eq!(told["values"]["r"], case.parameters().r);
+        assert_eq!(answer["horizon"]["certain"], trust.decides_the_end());
+        assert_eq!(answer["end"]["t"], run.end().t);
+        assert_eq!(answer["norms"]["rho3"], run.norms().rho3);
+        assert_eq!(answer["values"]["r"], case.parameters().r);
         let starts = run.modes().iter().map(|mode| mode.t_start);
-        assert!(starts.eq(numbers(&told["modes"]["t_start"])));
-        motion_is_of(&run, &told["motion"]);
+        assert!(starts.eq(numbers(&answer["modes"]["t_start"])));
+        motion_is_of(&run, &answer["motion"]);
     }
 }
 
 /// Between impacts the motion is the run's; at an impact the position does not change, and the loss
 /// of energy is the impact's.
-fn motion_is_of(run: &Trajectory, told: &Value) {
+fn motion_is_of(run: &Trajectory, answer: &Value) {
     let names = [
         "t", "x", "y", "theta", "vx", "vy", "vtheta", "T1", "T2", "energy",
     ];
-    let columns = names.map(|name| numbers(&told[name]));
+    let columns = names.map(|name| numbers(&answer[name]));
     let row =
         |k: usize| names.map(|name| columns[names.iter().position(|n| *n == name).unwrap()][k]);
     let rows: Vec<[f64; 10]> = (0..columns[0].len()).map(row).collect();
@@ -206,23 +207,23 @@ fn motion_is_of(run: &Trajectory, told: &Value) {
 #[test]
 fn the_geometry_is_that_of_the_model() {
     let server = serve();
-    let told = server.run(json!({ "r": 2.0, "a": 0.2, "b": 0.1 }));
+    let answer = server.run(json!({ "r": 2.0, "a": 0.2, "b": 0.1 }));
     // docs/model.md section 2: anchors at (±1, h + b), ends at (±a, b), h = sqrt(r^2 - (1 - a)^2).
     let h = (4.0_f64 - 0.64).sqrt();
-    let cable = &told["geometry"]["cables"][0];
+    let cable = &answer["geometry"]["cables"][0];
     assert_eq!(numbers(&cable["arm"]), [0.2, 0.1]);
     let anchor = numbers(&cable["anchor"]);
     assert!((anchor[0] - 1.0).abs() < 1e-15 && (anchor[1] - h - 0.1).abs() < 1e-15);
     let body = json!({ "kind": "rigid", "shape": "rectangle", "a": 0.2, "b": 0.1 });
-    assert_eq!(told["geometry"]["body"], body);
+    assert_eq!(answer["geometry"]["body"], body);
 }
 
 #[test]
-fn a_neighbour_starts_beside_the_run_and_parts_from_it_where_it_says() {
+fn a_neighbour_starts_near_the_run_and_separates_at_the_reported_time() {
     let server = serve();
-    let asked = json!({ "values": { "f_o": 0.4 }, "ghost": 1e-6, "samples": 1000 });
-    let told = server.post("/api/run", &asked).json();
-    let ghost = &told["ghost"];
+    let request = json!({ "values": { "f_o": 0.4 }, "ghost": 1e-6, "samples": 1000 });
+    let answer = server.post("/api/run", &request).json();
+    let ghost = &answer["ghost"];
     assert_eq!(
         (ghost["key"].as_str(), ghost["by"].as_f64()),
         (Some("x"), Some(1e-6))
@@ -244,33 +245,33 @@ fn a_neighbour_starts_beside_the_run_and_parts_from_it_where_it_says() {
 fn a_neighbour_beyond_the_cables_is_sought_on_the_other_side() {
     // With the right cable taut there is no free space to the left, and only rounding to the right.
     let server = serve();
-    let asked = json!({ "values": { "x": 0, "y": 0 }, "ghost": 1e-6 });
-    let told = server.post("/api/run", &asked).json();
-    assert_eq!(told["ghost"]["key"], "y", "{}", told["ghost_error"]);
+    let request = json!({ "values": { "x": 0, "y": 0 }, "ghost": 1e-6 });
+    let answer = server.post("/api/run", &request).json();
+    assert_eq!(answer["ghost"]["key"], "y", "{}", answer["ghost_error"]);
 }
 
 #[test]
 fn the_lines_that_make_the_same_run_do() {
-    let told = serve().run(json!({ "f_o": 0.31, "body": "rigid", "stop_when_sliding": true }));
+    let answer = serve().run(json!({ "f_o": 0.31, "body": "rigid", "stop_when_sliding": true }));
     assert_eq!(
-        told["shell"],
+        answer["shell"],
         "snapload run --set f_o=0.31 --set stop_when_sliding=true"
     );
-    let python = told["python"].as_str().unwrap();
+    let python = answer["python"].as_str().unwrap();
     assert!(python.contains("snapload.Case(f_o=0.31, stop_when_sliding=True).run()"));
 }
 
 #[test]
-fn a_run_of_very_many_impacts_is_cut_and_says_so() {
+fn a_run_of_very_many_impacts_is_cut_and_reported_as_cut() {
     // Without loss and forcing the body bounces for ever.
-    let told = serve().run(json!({ "body": "point", "e": 1, "f_o": 0, "y": 1e-4, "t_end": 200 }));
-    let (all, shown) = (&told["cut"]["impacts"], &told["cut"]["shown"]);
+    let answer = serve().run(json!({ "body": "point", "e": 1, "f_o": 0, "y": 1e-4, "t_end": 200 }));
+    let (all, shown) = (&answer["cut"]["impacts"], &answer["cut"]["shown"]);
     assert!(all.as_u64().unwrap() > 10_000, "{all}");
     assert_eq!(
-        (shown.as_u64(), numbers(&told["impacts"]["t"]).len()),
+        (shown.as_u64(), numbers(&answer["impacts"]["t"]).len()),
         (Some(10_000), 10_000)
     );
-    assert_eq!(numbers(&told["motion"]["t"]).last(), Some(&200.0));
+    assert_eq!(numbers(&answer["motion"]["t"]).last(), Some(&200.0));
 }
 
 #[test]
@@ -294,12 +295,12 @@ fn a_run_that_takes_too_long_is_refused_with_what_to_do() {
 #[test]
 fn a_map_has_the_outcomes_of_its_cases() {
     let server = serve();
-    let asked = json!({
+    let request = json!({
         "values": { "t_end": 20 },
         "x": { "key": "f_o", "low": 0.01, "high": 0.6, "count": 11 },
         "y": { "key": "r", "low": 0.8, "high": 2.0, "count": 5 },
     });
-    let answer = server.post("/api/map", &asked);
+    let answer = server.post("/api/map", &request);
     assert_eq!(answer.status, 200);
     let text = String::from_utf8(answer.body).unwrap();
     let lines: Vec<Value> = text
@@ -342,12 +343,12 @@ fn a_map_has_the_outcomes_of_its_cases() {
 #[test]
 fn a_map_runs_long_cases_to_their_ends() {
     let server = serve();
-    let asked = json!({
+    let request = json!({
         "values": { "body": "point", "e": 1, "f_o": 0 },
         "x": { "key": "y", "low": 1e-5, "high": 2e-5, "count": 2 },
         "y": { "key": "t_end", "low": 90, "high": 1200, "count": 2 },
     });
-    let text = String::from_utf8(server.post("/api/map", &asked).body).unwrap();
+    let text = String::from_utf8(server.post("/api/map", &request).body).unwrap();
     let chunk: Value = serde_json::from_str(text.lines().nth(1).unwrap()).unwrap();
     let one = case(&[
         ("e", 1.into()),

@@ -82,9 +82,9 @@ fn borders_of_cells_are_halfway_between_values() {
             .collect::<Vec<f64>>()
     };
     // From −0.5 to 4.
-    let wanted = [0.0, 1.0, 2.5, 4.5].map(|side| side / 4.5);
-    for (side, wanted) in borders(&[0.0, 1.0, 3.0]).into_iter().zip(wanted) {
-        assert!((side - wanted).abs() < 1e-3);
+    let expected = [0.0, 1.0, 2.5, 4.5].map(|side| side / 4.5);
+    for (side, expected) in borders(&[0.0, 1.0, 3.0]).into_iter().zip(expected) {
+        assert!((side - expected).abs() < 1e-3);
     }
     let alone = Map {
         x: vec![2.0],
@@ -99,7 +99,10 @@ fn borders_of_cells_are_halfway_between_values() {
         ..Plot::default()
     })
     .words;
-    for wanted in ["1.90", "2.10"] {
-        assert!(numbers.iter().any(|number| number == wanted), "{numbers:?}");
+    for expected in ["1.90", "2.10"] {
+        assert!(
+            numbers.iter().any(|number| number == expected),
+            "{numbers:?}"
+        );
     }
 }

@@ -197,13 +197,13 @@ fn a_long_smooth_line_needs_few_points() {
 }
 
 #[track_caller]
-fn assert_drawn(points: &[Point], wanted: &[&[Point]]) {
+fn assert_drawn(points: &[Point], expected: &[&[Point]]) {
     let paper = drawn(points);
-    assert_eq!(paper.line.len(), wanted.len());
-    for (piece, wanted) in paper.line.iter().zip(wanted) {
-        assert_eq!(piece.len(), wanted.len());
-        for (at, wanted) in piece.iter().zip(*wanted) {
-            assert!(distance(*at, paper.place(*wanted), paper.place(*wanted)) < 2.0 * ROUNDING);
+    assert_eq!(paper.line.len(), expected.len());
+    for (piece, expected) in paper.line.iter().zip(expected) {
+        assert_eq!(piece.len(), expected.len());
+        for (at, expected) in piece.iter().zip(*expected) {
+            assert!(distance(*at, paper.place(*expected), paper.place(*expected)) < 2.0 * ROUNDING);
         }
     }
 }

@@ -68,12 +68,12 @@ fn letters(picture: &Picture) -> Vec<String> {
 }
 
 #[track_caller]
-fn assert_says(plot: Plot, words: &[&str]) {
-    let said = letters(&picture(plot));
+fn assert_contains_texts(plot: Plot, words: &[&str]) {
+    let texts = letters(&picture(plot));
     for word in words {
         assert!(
-            said.iter().any(|text| text == word),
-            "{word:?} is not among {said:?}"
+            texts.iter().any(|text| text == word),
+            "{word:?} is not among {texts:?}"
         );
     }
 }
@@ -120,7 +120,7 @@ fn every_figure_contains_its_labels() {
         mark("S", [5.0, 2.0]),
         mark("G", [5.001, 2.0]),
     ];
-    assert_says(
+    assert_contains_texts(
         trajectory(&legs, [&up, &down], &marks),
         &[
             "x (L)",
@@ -133,37 +133,37 @@ fn every_figure_contains_its_labels() {
             "rocking",
         ],
     );
-    assert_says(
+    assert_contains_texts(
         rotation(&wave, Some(4.0)),
         &["θ (rad)", "t (T)", "π/2", "−π/2", "past the horizon"],
     );
-    assert_says(
+    assert_contains_texts(
         snap_velocities([&wave, &wave], None),
         &["vₙ⁻ (L/T)", "t (T)", "cable 1", "cable 2"],
     );
-    assert_says(
+    assert_contains_texts(
         tensions([&[up], &[down]], None),
         &["T (F)", "t (T)", "cable 1", "cable 2"],
     );
-    assert_says(energy(&wave, None), &["E (F L)", "t (T)"]);
+    assert_contains_texts(energy(&wave, None), &["E (F L)", "t (T)"]);
 }
 
 #[test]
-fn empty_figures_say_so() {
-    assert_says(tensions([&[], &[]], None), &["no cable stayed taut"]);
-    assert_says(
+fn empty_figures_have_a_note() {
+    assert_contains_texts(tensions([&[], &[]], None), &["no cable stayed taut"]);
+    assert_contains_texts(
         snap_velocities([&[], &[]], Some(1.0)),
         &["no cable snapped taut"],
     );
-    assert_says(energy(&[[f64::NAN, 1.0]], None), &["no data"]);
-    assert_says(trajectory(&[], [&[], &[]], &[]), &["no data"]);
-    assert_says(rotation(&[], None), &["no data", "π/2"]);
+    assert_contains_texts(energy(&[[f64::NAN, 1.0]], None), &["no data"]);
+    assert_contains_texts(trajectory(&[], [&[], &[]], &[]), &["no data"]);
+    assert_contains_texts(rotation(&[], None), &["no data", "π/2"]);
 }
 
 #[test]
 fn a_horizon_outside_the_picture_is_not_mentioned() {
-    let said = letters(&picture(energy(&[[0.0, 1.0], [1.0, 2.0]], Some(5.0))));
-    assert!(!said.iter().any(|text| text.contains("horizon")));
+    let texts = letters(&picture(energy(&[[0.0, 1.0], [1.0, 2.0]], Some(5.0))));
+    assert!(!texts.iter().any(|text| text.contains("horizon")));
 }
 
 #[test]
@@ -261,31 +261,31 @@ fn map(cells: Vec<Cell>) -> Plot {
 
 #[test]
 fn values_have_a_bar_and_classes_a_legend() {
-    use Cell::{Class, Empty, Fault, Value};
+    use Cell::{Class, Empty, Illegal, Value};
     let values = picture(map(vec![
         Value(0.0),
         Value(1.0),
         Value(2.0),
         Value(3.0),
         Empty,
-        Fault,
+        Illegal,
     ]));
-    let said = letters(&values);
-    for wanted in ["no legal case", "no value", "t (T)", "0", "3"] {
+    let texts = letters(&values);
+    for expected in ["no legal case", "no value", "t (T)", "0", "3"] {
         assert!(
-            said.iter().any(|text| text == wanted),
-            "{wanted} is not among {said:?}"
+            texts.iter().any(|text| text == expected),
+            "{expected} is not among {texts:?}"
         );
     }
-    assert!(!said.iter().any(|text| text == "settled"));
-    for wanted in ["url(#hatch)", "#440154", "#fde725"] {
-        assert!(values.svg().contains(wanted), "{wanted} is missing");
+    assert!(!texts.iter().any(|text| text == "settled"));
+    for expected in ["url(#hatch)", "#440154", "#fde725"] {
+        assert!(values.svg().contains(expected), "{expected} is missing");
     }
     let classes = picture(map(vec![Class(0); 6]));
-    let said = letters(&classes);
-    assert!(said.iter().any(|text| text == "settled"));
+    let texts = letters(&classes);
+    assert!(texts.iter().any(|text| text == "settled"));
     assert!(
-        !said
+        !texts
             .iter()
             .any(|text| text == "upper bound" || text == "no data")
     );
@@ -294,25 +294,25 @@ fn values_have_a_bar_and_classes_a_legend() {
 
 /// Uncertain cells keep their colour and are hatched on top; cells without a value are not hatched.
 #[test]
-fn cells_in_doubt_are_hatched() {
-    use Cell::{Class, Empty, Fault};
-    let doubt = |cells: Vec<Cell>, doubtful: Vec<bool>| {
+fn uncertain_cells_are_hatched() {
+    use Cell::{Class, Empty, Illegal};
+    let hatched = |cells: Vec<Cell>, uncertain: Vec<bool>| {
         let mut plot = map(cells);
         if let Layer::Map(map) = &mut plot.layers[0] {
-            map.doubtful = doubtful;
+            map.uncertain = uncertain;
         }
         picture(plot)
     };
-    let some = doubt(vec![Class(0); 6], vec![false, true, true]);
+    let some = hatched(vec![Class(0); 6], vec![false, true, true]);
     assert!(letters(&some).iter().any(|text| text == "not certain"));
     // The cells, and the sample of the legend.
     assert_eq!(some.svg().matches("fill=\"url(#doubt)\"").count(), 2);
-    let certain = doubt(vec![Class(0); 6], Vec::new());
+    let certain = hatched(vec![Class(0); 6], Vec::new());
     // Everything that is drawn without uncertainty is drawn with it, too.
     for line in certain.svg().lines() {
         assert!(some.svg().contains(line), "{line}");
     }
-    let nothing = doubt([Empty, Fault].repeat(3), vec![true; 6]);
+    let nothing = hatched([Empty, Illegal].repeat(3), vec![true; 6]);
     assert!(!nothing.svg().contains("doubt"));
     assert!(!letters(&nothing).iter().any(|text| text == "not certain"));
 }

@@ -4,7 +4,7 @@ use crate::pictures::picture;
 use snapload_figures::{FigureError, Plot, energy};
 
 #[test]
-fn a_png_has_the_asked_size() {
+fn a_png_has_the_requested_size() {
     let picture = picture(energy(&[[0.0, 1.0], [1.0, 2.0]], None));
     let (width, height) = picture.size_pt();
     assert!((width - 240.94).abs() < 0.01);

@@ -48,8 +48,8 @@ pub fn decay(
 ) -> Result<Decay, HydroError> {
     let steps = duration_s / step_s;
     if !(step_s > 0.0 && steps.is_finite() && (0.0..=1e6).contains(&steps)) {
-        let wanted = "the step must be above 0, and the duration at most a million steps";
-        return Err(HydroError::value("the step in s", step_s, wanted));
+        let expected = "the step must be above 0, and the duration at most a million steps";
+        return Err(HydroError::value("the step in s", step_s, expected));
     }
     let identity = DMatrix::identity(3, 3);
     let matrix = state_matrix(body, &body.stiffness, memory, added_mass_inf, &identity)?;
@@ -139,9 +139,10 @@ fn filon(values: &[(f64, f64)], t: f64) -> f64 {
 }
 
 /// The swings of one freedom, from its turning points: about zero where a stiffness brings it back
-/// there. Surge without lines stays where it comes to, and is told by the ways between its turns: in
-/// a swing with the ratio q² of one amplitude to the next about any place, the way from a turn to
-/// the next is the amplitude times 1 + q. Swings below a thousandth of the first are left out.
+/// there. Surge without lines stays where it ends, and is described by the distances between its
+/// turns: in a swing with the ratio q² of one amplitude to the next about any place, the way from a
+/// turn to the next is the amplitude times 1 + q. Swings below a thousandth of the first are left
+/// out.
 pub fn swings(decay: &Decay, freedom: usize) -> Vec<Swing> {
     let turns = turns(decay, freedom);
     let about_zero = decay.comes_back[freedom];

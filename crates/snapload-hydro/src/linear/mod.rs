@@ -12,4 +12,4 @@ pub use decay::{Decay, Swing, decay, decay_of_the_damping, swings};
 pub use natural::{Mode, Natural, eigenvalues, natural_of_the_file, natural_of_the_memory};
 pub use resonance::{Peak, fine_responses};
 pub use response::{Response, response_of_the_file, response_of_the_memory, significant};
-pub use rest::{Line, Rest, rest, rest_adrift};
+pub use rest::{Line, Rest, rest, rest_without_tension};

@@ -8,11 +8,11 @@ use crate::memory::Memory;
 use nalgebra::{Complex, Matrix3, Vector3};
 
 /// Points per refinement of a peak.
-const LOOKS: usize = 32;
+const POINTS_PER_REFINEMENT: usize = 32;
 /// The number of points on either side of the highest one that the next refinement includes.
-const BESIDE: usize = 4;
+const POINTS_ON_EITHER_SIDE: usize = 4;
 /// A peak is resolved if its neighbours are as high, up to this part.
-const ALIKE: f64 = 1e-4;
+const RESOLVED_WITHIN: f64 = 1e-4;
 /// Frequencies that differ by less than this part are the same.
 const SAME: f64 = 1e-9;
 /// The most refinements of one peak; an undamped one would never be resolved.
@@ -137,8 +137,8 @@ impl<'a> Points<'a> {
     /// Refines the peak of a degree of freedom between two frequencies.
     fn look_at(&mut self, freedom: usize, [mut low, mut high]: [f64; 2]) {
         for _ in 0..CLOSEST {
-            let step = (high - low) / LOOKS as f64;
-            self.add((1..LOOKS).map(|k| low + step * k as f64));
+            let step = (high - low) / POINTS_PER_REFINEMENT as f64;
+            self.add((1..POINTS_PER_REFINEMENT).map(|k| low + step * k as f64));
             let first = self.all.partition_point(|(omega, _)| *omega < low);
             let last = self.all.partition_point(|(omega, _)| *omega <= high);
             let size = |k: usize| self.all[k].1[freedom].norm();
@@ -147,11 +147,11 @@ impl<'a> Points<'a> {
                 return;
             };
             let least = size(highest - 1).min(size(highest + 1));
-            if least > (1.0 - ALIKE) * size(highest) {
+            if least > (1.0 - RESOLVED_WITHIN) * size(highest) {
                 return;
             }
-            low = self.all[highest.saturating_sub(BESIDE).max(first)].0;
-            high = self.all[(highest + BESIDE).min(last - 1)].0;
+            low = self.all[highest.saturating_sub(POINTS_ON_EITHER_SIDE).max(first)].0;
+            high = self.all[(highest + POINTS_ON_EITHER_SIDE).min(last - 1)].0;
         }
     }
 }

@@ -9,7 +9,7 @@ use nalgebra::{DMatrix, DVector, Matrix2x3, Matrix3, RowVector3, Vector2, Vector
 use std::f64::consts::FRAC_PI_2;
 
 /// The most lines that can be taut at once: there are three degrees of freedom.
-const MOST: usize = 3;
+const MOST_TAUT: usize = 3;
 /// The steps of Newton's method, and the factors of its starting points.
 const STEPS: usize = 60;
 const ROUNDING: f64 = 1e-13;
@@ -47,7 +47,7 @@ pub struct Rest {
 }
 
 /// A line at a position of the body.
-struct Pull {
+struct LineGeometry {
     /// From the reference point to the fairlead.
     r: Vector2<f64>,
     /// Distance of fairlead and anchor, and the direction.
@@ -55,18 +55,18 @@ struct Pull {
     n: Vector2<f64>,
 }
 
-impl Pull {
+impl LineGeometry {
     fn at(line: &Line, reference: [f64; 2], q: &Vector3<f64>) -> Self {
         let (sine, cosine) = q[2].sin_cos();
         let [x, z] = line.fairlead_m;
         let r = Vector2::new(x * cosine + z * sine, -x * sine + z * cosine);
         let place = Vector2::new(reference[0] + q[0] + r[0], reference[1] + q[1] + r[1]);
-        let apart = place - Vector2::from(line.anchor_m);
-        let distance = apart.norm();
+        let separation = place - Vector2::from(line.anchor_m);
+        let distance = separation.norm();
         Self {
             r,
             distance,
-            n: apart / distance.max(f64::MIN_POSITIVE),
+            n: separation / distance.max(f64::MIN_POSITIVE),
         }
     }
 
@@ -78,16 +78,16 @@ impl Pull {
 
     /// The second derivative of the distance, (JᵀJ − GᵀG)/r + diag(0, 0, −(nx rx + nz rz)) with J =
     /// [[1, 0, rz], [0, 1, −rx]].
-    fn bend(&self) -> Matrix3<f64> {
+    fn second_derivative(&self) -> Matrix3<f64> {
         let j = Matrix2x3::new(1.0, 0.0, self.r[1], 0.0, 1.0, -self.r[0]);
         let row = self.row();
-        let mut bend = (j.transpose() * j - row.transpose() * row) / self.distance;
-        bend[(2, 2)] -= self.n.dot(&self.r);
-        bend
+        let mut second_derivative = (j.transpose() * j - row.transpose() * row) / self.distance;
+        second_derivative[(2, 2)] -= self.n.dot(&self.r);
+        second_derivative
     }
 }
 
-struct Problem<'a> {
+struct RestProblem<'a> {
     lines: &'a [Line],
     reference: [f64; 2],
     body: &'a Body,
@@ -120,7 +120,7 @@ pub fn rest(hydro: &Hydrodynamics, body: &Body, lines: &[Line]) -> Result<Rest, 
         length = length.max(line.length_m);
     }
     let weight = body.mass_kg * hydro.water.gravity_m_s2;
-    let problem = Problem {
+    let problem = RestProblem {
         lines,
         reference: hydro.reference_m,
         body,
@@ -142,9 +142,9 @@ pub fn rest(hydro: &Hydrodynamics, body: &Body, lines: &[Line]) -> Result<Rest, 
         }
     }
     best.map(|(_, rest)| rest).ok_or_else(|| {
-        let words = "there is no place of rest: no taut line holds the body in surge, or nothing \
+        let message = "there is no place of rest: no taut line holds the body in surge, or nothing \
                      holds it up; give lines that hold it, or a place to start from";
-        HydroError::Impossible(words.to_owned())
+        HydroError::Impossible(message.to_owned())
     })
 }
 
@@ -152,7 +152,7 @@ pub fn rest(hydro: &Hydrodynamics, body: &Body, lines: &[Line]) -> Result<Rest, 
 /// balance of heave and pitch by its stiffness. None if a force pushes it away in surge, if water does
 /// not hold it up and upright, or if a line would be too short there. With it comes how far the ends of
 /// each line are apart there \[m\].
-pub fn rest_adrift(
+pub fn rest_without_tension(
     hydro: &Hydrodynamics,
     body: &Body,
     lines: &[Line],
@@ -166,11 +166,11 @@ pub fn rest_adrift(
     let force = body.constant_force.fixed_rows::<2>(1).into_owned();
     let place = stiffness.cholesky()?.solve(&force);
     let q = Vector3::new(surge_m, place[0], place[1]);
-    let apart = |line: &Line| Pull::at(line, hydro.reference_m, &q).distance;
-    let apart_m: Vec<f64> = lines.iter().map(apart).collect();
-    let reaches = |(line, apart): (&Line, &f64)| *apart <= line.length_m * (1.0 + 1e-9);
-    let all_reach = lines.iter().zip(&apart_m).all(reaches);
-    (q[2].abs() < FRAC_PI_2 && all_reach).then_some((q, apart_m))
+    let distance = |line: &Line| LineGeometry::at(line, hydro.reference_m, &q).distance;
+    let distances_m: Vec<f64> = lines.iter().map(distance).collect();
+    let reaches = |(line, distance): (&Line, &f64)| *distance <= line.length_m * (1.0 + 1e-9);
+    let all_reach = lines.iter().zip(&distances_m).all(reaches);
+    (q[2].abs() < FRAC_PI_2 && all_reach).then_some((q, distances_m))
 }
 
 /// All sets of at most three of n lines.
@@ -179,7 +179,7 @@ fn sets(n: usize) -> Vec<Vec<usize>> {
     let mut at = 0;
     while at < sets.len() {
         let set = sets[at].clone();
-        if set.len() < MOST {
+        if set.len() < MOST_TAUT {
             let from = set.last().map_or(0, |last| last + 1);
             for line in from..n {
                 let mut more = set.clone();
@@ -192,17 +192,17 @@ fn sets(n: usize) -> Vec<Vec<usize>> {
     sets
 }
 
-impl Problem<'_> {
-    fn pull(&self, line: usize, q: &Vector3<f64>) -> Pull {
-        Pull::at(&self.lines[line], self.reference, q)
+impl RestProblem<'_> {
+    fn geometry(&self, line: usize, q: &Vector3<f64>) -> LineGeometry {
+        LineGeometry::at(&self.lines[line], self.reference, q)
     }
 
     fn potential(&self, q: &Vector3<f64>) -> f64 {
         0.5 * q.dot(&(self.body.stiffness * q)) - self.body.constant_force.dot(q)
     }
 
-    /// Starting points: the mean position, the position without lines, and points beside and below
-    /// it; above each anchor.
+    /// Starting points: the mean position, the position without lines, and points to the side and
+    /// below it; above each anchor.
     fn starts(&self, taut: &[usize]) -> Vec<Vector3<f64>> {
         let heave = self.body.stiffness[(1, 1)];
         let free = match heave > 0.0 {
@@ -210,15 +210,15 @@ impl Problem<'_> {
             false => 0.0,
         };
         let free = free.clamp(-self.length, self.length);
-        let beside =
+        let shifted =
             |x: f64, z: f64, turn: f64| Vector3::new(x * self.length, z * self.length, turn);
         let mut starts = vec![
             Vector3::zeros(),
             Vector3::new(0.0, free, 0.0),
-            beside(0.1, 0.0, 0.0),
-            beside(-0.1, 0.0, 0.0),
-            beside(0.3, -0.1, 0.1),
-            beside(-0.3, -0.1, -0.1),
+            shifted(0.1, 0.0, 0.0),
+            shifted(-0.1, 0.0, 0.0),
+            shifted(0.3, -0.1, 0.1),
+            shifted(-0.3, -0.1, -0.1),
         ];
         for line in taut {
             let line = &self.lines[*line];
@@ -236,8 +236,9 @@ impl Problem<'_> {
         let mut tension = vec![lift; m];
         let mut settled = 0;
         for _ in 0..STEPS {
-            let pulls: Vec<Pull> = taut.iter().map(|line| self.pull(*line, &q)).collect();
-            let (matrix, right) = self.newton(taut, &pulls, &q, &tension);
+            let geometries: Vec<LineGeometry> =
+                taut.iter().map(|line| self.geometry(*line, &q)).collect();
+            let (matrix, right) = self.newton(taut, &geometries, &q, &tension);
             let step = matrix.lu().solve(&right)?;
             let part = step.rows(0, 3).amax() / self.length;
             // A long step is shortened, as the equations are nonlinear.
@@ -258,8 +259,9 @@ impl Problem<'_> {
             }
         }
         // Rounding may keep the last step slightly above the bound.
-        let pulls: Vec<Pull> = taut.iter().map(|line| self.pull(*line, &q)).collect();
-        let (_, right) = self.newton(taut, &pulls, &q, &tension);
+        let geometries: Vec<LineGeometry> =
+            taut.iter().map(|line| self.geometry(*line, &q)).collect();
+        let (_, right) = self.newton(taut, &geometries, &q, &tension);
         (right.amax() < 1e-11).then(|| self.judged(taut, q, &tension))?
     }
 
@@ -268,16 +270,16 @@ impl Problem<'_> {
     fn newton(
         &self,
         taut: &[usize],
-        pulls: &[Pull],
+        geometries: &[LineGeometry],
         q: &Vector3<f64>,
         tension: &[f64],
     ) -> (DMatrix<f64>, DVector<f64>) {
         let m = taut.len();
         let mut hessian = self.body.stiffness;
         let mut force = self.body.constant_force - self.body.stiffness * q;
-        for (pull, tension) in pulls.iter().zip(tension) {
-            hessian += pull.bend() * *tension;
-            force -= pull.row().transpose() * *tension;
+        for (geometry, tension) in geometries.iter().zip(tension) {
+            hessian += geometry.second_derivative() * *tension;
+            force -= geometry.row().transpose() * *tension;
         }
         // q_i = s_i u_i with s = (1, 1, 1/length), so that moments and lengths are of comparable
         // size.
@@ -289,13 +291,13 @@ impl Problem<'_> {
                 matrix[(i, j)] = hessian[(i, j)] * unit(i) * unit(j) / self.force;
             }
             right[i] = force[i] * unit(i) / self.force;
-            for (k, pull) in pulls.iter().enumerate() {
-                matrix[(i, 3 + k)] = pull.row()[i] * unit(i);
+            for (k, geometry) in geometries.iter().enumerate() {
+                matrix[(i, 3 + k)] = geometry.row()[i] * unit(i);
                 matrix[(3 + k, i)] = matrix[(i, 3 + k)];
             }
         }
-        for (k, (pull, line)) in pulls.iter().zip(taut).enumerate() {
-            right[3 + k] = self.lines[*line].length_m - pull.distance;
+        for (k, (geometry, line)) in geometries.iter().zip(taut).enumerate() {
+            right[3 + k] = self.lines[*line].length_m - geometry.distance;
         }
         (matrix, right)
     }
@@ -305,13 +307,13 @@ impl Problem<'_> {
         if tension.iter().any(|tension| *tension <= 1e-9 * self.force) {
             return None;
         }
-        let pulls: Vec<Pull> = (0..self.lines.len())
-            .map(|line| self.pull(line, &q))
+        let geometries: Vec<LineGeometry> = (0..self.lines.len())
+            .map(|line| self.geometry(line, &q))
             .collect();
-        let slack = pulls
+        let slack = geometries
             .iter()
             .zip(self.lines)
-            .map(|(pull, line)| line.length_m - pull.distance);
+            .map(|(geometry, line)| line.length_m - geometry.distance);
         let slack_m: Vec<f64> = slack.collect();
         let outside = |line: usize| !taut.contains(&line) && slack_m[line] < -1e-9 * self.length;
         if (0..self.lines.len()).any(outside) {
@@ -322,8 +324,8 @@ impl Problem<'_> {
         let mut rows = DMatrix::zeros(taut.len(), 3);
         for (k, (line, tension)) in taut.iter().zip(tension).enumerate() {
             tension_n[*line] = *tension;
-            whole += pulls[*line].bend() * *tension;
-            rows.row_mut(k).copy_from(&pulls[*line].row());
+            whole += geometries[*line].second_derivative() * *tension;
+            rows.row_mut(k).copy_from(&geometries[*line].row());
         }
         let motions = null_space(&rows);
         let stiffness = reduced(&whole, &motions);

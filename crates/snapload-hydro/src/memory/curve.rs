@@ -18,7 +18,7 @@ const EXPONENTS: [f64; 2] = [3.0, 12.0];
 /// The number of last frequencies from which the power law beyond them is found.
 const TREND: usize = 10;
 /// The end of the memory's integral, in units of the last frequency.
-const FAR: f64 = 40.0;
+const INTEGRAL_END: f64 = 40.0;
 /// Panels of that integral beyond the last frequency.
 const FAR_PANELS: usize = 240;
 /// Panels of the integral of the added mass beyond the last frequency.
@@ -36,7 +36,7 @@ pub struct DampingCurve {
     inner: Vec<[f64; 3]>,
     /// ω, weight, B beyond it, out to infinity by ω = ω_last/u.
     tail: Vec<[f64; 3]>,
-    /// ω, weight, B beyond it, out to [`FAR`].
+    /// ω, weight, B beyond it, out to [`INTEGRAL_END`].
     far: Vec<[f64; 3]>,
 }
 
@@ -77,7 +77,7 @@ impl DampingCurve {
         });
         curve.tail = with(tail.collect(), &curve);
         let far = (0..FAR_PANELS).flat_map(|k| {
-            let end = |k: usize| last * (FAR.ln() * k as f64 / FAR_PANELS as f64).exp();
+            let end = |k: usize| last * (INTEGRAL_END.ln() * k as f64 / FAR_PANELS as f64).exp();
             panel(end(k), end(k + 1))
         });
         curve.far = with(far.collect(), &curve);

@@ -15,11 +15,11 @@ use nalgebra::{Complex, DVector, Matrix3};
 /// Numbers of pole pairs that are tried in turn, and the error of the fit and of K at which the
 /// first is accepted.
 const PAIRS: [usize; 5] = [4, 6, 8, 10, 12];
-const GOOD: f64 = 0.01;
+const GOOD_FIT: f64 = 0.01;
 /// A worse fit causes a warning.
-pub(super) const POOR: f64 = 0.02;
+pub(super) const POOR_FIT: f64 = 0.02;
 /// The increase of the error that passivity may cause.
-pub(super) const PRICE: f64 = 0.02;
+pub(super) const PASSIVITY_MISFIT: f64 = 0.02;
 /// Couplings below this part of the diagonal are taken as zero, as for a mirror-symmetric body.
 const COUPLED: f64 = 1e-3;
 
@@ -113,7 +113,7 @@ impl Block {
         .passive();
         let bound = self.coefficients(&residues, &passive.z);
         let rms = self.rms(&poles, &bound);
-        let damped = rms > rms_before + PRICE || passive.least < -1e-8;
+        let damped = rms > rms_before + PASSIVITY_MISFIT || passive.least < -1e-8;
         let (coefficients, rms, least) = match damped {
             true => (free, rms_before, passive.least_before),
             false => (bound, rms, passive.least),
@@ -171,7 +171,7 @@ impl Block {
                 continue;
             };
             let error = |c: &Candidate| c.quality.rms.max(c.kernel_rms);
-            let good = error(&candidate) <= GOOD && !candidate.quality.damped;
+            let good = error(&candidate) <= GOOD_FIT && !candidate.quality.damped;
             // More poles are accepted only if they reduce the error by a tenth.
             let better = |best: &Candidate| error(&candidate) < 0.9 * error(best);
             if good || best.as_ref().is_none_or(better) {
@@ -223,13 +223,13 @@ fn chosen(
 ) -> Result<(Hydrodynamics, Block, Candidate), HydroError> {
     let best = |block: &Block| {
         block.chosen(options).ok_or_else(|| {
-            let words = "no exponentials were found that fit the damping; check it for jumps";
-            HydroError::Impossible(words.to_owned())
+            let message = "no exponentials were found that fit the damping; check it for jumps";
+            HydroError::Impossible(message.to_owned())
         })
     };
     let block = Block::new(hydro, inf, freedoms.clone());
     let first = best(&block)?;
-    let apart = match first.quality.rms > POOR {
+    let apart = match first.quality.rms > POOR_FIT {
         true => irregular(&block),
         false => Vec::new(),
     };
@@ -250,7 +250,7 @@ fn chosen(
     Ok((kept, block, second))
 }
 
-/// The largest number of pairs of poles that may be asked for.
+/// The largest number of pairs of poles that is allowed.
 pub const MOST_PAIRS: usize = 20;
 
 /// The memory of a file's coefficients, by vector fitting of B + iω(A − A∞) with common poles for
@@ -262,8 +262,8 @@ pub fn fit(hydro: &Hydrodynamics, options: FitOptions) -> Result<Fit, HydroError
     if let Some(pairs) = options.pairs
         && !(1..=MOST_PAIRS).contains(&pairs)
     {
-        let wanted = format!("1 to {MOST_PAIRS} pairs of poles are allowed");
-        return Err(HydroError::value("pairs", pairs as f64, wanted));
+        let expected = format!("1 to {MOST_PAIRS} pairs of poles are allowed");
+        return Err(HydroError::value("pairs", pairs as f64, expected));
     }
     let mut added_mass_inf = added_mass_at_infinity(hydro);
     let mut memory = Memory::default();
@@ -316,8 +316,8 @@ pub fn given(
     let asymmetric = (added_mass_inf - added_mass_inf.transpose()).amax();
     let symmetric = asymmetric <= 1e-6 * added_mass_inf.amax();
     if !symmetric {
-        let words = "added_mass_inf differs from its transpose, or is not a number";
-        return Err(HydroError::convention("symmetry", words));
+        let message = "added_mass_inf differs from its transpose, or is not a number";
+        return Err(HydroError::convention("symmetry", message));
     }
     let omega_max = hydro.range_rad_s()[1];
     let mut entries = Vec::new();
@@ -343,21 +343,21 @@ pub fn given(
     fit.warnings = warnings(hydro, &fit);
     let own = fit.entries.iter().filter(|e| e.force == e.motion);
     let worst = own.fold(0.0_f64, |worst, entry| worst.max(entry.rms));
-    if worst > POOR {
-        let words = format!(
+    if worst > POOR_FIT {
+        let message = format!(
             "the given memory differs from the file by {:.1} %; was it made from another file?",
             100.0 * worst
         );
-        fit.warnings.push(Warning::new("fit", words));
+        fit.warnings.push(Warning::new("fit", message));
     }
     let least = fit.memory.least_eigenvalue(omega_max);
     if least < -1e-6 {
-        let words = format!(
+        let message = format!(
             "the given memory is not passive: its damping falls to {:.2} % of its largest value, and \
              it can feed energy into the motion",
             100.0 * least
         );
-        fit.warnings.push(Warning::new("passivity", words));
+        fit.warnings.push(Warning::new("passivity", message));
     }
     Ok(fit)
 }

@@ -13,7 +13,7 @@ const ROUNDS: usize = 6;
 const SOFT: usize = 4;
 /// A sample is an outlier if its error exceeds this part of the median size, and this many median
 /// errors.
-const OFF: f64 = 0.05;
+const OUTLIER: f64 = 0.05;
 const ERRORS: f64 = 3.0;
 
 /// The indices of outlying frequencies, by a fit in which a sample's weight decreases with its
@@ -38,7 +38,7 @@ pub(super) fn irregular(block: &Block) -> Vec<usize> {
             return Vec::new();
         };
         errors = new;
-        limit = OFF.max(ERRORS * median(&errors));
+        limit = OUTLIER.max(ERRORS * median(&errors));
         for (weight, error) in block.samples.weight.iter_mut().zip(&errors) {
             *weight = match (round < SOFT, *error > limit, *error > 2.0 * limit) {
                 (true, true, _) => limit / error,

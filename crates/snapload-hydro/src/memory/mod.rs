@@ -94,9 +94,9 @@ impl Memory {
             let name = format!("memory[{index}]");
             let Complex { re, im } = term.pole;
             if !(re < 0.0 && re.is_finite() && im.is_finite()) {
-                let wanted =
+                let expected =
                     "the real part of a pole must be below zero, so that the memory decays";
-                return Err(HydroError::value(format!("{name}.pole[0]"), re, wanted));
+                return Err(HydroError::value(format!("{name}.pole[0]"), re, expected));
             }
             let size = term.residue.iter().map(|r| r.norm()).fold(0.0, f64::max);
             if !size.is_finite() || term.residue.iter().any(|r| !r.re.is_finite()) {
@@ -107,13 +107,13 @@ impl Memory {
                 .iter()
                 .any(|difference| difference.norm() > 1e-6 * size);
             if asymmetric {
-                let words = format!("{name}.residue differs from its transpose");
-                return Err(HydroError::convention("symmetry", words));
+                let message = format!("{name}.residue differs from its transpose");
+                return Err(HydroError::convention("symmetry", message));
             }
             let complex = term.residue.iter().any(|r| r.im.abs() > 1e-12 * size);
             if im == 0.0 && complex {
-                let words = format!("{name} has a real pole and a residue that is not real");
-                return Err(HydroError::convention("real memory", words));
+                let message = format!("{name} has a real pole and a residue that is not real");
+                return Err(HydroError::convention("real memory", message));
             }
         }
         Ok(())

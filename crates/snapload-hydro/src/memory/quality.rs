@@ -7,8 +7,8 @@ use nalgebra::Matrix3;
 use serde::Serialize;
 
 /// The memory is compared over this many units of 1/ω_max, at the number of times that follows.
-const LONG: f64 = 140.0;
-const TIMES: usize = 400;
+const COMPARED_TIME: f64 = 140.0;
+const COMPARED_TIMES: usize = 400;
 
 /// How well one entry is reproduced.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -81,8 +81,8 @@ pub(super) struct Kernel {
 
 impl Kernel {
     pub fn new(curve: &DampingCurve, omega_max: f64) -> Self {
-        let time = |k: usize| LONG / omega_max * k as f64 / TIMES as f64;
-        let t: Vec<f64> = (0..=TIMES).map(time).collect();
+        let time = |k: usize| COMPARED_TIME / omega_max * k as f64 / COMPARED_TIMES as f64;
+        let t: Vec<f64> = (0..=COMPARED_TIMES).map(time).collect();
         let value = t.iter().map(|t| curve.kernel(*t)).collect();
         Self { t, value }
     }

@@ -84,8 +84,8 @@ pub fn from_dataset(dataset: &Dataset, given: &Given) -> Result<Hydrodynamics, H
         let (n, m) = (names(dataset, ROW)?, names(dataset, COLUMN)?);
         if values.len() != omega.len() * n * m {
             let found = format!("{} values", values.len());
-            let wanted = "one for each frequency, force and motion is expected";
-            return Err(HydroError::layout(name, found, wanted));
+            let expected = "one for each frequency, force and motion is expected";
+            return Err(HydroError::layout(name, found, expected));
         }
         let of = |block: &[f64]| picked(block, m, &rows, &columns, plane);
         Ok(values.chunks_exact(n * m).map(of).collect())
@@ -221,8 +221,8 @@ fn frequency_dimension(dataset: &Dataset) -> Result<String, HydroError> {
         .find(|dim| FREQUENCIES.contains(&dim.as_str()));
     found.cloned().ok_or_else(|| {
         let found = format!("its dimensions are {}", variable.dims.join(", "));
-        let wanted = format!("one of {} is expected", FREQUENCIES.join(", "));
-        HydroError::layout("added_mass", found, wanted)
+        let expected = format!("one of {} is expected", FREQUENCIES.join(", "));
+        HydroError::layout("added_mass", found, expected)
     })
 }
 
@@ -270,8 +270,8 @@ fn excitation(
 ) -> Result<(Vec<f64>, Forces), HydroError> {
     let betas = dataset.arranged("wave_direction", &["wave_direction"])?;
     if let Some(beta) = betas.iter().find(|beta| beta.abs() > 2.0 * PI + IN_PLANE) {
-        let wanted = "radians are expected, at most 2π; is it in degrees?";
-        return Err(HydroError::value("wave_direction", *beta, wanted));
+        let expected = "radians are expected, at most 2π; is it in degrees?";
+        return Err(HydroError::value("wave_direction", *beta, expected));
     }
     let parts: Vec<&str> = match dataset.has("diffraction_force") {
         true => vec!["diffraction_force", "Froude_Krylov_force"],
@@ -291,8 +291,8 @@ fn excitation(
     let freedoms = names(dataset, ROW)?;
     if sum.len() != count * betas.len() * freedoms {
         let found = format!("{} values", sum.len());
-        let wanted = "one for each frequency, direction and freedom is expected";
-        return Err(HydroError::layout("the wave force", found, wanted));
+        let expected = "one for each frequency, direction and freedom is expected";
+        return Err(HydroError::layout("the wave force", found, expected));
     }
     let sign = plane.signs();
     let (mut directions, mut forces): (Vec<f64>, Forces) = (Vec::new(), Vec::new());
@@ -311,13 +311,13 @@ fn excitation(
         forces.push((0..count).map(force).collect());
     }
     if directions.is_empty() {
-        let wanted = match plane {
+        let in_plane = match plane {
             Plane::X => "0 or π",
             Plane::Y => "π/2 or −π/2",
         };
         let found = format!("{betas:?} rad");
-        let wanted = format!("waves in the plane of motion are required, {wanted} within 1e-6");
-        return Err(HydroError::layout("wave_direction", found, wanted));
+        let expected = format!("waves in the plane of motion are required, {in_plane} within 1e-6");
+        return Err(HydroError::layout("wave_direction", found, expected));
     }
     Ok((directions, forces))
 }
@@ -369,8 +369,8 @@ fn point(dataset: &Dataset, name: &str, plane: Plane) -> Result<Option<[f64; 2]>
         let at = labels.iter().position(|word| word == label)?;
         values.get(at).copied().filter(|value| value.is_finite())
     };
-    let wanted = [["x", "y"][plane.axis()], "z"];
-    Ok(match wanted.map(of) {
+    let axes = [["x", "y"][plane.axis()], "z"];
+    Ok(match axes.map(of) {
         [Some(x), Some(z)] => Some([x, z]),
         _ => None,
     })

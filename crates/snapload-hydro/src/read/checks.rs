@@ -27,18 +27,18 @@ fn symmetry(hydro: &Hydrodynamics, warnings: &mut Vec<Warning>) -> Result<(), Hy
     let percent = 100.0 * hydro.asymmetry;
     let [doubtful, wrong] = ASYMMETRY;
     if hydro.asymmetry > wrong {
-        let words = format!(
+        let message = format!(
             "A_ij and A_ji differ by {percent:.0} % of sqrt(A_ii A_jj); added mass is symmetric. \
              Are the degrees of freedom mixed up, or do they refer to different points?"
         );
-        return Err(HydroError::convention("symmetry", words));
+        return Err(HydroError::convention("symmetry", message));
     }
     if hydro.asymmetry > doubtful {
-        let words = format!(
+        let message = format!(
             "A_ij and A_ji differ by {percent:.1} % of sqrt(A_ii A_jj); their mean is taken. A \
              finer mesh makes them more alike"
         );
-        warnings.push(Warning::new("symmetry", words));
+        warnings.push(Warning::new("symmetry", message));
     }
     Ok(())
 }
@@ -50,11 +50,11 @@ fn damping(hydro: &Hydrodynamics, warnings: &mut Vec<Warning>) -> Result<(), Hyd
         let largest = values.iter().fold(0.0, |most: f64, b| most.max(b.abs()));
         let area: f64 = values.iter().sum();
         if area < 0.0 {
-            let words = format!(
+            let message = format!(
                 "the damping of {freedom} is negative; waves carry energy away, so B_ii ≥ 0. Is it \
                  given with the other sign?"
             );
-            return Err(HydroError::convention("positive damping", words));
+            return Err(HydroError::convention("positive damping", message));
         }
         let below = values.iter().zip(&hydro.omega_rad_s);
         let below: Vec<String> = below
@@ -62,12 +62,12 @@ fn damping(hydro: &Hydrodynamics, warnings: &mut Vec<Warning>) -> Result<(), Hyd
             .map(|(_, omega)| format!("{omega:.3}"))
             .collect();
         if !below.is_empty() {
-            let words = format!(
+            let message = format!(
                 "the damping of {freedom} is below −1 % of its largest value at ω = {} rad/s: irregular \
                  frequencies, or a mesh that is too coarse",
                 shortened(&below)
             );
-            warnings.push(Warning::new("negative damping", words));
+            warnings.push(Warning::new("negative damping", message));
         }
         let last = values.last().copied().unwrap_or(0.0);
         if last.abs() > 0.05 * largest {
@@ -75,12 +75,12 @@ fn damping(hydro: &Hydrodynamics, warnings: &mut Vec<Warning>) -> Result<(), Hyd
         }
     }
     if !high.is_empty() {
-        let words = format!(
+        let message = format!(
             "at the last frequency the damping still is {} of its largest value; the start of the memory \
              depends on a power law beyond it. Compute higher frequencies",
             high.join(", ")
         );
-        warnings.push(Warning::new("high frequencies", words));
+        warnings.push(Warning::new("high frequencies", message));
     }
     Ok(())
 }
@@ -101,24 +101,24 @@ fn stiffness(hydro: &Hydrodynamics, warnings: &mut Vec<Warning>) -> Result<(), H
         let difference = (c[(i, j)] - c[(j, i)]).abs();
         let wrong = difference > 0.01 * scale(i, j) && i != j && scale(i, j) > 0.0;
         if wrong {
-            let words = format!(
+            let message = format!(
                 "C of {} by {} is {}, but the transposed entry is {}; hydrostatic stiffness is symmetric",
                 FREEDOMS[i],
                 FREEDOMS[j],
                 c[(i, j)],
                 c[(j, i)]
             );
-            return Err(HydroError::convention("symmetry", words));
+            return Err(HydroError::convention("symmetry", message));
         }
     }
     for i in [1, 2] {
         if c[(i, i)] <= 0.0 {
-            let words = format!(
+            let message = format!(
                 "C of {} is {:.3e}: the body is unstable without lines, which must hold it",
                 FREEDOMS[i],
                 c[(i, i)]
             );
-            warnings.push(Warning::new("stiffness", words));
+            warnings.push(Warning::new("stiffness", message));
         }
     }
     Ok(())
@@ -145,45 +145,45 @@ fn low_frequency(
     let k = wave_number(omega, water.depth_m, water.gravity_m_s2);
     let long = k * waterplane.sqrt() < LONG_WAVE;
     if !long {
-        let words = format!(
+        let message = format!(
             "the lowest frequency, {omega:.3} rad/s, is too high to check phases and units in \
              the limit of long waves; compute lower ones"
         );
-        warnings.push(Warning::new("low frequencies", words));
+        warnings.push(Warning::new("low frequencies", message));
         return Ok(());
     }
     if let Some(c33) = c33 {
         let ratio = force[1].norm() / c33;
         if !(0.5..=2.0).contains(&ratio) {
-            let words = format!(
+            let message = format!(
                 "at ω = {omega:.3} rad/s the wave force on heave is {ratio:.3e} times the hydrostatic \
                  stiffness of heave; for long waves the ratio must tend to 1. Are they in different units, \
                  or was the stiffness given for another body?"
             );
-            return Err(HydroError::convention("low-frequency limit of X3", words));
+            return Err(HydroError::convention("low-frequency limit of X3", message));
         }
     }
     if force[1].re < 0.5 * force[1].norm() {
-        let words = format!(
+        let message = format!(
             "at ω = {omega:.3} rad/s the wave force on heave has the phase {:.0}°; for long waves it must \
              tend to 0, an upward force under a crest",
             force[1].arg().to_degrees()
         );
-        return Err(HydroError::convention("phase of X3", words));
+        return Err(HydroError::convention("phase of X3", message));
     }
     let expected = -excitation.direction;
     if force[0].im * expected < 0.5 * force[0].norm() && force[0].norm() > 0.0 {
-        let (beta, to, wanted) = match excitation.direction > 0.0 {
+        let (beta, to, expected) = match excitation.direction > 0.0 {
             true => ("0", "+x", "−"),
             false => ("π", "−x", "+"),
         };
-        let words = format!(
+        let message = format!(
             "for β = {beta}, a wave to {to}, the wave force on surge at ω = {omega:.3} rad/s has the phase \
-             {:.0}°; with e^{{−iωt}} it must tend to {wanted}90°. Either the file is conjugate \
+             {:.0}°; with e^{{−iωt}} it must tend to {expected}90°. Either the file is conjugate \
              (e^{{+iωt}}), or its β is the direction that waves come from",
             force[0].arg().to_degrees()
         );
-        return Err(HydroError::convention("phase of X1", words));
+        return Err(HydroError::convention("phase of X1", message));
     }
     Ok(())
 }
@@ -191,7 +191,7 @@ fn low_frequency(
 fn coverage(hydro: &Hydrodynamics, warnings: &mut Vec<Warning>) {
     let count = hydro.omega_rad_s.len();
     if count < 20 {
-        let words = format!("{count} frequencies; a memory needs twenty or more");
-        warnings.push(Warning::new("few frequencies", words));
+        let message = format!("{count} frequencies; a memory needs twenty or more");
+        warnings.push(Warning::new("few frequencies", message));
     }
 }

@@ -47,12 +47,12 @@ impl Dataset {
                 Values::Words(words) => Some(words.len()),
                 Values::Other(_) => None,
             };
-            let wanted = variable
+            let expected = variable
                 .shape
                 .iter()
                 .try_fold(1usize, |product, length| product.checked_mul(*length));
             if variable.dims.len() != variable.shape.len()
-                || count.is_some_and(|count| Some(count) != wanted)
+                || count.is_some_and(|count| Some(count) != expected)
             {
                 let found = format!(
                     "dimensions {:?} of lengths {:?} with {} values",
@@ -70,8 +70,8 @@ impl Dataset {
                 let known = *lengths.entry(dim.clone()).or_insert(*length);
                 if known != *length {
                     let found = format!("it has {length} values along {dim}");
-                    let wanted = format!("other variables have {known}");
-                    return Err(HydroError::layout(name, found, wanted));
+                    let expected = format!("other variables have {known}");
+                    return Err(HydroError::layout(name, found, expected));
                 }
             }
             set.variables.insert(name, variable);
@@ -126,7 +126,7 @@ impl Dataset {
     /// # Errors
     /// A [`HydroError`] if there is none of this name, it does not hold numbers, or it has other
     /// dimensions.
-    pub fn arranged(&self, name: &str, wanted: &[&str]) -> Result<Vec<f64>, HydroError> {
+    pub fn arranged(&self, name: &str, dims: &[&str]) -> Result<Vec<f64>, HydroError> {
         let variable = self.variable(name)?;
         let numbers = match &variable.values {
             Values::Numbers(numbers) => numbers,
@@ -147,7 +147,7 @@ impl Dataset {
                 ));
             }
         };
-        let (strides, lengths) = variable.order(name, wanted)?;
+        let (strides, lengths) = variable.order(name, dims)?;
         let count: usize = lengths.iter().product();
         let place = |index: usize| {
             let mut rest = index;
@@ -176,13 +176,13 @@ impl Dataset {
 
 impl Variable {
     /// The strides and lengths of dimensions in another order than they are stored in.
-    fn order(&self, name: &str, wanted: &[&str]) -> Result<(Vec<usize>, Vec<usize>), HydroError> {
+    fn order(&self, name: &str, dims: &[&str]) -> Result<(Vec<usize>, Vec<usize>), HydroError> {
         let refuse = |found: String| {
-            let wanted = format!("the dimensions {} are expected", wanted.join(", "));
-            Err(HydroError::layout(name, found, wanted))
+            let expected = format!("the dimensions {} are expected", dims.join(", "));
+            Err(HydroError::layout(name, found, expected))
         };
         for (dim, length) in self.dims.iter().zip(&self.shape) {
-            if !wanted.contains(&dim.as_str()) && *length != 1 {
+            if !dims.contains(&dim.as_str()) && *length != 1 {
                 return refuse(format!(
                     "it has {length} values along {dim}, where one is expected (several depths, \
                      densities or bodies?)"
@@ -191,7 +191,7 @@ impl Variable {
         }
         let mut strides = Vec::new();
         let mut lengths = Vec::new();
-        for dim in wanted {
+        for dim in dims {
             let Some(at) = self.dims.iter().position(|name| name == dim) else {
                 return refuse(format!("its dimensions are {}", self.dims.join(", ")));
             };

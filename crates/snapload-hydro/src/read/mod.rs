@@ -147,9 +147,9 @@ fn nemoh_folder(path: &Path) -> PathBuf {
 /// The bytes of a file that belongs to the one that was `asked` for.
 fn bytes(asked: &Path, path: &Path) -> Result<Vec<u8>, HydroError> {
     std::fs::read(path).map_err(|error| {
-        let mut words = error.to_string();
-        words.truncate(words.find(" (os error").unwrap_or(words.len()));
-        unreadable(asked, path, &words)
+        let mut message = error.to_string();
+        message.truncate(message.find(" (os error").unwrap_or(message.len()));
+        unreadable(asked, path, &message)
     })
 }
 
@@ -158,12 +158,12 @@ fn text(asked: &Path, path: &Path) -> Result<String, HydroError> {
     String::from_utf8(bytes(asked, path)?).map_err(|_| unreadable(asked, path, "it is not text"))
 }
 
-/// The message names the file only if it is not the one that was asked for.
-fn unreadable(asked: &Path, path: &Path, words: &str) -> HydroError {
+/// The message names the file only if it is not the requested one.
+fn unreadable(asked: &Path, path: &Path, message: &str) -> HydroError {
     let name = path.file_name().filter(|_| path != asked);
     HydroError::Unreadable(match name {
-        Some(name) => format!("{}: {words}", name.display()),
-        None => words.to_owned(),
+        Some(name) => format!("{}: {message}", name.display()),
+        None => message.to_owned(),
     })
 }
 
@@ -214,6 +214,6 @@ fn within(what: &str, value: f64, range: std::ops::RangeInclusive<f64>) -> Resul
         return Ok(value);
     }
     let (low, high) = (range.start(), range.end());
-    let wanted = format!("{low} to {high} is allowed; is it in other units?");
-    Err(HydroError::value(what, value, wanted))
+    let expected = format!("{low} to {high} is allowed; is it in other units?");
+    Err(HydroError::value(what, value, expected))
 }

@@ -44,9 +44,9 @@ pub fn from_nemoh(
     let motions = zones(name, radiation, 1 + 2 * SIX)?;
     if motions.len() != SIX {
         let found = format!("it has {} zones", motions.len());
-        let wanted =
+        let expected =
             "one body with its six degrees of freedom is expected, one zone for each motion";
-        return Err(HydroError::layout(name, found, wanted));
+        return Err(HydroError::layout(name, found, expected));
     }
     let name = "ExcitationForce.tec";
     let waves = zones(name, excitation, 1 + 2 * SIX)?;
@@ -143,9 +143,9 @@ fn zones<'a>(name: &'static str, text: &'a str, width: usize) -> Result<Vec<Zone
             _ => {
                 let start: String = line.trim().chars().take(60).collect();
                 let found = format!("line {} is {start:?}", index + 1);
-                let wanted =
+                let expected =
                     format!("{width} numbers are expected, for one body's six degrees of freedom");
-                return Err(HydroError::layout(name, found, wanted));
+                return Err(HydroError::layout(name, found, expected));
             }
         }
     }

@@ -21,8 +21,8 @@ impl Dataset {
     /// [`HydroError::Unreadable`] if the bytes are not of this format, or are damaged.
     pub fn from_netcdf(bytes: &[u8]) -> Result<Self, HydroError> {
         if bytes.starts_with(b"CDF") {
-            let words = "it is netCDF 3; save it as netCDF4, as Capytaine does";
-            return Err(HydroError::Unreadable(words.to_owned()));
+            let message = "it is netCDF 3; save it as netCDF4, as Capytaine does";
+            return Err(HydroError::Unreadable(message.to_owned()));
         }
         variables(bytes).map_err(|error| HydroError::Unreadable(format!("as netCDF4: {error}")))?
     }
@@ -41,8 +41,8 @@ fn variables(bytes: &[u8]) -> Result<Result<Dataset, HydroError>, Error> {
             .iter()
             .try_fold(1u64, |n, length| n.checked_mul(*length));
         if count.is_none_or(|count| count > LARGEST) {
-            let words = format!("{} is too large, {:?}", set.name(), set.shape());
-            return Err(Error::InvalidData(words));
+            let message = format!("{} is too large, {:?}", set.name(), set.shape());
+            return Err(Error::InvalidData(message));
         }
         let variable = Variable {
             dims: dimensions(set, &name_at, offset_size)?,

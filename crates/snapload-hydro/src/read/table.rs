@@ -35,8 +35,8 @@ impl Table {
             .iter()
             .find(|row| row.omega.is_nan() || row.omega < 0.0)
         {
-            let wanted = "a frequency must be 0 or above";
-            return Err(HydroError::value("ω", row.omega, wanted));
+            let expected = "a frequency must be 0 or above";
+            return Err(HydroError::value("ω", row.omega, expected));
         }
         self.rows.sort_by(|a, b| a.omega.total_cmp(&b.omega));
         if let Some(pair) = self
@@ -44,8 +44,8 @@ impl Table {
             .windows(2)
             .find(|pair| pair[0].omega == pair[1].omega)
         {
-            let wanted = "each frequency may occur only once";
-            return Err(HydroError::value("ω", pair[0].omega, wanted));
+            let expected = "each frequency may occur only once";
+            return Err(HydroError::value("ω", pair[0].omega, expected));
         }
         let (mut zero, mut inf) = (None, None);
         let mut finite: Vec<Row> = Vec::new();
@@ -63,8 +63,8 @@ impl Table {
         }
         if finite.len() < 4 {
             let found = format!("{} frequencies above 0 and below infinity", finite.len());
-            let wanted = "at least four are required, and twenty or more are recommended";
-            return Err(HydroError::layout("the file", found, wanted));
+            let expected = "at least four are required, and twenty or more are recommended";
+            return Err(HydroError::layout("the file", found, expected));
         }
         finite.iter().try_for_each(Row::check)?;
         let excitation = self.directions.iter().enumerate();
@@ -114,9 +114,9 @@ impl Row {
             return Ok(());
         }
         let what = format!("the {what} at ω = {} rad/s", self.omega);
-        let wanted =
+        let expected =
             "a number is expected; remove this frequency from the file, or compute it again";
-        Err(HydroError::value(what, value, wanted))
+        Err(HydroError::value(what, value, expected))
     }
 }
 

@@ -130,8 +130,8 @@ fn lines<'a>(
             Err(_) if index == 0 => None,
             Ok(numbers) => {
                 let found = format!("line {} has {} numbers", index + 1, numbers.len());
-                let wanted = format!("{} to {} are expected", counts.start(), counts.end());
-                Some(Err(HydroError::layout(name, found, wanted)))
+                let expected = format!("{} to {} are expected", counts.start(), counts.end());
+                Some(Err(HydroError::layout(name, found, expected)))
             }
             Err(_) => {
                 let found = format!("line {} is {:?}", index + 1, shortened(line));
@@ -151,11 +151,11 @@ fn mode(name: &'static str, value: f64) -> Result<usize, HydroError> {
     if whole {
         return Ok(value as usize);
     }
-    let wanted = "the modes of one body are expected, 1 to 6";
+    let expected = "the modes of one body are expected, 1 to 6";
     Err(HydroError::value(
         format!("a mode of {name}"),
         value,
-        wanted,
+        expected,
     ))
 }
 
@@ -188,8 +188,8 @@ fn radiation(text: &str, units: &Units) -> Result<Vec<Row>, HydroError> {
             None if omega == 0.0 || omega.is_infinite() => {}
             None => {
                 let found = format!("no damping at {}", line[0]);
-                let wanted = "PER I J A B is expected; does the first column hold periods?";
-                return Err(HydroError::layout(name, found, wanted));
+                let expected = "PER I J A B is expected; does the first column hold periods?";
+                return Err(HydroError::layout(name, found, expected));
             }
         }
     }
@@ -241,9 +241,9 @@ fn excitation(text: &str, units: &Units, rows: &mut [Row]) -> Result<Vec<f64>, H
         });
         let omega = units.omega(line[0]);
         let Some(row) = rows.iter_mut().find(|row| row.omega == omega) else {
-            let wanted = "the frequencies of the .1 and the .3 file must be the same";
+            let expected = "the frequencies of the .1 and the .3 file must be the same";
             let what = format!("the first column of {name}");
-            return Err(HydroError::value(what, line[0], wanted));
+            return Err(HydroError::value(what, line[0], expected));
         };
         if row.excitation.len() <= at {
             row.excitation.resize(at + 1, unknown);
@@ -276,8 +276,8 @@ fn agree(line: &[f64]) -> Result<(), HydroError> {
             "MOD {modulus}, PHA {} beside RE {}, IM {}",
             line[4], line[5], line[6]
         );
-        let wanted = "columns PER BETA I MOD PHA RE IM are expected, PHA in degrees";
-        return Err(HydroError::layout("the .3 file", found, wanted));
+        let expected = "columns PER BETA I MOD PHA RE IM are expected, PHA in degrees";
+        return Err(HydroError::layout("the .3 file", found, expected));
     }
     Ok(())
 }

@@ -3,14 +3,14 @@
 mod json;
 mod page;
 mod plots;
-mod words;
+mod summary;
 
 use json::rows;
 
 pub use json::Json;
 pub use page::page;
-pub use words::periods_in_words;
-use words::plain;
+pub use summary::periods_summary;
+use summary::plain;
 
 use crate::coefficients::transport;
 use crate::digits::kilo;
@@ -26,17 +26,17 @@ use serde::{Deserialize, Serialize};
 
 /// Below this part of critical damping a peak counts as narrow; then damping other than that of
 /// waves in pitch may limit the resonance, too.
-const WEAK: f64 = 0.02;
+const WEAK_DAMPING: f64 = 0.02;
 /// A mass that differs from the displaced one by less than this part counts as that of the file's
 /// body.
 const SAME_MASS: f64 = 0.01;
 /// A peak counts as a resonance if it is this close, relatively, to the frequency of a natural
 /// motion.
-const RESONANT: f64 = 0.02;
+const NEAR_RESONANCE: f64 = 0.02;
 /// A body floats upright if it pitches by less than this, in rad.
-const UPRIGHT: f64 = 0.01;
+const BALANCED_ANGLE: f64 = 0.01;
 /// Damping below this part of critical bounds nothing.
-const UNDAMPED: f64 = 1e-6;
+const ZERO_DAMPING: f64 = 1e-6;
 
 /// A memory that was computed before, in the form of this program's JSON.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -149,7 +149,7 @@ impl Report {
         let mut warnings = reading.warnings.clone();
         warnings.extend(fit.warnings.clone());
         if let Ok(floating) = &floating {
-            warnings.extend(inertia_of_another(&reading, &floating.body, request));
+            warnings.extend(inertia_mismatch_warning(&reading, &floating.body, request));
             floating.warn(&reading, &mut warnings);
         }
         Ok(Self {
@@ -164,7 +164,7 @@ impl Report {
 
 /// A warning if the mass or the centre of gravity is the user's, but the moment of inertia is still
 /// that of the file's body.
-fn inertia_of_another(reading: &Reading, body: &Body, request: &Request) -> Option<Warning> {
+fn inertia_mismatch_warning(reading: &Reading, body: &Body, request: &Request) -> Option<Warning> {
     let statics = &reading.hydro.hydrostatics;
     if request.weight.inertia_kg_m2.is_some() {
         return None;
@@ -183,12 +183,12 @@ fn inertia_of_another(reading: &Reading, body: &Body, request: &Request) -> Opti
         (None, Some([x, z])) => format!("the centre of gravity is not the file's, ({x}, {z}) m"),
         (None, None) => return None,
     };
-    let words = format!(
+    let message = format!(
         "{what}, but the moment of inertia is still that of the file, {} t m² about the centre of \
          gravity: give the body's own (--inertia; body.moment_of_inertia in a case)",
         kilo(&body.inertia_about_centre_kg_m2(), 1)
     );
-    Some(Warning::new("moment of inertia", words))
+    Some(Warning::new("moment of inertia", message))
 }
 
 impl Floating {
@@ -242,10 +242,11 @@ impl Floating {
         let of = |peak: Peak| {
             let apart = |mode: &&Mode| {
                 let omega = mode.eigenvalue.norm();
-                mode.damping_ratio < WEAK && (peak.omega_rad_s / omega - 1.0).abs() < RESONANT
+                mode.damping_ratio < WEAK_DAMPING
+                    && (peak.omega_rad_s / omega - 1.0).abs() < NEAR_RESONANCE
             };
             let narrow = self.modes.iter().find(apart).map(|mode| mode.damping_ratio);
-            let bounded = narrow.is_none_or(|ratio| ratio > UNDAMPED);
+            let bounded = narrow.is_none_or(|ratio| ratio > ZERO_DAMPING);
             let amplitude = if bounded {
                 peak.amplitude
             } else {
@@ -261,10 +262,10 @@ impl Floating {
     fn unbalanced_pitch(&self) -> Option<Option<f64>> {
         let (moment, righting) = (self.body.constant_force[2], self.body.stiffness[(2, 2)]);
         if righting <= 0.0 {
-            return (moment.abs() > UPRIGHT * righting.abs()).then_some(None);
+            return (moment.abs() > BALANCED_ANGLE * righting.abs()).then_some(None);
         }
         let pitch = moment / righting;
-        (pitch.abs() > UPRIGHT).then_some(Some(pitch))
+        (pitch.abs() > BALANCED_ANGLE).then_some(Some(pitch))
     }
 
     /// The warning that the body does not float upright without lines, if none are given.
@@ -274,14 +275,14 @@ impl Floating {
             Some(pitch) => format!(" ({:.1}° by its stiffness)", plain(pitch.to_degrees(), 0.1)),
             None => String::new(),
         };
-        let words = format!(
+        let message = format!(
             "a moment of {} kN m about the reference point is not balanced in the upright position of the file: \
              without lines the body floats inclined{angle}, but its periods and response without lines are \
              those of the upright body. There is no such moment if the centres of gravity and buoyancy lie in \
              one vertical line",
             kilo(&self.body.constant_force[2], 1)
         );
-        Some(Warning::new("balance", words))
+        Some(Warning::new("balance", message))
     }
 
     fn warn(&self, reading: &Reading, warnings: &mut Vec<Warning>) {
@@ -293,32 +294,32 @@ impl Floating {
             .chain(held)
             .filter(|natural| natural.outside)
         {
-            let words = format!(
+            let message = format!(
                 "a natural period of {:.2} s lies outside the file's frequencies, {low:.3} to \
                  {high:.3} rad/s; compute frequencies around it",
                 natural.period_s
             );
-            warnings.push(Warning::new("natural periods", words));
+            warnings.push(Warning::new("natural periods", message));
         }
         let righting = self.body.stiffness[(2, 2)];
         if righting <= 0.0 {
-            let words = format!(
+            let message = format!(
                 "the stiffness in pitch is {} kN m: without lines the body turns over, and its response \
                  in pitch has no meaning; lower its centre of gravity, or hold it by lines",
                 kilo(&righting, 1)
             );
-            warnings.push(Warning::new("stability", words));
+            warnings.push(Warning::new("stability", message));
         }
         warnings.extend(self.balance_warning());
         let pitch = self.natural.iter().zip(&self.modes);
         for (_, mode) in pitch.filter(|(natural, _)| natural.freedom == 2) {
-            if mode.damping_ratio < WEAK && self.body.damping[(2, 2)] == 0.0 {
-                let words = format!(
+            if mode.damping_ratio < WEAK_DAMPING && self.body.damping[(2, 2)] == 0.0 {
+                let message = format!(
                     "waves damp pitch only by {:.1} % of critical, and no other damping was given: \
                      without more damping its resonance is not reliable",
                     plain(100.0 * mode.damping_ratio, 0.1)
                 );
-                warnings.push(Warning::new("pitch", words));
+                warnings.push(Warning::new("pitch", message));
             }
         }
         if let Some((rest, ..)) = &self.rest {
@@ -326,14 +327,14 @@ impl Floating {
             let weight = reading.hydro.hydrostatics.displaced_mass_kg.unwrap_or(0.0);
             let draft = weight * reading.hydro.water.gravity_m_s2 / self.body.stiffness[(1, 1)];
             if rest.q[2].abs() > 0.05 || (draft > 0.0 && rest.q[1].abs() > 0.1 * draft) {
-                let words = format!(
+                let message = format!(
                     "the body rests {:.3} m {} its position in the file and at {:.1}° of pitch from it; \
                      compute the file again at the place of rest",
                     rest.q[1].abs(),
                     if rest.q[1] < 0.0 { "below" } else { "above" },
                     plain(rest.q[2].to_degrees(), 0.1)
                 );
-                warnings.push(Warning::new("place of rest", words));
+                warnings.push(Warning::new("place of rest", message));
             }
         }
     }

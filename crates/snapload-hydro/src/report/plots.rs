@@ -29,8 +29,8 @@ fn plot(title: &str, description: String, axes: [(&str, &str); 2], layers: Vec<L
     }
 }
 
-fn line(points: Vec<Point>, stroke: Stroke, words: &str) -> Layer {
-    Layer::Line(vec![points], stroke, words.to_owned())
+fn line(points: Vec<Point>, stroke: Stroke, label: &str) -> Layer {
+    Layer::Line(vec![points], stroke, label.to_owned())
 }
 
 /// All pictures, in the order of the page.
@@ -143,8 +143,8 @@ fn excitation(report: &Report, i: usize) -> Plot {
     let layers = hydro.excitation.iter().map(|excitation| {
         let points = hydro.omega_rad_s.iter().zip(&excitation.force);
         let points = points.map(|(omega, force)| [*omega, force[i].norm() / KILO]);
-        let (stroke, words) = direction(excitation.direction);
-        line(points.collect(), stroke, words)
+        let (stroke, label) = direction(excitation.direction);
+        line(points.collect(), stroke, label)
     });
     let description = format!("Wave force on {} per metre against frequency", FREEDOMS[i]);
     let unit = ["kN/m", "kN/m", "kN m/m"][i];

@@ -17,9 +17,9 @@ fn refusal_given(spoilt: Spoilt, given: &Given) -> String {
         .to_string()
 }
 
-fn says(words: &str, parts: &[&str]) {
+fn assert_message_contains(message: &str, parts: &[&str]) {
     for part in parts {
-        assert!(words.contains(part), "no {part:?} in {words:?}");
+        assert!(message.contains(part), "no {part:?} in {message:?}");
     }
 }
 
@@ -29,43 +29,43 @@ fn pontoon() -> Spoilt {
 
 #[test]
 fn what_is_missing_is_named() {
-    says(
+    assert_message_contains(
         &refusal(pontoon().without(&["added_mass"])),
         &["added_mass is missing", "omega"],
     );
-    says(
+    assert_message_contains(
         &refusal(pontoon().without(&["omega", "period", "freq"])),
         &["omega is missing"],
     );
-    says(
+    assert_message_contains(
         &refusal(pontoon().without(&["rho"])),
         &["density", "missing", "give it"],
     );
-    says(
+    assert_message_contains(
         &refusal(pontoon().without(&["rotation_center"])),
         &["rotation_center", "reference point"],
     );
     let no_force = pontoon().without(&["diffraction_force", "excitation_force"]);
-    says(&refusal(no_force), &["excitation_force is missing"]);
+    assert_message_contains(&refusal(no_force), &["excitation_force is missing"]);
     let mut spoilt = pontoon();
     for name in ["influenced_dof", "radiating_dof"] {
         spoilt = spoilt.with(name, |v| {
             v.values = Values::Words(["Surge", "Heave", "Yaw"].map(str::to_owned).to_vec());
         });
     }
-    says(
+    assert_message_contains(
         &refusal(spoilt),
         &["freedom Pitch is missing", "Surge, Heave, Yaw"],
     );
     let spoilt = pontoon().numbers("wave_direction", |_, beta| beta + 0.5);
-    says(&refusal(spoilt), &["wave_direction", "0 or π"]);
+    assert_message_contains(&refusal(spoilt), &["wave_direction", "0 or π"]);
     let spoilt = pontoon().numbers("wave_direction", |_, beta| beta.to_degrees());
-    says(&refusal(spoilt), &["wave_direction", "degrees"]);
+    assert_message_contains(&refusal(spoilt), &["wave_direction", "degrees"]);
 }
 
 /// If there are several bodies, one has to be named.
 #[test]
-fn several_bodies_are_asked_for() {
+fn one_of_several_bodies_must_be_chosen() {
     let mut spoilt = pontoon();
     for name in ["influenced_dof", "radiating_dof"] {
         spoilt = spoilt.with(name, |v| {
@@ -80,7 +80,7 @@ fn several_bodies_are_asked_for() {
         body: Some("right".to_owned()),
         ..Given::default()
     };
-    says(
+    assert_message_contains(
         &refusal_given(spoilt, &given),
         &["the body right is missing", "left"],
     );
@@ -89,30 +89,30 @@ fn several_bodies_are_asked_for() {
 #[test]
 fn numbers_that_can_not_be_are_named() {
     let nan = |at: usize, value: f64| if at == 200 { f64::NAN } else { value };
-    says(
+    assert_message_contains(
         &refusal(pontoon().numbers("added_mass", nan)),
         &["added mass of", "ω = ", "NaN"],
     );
-    says(
+    assert_message_contains(
         &refusal(pontoon().numbers("radiation_damping", nan)),
         &["damping of", "NaN"],
     );
-    says(
+    assert_message_contains(
         &refusal(pontoon().numbers("Froude_Krylov_force", nan)),
         &["wave force on", "NaN"],
     );
     let spoilt = pontoon().numbers("omega", |at, w| if at == 5 { 0.08 } else { w });
-    says(&refusal(spoilt), &["ω = 0.08", "once"]);
+    assert_message_contains(&refusal(spoilt), &["ω = 0.08", "once"]);
     let spoilt = pontoon().numbers("omega", |at, w| if at == 5 { -1.0 } else { w });
-    says(&refusal(spoilt), &["ω = -1"]);
+    assert_message_contains(&refusal(spoilt), &["ω = -1"]);
     // Tonnes instead of kilograms, feet instead of metres.
-    says(
+    assert_message_contains(
         &refusal(pontoon().numbers("rho", |_, _| 1.025)),
         &["density", "1.025", "units"],
     );
     let spoilt = pontoon().numbers("hydrostatic_stiffness", |_, c| c / 1000.0);
-    says(&refusal(spoilt), &["low-frequency limit of X3", "units"]);
-    says(
+    assert_message_contains(&refusal(spoilt), &["low-frequency limit of X3", "units"]);
+    assert_message_contains(
         &refusal(pontoon().numbers("forward_speed", |_, _| 2.0)),
         &["forward_speed = 2"],
     );
@@ -122,13 +122,13 @@ fn numbers_that_can_not_be_are_named() {
 #[test]
 fn broken_conventions_are_named() {
     let spoilt = pontoon().numbers("radiation_damping", |_, b| -b);
-    says(&refusal(spoilt), &["positive damping", "other sign"]);
+    assert_message_contains(&refusal(spoilt), &["positive damping", "other sign"]);
     // The second half of a complex variable is its imaginary part.
     let mut conjugate = pontoon();
     for name in ["diffraction_force", "Froude_Krylov_force"] {
         conjugate = conjugate.numbers(name, |at, x| if at >= 60 * 2 * 3 { -x } else { x });
     }
-    says(&refusal(conjugate), &["phase of X1", "conjugate", "β"]);
+    assert_message_contains(&refusal(conjugate), &["phase of X1", "conjugate", "β"]);
     let mut from = pontoon();
     from = from.numbers("wave_direction", |_, beta| {
         if beta == 0.0 {
@@ -137,14 +137,14 @@ fn broken_conventions_are_named() {
             0.0
         }
     });
-    says(&refusal(from), &["phase of X1", "conjugate", "come from"]);
+    assert_message_contains(&refusal(from), &["phase of X1", "conjugate", "come from"]);
     let mut upside_down = pontoon();
     for name in ["diffraction_force", "Froude_Krylov_force"] {
         upside_down = upside_down.numbers(name, |_, x| -x);
     }
-    says(&refusal(upside_down), &["phase of X3"]);
+    assert_message_contains(&refusal(upside_down), &["phase of X3"]);
     let mixed = pontoon().numbers("added_mass", |at, a| if at % 9 == 1 { a + 5e4 } else { a });
-    says(&refusal(mixed), &["symmetry", "mixed up"]);
+    assert_message_contains(&refusal(mixed), &["symmetry", "mixed up"]);
 }
 
 #[test]
@@ -152,7 +152,7 @@ fn other_layouts_are_named() {
     let spoilt = pontoon().with("complex", |v| {
         v.values = Values::Words(["real", "imag"].map(str::to_owned).to_vec());
     });
-    says(&refusal(spoilt), &["complex", "real, imag", "re and im"]);
+    assert_message_contains(&refusal(spoilt), &["complex", "real, imag", "re and im"]);
     // Complex numbers as pairs in one variable, as newer libraries write them.
     let pairs = |v: &mut snapload_hydro::Variable| {
         v.values = Values::Other("Compound of r and i".to_owned());
@@ -160,7 +160,7 @@ fn other_layouts_are_named() {
         v.shape.remove(0);
     };
     let spoilt = pontoon().with("diffraction_force", pairs);
-    says(
+    assert_message_contains(
         &refusal(spoilt),
         &[
             "diffraction_force",
@@ -169,7 +169,7 @@ fn other_layouts_are_named() {
         ],
     );
     let spoilt = pontoon().with("added_mass", |v| "frequency".clone_into(&mut v.dims[0]));
-    says(
+    assert_message_contains(
         &refusal(spoilt),
         &["added_mass", "frequency, influenced_dof"],
     );
@@ -179,7 +179,7 @@ fn other_layouts_are_named() {
         v.shape = vec![2];
         v.values = Values::Numbers(vec![10.0, 20.0]);
     });
-    says(
+    assert_message_contains(
         &refusal(spoilt),
         &["water_depth", "2 values", "one is expected"],
     );
@@ -195,11 +195,11 @@ fn the_case_has_to_agree() {
         ..Given::default()
     };
     let words = refusal_given(pontoon(), &with(Some(1000.0), None, None));
-    says(&words, &["density", "1025", "1000", "agree"]);
+    assert_message_contains(&words, &["density", "1025", "1000", "agree"]);
     let words = refusal_given(pontoon(), &with(None, Some(10.0), None));
-    says(&words, &["depth", "inf", "10"]);
+    assert_message_contains(&words, &["depth", "inf", "10"]);
     let words = refusal_given(pontoon(), &with(None, None, Some([0.0, -0.5])));
-    says(&words, &["reference point's z", "-0.5"]);
+    assert_message_contains(&words, &["reference point's z", "-0.5"]);
     let same = with(Some(1025.5), Some(f64::INFINITY), Some([0.0, 0.0]));
     assert!(from_dataset(&pontoon().0, &same).is_ok());
 }
@@ -237,12 +237,12 @@ fn bad_files_of_wamit_are_named() {
         unit_length_m: None,
         ..given.clone()
     };
-    says(&wamit_refusal(&files, &no_length), &["ULEN", "missing"]);
+    assert_message_contains(&wamit_refusal(&files, &no_length), &["ULEN", "missing"]);
     let no_density = Given {
         density_kg_m3: None,
         ..given.clone()
     };
-    says(&wamit_refusal(&files, &no_density), &["density", "missing"]);
+    assert_message_contains(&wamit_refusal(&files, &no_density), &["density", "missing"]);
     // e^{−iωt} instead of e^{+iωt}.
     let mut conjugate = files.clone();
     conjugate.excitation = files
@@ -257,7 +257,7 @@ fn bad_files_of_wamit_are_named() {
             words.join(" ") + "\n"
         })
         .collect();
-    says(
+    assert_message_contains(
         &wamit_refusal(&conjugate, &given),
         &["phase of X1", "conjugate"],
     );
@@ -269,16 +269,16 @@ fn bad_files_of_wamit_are_named() {
         .filter(keep)
         .map(|l| l.to_owned() + "\n")
         .collect();
-    says(&wamit_refusal(&no_heave, &given), &["3,3", "missing"]);
+    assert_message_contains(&wamit_refusal(&no_heave, &given), &["3,3", "missing"]);
     let mut words = files.clone();
     words.radiation += "and so on\n";
-    says(
+    assert_message_contains(
         &wamit_refusal(&words, &given),
         &[".1 file", "line", "and so on"],
     );
     let mut columns = files.clone();
     columns.excitation = "1.0 0.0 1 2.0 90.0 2.0 0.0\n".to_owned();
-    says(&wamit_refusal(&columns, &given), &["PHA", "degrees"]);
+    assert_message_contains(&wamit_refusal(&columns, &given), &["PHA", "degrees"]);
     let mut nan = files.clone();
     nan.radiation = files.radiation.replace("2.674251e+02", "NaN");
     assert!(
@@ -287,7 +287,7 @@ fn bad_files_of_wamit_are_named() {
     );
     let mut other = files.clone();
     other.excitation = other.excitation.replace("1.354135e+00", "1.354000e+00");
-    says(
+    assert_message_contains(
         &wamit_refusal(&other, &given),
         &["frequencies of the .1 and the .3 file"],
     );
@@ -310,9 +310,9 @@ fn files_of_other_sorts_are_refused() {
     assert_eq!(refused("nothing.nc"), missing);
     let beside = "can not be read: RadiationCoefficients.tec: No such file or directory";
     assert_eq!(refused("nothing.tec"), beside);
-    says(&refused("pontoon.xyz"), &["Capytaine", "WAMIT", "Nemoh"]);
+    assert_message_contains(&refused("pontoon.xyz"), &["Capytaine", "WAMIT", "Nemoh"]);
     let error = Dataset::from_netcdf(b"not a netCDF file at all").expect_err("a refusal");
-    says(&error.to_string(), &["can not be read", "netCDF"]);
+    assert_message_contains(&error.to_string(), &["can not be read", "netCDF"]);
     assert!(Dataset::from_netcdf(b"").is_err());
 }
 

@@ -55,7 +55,7 @@ fn a_place_that_nothing_holds_does_not_change_the_swings() {
 
 /// About any place, and with any damping, amplitudes are those of the swing that was made.
 #[test]
-fn amplitudes_are_told_from_where_it_swings_about() {
+fn amplitudes_are_measured_from_where_it_swings_about() {
     for (about, damping) in [(0.0, 0.01_f64), (0.4, 0.01), (-3.0, 0.1), (0.4, 0.3)] {
         let omega = 2.0;
         let decrement = damping / (1.0 - damping * damping).sqrt() * omega;

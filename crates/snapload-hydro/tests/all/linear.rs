@@ -318,7 +318,7 @@ fn narrow_peaks_are_found_between_the_frequencies() {
 /// The sphere released from a metre: by the exponentials to rounding, by the damping without them,
 /// and against the published curves.
 #[test]
-fn the_sphere_decays_as_others_say() {
+fn the_sphere_decays_as_published() {
     let table = reference("decay.json");
     let hydro = hydro("sphere.nc");
     let body = body(&reference("linear.json")["sphere"]["case"], &hydro);
@@ -388,7 +388,7 @@ fn the_sphere_decays_as_others_say() {
 
 /// Missing values that a body needs are named in the message; impossible masses are refused.
 #[test]
-fn bodies_ask_for_what_they_need() {
+fn bodies_need_a_mass_and_a_centre() {
     let whole = hydro("sphere.nc");
     let mut bare = whole.clone();
     bare.hydrostatics.stiffness = None;

@@ -93,12 +93,12 @@ fn added_mass_at_infinity_follows_from_the_damping() {
 
 /// There are warnings of poor files, with the outlying frequencies.
 #[test]
-fn poor_files_are_warned_of() {
+fn poor_files_cause_warnings() {
     let poor = fitted("pontoon-poor.nc");
     let about = |what: &str| {
         let warnings = poor.warnings.iter().filter(|warning| warning.what == what);
         warnings
-            .map(|warning| warning.words.as_str())
+            .map(|warning| warning.message.as_str())
             .collect::<Vec<_>>()
             .join("\n")
     };

@@ -61,7 +61,11 @@ fn good_files_have_no_warning_of_signs() {
             "few frequencies",
         ];
         for warning in &reading.warnings {
-            assert!(!wrong.contains(&warning.what), "{name}: {}", warning.words);
+            assert!(
+                !wrong.contains(&warning.what),
+                "{name}: {}",
+                warning.message
+            );
         }
     }
     let poor = reading("cylinder-poor.nc");
@@ -84,7 +88,7 @@ fn wamit_given() -> Given {
 
 /// The same body in WAMIT's format, which has seven digits, is the same body.
 #[test]
-fn wamit_says_the_same_as_capytaine() {
+fn wamit_agrees_with_capytaine() {
     let wamit = read(&path("pontoon-deep.3"), &wamit_given()).expect("a reading");
     assert_eq!(wamit.format, Format::Wamit);
     let (a, b) = (wamit.hydro, hydro("pontoon-deep.nc"));

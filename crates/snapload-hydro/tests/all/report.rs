@@ -12,7 +12,7 @@ fn request() -> Request {
 
 /// A page with all pictures and warnings, a summary, and JSON with all numbers.
 #[test]
-fn everything_is_told() {
+fn everything_is_reported() {
     let mut request = request();
     let line = |x: f64| Line {
         anchor_m: [3.0 * x, -10.0],
@@ -24,13 +24,13 @@ fn everything_is_told() {
     let report = Report::new("pontoon", reading("pontoon-deep.nc"), &request).expect("a report");
     let page = page(&report, "snapload hydro <pontoon>").expect("a page");
     assert_eq!(page.matches("<svg").count(), 5);
-    for words in [
+    for message in [
         "held by its lines",
         "Memory K(t)",
         "Quality of the memory",
         "high frequencies",
     ] {
-        assert!(page.contains(words), "{words}");
+        assert!(page.contains(message), "{message}");
     }
     assert!(!page.contains("<pontoon>") && !page.contains("NaN"));
     let labels: Vec<String> = report
@@ -58,7 +58,7 @@ fn everything_is_told() {
 
 /// A file without hydrostatics has a memory but no periods, and a message names what is missing.
 #[test]
-fn files_without_hydrostatics_say_so() {
+fn files_without_hydrostatics_are_reported() {
     let mut bare = hydro("sphere.nc");
     bare.hydrostatics = Default::default();
     let reading = Reading::new(Format::Nemoh, bare).expect("a reading");
@@ -85,7 +85,7 @@ fn the_largest_response_is_that_of_the_resonance() {
         request.damping = [0.0, 0.0, damping];
         Report::new("pontoon", reading("pontoon-deep.nc"), &request).expect("a report")
     };
-    let told = |report: &Report| {
+    let found = |report: &Report| {
         let rows = report.summary();
         let row = rows.into_iter().find(|(label, _)| label == "response");
         row.expect("a row").1
@@ -105,19 +105,19 @@ fn the_largest_response_is_that_of_the_resonance() {
     let amplitudes = floating.responses[0][0].amplitude.iter();
     let coarse = amplitudes.map(on_the_grid).fold(0.0, f64::max);
     assert!(of("amplitude") > 2.0 * coarse, "{largest} {coarse}");
-    let words = told(&report);
+    let message = found(&report);
     let degrees = format!("pitch {:.0} °/m at 3.80 s", of("amplitude").to_degrees());
-    assert!(words.contains(&degrees), "{words}");
+    assert!(message.contains(&degrees), "{message}");
     assert!(
-        words.contains("pitch is so narrow that it is only as accurate as the damping, 0.61 %")
+        message.contains("pitch is so narrow that it is only as accurate as the damping, 0.61 %")
     );
-    let damped = told(&answer(5e4));
+    let damped = found(&answer(5e4));
     assert!(!damped.contains("narrow"), "{damped}");
 }
 
 /// A body whose centre of gravity lies above its metacentre turns over, which is reported.
 #[test]
-fn a_body_that_turns_over_is_told() {
+fn a_body_that_turns_over_is_reported() {
     let answer = |z: f64| {
         let mut request = request();
         request.weight.centre_m = Some([0.0, z]);
@@ -138,7 +138,7 @@ fn a_body_that_turns_over_is_told() {
 /// A given mass with the inertia of the file's body causes a warning, in words and in JSON; the
 /// reported inertia is about the same point as `--inertia`.
 #[test]
-fn an_inertia_that_is_not_given_with_a_mass_is_told() {
+fn an_inertia_that_is_not_given_with_a_mass_is_reported() {
     let answer = |mass: Option<f64>, inertia: Option<f64>| {
         let mut request = request();
         request.weight.mass_kg = mass;
@@ -146,8 +146,8 @@ fn an_inertia_that_is_not_given_with_a_mass_is_told() {
         Report::new("pontoon", reading("pontoon-deep.nc"), &request).expect("a report")
     };
     let warned = |report: &Report| {
-        let warning = |(label, words): &(String, String)| {
-            label == "warning" && words.starts_with("moment of inertia: the mass is 80.0 t")
+        let warning = |(label, message): &(String, String)| {
+            label == "warning" && message.starts_with("moment of inertia: the mass is 80.0 t")
         };
         let json = serde_json::to_value(report.to_json()).expect("JSON");
         let rows = json["warnings"].as_array().expect("warnings").clone();
@@ -176,16 +176,16 @@ fn an_inertia_that_is_not_given_with_a_mass_is_told() {
 /// A centre of gravity beside that of buoyancy turns the body by its weight's arm over the stiffness,
 /// which is told in words and in JSON; one under it does not.
 #[test]
-fn a_moment_that_nothing_balances_is_told() {
+fn a_moment_that_nothing_balances_is_reported() {
     let report = |x: f64| {
         let mut request = request();
         request.weight.centre_m = Some([x, -0.2]);
         Report::new("pontoon", reading("pontoon-deep.nc"), &request).expect("a report")
     };
     let of = |report: &Report| -> Vec<String> {
-        let told = report.warnings.iter();
-        let told = told.filter(|warning| warning.what == "balance");
-        told.map(|warning| warning.words.clone()).collect()
+        let found = report.warnings.iter();
+        let found = found.filter(|warning| warning.what == "balance");
+        found.map(|warning| warning.message.clone()).collect()
     };
     let balance = |report: &Report| {
         let rows = report.summary();
@@ -197,11 +197,11 @@ fn a_moment_that_nothing_balances_is_told() {
     let body = &turned.floating.as_ref().expect("a body").body;
     let arm = 0.5 * body.mass_kg * 9.81;
     let angle = (arm / body.stiffness[(2, 2)]).to_degrees();
-    let words = of(&turned).concat();
-    assert!(words.contains(&format!("{angle:.1}°")), "{words}");
-    let (_, words) = balance(&turned).expect("a row");
-    let said = format!("a moment of {:.1} kN m is not balanced", arm / 1e3);
-    assert!(words.contains(&said), "{words}");
+    let message = of(&turned).concat();
+    assert!(message.contains(&format!("{angle:.1}°")), "{message}");
+    let (_, message) = balance(&turned).expect("a row");
+    let expected = format!("a moment of {:.1} kN m is not balanced", arm / 1e3);
+    assert!(message.contains(&expected), "{message}");
     let json = serde_json::to_value(turned.to_json()).expect("JSON");
     assert!(json["warnings"].to_string().contains("upright"));
 }
@@ -214,12 +214,12 @@ fn a_fit_is_no_better_than_its_worst_entry() {
     request.fit = FitOptions { pairs: Some(2) };
     let report = Report::new("pontoon", reading("pontoon-deep.nc"), &request).expect("a report");
     let worst = EntryQuality::worst(&report.fit.entries).expect("entries");
-    let said = format!(
+    let expected = format!(
         "{:.2} % (root mean square; {})",
         100.0 * worst.rms,
         worst.name()
     );
-    assert!(report.memory_words().contains(&said), "{said}");
+    assert!(report.memory_summary().contains(&expected), "{expected}");
     let mut blocks = report.fit.blocks.iter();
     assert!(blocks.any(|block| block.freedoms.len() > 1));
     for block in report
@@ -232,12 +232,12 @@ fn a_fit_is_no_better_than_its_worst_entry() {
         let own = own.filter(|entry| block.freedoms.contains(&entry.force));
         let worst = EntryQuality::worst(own).expect("entries");
         assert!(worst.rms > block.rms && block.rms > 0.02, "{block:?}");
-        let said = format!("{} alone to {:.1} %", worst.name(), 100.0 * worst.rms);
+        let expected = format!("{} alone to {:.1} %", worst.name(), 100.0 * worst.rms);
         assert!(
             report
                 .warnings
                 .iter()
-                .any(|warning| warning.words.contains(&said))
+                .any(|warning| warning.message.contains(&expected))
         );
     }
 }

@@ -101,11 +101,11 @@ fn small_motion(
 /// If no line holds the body in surge, or its weight is more than the lines from below can balance,
 /// a message says so.
 #[test]
-fn no_place_of_rest_is_said() {
+fn a_missing_place_of_rest_is_reported() {
     let hydro = hydro("sphere.nc");
     let mut body = Body::new(&hydro, &Weight::default()).expect("a body");
-    let words = rest(&hydro, &body, &[]).expect_err("a refusal").to_string();
-    assert!(words.contains("surge"), "{words}");
+    let message = rest(&hydro, &body, &[]).expect_err("a refusal").to_string();
+    assert!(message.contains("surge"), "{message}");
     // The body is half as heavy again as it can carry, on a line from below.
     body.constant_force[1] = -5.0 * body.stiffness[(1, 1)];
     let line = Line {
@@ -118,10 +118,10 @@ fn no_place_of_rest_is_said() {
         length_m: 0.0,
         ..line
     };
-    let words = rest(&hydro, &body, &[short])
+    let message = rest(&hydro, &body, &[short])
         .expect_err("a refusal")
         .to_string();
-    assert!(words.contains("length of line 1"), "{words}");
+    assert!(message.contains("length of line 1"), "{message}");
 }
 
 /// The moment of inertia of the file is that about the body's centre of gravity: it stays the same

@@ -118,13 +118,16 @@ fn it_swings_without_damping() {
         "{warned:?}"
     );
     assert!(!warned.contains(&"low frequencies"), "{warned:?}");
-    let told: String = report
+    let summary: String = report
         .summary()
         .into_iter()
         .map(|(_, words)| words + "\n")
         .collect();
-    assert!(told.contains("with 0.00 % of critical damping"), "{told}");
-    assert!(!told.contains("-0.0"), "{told}");
+    assert!(
+        summary.contains("with 0.00 % of critical damping"),
+        "{summary}"
+    );
+    assert!(!summary.contains("-0.0"), "{summary}");
 }
 
 /// Half a circle turns about its centre without moving water; it displaces half a cylinder.

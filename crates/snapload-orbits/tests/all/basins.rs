@@ -4,7 +4,7 @@ use crate::common::{number, parameters, reference};
 use serde_json::Value as Json;
 use snapload::analysis::no_progress;
 use snapload::{Parameters, Stop, key_named};
-use snapload_orbits::{Basin, Cell, Erosion, KNEE, Window, basin_in_words, erosion_in_words};
+use snapload_orbits::{Basin, Cell, Erosion, KNEE, Window, basin_summary, erosion_summary};
 
 /// Evenly spaced decimals, as in a grid of the command.
 fn even(axis: &Json) -> (&'static str, Vec<f64>) {
@@ -108,7 +108,7 @@ fn the_knee_is_that_of_the_decided_cells() {
     let [low, high] = erosion.knee_between().unwrap();
     assert!(low.is_some_and(|low| low < values[2]), "{low:?}");
     assert!(high.is_none_or(|high| high >= values[2]), "{high:?}");
-    let text = erosion_in_words(&erosion);
+    let text = erosion_summary(&erosion);
     assert!(
         text.contains("depending on how undecided cells end"),
         "{text}"
@@ -116,13 +116,13 @@ fn the_knee_is_that_of_the_decided_cells() {
 }
 
 #[test]
-fn a_window_beyond_the_cables_is_said_to_be_so() {
+fn a_window_beyond_the_cables_is_reported() {
     let window = Window {
         base: Parameters::STANDARD,
         keys: ["x", "y"],
         values: [vec![5.0, 6.0], vec![5.0, 6.0]],
     };
-    let text = basin_in_words(&Basin::of(window, false, &no_progress).unwrap());
+    let text = basin_summary(&Basin::of(window, false, &no_progress).unwrap());
     assert!(
         text.contains("no cell is legal") && !text.contains("NaN"),
         "{text}"
@@ -132,17 +132,17 @@ fn a_window_beyond_the_cables_is_said_to_be_so() {
 /// Distances from the equilibrium are told in planes that hold it, and in no other: there no start is
 /// nearer to it than what the other keys are.
 #[test]
-fn a_plane_beside_the_equilibrium_has_no_distances_from_it() {
+fn a_plane_without_the_equilibrium_has_no_distances_from_it() {
     let mut window = window(&reference()["grids"]["circle_xy_f0.3"]);
     window.values = [vec![-0.1, 0.0, 0.1], vec![0.1, 0.3, 0.5]];
     let basin = Basin::of(window.clone(), false, &no_progress).unwrap();
     let lim = basin.measures.lim.unwrap();
-    assert!(basin_in_words(&basin).contains(&format!("{lim:.4} from the equilibrium (LIM)")));
+    assert!(basin_summary(&basin).contains(&format!("{lim:.4} from the equilibrium (LIM)")));
     window.base.vy = -0.2;
     let basin = Basin::of(window, false, &no_progress).unwrap();
     assert_eq!((basin.measures.lim, basin.measures.iim), (None, None));
     assert!(basin.measures.integrity_factor.is_some());
-    let words = basin_in_words(&basin);
+    let words = basin_summary(&basin);
     assert!(
         words.contains("the equilibrium is not in this plane, as vy = -0.2\n"),
         "{words}"
@@ -152,13 +152,13 @@ fn a_plane_beside_the_equilibrium_has_no_distances_from_it() {
 /// The plane of an erosion moves with a start key, and one that is always beside the equilibrium says
 /// by which key.
 #[test]
-fn an_erosion_says_in_which_planes_there_are_distances() {
+fn an_erosion_reports_in_which_planes_there_are_distances() {
     let mut window = window(&reference()["grids"]["circle_xy_f0.3"]);
     window.values = [vec![-0.1, 0.1], vec![0.1, 0.3]];
     window.base.t_end = 2.0;
     let words = |window: &Window, key: &'static str, values: &[f64]| {
         let erosion = Erosion::of(window, key, values, false, &no_progress).unwrap();
-        erosion_in_words(&erosion)
+        erosion_summary(&erosion)
     };
     assert!(!words(&window, "f_o", &[0.1, 0.2]).contains("undefined (LIM"));
     let moving = words(&window, "vy", &[-0.1, 0.0, 0.1]);

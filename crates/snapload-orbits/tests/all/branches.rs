@@ -3,20 +3,20 @@
 use crate::common::{number, parameters, point, reference};
 use serde_json::Value as Json;
 use snapload::analysis::no_progress;
-use snapload_orbits::{Along, Branch, Moored, Orbit, Wanted};
+use snapload_orbits::{Branch, BranchOptions, Moored, Orbit, OrbitRequest};
 
 fn branch(reference: &Json, start: [f64; 6], range: [f64; 2]) -> Branch {
     let base = parameters(&reference["base"]);
     let keys = [Some("f_o"), None];
     let family = Moored::case(base, keys);
     let at = Moored::values(&base, keys);
-    let orbit = Orbit::find(&family, at, &start, &Wanted::default()).unwrap();
-    let along = Along {
+    let orbit = Orbit::find(&family, at, &start, &OrbitRequest::default()).unwrap();
+    let options = BranchOptions {
         range,
         step: 0.02,
         most: 2000,
     };
-    Branch::of(&family, &orbit, &along, &no_progress).unwrap()
+    Branch::of(&family, &orbit, &options, &no_progress).unwrap()
 }
 
 fn name_of(kind: &str) -> &str {
@@ -99,14 +99,14 @@ fn a_branch_ends_on_the_borders_of_its_range() {
     let family = Moored::case(base, keys);
     let at = Moored::values(&base, keys);
     let start = [-0.27, 0.38, 0.0, 0.81, -0.43, 0.0];
-    let orbit = Orbit::find(&family, at, &start, &Wanted::default()).unwrap();
+    let orbit = Orbit::find(&family, at, &start, &OrbitRequest::default()).unwrap();
     for range in [[at[0] - 0.013, at[0] + 0.1], [at[0], at[0] + 0.05]] {
-        let along = Along {
+        let options = BranchOptions {
             range,
             step: 0.02,
             most: 2000,
         };
-        let branch = Branch::of(&family, &orbit, &along, &no_progress).unwrap();
+        let branch = Branch::of(&family, &orbit, &options, &no_progress).unwrap();
         let ends = branch
             .ends
             .each_ref()

@@ -6,20 +6,21 @@ use crate::wall::{Wall, WallOver};
 use snapload::analysis::no_progress;
 use snapload::{Body, Cable, Forcing, Harmonic, Real, Rules, System, TautSet};
 use snapload_orbits::{
-    Along, Branch, Event, Family, Happening, Hybrid, Kind, Lap, Moored, Orbit, Sequence, close,
+    Branch, BranchOptions, Event, EventKind, Family, Hybrid, Kind, Lap, Moored, Orbit, Sequence,
+    close,
 };
 
 /// One snap of surface 0 in slack flight.
 pub fn one_snap() -> Sequence {
     let struck = TautSet::only(0);
-    let happening = Happening::Snap {
+    let kind = EventKind::Snap {
         struck,
         pulling: struck,
     };
     Sequence {
         start: TautSet::SLACK,
         events: vec![Event {
-            happening,
+            kind,
             after: TautSet::SLACK,
         }],
     }
@@ -224,12 +225,12 @@ fn the_ball_on_a_table_is_born_and_doubles_where_it_must() {
         // A cable so long that the transverse motion stays stable.
         let family = table(400.0, 3.0);
         let orbit = bouncing(&family, [0.5 * (born + doubles), e], n);
-        let along = Along {
+        let options = BranchOptions {
             range: [0.5 * born, 1.1 * doubles],
             step: 0.02,
             most: 400,
         };
-        let branch = Branch::of(&family, &orbit, &along, &no_progress).unwrap();
+        let branch = Branch::of(&family, &orbit, &options, &no_progress).unwrap();
         let located = |kind: Kind, value: f64| {
             let of_kind = branch.events.iter().filter(|event| event.kind == kind);
             of_kind
@@ -256,12 +257,12 @@ fn the_ball_doubles_its_period_again_and_again() {
     let (e, doubles) = (number(&row["e"]), number(&row["period_doubling"]));
     let family = table(4000.0, 3.0);
     let orbit = bouncing(&family, [0.98 * doubles, e], 1);
-    let mut along = Along {
+    let mut options = BranchOptions {
         range: [0.97 * doubles, 1.3 * doubles],
         step: 0.02,
         most: 60,
     };
-    let mut branch = Branch::of(&family, &orbit, &along, &no_progress).unwrap();
+    let mut branch = Branch::of(&family, &orbit, &options, &no_progress).unwrap();
     let mut values: Vec<f64> = Vec::new();
     let mut periods = 1;
     while let Some(event) = branch
@@ -272,9 +273,9 @@ fn the_ball_doubles_its_period_again_and_again() {
     {
         assert_eq!(event.orbit.periods, periods);
         values.push(event.value[0]);
-        along.step *= 0.45;
+        options.step *= 0.45;
         let event = event.clone();
-        branch = Branch::of_doubling(&family, &event, &along, &no_progress)
+        branch = Branch::of_doubling(&family, &event, &options, &no_progress)
             .unwrap()
             .unwrap();
         periods *= 2;

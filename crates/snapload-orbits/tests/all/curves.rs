@@ -4,18 +4,18 @@ use crate::closed_forms::{bouncing, bouncing_from, table};
 use crate::common::{parameters, reference};
 use snapload::analysis::no_progress;
 use snapload_orbits::{
-    Across, Along, Branch, BranchEvent, Curve, CurvePoint, Family, Kind, Moored, Orbit, Wanted,
-    distance,
+    Branch, BranchEvent, BranchOptions, Curve, CurveOptions, CurvePoint, Family, Kind, Moored,
+    Orbit, OrbitRequest, distance,
 };
 use std::f64::consts::PI;
 
 fn curve<F: Family>(family: &F, event: &BranchEvent, ranges: [[f64; 2]; 2], step: f64) -> Curve {
-    let across = Across {
+    let options = CurveOptions {
         ranges,
         step,
         most: 400,
     };
-    let curve = Curve::of(family, event, &across, &no_progress)
+    let curve = Curve::of(family, event, &options, &no_progress)
         .unwrap()
         .unwrap();
     for end in &curve.ends {
@@ -43,12 +43,12 @@ fn the_ball_on_a_table_has_its_curves() {
     let (e, n) = (0.5, 1);
     let [born, doubles] = of_the_table(e, n);
     let orbit = bouncing(&family, [0.5 * (born + doubles), e], n);
-    let along = Along {
+    let options = BranchOptions {
         range: [0.5 * born, 1.1 * doubles],
         step: 0.02,
         most: 400,
     };
-    let branch = Branch::of(&family, &orbit, &along, &no_progress).unwrap();
+    let branch = Branch::of(&family, &orbit, &options, &no_progress).unwrap();
     for (kind, which) in [(Kind::Fold, 0), (Kind::PeriodDoubling, 1)] {
         let event = branch.event(kind, None).unwrap();
         let found = curve(&family, event, [[0.0, 5.0], [0.2, 0.95]], 0.02);
@@ -83,12 +83,12 @@ fn coefficients_are_those_of_the_branches() {
     let e = 0.5;
     let [born, doubles] = of_the_table(e, 1);
     let orbit = bouncing_from(&family, [0.5 * (born + doubles), e], 1, 0.5);
-    let mut along = Along {
+    let mut options = BranchOptions {
         range: [0.5 * born, 1.1 * doubles],
         step: 0.002,
         most: 2000,
     };
-    let branch = Branch::of(&family, &orbit, &along, &no_progress).unwrap();
+    let branch = Branch::of(&family, &orbit, &options, &no_progress).unwrap();
     let first =
         |event| curve(&family, event, [[0.0, 5.0], [0.499, 0.501]], 0.002).points[0].clone();
     let fold = branch.event(Kind::Fold, None).unwrap();
@@ -117,9 +117,9 @@ fn coefficients_are_those_of_the_branches() {
     let doubling = branch.event(Kind::PeriodDoubling, None).unwrap();
     let found = first(doubling).coefficient.unwrap();
     assert!(found > 0.0);
-    along.step = 0.001;
-    along.most = 20;
-    let twice = Branch::of_doubling(&family, doubling, &along, &no_progress)
+    options.step = 0.001;
+    options.most = 20;
+    let twice = Branch::of_doubling(&family, doubling, &options, &no_progress)
         .unwrap()
         .unwrap();
     let apart = &twice.points[4].orbit;
@@ -141,16 +141,16 @@ fn agrees(name: &str, key: &'static str, kind: Kind, point: &CurvePoint, range: 
     let [f_o, _] = point.orbit.at;
     let aside = [1.0 + range, 1.0 - range].into_iter().find_map(|by| {
         let at = [f_o * by, point.orbit.at[1]];
-        let orbit = Orbit::find(&family, at, &point.orbit.z, &Wanted::default()).ok()?;
+        let orbit = Orbit::find(&family, at, &point.orbit.z, &OrbitRequest::default()).ok()?;
         let same = orbit.lap.sequence.struck().len() == point.orbit.lap.sequence.struck().len();
         same.then_some(orbit)
     });
-    let along = Along {
+    let options = BranchOptions {
         range: [f_o * (1.0 - 1.5 * range), f_o * (1.0 + 1.5 * range)],
         step: 0.01,
         most: 500,
     };
-    let branch = Branch::of(&family, &aside.unwrap(), &along, &no_progress).unwrap();
+    let branch = Branch::of(&family, &aside.unwrap(), &options, &no_progress).unwrap();
     let of_kind = branch.events.iter().filter(|event| event.kind == kind);
     let off = of_kind.map(|event| {
         (event.value[0] - f_o).abs() + distance(&event.orbit.z, &point.orbit.z) * 1e-3
@@ -182,13 +182,13 @@ fn curves_of_the_breakwater_are_those_of_branches() {
         let keys = [Some("f_o"), Some(key)];
         let family = Moored::case(base, keys);
         let at = Moored::values(&base, keys);
-        let orbit = Orbit::find(&family, at, &start, &Wanted::default()).unwrap();
-        let along = Along {
+        let orbit = Orbit::find(&family, at, &start, &OrbitRequest::default()).unwrap();
+        let options = BranchOptions {
             range: around,
             step: 0.02,
             most: 2000,
         };
-        let branch = Branch::of(&family, &orbit, &along, &no_progress).unwrap();
+        let branch = Branch::of(&family, &orbit, &options, &no_progress).unwrap();
         let event = branch.event(kind, None).unwrap();
         let found = curve(&family, event, [around, other], 0.01);
         assert!(found.points.len() > 5);
@@ -217,13 +217,13 @@ fn coefficients_of_folds_have_a_sign_along_the_curve() {
     let family = Moored::case(base, keys);
     let start = [-0.2688, 0.3830, 0.0, 0.8084, -0.4263, 0.0];
     let at = Moored::values(&base, keys);
-    let orbit = Orbit::find(&family, at, &start, &Wanted::default()).unwrap();
-    let along = Along {
+    let orbit = Orbit::find(&family, at, &start, &OrbitRequest::default()).unwrap();
+    let options = BranchOptions {
         range: [1.0, 2.0],
         step: 0.02,
         most: 2000,
     };
-    let branch = Branch::of(&family, &orbit, &along, &no_progress).unwrap();
+    let branch = Branch::of(&family, &orbit, &options, &no_progress).unwrap();
     let event = branch.event(Kind::Fold, None).unwrap();
     let found = curve(&family, event, [[1.0, 2.0], [2.5, 3.5]], 0.01);
     let known: Vec<f64> = found

@@ -5,8 +5,8 @@ use crate::orbits::volley;
 use snapload::Parameters;
 use snapload::analysis::no_progress;
 use snapload_orbits::{
-    Attraction, Fate, Orbit, Section, Stability, Stretch, Wanted, Window, diagram, distance,
-    of_attractor, section_in_words,
+    Attraction, CellOutcome, Orbit, OrbitRequest, Section, SectionOptions, Stability, Window,
+    diagram, distance, of_attractor, section_summary,
 };
 
 #[test]
@@ -22,14 +22,14 @@ fn the_attractor_is_followed_as_in_the_reference() {
     };
     let rows = reference["rows"].as_array().unwrap();
     let values: Vec<f64> = rows.iter().map(|row| number(&row["f_o"])).collect();
-    let stretch = Stretch {
+    let options = SectionOptions {
         phase: 0.0,
         skip: reference["transient"].as_u64().unwrap(),
         keep: reference["kept"].as_u64().unwrap(),
         exponents: true,
         impacts: false,
     };
-    let found = diagram(&base, "f_o", &values, &stretch, &no_progress).unwrap();
+    let found = diagram(&base, "f_o", &values, &options, &no_progress).unwrap();
     for (at, row) in found.iter().zip(rows) {
         assert_eq!(at.period.map(|n| n as u64), row["period"].as_u64());
         assert_eq!(at.snaps().unwrap(), number(&row["snaps_per_period"]));
@@ -69,13 +69,13 @@ fn two_attractors_share_the_starts() {
         .iter()
         .map(|attractor| attractor.orbit.as_ref().unwrap().lap.sequence.symbol())
         .collect();
-    println!("{symbols:?} {:?}", found.fates);
+    println!("{symbols:?} {:?}", found.outcomes);
     assert!(symbols.contains(&Vec::new()));
     assert!(symbols.iter().any(|symbol| symbol.len() == 3));
-    assert!(!found.fates.contains(&Fate::Aperiodic));
+    assert!(!found.outcomes.contains(&CellOutcome::Aperiodic));
 }
 
-const KEPT: Stretch = Stretch {
+const KEPT: SectionOptions = SectionOptions {
     phase: 0.0,
     skip: 300,
     keep: 100,
@@ -99,7 +99,7 @@ fn taut_cables_close_the_directions_across_them() {
     };
     let found = section(&point);
     assert_eq!(found.exponents, [[f64::NEG_INFINITY, 0.0]; 4]);
-    assert!(section_in_words(&found).contains(": 4 of -inf (directions closed by contact)\n"));
+    assert!(section_summary(&found).contains(": 4 of -inf (directions closed by contact)\n"));
     let rocking = Parameters {
         f_o: 0.1,
         ..Parameters::STANDARD
@@ -127,7 +127,7 @@ fn exponents_of_an_orbit_that_sticks_are_those_of_its_multipliers() {
         omega: 3.1,
         ..Parameters::STANDARD
     };
-    let orbit = of_attractor(&parameters, &Wanted::default(), &no_progress);
+    let orbit = of_attractor(&parameters, &OrbitRequest::default(), &no_progress);
     let orbit: Orbit = orbit.unwrap().unwrap();
     assert_eq!(orbit.multipliers.zeros_from_contact, 2);
     let found = section(&parameters).exponents;
@@ -159,7 +159,7 @@ fn the_orbit_of_an_attractor_is_where_the_motion_goes() {
             omega: 3.1,
             ..Parameters::STANDARD
         };
-        let orbit = of_attractor(&parameters, &Wanted::default(), &no_progress);
+        let orbit = of_attractor(&parameters, &OrbitRequest::default(), &no_progress);
         let orbit: Orbit = orbit.unwrap().unwrap();
         assert_eq!(orbit.stability(), Stability::Stable);
         let followed = section(&parameters);

@@ -5,7 +5,7 @@ use snapload::{Case, PrescribedTaut, Stop, TautSet, named_case};
 /// Every step of a run is a motion with given taut cables, forwards and backwards, and its single
 /// impacts follow this law.
 #[test]
-fn the_steps_of_a_run_are_held_motions() {
+fn the_steps_of_a_run_are_motions_of_held_cables() {
     let (mut slack, mut taut, mut struck) = (0, 0, 0);
     for code in ["sliding-example", "rocking-example"] {
         let mut simulation = Case::new(named_case(code).unwrap().parameters)

@@ -5,21 +5,26 @@ use serde_json::Value as Json;
 use snapload::Parameters;
 use snapload_certificate::ExactCase;
 use snapload_orbits::{
-    Family, Lap, Moored, Orbit, Point, Stability, Wanted, distance, followed, orbit_in_words,
+    Family, Lap, Moored, Orbit, OrbitRequest, Point, Stability, distance, followed_key,
+    orbit_summary,
 };
 
 /// The orbit near the reference's, from a start at a distance of 1e-4.
-fn found(reference: &Json, beside: f64) -> Orbit {
+fn found(reference: &Json, distance_from_it: f64) -> Orbit {
     let family = Moored::case(parameters(&reference["case"]), [None; 2]);
     let mut start = point(&reference["section_point"]);
     let turns = parameters(&reference["case"]).inertia.is_some();
     for (i, component) in start.iter_mut().enumerate() {
         if turns || i % 3 != 2 {
-            *component += if i % 2 == 0 { beside } else { -beside };
+            *component += if i % 2 == 0 {
+                distance_from_it
+            } else {
+                -distance_from_it
+            };
         }
     }
     let name = &reference["name"];
-    Orbit::find(&family, [0.0; 2], &start, &Wanted::default())
+    Orbit::find(&family, [0.0; 2], &start, &OrbitRequest::default())
         .unwrap_or_else(|why| panic!("{name}: {why}"))
 }
 
@@ -28,10 +33,10 @@ fn orbits() -> Vec<Json> {
 }
 
 #[test]
-fn reference_orbits_are_found_from_beside_them() {
+fn reference_orbits_are_found_from_nearby() {
     for reference in orbits() {
-        for beside in [1e-4, -1e-4] {
-            let orbit = found(&reference, beside);
+        for distance_from_it in [1e-4, -1e-4] {
+            let orbit = found(&reference, distance_from_it);
             let name = reference["name"].as_str().unwrap();
             let largest = orbit.multipliers.largest();
             let off = distance(&orbit.z, &point(&reference["section_point"]));
@@ -141,7 +146,7 @@ fn the_orbit_whose_cable_would_have_to_push_is_refused() {
 }
 
 #[test]
-fn kinds_of_stability_are_told() {
+fn kinds_of_stability_are_reported() {
     let all = orbits();
     let one = |name: &str| found(all.iter().find(|o| o["name"] == name).unwrap(), 1e-4).stability();
     assert_eq!(one("volley"), Stability::Stable);
@@ -160,34 +165,34 @@ pub fn volley() -> (Moored, Parameters, Point) {
 }
 
 #[test]
-fn snaps_that_were_asked_for_and_are_not_there_are_named() {
+fn requested_snaps_that_do_not_occur_are_named() {
     let (family, _, start) = volley();
     for (struck, words) in [(vec![0, 0], "1, 1"), (vec![], "none")] {
-        let wanted = Wanted {
+        let request = OrbitRequest {
             struck: Some(struck),
-            ..Wanted::default()
+            ..OrbitRequest::default()
         };
-        let why = Orbit::find(&family, [0.0; 2], &start, &wanted).unwrap_err();
-        let told = format!(
+        let why = Orbit::find(&family, [0.0; 2], &start, &request).unwrap_err();
+        let expected = format!(
             "a lap closes with the events 2, 1, but the requested snaps are {words}; leave the symbol out"
         );
-        assert!(why.to_string().contains(&told), "{why}");
+        assert!(why.to_string().contains(&expected), "{why}");
     }
 }
 
 /// Two laps of an orbit of one period are proved, but not as an orbit of two periods.
 #[test]
-fn two_laps_are_not_told_as_an_orbit_that_takes_no_fewer_periods() {
+fn two_laps_are_not_reported_as_an_orbit_that_takes_no_fewer_periods() {
     let (family, case, start) = volley();
     let exact = ExactCase::of(&case, |_| None).unwrap();
     for (periods, is_prime) in [(1, true), (2, false)] {
-        let wanted = Wanted {
+        let request = OrbitRequest {
             periods: Some(periods),
-            ..Wanted::default()
+            ..OrbitRequest::default()
         };
-        let mut orbit = Orbit::find(&family, [0.0; 2], &start, &wanted).unwrap();
+        let mut orbit = Orbit::find(&family, [0.0; 2], &start, &request).unwrap();
         orbit.proof = Some(orbit.prove(&exact));
-        let text = orbit_in_words(&orbit);
+        let text = orbit_summary(&orbit);
         assert!(text.contains("Proved    to exist"), "{text}");
         assert_eq!(
             !text.contains("fewer periods are not ruled out"),
@@ -201,10 +206,10 @@ fn two_laps_are_not_told_as_an_orbit_that_takes_no_fewer_periods() {
 fn a_point_mass_is_not_followed_along_its_size() {
     let (_, case, _) = volley();
     for key in ["a", "b", "inertia"] {
-        let refused = followed("along", &case, key).unwrap_err().to_string();
+        let refused = followed_key("along", &case, key).unwrap_err().to_string();
         assert!(refused.contains("of this body"), "{refused}");
     }
-    assert_eq!(followed("along", &case, "r").unwrap(), ("r", 1.7));
+    assert_eq!(followed_key("along", &case, "r").unwrap(), ("r", 1.7));
 }
 
 /// The section is away from the events, so that all residuals take part.
@@ -234,13 +239,13 @@ fn durations_in_turn_and_all_unknowns_together_give_one_step() {
 
 /// The report on an orbit names its section and describes its events.
 #[test]
-fn an_orbit_is_told_in_words() {
+fn the_summary_of_an_orbit_is_printed() {
     let (family, ..) = volley();
     let near = [-0.27, 0.38, 0.0, 0.81, -0.43, 0.0];
-    let orbit = Orbit::find(&family, [0.0; 2], &near, &Wanted::default()).unwrap();
-    let told = snapload_orbits::orbit_in_words(&orbit);
+    let orbit = Orbit::find(&family, [0.0; 2], &near, &OrbitRequest::default()).unwrap();
+    let summary = snapload_orbits::orbit_summary(&orbit);
     let first = "Orbit     stable, of one period of the forcing (t = 2.026834)\n\
                  Events    snap of cable 2, snap of cable 1\n\
                  Section   x = -0.268810219, y = 0.38";
-    assert!(told.starts_with(first), "{told}");
+    assert!(summary.starts_with(first), "{summary}");
 }

@@ -4,10 +4,10 @@ use crate::common::{number, parameters, point, reference};
 use serde_json::{Value as Json, json};
 use snapload::Parameters;
 use snapload::analysis::no_progress;
-use snapload_certificate::{ExactCase, ProvedOrbit, Supposed, prove_orbit};
+use snapload_certificate::{CandidateOrbit, ExactCase, ProvedOrbit, prove_orbit};
 use snapload_orbits::{
-    Along, Branch, Family, Kind, Lap, Moored, Orbit, Point, Starts, Wanted, close, find_orbits,
-    prove_all,
+    Branch, BranchOptions, Family, Kind, Lap, Moored, Orbit, OrbitRequest, Point, Starts, close,
+    find_orbits, prove_all,
 };
 
 fn exact(parameters: &Parameters) -> ExactCase {
@@ -27,13 +27,13 @@ fn cables(orbit: &Json) -> Vec<usize> {
 }
 
 fn proved(p: &Parameters, phase: f64, z: &Point, struck: &[usize]) -> Result<ProvedOrbit, String> {
-    let supposed = Supposed {
+    let candidate = CandidateOrbit {
         phase,
         periods: 1,
         state: *z,
         struck,
     };
-    prove_orbit(&exact(p), &supposed)
+    prove_orbit(&exact(p), &candidate)
 }
 
 /// A decimal as an integer of units of 10⁻³⁰, truncated.
@@ -85,7 +85,11 @@ fn reference_orbits_are_proved_where_independent_code_of_many_digits_has_them() 
         }
         let error = proof.error_of(&point(&known["section_point"]));
         assert!(error < 3e-16, "{name}: {error:e}");
-        assert!(proof.alone_within > 1e-12, "{name}: {}", proof.alone_within);
+        assert!(
+            proof.unique_within > 1e-12,
+            "{name}: {}",
+            proof.unique_within
+        );
     }
 }
 
@@ -124,12 +128,12 @@ fn other_snaps_than_those_of_the_motion_are_not_proved() {
 fn branch(place: usize, start: Point, range: [f64; 2]) -> (Parameters, Branch) {
     let p = parameters(&reference()["branches"][place]["base"]);
     let family = Moored::case(p, [Some("f_o"), None]);
-    let orbit = Orbit::find(&family, [p.f_o, 0.0], &start, &Wanted::default()).unwrap();
+    let orbit = Orbit::find(&family, [p.f_o, 0.0], &start, &OrbitRequest::default()).unwrap();
     let (step, most) = (0.02, 2000);
-    let along = Along { range, step, most };
+    let options = BranchOptions { range, step, most };
     (
         p,
-        Branch::of(&family, &orbit, &along, &no_progress).unwrap(),
+        Branch::of(&family, &orbit, &options, &no_progress).unwrap(),
     )
 }
 
@@ -167,7 +171,7 @@ fn nothing_is_proved_below_a_fold_and_two_orbits_above() {
         let z = std::array::from_fn(|i| fold.orbit.z[i] + part * (orbit.z[i] - fold.orbit.z[i]));
         proved(&p, 0.0, &z, &struck).unwrap()
     });
-    assert!(two[0].is_another_than(&two[1]));
+    assert!(two[0].differs_from(&two[1]));
 }
 
 /// Beyond a graze the sequence still closes, but its lap would violate the constraint of a cable.
@@ -200,9 +204,9 @@ fn nothing_is_proved_beyond_a_graze() {
             ..p
         };
         let proof = point.orbit.prove(&exact(&p));
-        let supposed = proved(&p, 0.0, &point.orbit.z, &struck);
+        let candidate = proved(&p, 0.0, &point.orbit.z, &struck);
         assert_eq!(proof.is_ok(), point.orbit.is_admissible(), "{}", p.f_o);
-        assert_eq!(supposed.is_ok(), point.orbit.is_admissible(), "{}", p.f_o);
+        assert_eq!(candidate.is_ok(), point.orbit.is_admissible(), "{}", p.f_o);
     }
 }
 
@@ -233,10 +237,15 @@ fn random(count: usize, seed: u64) -> Starts<'static> {
 }
 
 #[test]
-fn orbits_found_by_chance_are_proved_and_told_apart() {
+fn orbits_found_by_chance_are_proved_and_distinguished() {
     let square = parameters(&json!({"a": 0.3, "b": 0.3, "f_o": 0.5, "omega": 2.5}));
-    let mut orbits =
-        find_orbits(&square, &random(200, 1), &Wanted::default(), &no_progress).unwrap();
+    let mut orbits = find_orbits(
+        &square,
+        &random(200, 1),
+        &OrbitRequest::default(),
+        &no_progress,
+    )
+    .unwrap();
     assert!(orbits.len() >= 15, "{}", orbits.len());
     // Most orbits of a case are found from those of a neighbouring one, without random starts.
     let near: Vec<Point> = orbits.iter().map(|orbit| orbit.z).collect();
@@ -248,7 +257,7 @@ fn orbits_found_by_chance_are_proved_and_told_apart() {
         f_o: 0.49,
         ..square
     };
-    let others = find_orbits(&beside, &near, &Wanted::default(), &no_progress).unwrap();
+    let others = find_orbits(&beside, &near, &OrbitRequest::default(), &no_progress).unwrap();
     assert!(
         2 * others.len() > orbits.len(),
         "{} {}",
@@ -272,9 +281,9 @@ fn orbits_found_by_chance_are_proved_and_told_apart() {
 #[test]
 fn orbits_of_two_periods_are_found_once_and_proved_not_to_be_shorter() {
     let square = parameters(&json!({"a": 0.3, "b": 0.3, "f_o": 0.5, "omega": 2.5}));
-    let two = Wanted {
+    let two = OrbitRequest {
         periods: Some(2),
-        ..Wanted::default()
+        ..OrbitRequest::default()
     };
     let mut orbits = find_orbits(&square, &random(150, 2), &two, &no_progress).unwrap();
     let proofs = prove_all(&mut orbits, &exact(&square), &no_progress).unwrap();
@@ -292,26 +301,26 @@ fn orbits_of_two_periods_are_found_once_and_proved_not_to_be_shorter() {
         let run = later.simulate([0.0; 2], 0.0, &orbit.z, period).unwrap();
         let mut struck = orbit.lap.sequence.struck();
         struck.rotate_left(run.lap.sequence.snaps());
-        let supposed = Supposed {
+        let candidate = CandidateOrbit {
             phase: 0.0,
             periods: 2,
             state: run.end,
             struck: &struck,
         };
-        let same = prove_orbit(&exact(&square), &supposed).unwrap();
-        assert!(!same.is_another_than(proof));
+        let same = prove_orbit(&exact(&square), &candidate).unwrap();
+        assert!(!same.differs_from(proof));
     }
 }
 
 /// If a cable stays taut, nothing is proved.
 #[test]
-fn taut_laps_are_said_to_be_beyond_the_proof() {
+fn taut_laps_are_reported_as_not_covered() {
     for name in ["slide_stable", "rock_circle", "corner_rest_e0"] {
         let known = named(name);
         let p = parameters(&known["case"]);
         let family = Moored::case(p, [None; 2]);
         let start = point(&known["section_point"]);
-        let orbit = Orbit::find(&family, [0.0; 2], &start, &Wanted::default()).unwrap();
+        let orbit = Orbit::find(&family, [0.0; 2], &start, &OrbitRequest::default()).unwrap();
         let why = orbit.prove(&exact(&p)).unwrap_err();
         assert!(why.contains("taut"), "{why}");
         assert!(proved(&p, 0.0, &start, &cables(&known)).is_err());

@@ -10,7 +10,7 @@ const OFF_PLANE_M: f64 = 1e-6;
 
 /// The object to which a point is attached.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Holds {
+pub(super) enum PointOf {
     Ground,
     Body,
 }
@@ -18,7 +18,7 @@ pub(super) enum Holds {
 /// A point, in earth-fixed coordinates.
 #[derive(Clone, Debug)]
 pub(super) struct Point {
-    pub(super) holds: Holds,
+    pub(super) attached_to: PointOf,
     pub(super) place_m: [f64; 3],
 }
 
@@ -141,11 +141,11 @@ fn point(row: &Row<'_>, body: Option<&Body<'_>>) -> Result<Point, CaseError> {
         .strip_prefix("body")
         .or_else(|| lower.strip_prefix('b'));
     let refuse = |allowed: &str, hint| Err(row.refuse("Attachment", attachment, allowed, hint));
-    let (holds, place_m) = match (lower.as_str(), number, body) {
-        ("fixed" | "fix" | "anchor" | "body0", ..) => (Holds::Ground, own),
-        ("coupled" | "vessel" | "ves" | "coup", _, None) => (Holds::Body, own),
+    let (attached_to, place_m) = match (lower.as_str(), number, body) {
+        ("fixed" | "fix" | "anchor" | "body0", ..) => (PointOf::Ground, own),
+        ("coupled" | "vessel" | "ves" | "coup", _, None) => (PointOf::Body, own),
         (_, Some(number), Some(body)) if body.row.words.first() == Some(&number) => {
-            (Holds::Body, [0, 1, 2].map(|i| body.place_m[i] + own[i]))
+            (PointOf::Body, [0, 1, 2].map(|i| body.place_m[i] + own[i]))
         }
         (_, Some(_), Some(body)) => {
             let allowed = format!("Fixed or Body{}", body.row.words[0]);
@@ -163,7 +163,10 @@ fn point(row: &Row<'_>, body: Option<&Body<'_>>) -> Result<Point, CaseError> {
             );
         }
     };
-    Ok(Point { holds, place_m })
+    Ok(Point {
+        attached_to,
+        place_m,
+    })
 }
 
 /// Refuses objects outside the plane of the others, y = const.

@@ -1,7 +1,7 @@
 //! From a MoorDyn file to the keys of a case.
 
 use super::planar::{
-    Body, Holds, Point, Points, body, points, refuse_off_plane, refuse_unsupported,
+    Body, Point, PointOf, Points, body, points, refuse_off_plane, refuse_unsupported,
 };
 use super::sections::{Row, Section, Sections, number};
 use crate::schema::STRUCTURE;
@@ -302,13 +302,13 @@ fn ends<'a>(row: &Row<'_>, points: &'a Points<'a>) -> Result<Ends<'a>, CaseError
         })
     };
     let (a, b) = (find(2, "AttachA")?, find(3, "AttachB")?);
-    let (place, hint) = match (a.1.holds, b.1.holds) {
-        (Holds::Ground, Holds::Body) => return Ok([a, b]),
-        (Holds::Body, Holds::Ground) => return Ok([b, a]),
-        (Holds::Ground, Holds::Ground) => {
+    let (place, hint) = match (a.1.attached_to, b.1.attached_to) {
+        (PointOf::Ground, PointOf::Body) => return Ok([a, b]),
+        (PointOf::Body, PointOf::Ground) => return Ok([b, a]),
+        (PointOf::Ground, PointOf::Ground) => {
             ("ground", "remove the line, as it does not hold the body")
         }
-        (Holds::Body, Holds::Body) => ("body", "snapload moors one body to the ground"),
+        (PointOf::Body, PointOf::Body) => ("body", "snapload moors one body to the ground"),
     };
     let shown = format!("{} and {}", row.words[2], row.words[3]);
     let allowed = format!("one end on the ground and one on the body; both are on the {place}");

@@ -70,8 +70,8 @@ impl Section {
     fn of_header(header: &str) -> Option<Self> {
         let capitals = header.to_uppercase();
         let mut sections = SECTIONS.iter();
-        let begun = sections.find(|(_, _, words)| words.iter().any(|word| capitals.contains(word)));
-        begun.map(|(section, ..)| *section)
+        let named = sections.find(|(_, _, words)| words.iter().any(|word| capitals.contains(word)));
+        named.map(|(section, ..)| *section)
     }
 
     /// What one of its rows describes.

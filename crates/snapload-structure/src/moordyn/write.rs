@@ -2,7 +2,7 @@
 
 use crate::options::{SEGMENTS, check};
 use crate::physics::elastic::springs;
-use crate::physics::prepared::Prepared;
+use crate::physics::model_at_rest::ModelAtRest;
 use crate::structure::{BodySi, Outline, Site, SpectrumShape, Structure, Water};
 use askama::Template;
 use snapload::CaseError;
@@ -55,14 +55,15 @@ fn project(structure: &Structure) -> Vec<(&str, String)> {
 /// which [`super::read()`] reads them.
 ///
 /// # Errors
-/// A [`CaseError`] unless the segments are of [`SEGMENTS`], if a line has no stiffness or mass, or the structure rests nowhere.
+/// A [`CaseError`] unless the segments are of [`SEGMENTS`], if a line has no stiffness or mass, or
+/// the structure rests nowhere.
 pub fn write(name: &str, structure: &Structure, segments: u32) -> Result<String, CaseError> {
     check(&SEGMENTS, i64::from(segments))?;
     if structure.afloat.is_some() {
         let allowed = "nothing: MoorDyn has no floating body with hydrodynamic coefficients";
         return Err(CaseError::value("[float]", "(given)", allowed));
     }
-    let prepared = Prepared::new(structure.clone())?;
+    let prepared = ModelAtRest::new(structure.clone())?;
     let types = types(&prepared, segments)?;
     let length_s = |(line, [_, mass, stiffness, _]): (&crate::LineSi, &[f64; 4])| {
         COURANT * line.length_m / f64::from(segments) * (mass / stiffness).sqrt()
@@ -91,7 +92,7 @@ pub fn write(name: &str, structure: &Structure, segments: u32) -> Result<String,
 }
 
 /// One type for each line.
-fn types(prepared: &Prepared, segments: u32) -> Result<Vec<[f64; 4]>, CaseError> {
+fn types(prepared: &ModelAtRest, segments: u32) -> Result<Vec<[f64; 4]>, CaseError> {
     let (structure, scales) = (&prepared.structure, &prepared.model.scales);
     let unit = scales.force_n / scales.length_m * scales.time_s;
     let springs = springs(prepared, 1.0)?;

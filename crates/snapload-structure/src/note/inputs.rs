@@ -1,7 +1,7 @@
 //! The inputs that a note lists.
 
 use crate::structure::{Outline, Structure, Water};
-use crate::words::{digits, kilo, tenths};
+use crate::text_layout::{digits, kilo, tenths};
 use askama::Template;
 
 #[derive(Template)]

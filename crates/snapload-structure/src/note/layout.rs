@@ -1,6 +1,6 @@
 //! The drawing of a structure: body, lines, anchors and water, to scale.
 
-use crate::physics::prepared::Prepared;
+use crate::physics::model_at_rest::ModelAtRest;
 use crate::structure::Outline;
 use snapload_figures::{
     Axis, Colour, Dash, FigureError, Layer, Mark, Picture, Plot, Point, Range, Stroke, Width, draw,
@@ -16,7 +16,7 @@ const MARGIN: f64 = 0.08;
 const AIR: f64 = 0.06;
 
 /// The structure at rest in still water, in metres.
-pub(super) fn of(prepared: &Prepared) -> Result<Picture, FigureError> {
+pub(super) fn of(prepared: &ModelAtRest) -> Result<Picture, FigureError> {
     let description = "The structure at rest: body, lines with their numbers at the anchors, still water and floor";
     let axis = |label: &str| Axis {
         label: label.to_owned(),
@@ -38,7 +38,7 @@ pub(super) fn of(prepared: &Prepared) -> Result<Picture, FigureError> {
     draw("layout", Width::Column, &[plot])
 }
 
-fn layers(prepared: &Prepared) -> Vec<Layer> {
+fn layers(prepared: &ModelAtRest) -> Vec<Layer> {
     let (structure, rest) = (&prepared.structure, &prepared.rest);
     let outline: Vec<Point> = outline(prepared);
     let outline = outline.into_iter().map(|point| placed(prepared, point));
@@ -56,9 +56,9 @@ fn layers(prepared: &Prepared) -> Vec<Layer> {
         at: span[0],
         letter: (line + 1).to_string(),
     };
-    let line = |pieces: Vec<Vec<Point>>, colour: Colour, width: f64, words: &str| {
+    let line = |pieces: Vec<Vec<Point>>, colour: Colour, width: f64, label: &str| {
         let stroke = Stroke::new(colour, width, Dash::Solid);
-        Layer::Line(pieces, stroke, words.to_owned())
+        Layer::Line(pieces, stroke, label.to_owned())
     };
     let floor = level(-structure.site.depth_m);
     let mut layers = vec![
@@ -70,14 +70,14 @@ fn layers(prepared: &Prepared) -> Vec<Layer> {
     ];
     if !slack.is_empty() {
         let stroke = Stroke::new(Colour::VERMILION, 0.7, Dash::Dashed);
-        let words = "line, slack at rest".to_owned();
-        layers.push(Layer::Line(drawn(&slack), stroke, words));
+        let label = "line, slack at rest".to_owned();
+        layers.push(Layer::Line(drawn(&slack), stroke, label));
     }
     layers
 }
 
 /// The position at rest of a point of the unturned body, given about its centre.
-fn placed(prepared: &Prepared, [x, z]: Point) -> Point {
+fn placed(prepared: &ModelAtRest, [x, z]: Point) -> Point {
     let rest = &prepared.rest;
     let (sine, cosine) = rest.theta_rad.sin_cos();
     let [x0, z0] = rest.place_m;
@@ -85,7 +85,7 @@ fn placed(prepared: &Prepared, [x, z]: Point) -> Point {
 }
 
 /// Anchor and fairlead of each line at rest.
-fn spans(prepared: &Prepared) -> Vec<Vec<Point>> {
+fn spans(prepared: &ModelAtRest) -> Vec<Vec<Point>> {
     let position = prepared.structure.body.position_m;
     let lines = prepared.structure.lines.iter();
     lines
@@ -98,7 +98,7 @@ fn spans(prepared: &Prepared) -> Vec<Vec<Point>> {
 }
 
 /// The outline about the centre of the unturned body, closed.
-fn outline(prepared: &Prepared) -> Vec<Point> {
+fn outline(prepared: &ModelAtRest) -> Vec<Point> {
     let body = &prepared.structure.body;
     let [half_width, half_height] = [body.width_m / 2.0, body.height_m / 2.0];
     match body.outline {

@@ -10,16 +10,16 @@ pub use inputs::inputs;
 pub use plots::window;
 
 use crate::physics::gumbel::{Estimate, Gumbel};
-use crate::physics::periods::in_words;
-use crate::physics::prepared::Prepared;
+use crate::physics::model_at_rest::ModelAtRest;
+use crate::physics::periods::periods_text;
 use crate::physics::snap::Snap;
 use crate::physics::warnings::Warning;
-use crate::report::{Standing, Verdict, end_words};
+use crate::report::{Verdict, VerdictKind, end_text};
 use crate::runs::assess::Assessment;
 use crate::runs::design::Check;
 use crate::runs::seas::{Lines, Seas};
 use crate::structure::Structure;
-use crate::words::{digits, kilo, maybe_kilo, tenths};
+use crate::text_layout::{digits, kilo, kilo_or_not_known, tenths};
 use askama::Template;
 use inputs::resistance;
 use snapload_figures::{FigureError, Picture};
@@ -31,7 +31,7 @@ const STYLE: &str = include_str!("../../templates/note.css");
 /// The number of the hardest snaps in the list.
 const LISTED: usize = 12;
 /// Snaps that differ by less than this part are listed once.
-const ALIKE: f64 = 1e-3;
+const EQUAL_WITHIN: f64 = 1e-3;
 
 /// The origin of a note.
 #[derive(Clone, Copy, Debug)]
@@ -51,9 +51,9 @@ struct NotePage<'a> {
     source: Source<'a>,
     warnings: &'a [Warning],
     layout: Picture,
-    prepared: &'a Prepared,
-    /// Whether the lines stretch.
-    stretching: bool,
+    prepared: &'a ModelAtRest,
+    /// Whether the lines are elastic.
+    elastic: bool,
     class: &'static str,
     note: &'a Assessment,
     structure: &'a Structure,
@@ -80,9 +80,9 @@ struct SeaPage<'a> {
     source: Source<'a>,
     warnings: &'a [Warning],
     layout: Picture,
-    prepared: &'a Prepared,
-    /// Whether the lines stretch.
-    stretching: bool,
+    prepared: &'a ModelAtRest,
+    /// Whether the lines are elastic.
+    elastic: bool,
     class: &'static str,
     seas: &'a Seas,
     structure: &'a Structure,
@@ -106,13 +106,13 @@ pub fn page(
     let all = hardest.len();
     // Snaps are sorted by their peak, if it is known, and before that by its part of the line's own
     // breaking load.
-    let governs = |snap: &Snap| (snap.utilisation, snap.peak_n, snap.effective_speed_m_s);
+    let severity = |snap: &Snap| (snap.utilisation, snap.peak_n, snap.effective_speed_m_s);
     hardest.sort_by(|a, b| {
-        governs(b)
-            .partial_cmp(&governs(a))
+        severity(b)
+            .partial_cmp(&severity(a))
             .unwrap_or(Ordering::Equal)
     });
-    let mut hardest = alike(&hardest);
+    let mut hardest = group_equal(&hardest);
     hardest.truncate(LISTED);
     hardest.sort_by(|(a, _), (b, _)| a.t_s.total_cmp(&b.t_s));
     let scanned = scan.map(|scan| plots::of_scan(scan, &prepared.structure));
@@ -122,17 +122,17 @@ pub fn page(
         warnings: &assessment.warnings,
         layout: layout::of(prepared)?,
         prepared,
-        stretching: false,
+        elastic: false,
         class: match verdict.standing {
-            Standing::Holds => "holds",
-            Standing::Breaks | Standing::Exceeds => "fails",
-            Standing::Unknown | Standing::Open => "open",
+            VerdictKind::Holds => "holds",
+            VerdictKind::Breaks | VerdictKind::Exceeds => "fails",
+            VerdictKind::Unknown | VerdictKind::Open => "open",
         },
         note: assessment,
         structure: &prepared.structure,
         verdict,
         utilisations: assessment.outcome.utilisations(&prepared.structure),
-        end: end_words(assessment.outcome.stop),
+        end: end_text(assessment.outcome.stop),
         plots: plots::of_run(assessment)?,
         window: plots::window(assessment),
         hardest,
@@ -146,16 +146,16 @@ pub fn page(
 
 /// The first of each group of equal snaps, as a regular motion repeats them, and their number:
 /// consecutive snaps of one line that are equal within the digits shown.
-fn alike<'a>(snaps: &[&'a Snap]) -> Vec<(&'a Snap, usize)> {
+fn group_equal<'a>(snaps: &[&'a Snap]) -> Vec<(&'a Snap, usize)> {
     let near = |a: Option<f64>, b: Option<f64>| match (a, b) {
-        (Some(a), Some(b)) => (a - b).abs() <= ALIKE * a.abs().max(b.abs()),
+        (Some(a), Some(b)) => (a - b).abs() <= EQUAL_WITHIN * a.abs().max(b.abs()),
         (a, b) => a == b,
     };
     let mut groups: Vec<(&Snap, usize)> = Vec::new();
     for snap in snaps {
         let same = groups.iter_mut().rev().take(LISTED).find(|(first, _)| {
             first.line == snap.line
-                && first.is_jolt == snap.is_jolt
+                && first.is_impact_while_taut == snap.is_impact_while_taut
                 && near(first.peak_n, snap.peak_n)
                 && near(
                     Some(first.effective_speed_m_s),
@@ -184,7 +184,7 @@ pub fn seas_page(source: Source<'_>, seas: &Seas) -> Result<String, FigureError>
         warnings: &seas.warnings,
         layout: layout::of(&seas.prepared)?,
         prepared: &seas.prepared,
-        stretching: seas.lines == Lines::Elastic,
+        elastic: seas.lines == Lines::Elastic,
         class: match seas.failing() {
             _ if seas.is_open() => "open",
             None => "open",
@@ -215,13 +215,13 @@ impl askama::filters::Escaper for Escaper {
     }
 }
 
-fn maybe_part(part: &Option<f64>) -> String {
+fn part_or_not_known(part: &Option<f64>) -> String {
     part.map_or("not known".to_owned(), |part| format!("{part:.2}"))
 }
 
 /// The mean and the values that 50, 90 and 99 % stay below.
 fn expected(fit: Option<Gumbel>, unit: f64, digits: usize) -> [String; 4] {
-    let cell = |estimate: Estimate| estimate.in_words(unit, digits);
+    let cell = |estimate: Estimate| estimate.text_with_error(unit, digits);
     match fit {
         Some(fit) => {
             let [half, most, nearly_all] = [0.5, 0.9, 0.99].map(|p| cell(fit.quantile(p)));

@@ -19,7 +19,7 @@ const POINTS: u32 = 12_000;
 /// Points of the water's surface over time.
 const SURFACE: u32 = 1200;
 /// The number of intervals of time, in each of which only the hardest snap of each line is drawn.
-const STRETCHES: usize = 400;
+const TIME_BINS: usize = 400;
 /// The number of wave periods in the detailed plots.
 const CLOSE: f64 = 6.0;
 /// An axis from zero on.
@@ -94,13 +94,17 @@ pub(super) fn of_run(assessment: &Assessment) -> Result<Vec<Picture>, FigureErro
         .collect()
 }
 
-/// Calls `see` with the motion at times within an interval in seconds.
-fn looks(assessment: &Assessment, [from, to]: [f64; 2], mut see: impl FnMut(f64, &Motion)) {
+/// Calls `on_sample` with the motion at times within an interval in seconds.
+fn sample_motion(
+    assessment: &Assessment,
+    [from, to]: [f64; 2],
+    mut on_sample: impl FnMut(f64, &Motion),
+) {
     let mut playback = Playback::new(&assessment.run);
     let unit = assessment.prepared.model.scales.time_s;
     for k in 0..=POINTS {
         let t = from + (to - from) * f64::from(k) / f64::from(POINTS);
-        see(t, &playback.at(t / unit));
+        on_sample(t, &playback.at(t / unit));
     }
 }
 
@@ -108,7 +112,7 @@ fn path(assessment: &Assessment, window: [f64; 2]) -> Plot {
     let scales = &assessment.prepared.model.scales;
     let mut pieces: [Vec<Vec<Point>>; 2] = [Vec::new(), Vec::new()];
     let mut last = None;
-    looks(assessment, window, |_, motion| {
+    sample_motion(assessment, window, |_, motion| {
         let kind = usize::from(!motion.taut.is_empty());
         let point = scales.to_si([motion.state.x, motion.state.y]);
         extend(&mut pieces[kind], last == Some(kind), point);
@@ -193,10 +197,10 @@ fn peaks(assessment: &Assessment) -> Plot {
 
 /// The highest point of each interval of time, so that the points of hours do not cover each other.
 fn hardest_of_each(points: impl Iterator<Item = Point>, end: f64) -> Vec<Point> {
-    let mut highest: Vec<Option<Point>> = vec![None; STRETCHES];
+    let mut highest: Vec<Option<Point>> = vec![None; TIME_BINS];
     for point in points {
-        let stretch = (point[0] / end * STRETCHES as f64) as usize;
-        let kept = &mut highest[stretch.min(STRETCHES - 1)];
+        let bin = (point[0] / end * TIME_BINS as f64) as usize;
+        let kept = &mut highest[bin.min(TIME_BINS - 1)];
         if kept.is_none_or(|kept| kept[1] < point[1]) {
             *kept = Some(point);
         }
@@ -209,7 +213,7 @@ fn tension(assessment: &Assessment, window: [f64; 2]) -> Plot {
     let force = assessment.prepared.model.scales.force_n;
     let mut pieces: Vec<Vec<Vec<Point>>> = vec![Vec::new(); lines];
     let mut joined = vec![false; lines];
-    looks(assessment, window, |t, motion| {
+    sample_motion(assessment, window, |t, motion| {
         for line in 0..lines {
             let taut = motion.taut.contains(line);
             if taut {
@@ -235,7 +239,7 @@ fn tension(assessment: &Assessment, window: [f64; 2]) -> Plot {
 
 fn rotation(assessment: &Assessment, window: [f64; 2]) -> Plot {
     let mut points = Vec::new();
-    looks(assessment, window, |t, motion| {
+    sample_motion(assessment, window, |t, motion| {
         points.push([t, -motion.state.theta.to_degrees()]);
     });
     let t = Range::Fixed(window[0], window[1]);

@@ -5,26 +5,26 @@
 //! and not the position of rest. The units are M = m + A33(∞), F = M g and T = sqrt(L/g), as the
 //! net buoyancy may be zero.
 
-use super::equilibrium::{Equilibrium, pushed_away};
+use super::equilibrium::{Equilibrium, steady_load_error_if_cause};
 use super::model::{Groups, Model, Scales, cable, drag, rules, shape, waves};
 use super::sea::Spectrum;
 use super::wave::LinearWave;
 use crate::structure::{Afloat, Structure, Water};
-use crate::words::kilo;
+use crate::text_layout::kilo;
 use nalgebra::{Complex, Matrix3, Vector3};
 use snapload::{
     Body, CaseError, Excitation, Exponential, Floating, FloatingUnits, Forcing, System,
 };
-use snapload_hydro::{HydroError, Line, Mode, Natural, Term, rest, rest_adrift};
+use snapload_hydro::{HydroError, Line, Mode, Natural, Term, rest, rest_without_tension};
 
 /// The largest part of the sea's energy that waves outside the file's frequencies may have.
-const OUTSIDE: f64 = 0.01;
+const ENERGY_OUTSIDE: f64 = 0.01;
 
 /// A smaller displacement counts as zero \[m, rad\].
 const ROUNDING: f64 = 1e-12;
 
 /// A natural motion of a floating body that its taut lines allow, without damping and with it.
-pub type HeldMotion = (Natural, Mode);
+pub type TautMode = (Natural, Mode);
 
 fn rows<T: Copy, U>(matrix: &Matrix3<T>, of: impl Fn(T) -> U) -> [[U; 3]; 3] {
     std::array::from_fn(|i| std::array::from_fn(|j| of(matrix[(i, j)])))
@@ -52,8 +52,8 @@ pub(super) fn model(structure: &Structure, afloat: &Afloat) -> Result<Model, Cas
     let groups = Groups::of_body(structure, &scales, mass[2][2]);
     let shape = shape(structure, &groups);
     let body = Body::with_mass_matrix(shape, mass).ok_or_else(|| {
-        let words = "the mass matrix is not positive definite".to_owned();
-        impossible(&HydroError::Impossible(words))
+        let message = "the mass matrix is not positive definite".to_owned();
+        impossible(&HydroError::Impossible(message))
     })?;
     let waves = waves(structure, origin_m[1].min(0.0));
     let term = |term: &Term| Exponential {
@@ -96,13 +96,15 @@ pub(super) fn model(structure: &Structure, afloat: &Afloat) -> Result<Model, Cas
 
 /// That a body rests nowhere on its lines, or would without the loads of the case; `adrift` is where
 /// it floats without tension, and how far the ends of each line are apart there.
-fn nowhere(
+fn no_equilibrium_error(
     structure: &Structure,
     afloat: &Afloat,
     error: &HydroError,
     adrift: Option<(Vector3<f64>, Vec<f64>)>,
 ) -> CaseError {
-    if let Some(error) = pushed_away(structure, |calm| rest_afloat(calm, afloat).is_ok()) {
+    if let Some(error) =
+        steady_load_error_if_cause(structure, |calm| rest_afloat(calm, afloat).is_ok())
+    {
         return error;
     }
     if afloat.constant_moment_n_m != 0.0 {
@@ -171,7 +173,7 @@ fn excitation(
     let curve =
         curve.map_err(|error| CaseError::value("float.file", shown(), error.to_string()))?;
     let lost = left_out(structure, afloat);
-    if lost > OUTSIDE {
+    if lost > ENERGY_OUTSIDE {
         let [low, high] = hydro.range_rad_s();
         let allowed = format!(
             "coefficients at the frequencies of the waves: {:.1} % of their energy is outside the \
@@ -220,7 +222,7 @@ fn without_rounding(displacement: f64) -> f64 {
 pub(super) fn rest_afloat(
     structure: &Structure,
     afloat: &Afloat,
-) -> Result<(Equilibrium, Vec<HeldMotion>), CaseError> {
+) -> Result<(Equilibrium, Vec<TautMode>), CaseError> {
     let [x, z] = structure.body.position_m;
     let line = |line: &crate::structure::LineSi| Line {
         anchor_m: line.anchor_m,
@@ -236,7 +238,7 @@ pub(super) fn rest_afloat(
     let place = match (rest(hydro, &body, &lines), structure.start_m) {
         (Ok(place), _) => place,
         (Err(_), Some(place_m)) => {
-            let adrift = rest_adrift(hydro, &body, &lines, place_m[0] - x);
+            let adrift = rest_without_tension(hydro, &body, &lines, place_m[0] - x);
             let [_, heave, pitch] = match &adrift {
                 Some((q, _)) => q.map(without_rounding).into(),
                 None => [0.0; 3],
@@ -251,14 +253,14 @@ pub(super) fn rest_afloat(
                 rests: adrift.is_some(),
                 taut: Vec::new(),
                 indeterminate: false,
-                shared: None,
-                relaxed_n: None,
+                by_stiffness: None,
+                elastic_tension_n: None,
             };
             return Ok((equilibrium, Vec::new()));
         }
         (Err(error), None) => {
-            let adrift = rest_adrift(hydro, &body, &lines, 0.0);
-            return Err(nowhere(structure, afloat, &error, adrift));
+            let adrift = rest_without_tension(hydro, &body, &lines, 0.0);
+            return Err(no_equilibrium_error(structure, afloat, &error, adrift));
         }
     };
     let fit = &afloat.report.fit;
@@ -272,8 +274,8 @@ pub(super) fn rest_afloat(
         taut: place.taut,
         tension_n: place.tension_n,
         indeterminate: false,
-        shared: None,
-        relaxed_n: None,
+        by_stiffness: None,
+        elastic_tension_n: None,
     };
     Ok((equilibrium, natural.into_iter().zip(modes).collect()))
 }

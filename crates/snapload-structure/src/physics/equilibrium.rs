@@ -45,17 +45,17 @@ pub struct Equilibrium {
     pub indeterminate: bool,
     /// Set if the stretch of the lines changes the distribution of the load: `tension_n` are then
     /// the tensions by stiffness.
-    pub shared: Option<Shared>,
-    /// The tensions of a floating body's lines as they stretch, if their sum differs and the lines
+    pub by_stiffness: Option<DistributionByStiffness>,
+    /// The tensions of a floating body's elastic lines, if their sum differs and the lines
     /// share it in the same proportions \[N\].
-    pub relaxed_n: Option<Vec<f64>>,
+    pub elastic_tension_n: Option<Vec<f64>>,
 }
 
 /// The tensions on inextensible lines, and the position on elastic lines.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Shared {
+pub struct DistributionByStiffness {
     /// The tensions of inextensible lines \[N\].
-    pub unstretched_n: Vec<f64>,
+    pub inextensible_n: Vec<f64>,
     /// Centre `[x, z]` on elastic lines \[m\].
     pub place_m: [f64; 2],
 }
@@ -77,11 +77,11 @@ pub fn equilibrium(structure: &Structure) -> Result<Equilibrium, CaseError> {
             let [a, b] = [a, b].map(|place| -system.forcing.constant.dot(place.centre()));
             a.total_cmp(&b)
         })
-        .ok_or_else(|| nowhere(structure))?;
+        .ok_or_else(|| no_equilibrium_error(structure))?;
     let taut = touching(system, &best);
     let (tension, left) = tensions(system, &taut, &best);
     if left > 1e-6 {
-        return Err(nowhere(structure));
+        return Err(no_equilibrium_error(structure));
     }
     let place_m = model.scales.to_si([best.x, best.y]);
     let top = place_m[1] + structure.body.half_height_m(best.theta);
@@ -98,8 +98,8 @@ pub fn equilibrium(structure: &Structure) -> Result<Equilibrium, CaseError> {
         tension_n: of_all(&model, &taut, &tension),
         rests: true,
         indeterminate: dependent(system, &taut, &best),
-        shared: None,
-        relaxed_n: None,
+        by_stiffness: None,
+        elastic_tension_n: None,
         taut,
     })
 }
@@ -130,7 +130,7 @@ impl Equilibrium {
 
     /// Distributes the load of a floating body that is held by more lines than necessary with the
     /// least sum of squares, as for a submerged one.
-    pub(super) fn share_evenly(&mut self, model: &Model) {
+    pub(super) fn distribute_by_least_squares(&mut self, model: &Model) {
         let at = model.at_rest(self.place_m, self.theta_rad);
         let taut = touching(&model.system, &at);
         if taut.len() > 1 && dependent(&model.system, &taut, &at) {
@@ -155,7 +155,7 @@ fn load(system: &System, at: &State) -> Vector3<f64> {
 
 /// The error of a body without a position of rest under its steady loads, if it would have one
 /// without them.
-pub(super) fn pushed_away(
+pub(super) fn steady_load_error_if_cause(
     structure: &Structure,
     rests: impl FnOnce(&Structure) -> bool,
 ) -> Option<CaseError> {
@@ -163,12 +163,12 @@ pub(super) fn pushed_away(
     calm.body.constant_force_n = [0.0; 2];
     calm.site.current_m_s = 0.0;
     let allowed = "a load with which the lines hold the body at rest";
-    let found = load_at_fault(structure, allowed);
+    let found = steady_load_error(structure, allowed);
     found.filter(|_| rests(&calm))
 }
 
 /// The error that a steady load is not allowed, if there is one.
-pub(super) fn load_at_fault(structure: &Structure, allowed: &str) -> Option<CaseError> {
+pub(super) fn steady_load_error(structure: &Structure, allowed: &str) -> Option<CaseError> {
     let (key, shown) = match (structure.body.constant_force_n, structure.site.current_m_s) {
         ([0.0, 0.0], 0.0) => return None,
         ([0.0, 0.0], current) => ("site.current", current.to_string()),
@@ -177,8 +177,8 @@ pub(super) fn load_at_fault(structure: &Structure, allowed: &str) -> Option<Case
     Some(CaseError::value(key, shown, allowed))
 }
 
-fn nowhere(structure: &Structure) -> CaseError {
-    if let Some(error) = pushed_away(structure, |calm| equilibrium(calm).is_ok()) {
+fn no_equilibrium_error(structure: &Structure) -> CaseError {
+    if let Some(error) = steady_load_error_if_cause(structure, |calm| equilibrium(calm).is_ok()) {
         return error;
     }
     let allowed = "lines with which the body can rest upright";
@@ -206,7 +206,7 @@ fn sets(count: usize) -> Vec<Vec<usize>> {
     sets
 }
 
-/// Starting points of the search: the position drawn, positions beside it and turned, and above
+/// Starting points of the search: the position drawn, positions to its side and turned, and above
 /// each line's anchor.
 fn starts(structure: &Structure, unit_m: f64) -> Vec<State> {
     let drawn = structure.body.position_m[0];

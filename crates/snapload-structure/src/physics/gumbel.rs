@@ -1,6 +1,6 @@
 //! Gumbel's distribution of extreme values, fitted by L-moments.
 
-use crate::words::decimals_for;
+use crate::text_layout::decimals_for;
 use serde::Serialize;
 
 /// Euler's constant.
@@ -32,7 +32,7 @@ pub struct Estimate {
 impl Estimate {
     /// The value and its error in a unit, both with the decimals that [`decimals_for`] has for the
     /// value.
-    pub(crate) fn in_words(&self, unit: f64, least: usize) -> String {
+    pub(crate) fn text_with_error(&self, unit: f64, least: usize) -> String {
         let [value, error] = [self.value / unit, self.error / unit];
         let decimals = decimals_for(value, least);
         format!("{value:.decimals$} ± {error:.decimals$}")

@@ -10,10 +10,10 @@
 //! out, and q is restricted to the motions that keep taut every line that pulls. From K v = ω² M v
 //! follow ω² and the mode v (L. Meirovitch, *Elements of Vibration Analysis* (1986), section 4.3).
 
-use super::afloat::HeldMotion;
+use super::afloat::TautMode;
 use super::elastic::{Spring, undamped};
 use super::equilibrium::SmallMotions;
-use super::prepared::Prepared;
+use super::model_at_rest::ModelAtRest;
 use crate::structure::Afloat;
 use nalgebra::{DMatrix, Matrix3};
 use serde::Serialize;
@@ -22,7 +22,7 @@ use snapload_hydro::{Body, HydroError, natural_of_the_file, natural_of_the_memor
 /// Below this ω², in the engine's units, a degree of freedom counts as having no restoring force.
 const LEAST_OMEGA_SQUARED: f64 = 1e-7;
 /// A component is part of a mode's name if it has at least this part of its kinetic energy.
-const NAMED: f64 = 0.2;
+const NAMED_FROM: f64 = 0.2;
 
 /// A natural small motion of the body.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -48,26 +48,26 @@ pub struct NaturalPeriods {
 impl NaturalPeriods {
     /// Of a submerged structure at rest in still water; a floating one also has the water's
     /// stiffness.
-    pub fn of(prepared: &Prepared) -> Option<Self> {
+    pub fn of(prepared: &ModelAtRest) -> Option<Self> {
         if prepared.structure.afloat.is_some() {
             return None;
         }
         let elastic = undamped(prepared, 1.0).ok().and_then(|springs| {
-            let sprung = prepared.on_springs(&springs).ok()?;
-            Some(on_springs(&sprung, &springs))
+            let elastic_case = prepared.with_elastic_lines(&springs).ok()?;
+            Some(modes_with_springs(&elastic_case, &springs))
         });
         Some(Self {
-            inextensible: on_taut_lines(prepared),
+            inextensible: modes_on_inextensible_lines(prepared),
             elastic,
         })
     }
 }
 
-impl Prepared {
-    /// The small motions of a floating body on stretching lines, if their stiffness is known.
-    pub fn on_lines_that_stretch(&self) -> Vec<HeldMotion> {
+impl ModelAtRest {
+    /// The small motions of a floating body on elastic lines, if their stiffness is known.
+    pub fn modes_on_elastic_lines(&self) -> Vec<TautMode> {
         let afloat = self.structure.afloat.as_deref();
-        let found = afloat.map(|afloat| afloat_on_springs(self, afloat));
+        let found = afloat.map(|afloat| afloat_modes_on_elastic_lines(self, afloat));
         found.and_then(Result::ok).unwrap_or_default()
     }
 }
@@ -77,12 +77,15 @@ impl Prepared {
 ///
 /// # Errors
 /// A [`HydroError`] if mass and added mass are not positive definite.
-fn afloat_on_springs(prepared: &Prepared, afloat: &Afloat) -> Result<Vec<HeldMotion>, HydroError> {
-    let sprung = undamped(prepared, 1.0).and_then(|springs| {
-        let sprung = prepared.on_springs(&springs)?;
-        Ok(sprung.stiffness_on(&springs))
+fn afloat_modes_on_elastic_lines(
+    prepared: &ModelAtRest,
+    afloat: &Afloat,
+) -> Result<Vec<TautMode>, HydroError> {
+    let elastic_case = undamped(prepared, 1.0).and_then(|springs| {
+        let elastic_case = prepared.with_elastic_lines(&springs)?;
+        Ok(elastic_case.stiffness_on(&springs))
     });
-    let Ok(stiffness) = sprung else {
+    let Ok(stiffness) = elastic_case else {
         return Ok(Vec::new());
     };
     // A factor of a length for each rotation, and y up.
@@ -99,7 +102,7 @@ fn afloat_on_springs(prepared: &Prepared, afloat: &Afloat) -> Result<Vec<HeldMot
     Ok(natural.into_iter().zip(modes).collect())
 }
 
-fn on_taut_lines(prepared: &Prepared) -> Vec<NaturalMode> {
+fn modes_on_inextensible_lines(prepared: &ModelAtRest) -> Vec<NaturalMode> {
     let (rest, model) = (&prepared.rest, &prepared.model);
     let at = model.at_rest(rest.place_m, rest.theta_rad);
     let pulls: Vec<f64> = rest
@@ -112,13 +115,13 @@ fn on_taut_lines(prepared: &Prepared) -> Vec<NaturalMode> {
     modes(prepared, &motions.curvature, &motions.basis())
 }
 
-fn on_springs(sprung: &Prepared, springs: &[Spring]) -> Vec<NaturalMode> {
-    let stiffness = sprung.stiffness_on(springs);
-    modes(sprung, &stiffness, &DMatrix::identity(3, 3))
+fn modes_with_springs(elastic_case: &ModelAtRest, springs: &[Spring]) -> Vec<NaturalMode> {
+    let stiffness = elastic_case.stiffness_on(springs);
+    modes(elastic_case, &stiffness, &DMatrix::identity(3, 3))
 }
 
 /// The modes in words: `3.231 s (surge), 0.502 s (heave)`.
-pub(crate) fn in_words(modes: &[NaturalMode]) -> String {
+pub(crate) fn periods_text(modes: &[NaturalMode]) -> String {
     let one = |mode: &NaturalMode| match mode.period_s {
         Some(period) => format!("{period:.3} s ({})", mode.motion),
         None => format!("none ({})", mode.motion),
@@ -130,7 +133,11 @@ pub(crate) fn in_words(modes: &[NaturalMode]) -> String {
 }
 
 /// The modes of K within the motions that the columns of `basis` span, the slowest first.
-fn modes(prepared: &Prepared, stiffness: &Matrix3<f64>, basis: &DMatrix<f64>) -> Vec<NaturalMode> {
+fn modes(
+    prepared: &ModelAtRest,
+    stiffness: &Matrix3<f64>,
+    basis: &DMatrix<f64>,
+) -> Vec<NaturalMode> {
     if basis.ncols() == 0 {
         return Vec::new();
     }
@@ -162,7 +169,7 @@ fn modes(prepared: &Prepared, stiffness: &Matrix3<f64>, basis: &DMatrix<f64>) ->
 }
 
 /// M over (x, y, θ), in the engine's units.
-fn mass_matrix(prepared: &Prepared) -> Matrix3<f64> {
+fn mass_matrix(prepared: &ModelAtRest) -> Matrix3<f64> {
     let body = &prepared.model.system.body;
     let columns = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]].map(|e| body.moved_by(e));
     let inverse = Matrix3::from_fn(|row, column| columns[column][row]);
@@ -182,6 +189,6 @@ fn motion(mass: &Matrix3<f64>, mode: [f64; 3]) -> String {
     let energy = |k: usize| mass[(k, k)] * mode[k] * mode[k];
     let all: f64 = (0..3).map(energy).sum();
     let names = ["surge", "heave", "pitch"];
-    let named = (0..3).filter(|&k| energy(k) >= NAMED * all);
+    let named = (0..3).filter(|&k| energy(k) >= NAMED_FROM * all);
     named.map(|k| names[k]).collect::<Vec<_>>().join(" and ")
 }

@@ -126,13 +126,13 @@ pub fn components(sea: &IrregularSea) -> Vec<Component> {
         .map(|bin| {
             let part = (bin as f64 + uniform(&mut generator)) / count;
             let phase_rad = 2.0 * PI * uniform(&mut generator);
-            let wanted = part * energy;
+            let target = part * energy;
             let step = cumulative
-                .partition_point(|sum| *sum <= wanted)
+                .partition_point(|sum| *sum <= target)
                 .clamp(1, STEPS);
             let (low, high) = (cumulative[step - 1], cumulative[step]);
             let within = if high > low {
-                (wanted - low) / (high - low)
+                (target - low) / (high - low)
             } else {
                 0.5
             };

@@ -18,8 +18,8 @@
 //! = T_0 is the load that continues to act while a slack line stretches until it carries that load;
 //! a line that was taut carries it already, P = 0. A line that closes by itself takes up all of the
 //! closing energy, J v/2 = M v²/2w, and stops m = M/w at u = v. Lines that close together share it
-//! as they share the impulse. A line that was taut, v_i = 0, and has a jolt passed on to it takes
-//! up the energy that J_i alone would give it, up to the energy available.
+//! as they share the impulse. A line that was taut, v_i = 0, and has an impact passed on to it
+//! takes up the energy that J_i alone would give it, up to the energy available.
 //!
 //! The spring is that of docs/model.md section 10 under the load P, exact for a mass on a spring;
 //! the front is the momentum balance of an elastic bar struck at its end (K. F. Graff, *Wave Motion
@@ -31,7 +31,7 @@
 //! by which S. Timoshenko & J. N. Goodier, *Theory of Elasticity*, treat the longitudinal impact of
 //! bars.
 
-use super::prepared::Prepared;
+use super::model_at_rest::ModelAtRest;
 use crate::structure::LineSi;
 use serde::{Serialize, Serializer};
 use snapload::{Impact, Simulation, Step};
@@ -39,7 +39,7 @@ use snapload::{Impact, Simulation, Step};
 /// A slower snap is the settling of the line, not a load: it is neither counted nor listed \[m/s\].
 pub const SLOWEST_M_S: f64 = 0.01;
 
-/// A line snapping taut, or the jolt that another line's snap passes on to a taut line.
+/// A line snapping taut, or the impact that another line's snap passes on to a taut line.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Snap {
     /// When \[s\].
@@ -49,7 +49,7 @@ pub struct Snap {
     pub line: usize,
     /// Whether the line was taut, and the snap of another was passed on to it.
     #[serde(rename = "jolt")]
-    pub is_jolt: bool,
+    pub is_impact_while_taut: bool,
     /// Closing speed v; 0 for a line that was taut \[m/s\].
     pub speed_m_s: f64,
     /// Impulse in the line \[N s\].
@@ -64,9 +64,11 @@ pub struct Snap {
     pub energy_peak_n: Option<f64>,
     /// v sqrt(k M), the formula of handbooks, which leaves out the tension before and uses all of
     /// the mass that moves in heave; none without a stiffness \[N\].
-    pub formula_n: Option<f64>,
+    #[serde(rename = "formula_n")]
+    pub handbook_n: Option<f64>,
     /// Tension of the first instant; none without stiffness and mass per length \[N\].
-    pub front_n: Option<f64>,
+    #[serde(rename = "front_n")]
+    pub first_instant_n: Option<f64>,
     /// Peak tension of the line with its mass, if that is known, else of the spring \[N\].
     pub peak_n: Option<f64>,
     /// The peak divided by the breaking load.
@@ -93,7 +95,7 @@ pub(crate) fn number_of_line<S: Serializer>(index: &usize, to: S) -> Result<S::O
 
 /// The snaps at the end of a step.
 pub(crate) fn snaps_of_step(
-    prepared: &Prepared,
+    prepared: &ModelAtRest,
     simulation: &Simulation,
     step: &Step,
 ) -> Vec<Snap> {
@@ -110,7 +112,7 @@ pub(crate) fn snaps_of_step(
 /// The snaps in the impacts of one instant. `held` are the tensions there of the cables that were
 /// taut before it, in the engine's units; none for the others.
 pub fn snaps(
-    prepared: &Prepared,
+    prepared: &ModelAtRest,
     impacts: &[Impact],
     held: impl Fn(usize) -> Option<f64>,
 ) -> Vec<Snap> {
@@ -130,7 +132,7 @@ pub fn snaps(
 
 /// One of them, with its J and the closing energy of all, in the engine's units.
 fn snap(
-    prepared: &Prepared,
+    prepared: &ModelAtRest,
     impact: &Impact,
     held: Option<f64>,
     stopping: f64,
@@ -149,7 +151,7 @@ fn snap(
     let rest_n = prepared.rest.tension_n[impact.cable];
     let before_n = held.map_or(rest_n, |force| force * scales.force_n);
     let load_n = if held.is_some() { 0.0 } else { rest_n };
-    let [energy_peak_n, front_n, peak_n] = peaks(
+    let [energy_peak_n, first_instant_n, peak_n] = peaks(
         line,
         [before_n, load_n],
         effective_mass_kg,
@@ -158,17 +160,17 @@ fn snap(
     Snap {
         t_s: impact.t * scales.time_s,
         line: impact.cable,
-        is_jolt: held.is_some(),
+        is_impact_while_taut: held.is_some(),
         speed_m_s: impact.v_n * scales.speed_m_s(),
         impulse_n_s: impact.impulse * scales.impulse_n_s(),
         energy_lost_j: impact.energy_lost * scales.energy_j(),
         effective_mass_kg,
         effective_speed_m_s,
         energy_peak_n,
-        formula_n: line
+        handbook_n: line
             .spring_rate_n_m()
             .map(|rate| impact.v_n * scales.speed_m_s() * (rate * moving_kg).sqrt()),
-        front_n,
+        first_instant_n,
         peak_n,
         utilisation: peak_n
             .zip(line.breaking_load_n)

@@ -3,11 +3,11 @@
 
 use super::afloat::left_out;
 use super::equilibrium::Equilibrium;
-use super::prepared::Prepared;
+use super::model_at_rest::ModelAtRest;
 use super::waterline::Waterline;
 use super::wave::LinearWave;
 use crate::structure::{Afloat, LineSi, Structure, THREE_HOURS_S, Water};
-use crate::words::{decimals, digits, kilo, paragraph};
+use crate::text_layout::{decimals, digits, kilo, paragraph};
 use askama::Template;
 use serde::Serialize;
 use snapload_hydro::Format;
@@ -28,7 +28,7 @@ const LIGHT: f64 = 0.1;
 const PROPORTION: f64 = 100.0;
 /// The largest plausible ratio of a line's length to the distance of its ends with the body at the
 /// case's position.
-const LONG: f64 = 3.0;
+const LONGEST_RATIO: f64 = 3.0;
 /// Linear hydrostatics hold for less pitch than this \[degrees\].
 const LARGE_PITCH: f64 = 15.0;
 /// The rotation of a body beyond this would be resisted by the water \[degrees\].
@@ -69,7 +69,7 @@ struct Message<'a> {
 }
 
 /// The warning of a rule with its two numbers and its text, if it is violated.
-fn broken(is: bool, rule: &'static str, [a, b]: [f64; 2], words: &str) -> Option<Warning> {
+fn warning_if(is: bool, rule: &'static str, [a, b]: [f64; 2], words: &str) -> Option<Warning> {
     let message = Message { rule, a, b, words };
     is.then(|| Warning {
         rule,
@@ -79,12 +79,12 @@ fn broken(is: bool, rule: &'static str, [a, b]: [f64; 2], words: &str) -> Option
 }
 
 /// The warning of a rule that a number has to be below a limit.
-fn above(limit: f64, value: f64, rule: &'static str, words: &str) -> Option<Warning> {
-    broken(value > limit, rule, [value, limit], words)
+fn warning_if_above(limit: f64, value: f64, rule: &'static str, words: &str) -> Option<Warning> {
+    warning_if(value > limit, rule, [value, limit], words)
 }
 
 /// The rules that a structure violates at rest.
-pub fn warnings(prepared: &Prepared) -> Vec<Warning> {
+pub fn warnings(prepared: &ModelAtRest) -> Vec<Warning> {
     let (structure, rest) = (&prepared.structure, &prepared.rest);
     if let Some(afloat) = &structure.afloat {
         return warnings_afloat(prepared, afloat);
@@ -94,10 +94,10 @@ pub fn warnings(prepared: &Prepared) -> Vec<Warning> {
     let (top, above_floor) = (z + half, z - half + structure.site.depth_m);
     let half = body.height_m / 2.0;
     let mut found = vec![
-        shared_loads(rest),
-        broken(top > 0.0, "submergence", [top, 0.0], ""),
-        broken(top <= 0.0 && -top < half, "free surface", [-top, 0.0], ""),
-        broken(above_floor < half, "floor", [above_floor, 0.0], ""),
+        distribution_warning(rest),
+        warning_if(top > 0.0, "submergence", [top, 0.0], ""),
+        warning_if(top <= 0.0 && -top < half, "free surface", [-top, 0.0], ""),
+        warning_if(above_floor < half, "floor", [above_floor, 0.0], ""),
     ];
     if let Some((highest, wave)) = governing_wave(structure, z) {
         found.extend(in_waves(prepared, top, highest, &wave));
@@ -113,17 +113,17 @@ fn heavy_lines(structure: &Structure) -> Option<Warning> {
     let masses = lines.filter_map(|line| Some(line.mass_per_length_kg_m? * line.length_m));
     let [along, up] = structure.body.moving_mass_kg();
     let part = masses.sum::<f64>() / along.min(up);
-    above(LIGHT, part, "light lines", "")
+    warning_if_above(LIGHT, part, "light lines", "")
 }
 
 /// The rules of a floating body: those of its coefficients, of its position of rest, of the waves
 /// and of the lines. That it is at the surface and makes waves is covered by its coefficients.
-fn warnings_afloat(prepared: &Prepared, afloat: &Afloat) -> Vec<Warning> {
+fn warnings_afloat(prepared: &ModelAtRest, afloat: &Afloat) -> Vec<Warning> {
     let (structure, rest) = (&prepared.structure, &prepared.rest);
     let report = &afloat.report;
     let of_file = report.warnings.iter().map(|warning| Warning {
         rule: warning.what,
-        message: warning.words.clone(),
+        message: warning.message.clone(),
         decided_by: None,
     });
     let body = &structure.body;
@@ -140,11 +140,11 @@ fn warnings_afloat(prepared: &Prepared, afloat: &Afloat) -> Vec<Warning> {
         false => "compute them for the place of rest",
     };
     let mut found = vec![
-        shared_loads(rest),
+        distribution_warning(rest),
         stretch_at_rest(rest),
-        broken(elsewhere, "place of rest", [heave, degrees], again),
-        broken(deep, "deep water", [structure.site.depth_m, 0.0], ""),
-        broken(lost > 0.0, "frequencies left out", [lost, 0.0], ""),
+        warning_if(elsewhere, "place of rest", [heave, degrees], again),
+        warning_if(deep, "deep water", [structure.site.depth_m, 0.0], ""),
+        warning_if(lost > 0.0, "frequencies left out", [lost, 0.0], ""),
     ];
     if let Some((highest, wave)) = governing_wave(structure, body.position_m[1].min(0.0)) {
         // The effects of waves that a file's coefficients include are missing in a textbook's.
@@ -176,15 +176,15 @@ pub(crate) fn limits_afloat(
     let (heave, least) = (high.max(-low), 0.5 * draft.min(freeboard));
     let pitch = turned_rad.to_degrees();
     let found = [
-        broken(heave > least, "small heave", [heave, least], ""),
-        broken(pitch > LARGE_PITCH, "small pitch", [pitch, LARGE_PITCH], ""),
-        broken(
+        warning_if(heave > least, "small heave", [heave, least], ""),
+        warning_if(pitch > LARGE_PITCH, "small pitch", [pitch, LARGE_PITCH], ""),
+        warning_if(
             seen.deck_m < 0.0,
             "deck under water",
             [-seen.deck_m, 0.0],
             "",
         ),
-        broken(
+        warning_if(
             seen.bilge_m > 0.0,
             "out of the water",
             [seen.bilge_m, 0.0],
@@ -195,29 +195,29 @@ pub(crate) fn limits_afloat(
 }
 
 /// The warning that inextensible lines do not determine the distribution of the load at rest.
-fn shared_loads(rest: &Equilibrium) -> Option<Warning> {
-    let words = rest.shared.as_ref().map(|shared| {
+fn distribution_warning(rest: &Equilibrium) -> Option<Warning> {
+    let words = rest.by_stiffness.as_ref().map(|by_stiffness| {
         format!(
             "{} kN at z = {:.3} m, elastic lines {} kN at z = {:.3} m",
-            each_kilo(&shared.unstretched_n),
+            each_kilo(&by_stiffness.inextensible_n),
             rest.place_m[1],
             each_kilo(&rest.tension_n),
-            shared.place_m[1]
+            by_stiffness.place_m[1]
         )
     });
     let is = rest.indeterminate || words.is_some();
-    broken(is, "shared loads", [0.0; 2], &words.unwrap_or_default())
+    warning_if(is, "shared loads", [0.0; 2], &words.unwrap_or_default())
 }
 
-/// The warning that the lines of a floating body carry a different load when they stretch.
+/// The warning that the lines of a floating body carry a different load if they are elastic.
 fn stretch_at_rest(rest: &Equilibrium) -> Option<Warning> {
-    let relaxed = rest.relaxed_n.as_ref()?;
+    let relaxed = rest.elastic_tension_n.as_ref()?;
     let words = format!(
         "{} kN instead of {}",
         each_kilo(relaxed),
         each_kilo(&rest.tension_n)
     );
-    broken(true, "stretch at rest", [0.0; 2], &words)
+    warning_if(true, "stretch at rest", [0.0; 2], &words)
 }
 
 /// Tensions in kN, one after the other.
@@ -239,19 +239,19 @@ fn implausible(structure: &Structure) -> [Option<Warning>; 3] {
         let [x, z] = [0, 1].map(|k| line.fairlead_m[k] - line.anchor_m[k]);
         line.length_m / x.hypot(z)
     };
-    let long = numbered().filter(|(line, _)| slack(line) > LONG);
+    let long = numbered().filter(|(line, _)| slack(line) > LONGEST_RATIO);
     let long = long.map(|(line, number)| format!("line {number} {:.1} times", slack(line)));
     let long = listed(long.collect());
     [
-        broken(odd, "proportions", [length, size], ""),
-        broken(!outside.is_empty(), "fairleads", [0.0; 2], &outside),
-        broken(!long.is_empty(), "long lines", [0.0; 2], &long),
+        warning_if(odd, "proportions", [length, size], ""),
+        warning_if(!outside.is_empty(), "fairleads", [0.0; 2], &outside),
+        warning_if(!long.is_empty(), "long lines", [0.0; 2], &long),
     ]
 }
 
 /// The rules in waves, given the height of the highest one.
 fn in_waves(
-    prepared: &Prepared,
+    prepared: &ModelAtRest,
     top: f64,
     highest: f64,
     wave: &LinearWave,
@@ -274,28 +274,28 @@ fn in_waves(
     let stroke = wave.a_x_m_s2 / (wave.omega_rad_s * wave.omega_rad_s);
     let keulegan = 2.0 * PI * stroke / size;
     let drag_given = body.drag_area_m2 != 0.0;
-    let drag = above(KEULEGAN, keulegan, "inertia (Keulegan-Carpenter)", "");
+    let drag = warning_if_above(KEULEGAN, keulegan, "inertia (Keulegan-Carpenter)", "");
     let period = 2.0 * PI / wave.omega_rad_s;
     let soft = soft_lines(prepared, period);
     [
-        above(miche, highest / length, "breaking (Miche)", &words),
-        above(URSELL, ursell, "linear theory (Ursell)", &words),
-        broken(
+        warning_if_above(miche, highest / length, "breaking (Miche)", &words),
+        warning_if_above(URSELL, ursell, "linear theory (Ursell)", &words),
+        warning_if(
             top > trough && top <= 0.0,
             "submergence",
             [trough, top],
             &words,
         ),
         drag.filter(|_| !drag_given),
-        above(DIFFRACTION, size / length, "diffraction", ""),
-        broken(!soft.is_empty(), "instant snap", [period, 0.0], &soft),
+        warning_if_above(DIFFRACTION, size / length, "diffraction", ""),
+        warning_if(!soft.is_empty(), "instant snap", [period, 0.0], &soft),
     ]
 }
 
 /// The engine's snap takes no time; a line of spring rate k takes half a period, π sqrt(m/k) with
 /// the effective mass m that it stops. Lists the lines for which that is more than a tenth of the
 /// waves' period.
-fn soft_lines(prepared: &Prepared, period_s: f64) -> String {
+fn soft_lines(prepared: &ModelAtRest, period_s: f64) -> String {
     let lines = prepared.structure.lines.iter().enumerate();
     let soft = lines.filter_map(|(index, line)| {
         let stopped_kg = prepared.mass_along(index) * prepared.model.scales.mass_kg;
@@ -311,14 +311,14 @@ pub(crate) fn phase_warning(structure: &Structure, z_m: f64, excursion_m: f64) -
     let (_, wave) = governing_wave(structure, z_m)?;
     let phase = wave.wave_number_1_m * excursion_m;
     let numbers = [excursion_m, phase.to_degrees()];
-    broken(phase > MOST_PHASE, "phase", numbers, "")
+    warning_if(phase > MOST_PHASE, "phase", numbers, "")
 }
 
 /// The warning that a distribution in three hours is based on much shorter records.
 pub(crate) fn short_records(structure: &Structure) -> Option<Warning> {
     let judged_s = structure.duration_s - structure.transient_s;
     let times = THREE_HOURS_S / judged_s.max(1.0);
-    broken(times > SHORT, "short records", [judged_s, times], "")
+    warning_if(times > SHORT, "short records", [judged_s, times], "")
 }
 
 /// The warning that a body turns so far that a resistance to its rotation matters, and the case has
@@ -337,7 +337,7 @@ pub(crate) fn turning_warning(structure: &Structure, turned_rad: f64) -> Option<
         ),
     };
     let numbers = [turned_rad.to_degrees(), FREE_TURN];
-    broken(!damped && numbers[0] > FREE_TURN, "turning", numbers, key)
+    warning_if(!damped && numbers[0] > FREE_TURN, "turning", numbers, key)
 }
 
 /// The wave by which a structure is judged: the regular one, or the highest of a sea at its peak

@@ -36,7 +36,7 @@ impl WavesOfTension {
 
     /// Takes in an interval within which the tension was between two values, or an instant; returns
     /// crest and trough of a wave that ends there.
-    pub(crate) fn see(&mut self, [least, largest]: [f64; 2]) -> Option<[f64; 2]> {
+    pub(crate) fn add(&mut self, [least, largest]: [f64; 2]) -> Option<[f64; 2]> {
         let rises = self.below && largest > self.rest_n;
         let mut ended = None;
         if rises {
@@ -65,7 +65,7 @@ mod tests {
         let ended: Vec<[f64; 2]> = (0..4000)
             .filter_map(|k| {
                 let (a, b) = (tension(k), tension(k + 1));
-                waves.see([a.min(b), a.max(b)])
+                waves.add([a.min(b), a.max(b)])
             })
             .collect();
         // 40/2π is 6.4 periods: the first upcrossing is at 2π, as the tension begins above that at
@@ -83,7 +83,7 @@ mod tests {
         let mut waves = WavesOfTension::new(1.0);
         let mut ended = Vec::new();
         for stretch in [[0.0, 0.0], [5.0, 5.0], [0.8, 2.0], [0.0, 0.0], [3.0, 3.0]] {
-            ended.extend(waves.see(stretch));
+            ended.extend(waves.add(stretch));
         }
         assert_eq!(ended, [[5.0, 0.0]]);
     }

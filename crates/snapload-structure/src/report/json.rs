@@ -1,14 +1,14 @@
 //! The answers as JSON: SI units, each unit in the name of its key.
 
-use super::verdict::end_words;
+use super::verdict::end_text;
 use crate::physics::elastic::damping_ratio;
 use crate::physics::equilibrium::Equilibrium;
 use crate::physics::gumbel::Gumbel;
-use crate::physics::prepared::Prepared;
+use crate::physics::model_at_rest::ModelAtRest;
 use crate::physics::snap::Snap;
 use crate::physics::waterline::Waterline;
 use crate::runs::assess::Assessment;
-use crate::runs::both::BothModels;
+use crate::runs::elastic_comparison::ElasticComparison;
 use crate::runs::outcome::Outcome;
 use crate::runs::quantile::{quantile, slack_part};
 use crate::runs::seas::{SeaOutcome, Seas};
@@ -30,7 +30,7 @@ fn body(structure: &Structure) -> Value {
 }
 
 /// Natural periods of a floating body, and its extreme positions; none for a submerged one.
-fn afloat(prepared: &Prepared, seen: Option<&Waterline>) -> Option<Value> {
+fn afloat(prepared: &ModelAtRest, seen: Option<&Waterline>) -> Option<Value> {
     let afloat = prepared.structure.afloat.as_ref()?;
     let motion = |(natural, mode): (&Natural, &Mode)| {
         json!({
@@ -43,10 +43,10 @@ fn afloat(prepared: &Prepared, seen: Option<&Waterline>) -> Option<Value> {
     let free = afloat.report.floating.as_ref().ok()?;
     let free = free.natural.iter().zip(&free.modes).map(motion);
     let held = prepared
-        .held
+        .modes_on_taut_lines
         .iter()
         .map(|(natural, mode)| motion((natural, mode)));
-    let stretched = prepared.on_lines_that_stretch();
+    let stretched = prepared.modes_on_elastic_lines();
     Some(json!({
         "file": afloat.report.name,
         "memory_states": afloat.report.fit.memory.states(),
@@ -107,7 +107,7 @@ impl Assessment {
             "case": name,
             "verdict": self.verdict(),
             "trust": {
-                "words": self.trust_words(),
+                "words": self.trust_text(),
                 "horizon_s": self.horizon_s(),
                 "neighbours": self.neighbours.len(),
                 "peak_tension_quantiles_n": self.spread(),
@@ -124,7 +124,7 @@ impl Assessment {
                 "r": groups.r, "a": groups.a, "b": groups.b, "inertia": groups.inertia,
                 "f_o": group(0), "nu": group(1), "omega": group(2),
             },
-            "end": { "t_s": self.outcome.end_s, "reason": end_words(self.outcome.stop) },
+            "end": { "t_s": self.outcome.end_s, "reason": end_text(self.outcome.stop) },
             "lines": (0..structure.lines.len()).map(line).collect::<Vec<_>>(),
             "snaps": self.snaps.iter().filter(|snap| snap.counts()).collect::<Vec<_>>(),
             "neighbour_peaks_n": self.neighbours.iter().map(Outcome::peak_n).collect::<Vec<_>>(),
@@ -135,13 +135,13 @@ impl Assessment {
 /// The position of rest; null where none is known.
 fn position_of_rest(rest: &Equilibrium) -> Value {
     let known = |number: f64| rest.rests.then_some(number);
-    let shared = rest.shared.as_ref();
+    let by_stiffness = rest.by_stiffness.as_ref();
     json!({
         "x_m": known(rest.place_m[0]), "z_m": known(rest.place_m[1]),
         "theta_rad": known(rest.theta_rad),
         "indeterminate": rest.indeterminate,
-        "unstretched_tension_n": shared.map(|shared| &shared.unstretched_n),
-        "stretched_m": shared.map(|shared| shared.place_m),
+        "unstretched_tension_n": by_stiffness.map(|by_stiffness| &by_stiffness.inextensible_n),
+        "stretched_m": by_stiffness.map(|by_stiffness| by_stiffness.place_m),
     })
 }
 
@@ -196,7 +196,7 @@ impl Seas {
     }
 }
 
-impl BothModels {
+impl ElasticComparison {
     /// All results; `name` is that of the case.
     pub fn to_json(&self, name: &str) -> Value {
         let structure = &self.prepared.structure;
@@ -209,7 +209,7 @@ impl BothModels {
                 "damping_n_s_m": damping,
                 "slack_fraction": judged.then(|| self.elastic.slack_fraction(index)),
                 "peak_n": judged.then(|| self.elastic.peaks_n[index]),
-                "rest_tension_n": self.sprung.rest.tension_n[index],
+                "rest_tension_n": self.elastic_case.rest.tension_n[index],
                 "breaking_load_n": structure.lines[index].breaking_load_n,
             })
         });
@@ -235,11 +235,11 @@ impl BothModels {
             "damping_ratio": damping_ratio(structure.restitution),
             "end": {
                 "t_s": self.elastic.end_s,
-                "reason": end_words(self.elastic.stop.unwrap_or(Stop::EndTime)),
+                "reason": end_text(self.elastic.stop.unwrap_or(Stop::EndTime)),
             },
             "rest": {
-                "x_m": self.sprung.rest.place_m[0], "z_m": self.sprung.rest.place_m[1],
-                "theta_rad": self.sprung.rest.theta_rad,
+                "x_m": self.elastic_case.rest.place_m[0], "z_m": self.elastic_case.rest.place_m[1],
+                "theta_rad": self.elastic_case.rest.theta_rad,
             },
             "warnings": self.warnings(),
             "end_s": self.elastic.end_s,

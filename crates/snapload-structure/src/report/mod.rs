@@ -4,4 +4,4 @@ mod json;
 mod summary;
 mod verdict;
 
-pub use verdict::{Standing, Verdict, end_words};
+pub use verdict::{Verdict, VerdictKind, end_text};

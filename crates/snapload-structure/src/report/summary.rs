@@ -1,22 +1,22 @@
 //! The answers in a few lines of text.
 
-use super::verdict::end_words;
+use super::verdict::end_text;
 use crate::physics::elastic::{Pull, Spring, damping_ratio};
 use crate::physics::equilibrium::Equilibrium;
 use crate::physics::model::Scales;
-use crate::physics::periods::{NaturalPeriods, in_words};
-use crate::physics::prepared::Prepared;
+use crate::physics::model_at_rest::ModelAtRest;
+use crate::physics::periods::{NaturalPeriods, periods_text};
 use crate::physics::snap::{SLOWEST_M_S, Snap};
 use crate::physics::warnings::Warning;
 use crate::physics::wave::LinearWave;
 use crate::runs::assess::Assessment;
-use crate::runs::both::BothModels;
 use crate::runs::design::Check;
+use crate::runs::elastic_comparison::ElasticComparison;
 use crate::runs::outcome::Outcome;
 use crate::runs::quantile::{quantile, slack_part};
 use crate::runs::seas::{Lines, Seas};
 use crate::structure::{Structure, Water};
-use crate::words::{count, decimals, kilo, laid_out, tenths};
+use crate::text_layout::{count, decimals, kilo, lay_out, tenths};
 use askama::Template;
 
 /// The number of pulls and snaps that are listed; JSON has them all.
@@ -26,7 +26,7 @@ const LISTED: usize = 12;
 #[template(path = "assess.txt")]
 struct AssessText<'a> {
     name: &'a str,
-    prepared: &'a Prepared,
+    prepared: &'a ModelAtRest,
     structure: &'a Structure,
     rest: &'a Equilibrium,
     scales: &'a Scales,
@@ -56,13 +56,13 @@ struct SeasText<'a> {
 #[template(path = "elastic.txt")]
 struct ElasticText<'a> {
     name: &'a str,
-    both: &'a BothModels,
+    comparison: &'a ElasticComparison,
     /// What ended it early.
     end: Option<&'static str>,
     e: f64,
     zeta: f64,
     /// Spring rate, damping, part of the time slack, and peak of each line; and its part of the
-    /// time slack if it did not stretch.
+    /// time slack if it is inextensible.
     lines: Vec<([f64; 4], Option<f64>)>,
     rows: Vec<String>,
     /// The number of snaps of inextensible lines.
@@ -76,7 +76,7 @@ impl Assessment {
     /// The answer in a few lines; `name` is that of the case.
     pub fn summary(&self, name: &str) -> String {
         let prepared = &self.prepared;
-        laid_out(&AssessText {
+        lay_out(&AssessText {
             name,
             prepared,
             structure: &prepared.structure,
@@ -86,18 +86,18 @@ impl Assessment {
             periods: self.periods.as_ref(),
             outcome: &self.outcome,
             utilisations: self.outcome.utilisations(&prepared.structure),
-            end: end_words(self.outcome.stop),
-            rebound: self.rebound_words(),
+            end: end_text(self.outcome.stop),
+            rebound: self.rebound_text(),
             checks: self.checks(),
             neighbours: &self.neighbours.len(),
             warnings: &self.warnings,
-            trust: self.trust_words(),
+            trust: self.trust_text(),
             verdict: self.verdict().words,
         })
     }
 
     /// The numbers behind the verdict with less and with more restitution, in words.
-    pub fn rebound_words(&self) -> String {
+    pub fn rebound_text(&self) -> String {
         let rows = self.by_restitution();
         let utilisations: Vec<_> = rows.iter().map(|row| row.largest_utilisation).collect();
         let speeds = rows.iter().map(|row| row.fastest_snap_m_s).collect();
@@ -124,7 +124,7 @@ impl Seas {
     /// The answer in a few lines; `name` is that of the case.
     pub fn summary(&self, name: &str) -> String {
         let speeds = self.all_speeds_m_s();
-        laid_out(&SeasText {
+        lay_out(&SeasText {
             name,
             structure: &self.prepared.structure,
             seas: self,
@@ -133,8 +133,8 @@ impl Seas {
     }
 }
 
-impl BothModels {
-    /// Spring rate \[N/m\] and damping \[N s/m\] of a line that stretches.
+impl ElasticComparison {
+    /// Spring rate \[N/m\] and damping \[N s/m\] of an elastic line.
     pub fn si(&self, spring: &Spring) -> [f64; 2] {
         let scales = &self.prepared.model.scales;
         let unit = scales.force_n / scales.length_m;
@@ -148,8 +148,8 @@ impl BothModels {
         let other = self.inextensible.as_ref();
         let snaps = other.map_or(&[][..], |other| &other.snaps[..]);
         let row = |row: usize| {
-            let left = pulls.get(row).map_or(String::new(), pull_words);
-            let right = snaps.get(row).map_or(String::new(), snap_words);
+            let left = pulls.get(row).map_or(String::new(), pull_text);
+            let right = snaps.get(row).map_or(String::new(), snap_text);
             format!("{left:<47}{right}")
         };
         let all = pulls.len().max(snaps.len());
@@ -163,10 +163,10 @@ impl BothModels {
             ([rate, damping, slack, peak], unstretched)
         });
         let e = self.prepared.structure.restitution;
-        laid_out(&ElasticText {
+        lay_out(&ElasticText {
             name,
-            both: self,
-            end: self.elastic.stop.map(end_words),
+            comparison: self,
+            end: self.elastic.stop.map(end_text),
             e,
             zeta: damping_ratio(e),
             lines: lines.collect(),
@@ -179,7 +179,7 @@ impl BothModels {
 }
 
 /// The position and rotation of a body at rest.
-fn rest_words(rest: &Equilibrium) -> String {
+fn rest_text(rest: &Equilibrium) -> String {
     let [x, z] = rest.place_m.map(|coordinate| decimals(&coordinate, 3));
     if !rest.rests {
         return format!(
@@ -192,23 +192,23 @@ fn rest_words(rest: &Equilibrium) -> String {
 }
 
 /// The troughs of all waves of tension: how many of them are slack, and the lowest of the others.
-fn troughs_words(sorted_n: &[f64]) -> String {
+fn troughs_text(sorted_n: &[f64]) -> String {
     let slack = slack_part(sorted_n);
-    let mut words = Vec::new();
+    let mut parts = Vec::new();
     if slack > 0.0 {
-        words.push(format!("slack (0 kN) in {:.1} %", 100.0 * slack));
+        parts.push(format!("slack (0 kN) in {:.1} %", 100.0 * slack));
     }
-    let told = [(0.5, "half below"), (0.01, "99 % above")];
-    for (value, what) in told.map(|(part, what)| (quantile(sorted_n, part), what)) {
-        // Of the slack ones everything is said already.
+    let quantiles = [(0.5, "half below"), (0.01, "99 % above")];
+    for (value, what) in quantiles.map(|(part, what)| (quantile(sorted_n, part), what)) {
+        // Slack troughs are reported already.
         if let Some(value) = value.filter(|value| *value > 0.0) {
-            words.push(format!("{what} {} kN", kilo(&value, 0)));
+            parts.push(format!("{what} {} kN", kilo(&value, 0)));
         }
     }
-    words.join(", ")
+    parts.join(", ")
 }
 
-fn pull_words(pull: &Pull) -> String {
+fn pull_text(pull: &Pull) -> String {
     let rebound = pull
         .rebound_m_s
         .map_or("-".to_owned(), |speed| format!("{speed:.2}"));
@@ -223,7 +223,7 @@ fn pull_words(pull: &Pull) -> String {
     )
 }
 
-fn snap_words(snap: &Snap) -> String {
+fn snap_text(snap: &Snap) -> String {
     let peak = snap
         .energy_peak_n
         .map_or("-".to_owned(), |peak| kilo(&peak, 0));

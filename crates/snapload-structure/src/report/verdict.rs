@@ -4,12 +4,12 @@ use crate::physics::gumbel::Gumbel;
 use crate::physics::snap::SLOWEST_M_S;
 use crate::physics::warnings::Warning;
 use crate::runs::assess::Assessment;
-use crate::runs::both::BothModels;
+use crate::runs::elastic_comparison::ElasticComparison;
 use crate::runs::outcome::{LineOutcome, Outcome};
 use crate::runs::quantile::{quantile, sorted};
 use crate::runs::seas::Seas;
 use crate::structure::{Structure, Water};
-use crate::words::{digits, kilo, paragraph, tenths};
+use crate::text_layout::{digits, kilo, paragraph, tenths};
 use askama::Template;
 use serde::Serialize;
 use snapload::Stop;
@@ -19,7 +19,7 @@ use std::cmp::Ordering;
 /// The kind of verdict.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "lowercase")]
-pub enum Standing {
+pub enum VerdictKind {
     /// No line's breaking load is reached.
     Holds,
     /// A line's breaking load is reached.
@@ -33,7 +33,7 @@ pub enum Standing {
     Open,
 }
 
-impl Standing {
+impl VerdictKind {
     /// The word that is shown.
     pub fn words(self) -> &'static str {
         match self {
@@ -50,13 +50,13 @@ impl Standing {
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Verdict {
     /// In one word.
-    pub standing: Standing,
+    pub standing: VerdictKind,
     /// In a sentence or two.
     pub words: String,
 }
 
 /// Why a run stopped, in an engineer's words.
-pub fn end_words(stop: Stop) -> &'static str {
+pub fn end_text(stop: Stop) -> &'static str {
     match stop {
         Stop::EndTime => "ran to the end of the time",
         Stop::RotationLimit => "stopped where the body had turned by 90 degrees",
@@ -67,12 +67,12 @@ pub fn end_words(stop: Stop) -> &'static str {
 }
 
 /// With fewer neighbours, no statement about 90 % of them is made.
-const FEW: usize = 10;
+const FEWEST_NEIGHBOURS: usize = 10;
 
 #[derive(Template)]
 #[template(path = "verdict.txt")]
-struct VerdictWords<'a> {
-    standing: Standing,
+struct VerdictText<'a> {
+    standing: VerdictKind,
     outcome: &'a Outcome,
     end: &'static str,
     /// Whether a line goes slack in the time that is judged, and in all.
@@ -87,12 +87,12 @@ struct VerdictWords<'a> {
     open: Option<(String, &'static str)>,
     /// Whether the run ended before the judged time.
     unjudged: bool,
-    stretching: bool,
+    elastic: bool,
 }
 
 #[derive(Template)]
 #[template(path = "trust.txt")]
-struct TrustWords<'a> {
+struct TrustText<'a> {
     trust: &'a Trust,
     horizon_s: Option<f64>,
     /// The unit of length, L.
@@ -109,7 +109,7 @@ struct TrustWords<'a> {
 
 #[derive(Template)]
 #[template(path = "seas-words.txt")]
-struct SeasWords {
+struct SeasVerdictText {
     /// The number of records in which a line would break only in the time that is not judged.
     early: usize,
     transient_s: f64,
@@ -130,7 +130,7 @@ struct SeasWords {
 }
 
 /// The violated rules on which tensions depend, and the command that decides.
-fn left_open(warnings: &[Warning]) -> Option<(String, &'static str)> {
+fn undecided_by(warnings: &[Warning]) -> Option<(String, &'static str)> {
     let deciding = warnings
         .iter()
         .filter_map(|w| Some((w.rule, w.decided_by?)));
@@ -152,27 +152,30 @@ struct Early {
 #[derive(PartialEq)]
 enum EarlyLoad {
     Snap,
-    Jolt,
-    Held,
+    ImpactWhileTaut,
+    Taut,
 }
 
 impl Early {
     /// The largest early load of each line, held taut or in a snap, if tensions are known.
-    fn held<'a>(structure: &'a Structure, outcome: &'a Outcome) -> impl Iterator<Item = Self> {
+    fn taut_or_snap<'a>(
+        structure: &'a Structure,
+        outcome: &'a Outcome,
+    ) -> impl Iterator<Item = Self> {
         let lines = outcome.lines.iter().zip(&structure.lines).enumerate();
         let loaded =
-            lines.filter(|(_, (told, _))| structure.tensions_known() && told.early_n > 0.0);
-        loaded.map(|(line, (told, known))| Self {
+            lines.filter(|(_, (outcome, _))| structure.tensions_known() && outcome.early_n > 0.0);
+        loaded.map(|(line, (outcome, known))| Self {
             line,
-            how: EarlyLoad::Held,
+            how: EarlyLoad::Taut,
             speed_m_s: 0.0,
-            peak_n: Some(told.early_n),
-            utilisation: known.breaking_load_n.map(|load| told.early_n / load),
+            peak_n: Some(outcome.early_n),
+            utilisation: known.breaking_load_n.map(|load| outcome.early_n / load),
         })
     }
 
     /// The order of loads: the part of the line's breaking load, else the tension, else the speed.
-    fn governs(&self) -> (Option<f64>, Option<f64>, f64) {
+    fn severity(&self) -> (Option<f64>, Option<f64>, f64) {
         (self.utilisation, self.peak_n, self.speed_m_s)
     }
 
@@ -187,7 +190,7 @@ impl Early {
         structure: &Structure,
         outcome: &Outcome,
     ) -> Option<Self> {
-        let order = |a: &Self, b: &Self| a.governs().partial_cmp(&b.governs());
+        let order = |a: &Self, b: &Self| a.severity().partial_cmp(&b.severity());
         let hardest = all.max_by(|a, b| order(a, b).unwrap_or(Ordering::Equal))?;
         let judged = outcome.utilisations(structure).into_iter().flatten();
         let harder = match (hardest.utilisation, hardest.peak_n) {
@@ -200,13 +203,13 @@ impl Early {
 }
 
 /// The verdict: whether the lines go slack, how hard they snap, and whether one breaks;
-/// `stretching` says whether the lines stretch.
+/// `elastic` says whether the lines are elastic.
 fn verdict(
     structure: &Structure,
     outcome: &Outcome,
     warnings: &[Warning],
     early: Option<Early>,
-    stretching: bool,
+    elastic: bool,
 ) -> Verdict {
     let lines = (1..)
         .zip(&outcome.lines)
@@ -217,27 +220,27 @@ fn verdict(
     let worst = known.iter().max_by(|a, b| a.2.total_cmp(&b.2));
     let broken = known.iter().filter(|(_, _, u)| *u >= 1.0);
     let broken: Vec<_> = broken
-        .map(|(number, line, u)| (*number, *u, how_it_breaks(line, stretching)))
+        .map(|(number, line, u)| (*number, *u, how_it_breaks(line, elastic)))
         .collect();
     let all_known = known.len() == outcome.lines.len();
-    let open = left_open(warnings);
+    let open = undecided_by(warnings);
     let standing = if outcome.stop.exceeds() {
-        Standing::Exceeds
+        VerdictKind::Exceeds
     } else if open.is_some() {
-        Standing::Open
+        VerdictKind::Open
     } else if !broken.is_empty() {
-        Standing::Breaks
+        VerdictKind::Breaks
     } else if outcome.stop == Stop::ImpactLimit || !all_known {
-        Standing::Unknown
+        VerdictKind::Unknown
     } else if early.as_ref().is_some_and(Early::breaks) {
-        Standing::Open
+        VerdictKind::Open
     } else {
-        Standing::Holds
+        VerdictKind::Holds
     };
-    let words = VerdictWords {
+    let text = VerdictText {
         standing,
         outcome,
-        end: end_words(outcome.stop),
+        end: end_text(outcome.stop),
         slack: [
             outcome.lines.iter().any(|line| line.least_n == Some(0.0)),
             outcome.lines.iter().any(|line| line.slack_fraction > 0.0),
@@ -248,35 +251,35 @@ fn verdict(
         early,
         open,
         unjudged: outcome.is_unjudged(),
-        stretching,
+        elastic,
     };
     Verdict {
         standing,
-        words: paragraph(&words),
+        words: paragraph(&text),
     }
 }
 
 /// How a line would break.
-fn how_it_breaks(line: &LineOutcome, stretching: bool) -> &'static str {
-    if stretching {
+fn how_it_breaks(line: &LineOutcome, elastic: bool) -> &'static str {
+    if elastic {
         "as an elastic line"
-    } else if line.peak_n.is_some_and(|peak| peak >= line.held_n) {
+    } else if line.peak_n.is_some_and(|peak| peak >= line.largest_taut_n) {
         "in a snap"
     } else {
         "while taut"
     }
 }
 
-impl BothModels {
+impl ElasticComparison {
     /// Whether elastic lines go slack, and whether one breaks.
     pub fn verdict(&self) -> Verdict {
-        let (structure, outcome) = (&self.sprung.structure, &self.outcome);
+        let (structure, outcome) = (&self.elastic_case.structure, &self.outcome);
         let pulls = self.elastic.pulls.iter();
         let early = pulls.filter(|pull| pull.peak_s < structure.transient_s);
         let early = early.map(|pull| Early {
             line: pull.line,
             how: if pull.speed_m_s < SLOWEST_M_S {
-                EarlyLoad::Held
+                EarlyLoad::Taut
             } else {
                 EarlyLoad::Snap
             },
@@ -299,8 +302,8 @@ impl Assessment {
         let early = early.filter(|snap| snap.counts() && snap.t_s < structure.transient_s);
         let early = early.map(|snap| Early {
             line: snap.line,
-            how: if snap.is_jolt {
-                EarlyLoad::Jolt
+            how: if snap.is_impact_while_taut {
+                EarlyLoad::ImpactWhileTaut
             } else {
                 EarlyLoad::Snap
             },
@@ -309,15 +312,15 @@ impl Assessment {
             utilisation: snap.utilisation,
         });
         // Of equal loads the snap is named, as it has a speed.
-        let early = Early::held(structure, outcome).chain(early);
+        let early = Early::taut_or_snap(structure, outcome).chain(early);
         let early = Early::hardest(early, structure, outcome);
         verdict(structure, outcome, &self.warnings, early, false)
     }
 
     /// How far the run can be trusted, with the numbers.
-    pub fn trust_words(&self) -> String {
+    pub fn trust_text(&self) -> String {
         let spread = self.spread();
-        paragraph(&TrustWords {
+        paragraph(&TrustText {
             scattered: spread.is_some_and(|[low, _, high]| high > 1.02 * low),
             trust: &self.trust,
             snapless: spread.is_some() && self.neighbours.iter().all(|n| n.peak_n().is_none()),
@@ -334,11 +337,11 @@ impl Assessment {
 impl Seas {
     /// Whether a rule is violated on which tensions depend.
     pub fn is_open(&self) -> bool {
-        left_open(&self.warnings).is_some()
+        undecided_by(&self.warnings).is_some()
     }
 
     /// The judged time, as the beginning of a sentence.
-    pub(crate) fn judged_words(&self) -> String {
+    pub(crate) fn judged_text(&self) -> String {
         let from = self.prepared.structure.transient_s;
         match self.records.len() {
             1 => format!("in the one record from {from:.0} s on"),
@@ -349,7 +352,7 @@ impl Seas {
     /// The answer in a sentence or two.
     pub fn words(&self) -> String {
         let speeds = sorted(self.speeds_m_s().into_iter());
-        paragraph(&SeasWords {
+        paragraph(&SeasVerdictText {
             early: self.breaking_only_early(),
             transient_s: self.prepared.structure.transient_s,
             fit: self.peak_in_three_hours(),
@@ -362,7 +365,7 @@ impl Seas {
             fastest_m_s: speeds.last().copied().unwrap_or(0.0),
             median_m_s: quantile(&speeds, 0.5).unwrap_or(0.0),
             failing: self.failing(),
-            open: left_open(&self.warnings),
+            open: undecided_by(&self.warnings),
             few: self.records.len() < Gumbel::FEWEST,
         })
     }

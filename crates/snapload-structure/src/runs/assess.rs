@@ -1,11 +1,11 @@
 //! The assessment of one structure: do the lines go slack, how hard do they snap, do they break?
 
 use super::design::{Check, checks};
-use super::outcome::{Outcome, Tally};
+use super::outcome::{Outcome, OutcomeCounter};
 use super::quantile::{quantile, sorted};
 use crate::options::{NEIGHBOURS, check};
+use crate::physics::model_at_rest::ModelAtRest;
 use crate::physics::periods::NaturalPeriods;
-use crate::physics::prepared::Prepared;
 use crate::physics::sea::uniform;
 use crate::physics::snap::Snap;
 use crate::physics::warnings::{Warning, limits_afloat, phase_warning, turning_warning, warnings};
@@ -26,16 +26,16 @@ pub const NEIGHBOUR: f64 = 1e-6;
 /// By this the restitution is varied, as it is rarely known more accurately.
 const RESTITUTION: f64 = 0.2;
 /// Times between the start and the end at which the position of the body is evaluated.
-const LOOKS: u32 = 20_000;
+const POSITION_SAMPLES: u32 = 20_000;
 
 /// A structure that was run.
 #[derive(Clone, Debug)]
 pub struct Assessment {
     /// Structure, position of rest, model.
-    pub prepared: Prepared,
+    pub prepared: ModelAtRest,
     /// Rules of thumb that the case violates.
     pub warnings: Vec<Warning>,
-    /// The natural periods of a submerged body; those of a floating one are in [`Prepared`].
+    /// The natural periods of a submerged body; those of a floating one are in [`ModelAtRest`].
     pub periods: Option<NaturalPeriods>,
     /// The motion.
     pub run: Trajectory,
@@ -69,75 +69,74 @@ pub const DEFAULT_NEIGHBOURS: u32 = 40;
 /// Runs a structure with its neighbours.
 ///
 /// # Errors
-/// A [`snapload::CaseError`] if more neighbours than [`NEIGHBOURS`] are asked for, the structure rests
-/// nowhere or can not start, and
-/// [`Unfinished::Cancelled`].
+/// A [`snapload::CaseError`] if more neighbours than [`NEIGHBOURS`] are requested, the structure
+/// rests nowhere or can not start, and [`Unfinished::Cancelled`].
 pub fn assess(
     structure: Structure,
     neighbours: u32,
     on_progress: OnProgress,
 ) -> Result<Assessment, Unfinished> {
     check(&NEIGHBOURS, i64::from(neighbours))?;
-    let prepared = Prepared::new(structure)?;
-    let others = Others::new(&prepared, neighbours);
-    let counter = Counter::new("runs", 0, 1 + others.len() as u64, on_progress);
+    let prepared = ModelAtRest::new(structure)?;
+    let further = FurtherRuns::new(&prepared, neighbours);
+    let counter = Counter::new("runs", 0, 1 + further.len() as u64, on_progress);
     // Progress within a run is not counted, but the run may be cancelled.
     let within = |_: Progress| match counter.add(0) {
         Ok(()) => ControlFlow::Continue(()),
         Err(_) => ControlFlow::Break(()),
     };
     // The run of the case takes longest, and therefore begins first.
-    let runs = in_parallel(1 + others.len(), |index| {
+    let runs = in_parallel(1 + further.len(), |index| {
         let run = match index.checked_sub(1) {
-            None => Run::Followed(Box::new(Followed::new(&prepared, &within)?)),
-            Some(index) => Run::Other(others.run(index)?),
+            None => Run::Recorded(Box::new(RecordedRun::new(&prepared, &within)?)),
+            Some(index) => Run::Other(further.run(index)?),
         };
         counter.add(1)?;
         Ok::<_, Unfinished>(run)
     })?;
-    let (mut followed, mut outcomes) = (None, Vec::new());
+    let (mut recorded, mut outcomes) = (None, Vec::new());
     for run in runs {
         match run {
-            Run::Followed(run) => followed = Some(run),
+            Run::Recorded(run) => recorded = Some(run),
             Run::Other(outcome) => outcomes.push(outcome),
         }
     }
-    let (restitutions, neighbours) = others.part(outcomes);
-    let followed = followed.expect("the first of the runs is followed");
+    let (restitutions, neighbours) = further.part(outcomes);
+    let recorded = recorded.expect("the first of the runs is followed");
     Ok(Assessment {
         restitutions,
         neighbours,
-        ..Assessment::of_run(prepared, *followed)
+        ..Assessment::of_run(prepared, *recorded)
     })
 }
 
 /// One of the runs of an assessment.
 enum Run {
-    Followed(Box<Followed>),
+    Recorded(Box<RecordedRun>),
     Other(Outcome),
 }
 
 /// The run of the case, with everything that is recorded of it.
-struct Followed {
+struct RecordedRun {
     run: Trajectory,
     trust: Trust,
     snaps: Vec<Snap>,
     outcome: Outcome,
 }
 
-impl Followed {
-    fn new(prepared: &Prepared, on_progress: OnProgress) -> Result<Self, Unfinished> {
+impl RecordedRun {
+    fn new(prepared: &ModelAtRest, on_progress: OnProgress) -> Result<Self, Unfinished> {
         let simulation = prepared.begin(1.0)?;
         let mut monitor = TrustMonitor::new(&simulation, &[0.0; 6], TOLERANCE);
-        let mut tally = Tally::new(prepared);
+        let mut outcome_counter = OutcomeCounter::new(prepared);
         let mut snaps = Vec::new();
         let run = record(simulation, on_progress, |simulation, step| {
             monitor.follow(simulation, step);
-            snaps.extend(tally.follow(simulation, step));
+            snaps.extend(outcome_counter.add_step(simulation, step));
         })?;
         Ok(Self {
             trust: monitor.verdict(),
-            outcome: tally.finish(run.end().t, run.end().reason),
+            outcome: outcome_counter.finish(run.end().t, run.end().reason),
             run,
             snaps,
         })
@@ -145,15 +144,15 @@ impl Followed {
 }
 
 /// The runs besides that of the case: with less and with more restitution, and its neighbours.
-struct Others<'a> {
-    prepared: &'a Prepared,
+struct FurtherRuns<'a> {
+    prepared: &'a ModelAtRest,
     restitutions: Vec<f64>,
     /// Zero in still water, where there are no waves to vary.
     neighbours: usize,
 }
 
-impl<'a> Others<'a> {
-    fn new(prepared: &'a Prepared, neighbours: u32) -> Self {
+impl<'a> FurtherRuns<'a> {
+    fn new(prepared: &'a ModelAtRest, neighbours: u32) -> Self {
         let still = matches!(prepared.structure.water, Water::Still);
         Self {
             prepared,
@@ -174,7 +173,7 @@ impl<'a> Others<'a> {
         } = self;
         let outcome = match index.checked_sub(restitutions.len()) {
             None => Outcome::of(&prepared.with_restitution(restitutions[index]), 1.0)?,
-            Some(index) => Outcome::of(prepared, 1.0 + NEIGHBOUR * side(index as u32))?,
+            Some(index) => Outcome::of(prepared, 1.0 + NEIGHBOUR * perturbation(index as u32))?,
         };
         Ok(outcome)
     }
@@ -190,15 +189,15 @@ impl<'a> Others<'a> {
 
 /// A smaller and a larger restitution than that of the case, within the values allowed.
 fn restitutions_about(restitution: f64) -> Vec<f64> {
-    let others = [-RESTITUTION, RESTITUTION].map(|more| (restitution + more).clamp(0.0, 1.0));
-    others
+    let further = [-RESTITUTION, RESTITUTION].map(|more| (restitution + more).clamp(0.0, 1.0));
+    further
         .into_iter()
         .filter(|other| *other != restitution)
         .collect()
 }
 
 /// A number, uniform in [−1, 1), for each neighbour.
-fn side(index: u32) -> f64 {
+fn perturbation(index: u32) -> f64 {
     let mut generator = ChaCha8Rng::seed_from_u64(1);
     generator.set_stream(u64::from(index));
     2.0 * uniform(&mut generator) - 1.0
@@ -209,19 +208,19 @@ impl Assessment {
     ///
     /// # Errors
     /// Those of [`assess`].
-    pub fn alone(structure: Structure, on_progress: OnProgress) -> Result<Self, Unfinished> {
-        let prepared = Prepared::new(structure)?;
-        let followed = Followed::new(&prepared, on_progress)?;
-        Ok(Self::of_run(prepared, followed))
+    pub fn single_run(structure: Structure, on_progress: OnProgress) -> Result<Self, Unfinished> {
+        let prepared = ModelAtRest::new(structure)?;
+        let recorded = RecordedRun::new(&prepared, on_progress)?;
+        Ok(Self::of_run(prepared, recorded))
     }
 
-    fn of_run(prepared: Prepared, followed: Followed) -> Self {
-        let Followed {
+    fn of_run(prepared: ModelAtRest, recorded: RecordedRun) -> Self {
+        let RecordedRun {
             run,
             trust,
             snaps,
             outcome,
-        } = followed;
+        } = recorded;
         let mut assessment = Self {
             warnings: warnings(&prepared),
             periods: NaturalPeriods::of(&prepared),
@@ -260,14 +259,14 @@ impl Assessment {
         neighbours: u32,
         on_progress: OnProgress,
     ) -> Result<Self, Unfinished> {
-        let others = Others::new(&self.prepared, neighbours);
-        let counter = Counter::new("neighbours", 0, others.len() as u64, on_progress);
-        let outcomes = in_parallel(others.len(), |index| {
-            let outcome = others.run(index)?;
+        let further = FurtherRuns::new(&self.prepared, neighbours);
+        let counter = Counter::new("neighbours", 0, further.len() as u64, on_progress);
+        let outcomes = in_parallel(further.len(), |index| {
+            let outcome = further.run(index)?;
             counter.add(1)?;
             Ok::<_, Unfinished>(outcome)
         })?;
-        (self.restitutions, self.neighbours) = others.part(outcomes);
+        (self.restitutions, self.neighbours) = further.part(outcomes);
         Ok(self)
     }
 
@@ -322,8 +321,8 @@ impl Assessment {
     pub fn reach_m(&self) -> [[f64; 2]; 2] {
         let mut playback = Playback::new(&self.run);
         let mut reach = [[f64::INFINITY, f64::NEG_INFINITY]; 2];
-        for look in 0..=LOOKS {
-            let t = self.run.end().t * f64::from(look) / f64::from(LOOKS);
+        for look in 0..=POSITION_SAMPLES {
+            let t = self.run.end().t * f64::from(look) / f64::from(POSITION_SAMPLES);
             let state = playback.at(t).state;
             let place = self.prepared.model.scales.to_si([state.x, state.y]);
             for (range, value) in reach.iter_mut().zip(place) {

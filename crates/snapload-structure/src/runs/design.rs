@@ -15,7 +15,7 @@
 
 use super::outcome::Outcome;
 use super::quantile::{quantile, sorted};
-use crate::physics::prepared::Prepared;
+use crate::physics::model_at_rest::ModelAtRest;
 use crate::structure::{Structure, Water};
 use serde::Serialize;
 use snapload::Harmonic;
@@ -129,7 +129,7 @@ impl Check {
 }
 
 /// The checks of the lines and of the waves' force, from the outcome of a run.
-pub(crate) fn checks(prepared: &Prepared, outcome: &Outcome, open: bool) -> Vec<Check> {
+pub(crate) fn checks(prepared: &ModelAtRest, outcome: &Outcome, open: bool) -> Vec<Check> {
     let lines = line_checks(prepared, outcome, open).into_iter();
     lines.chain(force_check(prepared)).collect()
 }
@@ -192,7 +192,7 @@ impl RecordsCheck {
 
 /// The checks of the lines from the outcome of a run; `open` says that its tensions are not
 /// reliable.
-pub(crate) fn line_checks(prepared: &Prepared, outcome: &Outcome, open: bool) -> Vec<Check> {
+pub(crate) fn line_checks(prepared: &ModelAtRest, outcome: &Outcome, open: bool) -> Vec<Check> {
     let structure = &prepared.structure;
     let rule = structure.design;
     let of_line = |line: usize| {
@@ -224,11 +224,11 @@ pub(crate) fn line_checks(prepared: &Prepared, outcome: &Outcome, open: bool) ->
 }
 
 /// The check of the waves' force on the body, if a rule asks for it and there are waves.
-pub(crate) fn force_check(prepared: &Prepared) -> Option<Check> {
+pub(crate) fn force_check(prepared: &ModelAtRest) -> Option<Check> {
     let share = prepared.structure.design.force_share?;
     let value = wave_force_part(prepared);
     // On lines that stretch considerably the body rests higher, where the waves are larger.
-    let open = prepared.rest.shared.is_some();
+    let open = prepared.rest.by_stiffness.is_some();
     Some(Check::new(Criterion::WaveForce, None, value, share, open))
 }
 
@@ -241,12 +241,12 @@ struct Tensions {
 }
 
 impl Tensions {
-    fn new(prepared: &Prepared, outcome: &Outcome, line: usize) -> Self {
+    fn new(prepared: &ModelAtRest, outcome: &Outcome, line: usize) -> Self {
         let of_line = &outcome.lines[line];
         Self {
             // Both of inextensible lines, if those would share the load differently.
-            rest_n: match &prepared.rest.shared {
-                Some(shared) => Some(shared.unstretched_n[line]),
+            rest_n: match &prepared.rest.by_stiffness {
+                Some(by_stiffness) => Some(by_stiffness.inextensible_n[line]),
                 None => prepared.rest.known_tensions_n()[line],
             },
             largest_n: of_line.largest_n(),
@@ -273,11 +273,11 @@ impl Tensions {
 }
 
 /// The times, per peak period of a sea, at which its force is evaluated.
-const LOOKS: f64 = 40.0;
+const SAMPLES_PER_PERIOD: f64 = 40.0;
 
 /// max |f_z|/F of the waves within the time that is judged; none in still water. A floating body,
 /// which the waves lift by its waterplane, has no such check.
-fn wave_force_part(prepared: &Prepared) -> Option<f64> {
+fn wave_force_part(prepared: &ModelAtRest) -> Option<f64> {
     let Structure {
         duration_s,
         transient_s,
@@ -287,10 +287,10 @@ fn wave_force_part(prepared: &Prepared) -> Option<f64> {
     let step_s = match prepared.structure.water {
         Water::Still => return None,
         Water::Wave(_) => return forcing.harmonics.first().map(Harmonic::amplitude_y),
-        Water::Sea(sea) => sea.peak_period_s / LOOKS,
+        Water::Sea(sea) => sea.peak_period_s / SAMPLES_PER_PERIOD,
     };
-    let looks = ((duration_s - transient_s) / step_s).ceil() as u64;
-    let forces = (0..=looks).map(|k| {
+    let samples = ((duration_s - transient_s) / step_s).ceil() as u64;
+    let forces = (0..=samples).map(|k| {
         let t_s = (transient_s + k as f64 * step_s).min(duration_s);
         let force = forcing.at(t_s / prepared.model.scales.time_s) - forcing.constant;
         force.y.abs()

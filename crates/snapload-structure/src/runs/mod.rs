@@ -2,11 +2,11 @@
 //! of a line.
 
 pub(crate) mod assess;
-pub(crate) mod both;
 pub(crate) mod design;
+pub(crate) mod elastic_comparison;
+pub(crate) mod elastic_outcome;
 pub(crate) mod motion;
 pub(crate) mod outcome;
 pub(crate) mod quantile;
 pub(crate) mod scan;
 pub(crate) mod seas;
-pub(crate) mod sprung;

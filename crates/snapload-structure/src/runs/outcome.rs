@@ -1,6 +1,6 @@
 //! The outcome of one run.
 
-use crate::physics::prepared::Prepared;
+use crate::physics::model_at_rest::ModelAtRest;
 use crate::physics::snap::{Snap, snaps_of_step};
 use crate::physics::waterline::Waterline;
 use crate::physics::waves_of_tension::WavesOfTension;
@@ -16,15 +16,15 @@ pub struct LineOutcome {
     /// The fastest \[m/s\].
     #[serde(rename = "fastest_snap_m_s")]
     pub speed_m_s: f64,
-    /// Jolts that snaps of other lines passed on to it while it was taut, if they count.
+    /// Impacts that snaps of other lines passed on to it while it was taut, if they count.
     #[serde(skip)]
-    pub jolts: u64,
-    /// The largest estimate of tension in a snap or a jolt \[N\].
+    pub impacts_while_taut: u64,
+    /// The largest estimate of tension in a snap or an impact while taut \[N\].
     #[serde(rename = "peak_tension_n")]
     pub peak_n: Option<f64>,
     /// The largest tension while the line stays taut \[N\].
     #[serde(rename = "held_tension_n")]
-    pub held_n: f64,
+    pub largest_taut_n: f64,
     /// The smallest tension, 0 if it goes slack; none if the run ends before the judged time \[N\].
     #[serde(rename = "least_tension_n")]
     pub least_n: Option<f64>,
@@ -40,8 +40,8 @@ impl LineOutcome {
     /// known, or without judged time \[N\].
     pub fn largest_n(&self) -> Option<f64> {
         self.least_n?;
-        let no_snap = (self.snaps + self.jolts == 0).then_some(0.0);
-        Some(self.peak_n.or(no_snap)?.max(self.held_n))
+        let no_snap = (self.snaps + self.impacts_while_taut == 0).then_some(0.0);
+        Some(self.peak_n.or(no_snap)?.max(self.largest_taut_n))
     }
 }
 
@@ -56,7 +56,7 @@ pub struct Outcome {
     pub end_s: f64,
     /// The largest rotation on either side \[rad\].
     pub turned_rad: f64,
-    /// The largest horizontal distance from the position of rest at the ends of its stretches of
+    /// The largest horizontal distance from the position of rest at the ends of its intervals of
     /// motion \[m\].
     pub excursion_m: f64,
     /// The extreme positions of a floating body relative to the still water; none for a submerged
@@ -75,14 +75,14 @@ impl Outcome {
     ///
     /// # Errors
     /// A [`CaseError`] if it can not start.
-    pub fn of(prepared: &Prepared, height: f64) -> Result<Self, CaseError> {
+    pub fn of(prepared: &ModelAtRest, height: f64) -> Result<Self, CaseError> {
         let mut simulation = prepared.begin(height)?;
-        let mut tally = Tally::new(prepared);
+        let mut outcome_counter = OutcomeCounter::new(prepared);
         while let Some(step) = simulation.step() {
-            tally.follow(&simulation, &step);
+            outcome_counter.add_step(&simulation, &step);
         }
         let stop = simulation.stop().unwrap_or(Stop::EndTime);
-        Ok(tally.finish(simulation.time(), stop))
+        Ok(outcome_counter.finish(simulation.time(), stop))
     }
 
     /// The largest estimate of tension in a snap of any line \[N\].
@@ -93,7 +93,7 @@ impl Outcome {
 
     /// The largest tension of any line, while taut or in a snap if that is known \[N\].
     pub fn largest_n(&self) -> f64 {
-        let held = self.lines.iter().map(|line| line.held_n);
+        let held = self.lines.iter().map(|line| line.largest_taut_n);
         held.fold(self.peak_n().unwrap_or(0.0), f64::max)
     }
 
@@ -132,8 +132,8 @@ impl Outcome {
 }
 
 /// Sums up a run, step by step.
-pub(super) struct Tally<'a> {
-    prepared: &'a Prepared,
+pub(super) struct OutcomeCounter<'a> {
+    prepared: &'a ModelAtRest,
     lines: Vec<LineOutcome>,
     /// Time without tension, in the engine's units.
     slack: Vec<f64>,
@@ -147,8 +147,8 @@ pub(super) struct Tally<'a> {
     waves_n: Vec<[f64; 2]>,
 }
 
-impl<'a> Tally<'a> {
-    pub(super) fn new(prepared: &'a Prepared) -> Self {
+impl<'a> OutcomeCounter<'a> {
+    pub(super) fn new(prepared: &'a ModelAtRest) -> Self {
         let count = prepared.structure.lines.len();
         Self {
             prepared,
@@ -165,7 +165,7 @@ impl<'a> Tally<'a> {
     }
 
     /// Takes in a step; returns the snaps at its end.
-    pub(super) fn follow(&mut self, simulation: &Simulation, step: &Step) -> Vec<Snap> {
+    pub(super) fn add_step(&mut self, simulation: &Simulation, step: &Step) -> Vec<Snap> {
         add_slack(&mut self.slack, step);
         self.turned_rad = simulation.theta_max();
         let state = simulation.state();
@@ -183,8 +183,8 @@ impl<'a> Tally<'a> {
             // A taut line can not push: a negative tension is rounding.
             let [least, largest] = range.map(|tension| tension.max(0.0) * scales.force_n);
             if is_judged {
-                self.waves_n.extend(wave.see([least, largest]));
-                line.held_n = line.held_n.max(largest);
+                self.waves_n.extend(wave.add([least, largest]));
+                line.largest_taut_n = line.largest_taut_n.max(largest);
                 line.least_n = Some(line.least_n.map_or(least, |before| before.min(least)));
             } else {
                 line.early_n = line.early_n.max(largest);
@@ -205,15 +205,15 @@ impl<'a> Tally<'a> {
     /// Counts a judged snap.
     fn count(&mut self, snap: &Snap) {
         let line = &mut self.lines[snap.line];
-        if snap.is_jolt {
-            line.jolts += 1;
+        if snap.is_impact_while_taut {
+            line.impacts_while_taut += 1;
         } else {
             line.snaps += 1;
             line.speed_m_s = line.speed_m_s.max(snap.speed_m_s);
             self.speeds_m_s.push(snap.speed_m_s);
         }
         if let Some(peak) = snap.peak_n {
-            self.waves_n.extend(self.waves[snap.line].see([peak; 2]));
+            self.waves_n.extend(self.waves[snap.line].add([peak; 2]));
             line.peak_n = Some(line.peak_n.unwrap_or(0.0).max(peak));
             self.peaks_n.push(peak);
         }
@@ -224,7 +224,7 @@ impl<'a> Tally<'a> {
         for (line, slack) in self.lines.iter_mut().zip(&self.slack) {
             line.slack_fraction = if end > 0.0 { slack / end } else { 0.0 };
         }
-        let Prepared {
+        let ModelAtRest {
             structure, model, ..
         } = self.prepared;
         Outcome {

@@ -1,7 +1,7 @@
 //! The same structure in other waves.
 
 use super::outcome::Outcome;
-use crate::physics::prepared::Prepared;
+use crate::physics::model_at_rest::ModelAtRest;
 use crate::structure::{Structure, Water, Wave};
 use snapload::analysis::{Cancelled, Counter, OnProgress, in_parallel};
 
@@ -66,7 +66,7 @@ fn one(structure: &Structure, wave: Wave) -> Option<f64> {
         transient_s: structure.transient_s.min(LENGTH / 2.0 * wave.period_s),
         ..structure.clone()
     };
-    let prepared = Prepared::new(changed).ok()?;
+    let prepared = ModelAtRest::new(changed).ok()?;
     let outcome = Outcome::of(&prepared, 1.0).ok()?;
     if outcome.stop.exceeds() {
         return None;

@@ -6,7 +6,7 @@ use super::quantile::sorted;
 use crate::options::{SEEDS, check};
 use crate::physics::elastic::springs;
 use crate::physics::gumbel::Gumbel;
-use crate::physics::prepared::Prepared;
+use crate::physics::model_at_rest::ModelAtRest;
 use crate::physics::warnings::{
     Warning, limits_afloat, phase_warning, short_records, turning_warning, warnings,
 };
@@ -31,7 +31,7 @@ pub struct SeaOutcome {
 #[derive(Clone, Debug)]
 pub struct Seas {
     /// The structure, with the first seed, about its position of rest on these lines.
-    pub prepared: Prepared,
+    pub prepared: ModelAtRest,
     /// Rules of thumb that the case violates.
     pub warnings: Vec<Warning>,
     /// The model of the lines.
@@ -54,8 +54,8 @@ pub enum Lines {
 /// ones.
 ///
 /// # Errors
-/// A [`CaseError`] unless the count is of [`SEEDS`], if the case has no sea, the structure rests nowhere, or elastic lines have no
-/// stiffness, and [`Unfinished::Cancelled`].
+/// A [`CaseError`] unless the count is of [`SEEDS`], if the case has no sea, the structure rests
+/// nowhere, or elastic lines have no stiffness, and [`Unfinished::Cancelled`].
 pub fn seas(
     structure: Structure,
     count: u32,
@@ -71,15 +71,15 @@ pub fn seas(
         return Err(error.into());
     };
     let prepared = match lines {
-        Lines::Inextensible => Prepared::new(structure)?,
-        Lines::Elastic => Prepared::for_springs(structure)?,
+        Lines::Inextensible => ModelAtRest::new(structure)?,
+        Lines::Elastic => ModelAtRest::for_elastic_lines(structure)?,
     };
     // For elastic lines, the position of rest on them is reported.
-    let told = match lines {
+    let reported = match lines {
         Lines::Inextensible => prepared.clone(),
-        Lines::Elastic => prepared.on_springs(&springs(&prepared, 1.0)?)?,
+        Lines::Elastic => prepared.with_elastic_lines(&springs(&prepared, 1.0)?)?,
     };
-    let mut warnings = warnings(&told);
+    let mut warnings = warnings(&reported);
     // Rules that are decided by elastic lines do not apply to them.
     warnings.retain(|warning| lines == Lines::Inextensible || warning.decided_by.is_none());
     let open = warnings.iter().any(|warning| warning.decided_by.is_some());
@@ -97,7 +97,7 @@ pub fn seas(
                 let outcome = Outcome::of(&record, 1.0)?;
                 (record, outcome)
             }
-            Lines::Elastic => Outcome::on_springs(&record, &within)?,
+            Lines::Elastic => Outcome::with_elastic_lines(&record, &within)?,
         };
         counter.add(1)?;
         Ok::<_, Unfinished>(SeaOutcome {
@@ -106,18 +106,18 @@ pub fn seas(
             outcome,
         })
     })?;
-    warnings.extend(seen_in(&told, &records));
+    warnings.extend(warnings_of_records(&reported, &records));
     Ok(Seas {
         records,
         lines,
         warnings,
-        prepared: told,
+        prepared: reported,
     })
 }
 
 /// The warnings that follow from the motion in all records.
-fn seen_in(told: &Prepared, records: &[SeaOutcome]) -> Vec<Warning> {
-    let structure = &told.structure;
+fn warnings_of_records(reported: &ModelAtRest, records: &[SeaOutcome]) -> Vec<Warning> {
+    let structure = &reported.structure;
     let outcomes = || records.iter().map(|record| &record.outcome);
     let most = |of: fn(&Outcome) -> f64| outcomes().map(of).fold(0.0, f64::max);
     let turned = most(|outcome| outcome.turned_rad);
@@ -126,7 +126,11 @@ fn seen_in(told: &Prepared, records: &[SeaOutcome]) -> Vec<Warning> {
     let seen = seen.reduce(|all, one| all.with(&one));
     let found = short_records(structure).into_iter();
     found
-        .chain(phase_warning(structure, told.rest.place_m[1], excursion))
+        .chain(phase_warning(
+            structure,
+            reported.rest.place_m[1],
+            excursion,
+        ))
         .chain(turning_warning(structure, turned))
         .chain(limits_afloat(structure, seen.as_ref(), turned))
         .collect()
@@ -160,12 +164,12 @@ impl Seas {
     /// The distribution of the largest tension in three hours, if all records are long enough to
     /// have snaps \[N\].
     pub fn peak_in_three_hours(&self) -> Option<Gumbel> {
-        self.in_three_hours(&self.largest_n()?)
+        self.fit_for_three_hours(&self.largest_n()?)
     }
 
     /// The same of the fastest snap \[m/s\].
     pub fn speed_in_three_hours(&self) -> Option<Gumbel> {
-        self.in_three_hours(&self.speeds_m_s())
+        self.fit_for_three_hours(&self.speeds_m_s())
     }
 
     /// The number of records that ended early, for any reason.
@@ -184,7 +188,7 @@ impl Seas {
 
     /// A fit to records without snaps would be a fit to zeros, and one to records that ended early
     /// would be for a shorter time.
-    fn in_three_hours(&self, largest: &[f64]) -> Option<Gumbel> {
+    fn fit_for_three_hours(&self, largest: &[f64]) -> Option<Gumbel> {
         let structure = &self.prepared.structure;
         let judged = structure.duration_s - structure.transient_s;
         let snapping = largest.iter().all(|value| *value > 0.0);

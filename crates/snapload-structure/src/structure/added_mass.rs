@@ -25,12 +25,12 @@ pub struct AddedMass {
     /// A55 about the body's centre, if its moment of inertia does not include it \[kg m²\].
     pub pitch_kg_m2: f64,
     /// The part that the case leaves to the textbook.
-    pub by_default: ByDefault,
+    pub by_default: AddedMassDefaults,
 }
 
 /// The part of the added mass that a case leaves to the textbook.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum ByDefault {
+pub enum AddedMassDefaults {
     /// Nothing.
     Nothing,
     /// The rotation.
@@ -46,7 +46,7 @@ impl AddedMass {
             surge_kg,
             heave_kg,
             pitch_kg_m2,
-            by_default: ByDefault::Nothing,
+            by_default: AddedMassDefaults::Nothing,
         }
     }
 
@@ -75,7 +75,7 @@ impl AddedMass {
             surge_kg,
             heave_kg,
             pitch_kg_m2,
-            by_default: ByDefault::All,
+            by_default: AddedMassDefaults::All,
         })
     }
 
@@ -89,10 +89,10 @@ impl AddedMass {
             }
         };
         match self.by_default {
-            ByDefault::Nothing => None,
+            AddedMassDefaults::Nothing => None,
             // A turning circle does not move the water.
-            ByDefault::Rotation if self.pitch_kg_m2 == 0.0 => None,
-            ByDefault::Rotation | ByDefault::All => Some(flow),
+            AddedMassDefaults::Rotation if self.pitch_kg_m2 == 0.0 => None,
+            AddedMassDefaults::Rotation | AddedMassDefaults::All => Some(flow),
         }
     }
 }

@@ -15,7 +15,7 @@ const SAME_VOLUME: f64 = 0.01;
 /// water.
 const HALF_IMMERSED: f64 = 0.01;
 /// The message for a key that names a file in a case that has no folder for files.
-pub const READS_NO_FILES: &str = "nothing in a case that is read without the files beside it; \
+pub const NO_FILES_HERE: &str = "nothing in a case that is read without the files beside it; \
                                   without this key a body floats by textbook values of its section";
 /// The name that is shown if there is no file.
 const SECTION: &str = "textbook values of its section";
@@ -38,8 +38,8 @@ impl Afloat {
         self.body.constant_force - Vector3::new(0.0, 0.0, self.constant_moment_n_m)
     }
 
-    /// Reads the coefficients from files beside a case file and fits their memory; without a folder
-    /// the case may not name files.
+    /// Reads the coefficients from files next to a case file and fits their memory; without a
+    /// folder the case may not name files.
     ///
     /// # Errors
     /// A [`CaseError`] that says what is wrong with the file or missing in it.
@@ -76,7 +76,7 @@ impl Afloat {
                 centre_m: fields.get("centre_of_gravity")?,
                 inertia_kg_m2: inertia.or(uniform),
             },
-            damping: three(fields, "damping")?.unwrap_or_default(),
+            damping: per_freedom(fields, "damping")?.unwrap_or_default(),
             fit: FitOptions {
                 pairs: fields.get::<u64>("pairs")?.and_then(|n| n.try_into().ok()),
             },
@@ -106,7 +106,7 @@ fn path(
     };
     match folder {
         Some(folder) => Ok(Some(folder.join(name))),
-        None => Err(fields.refuse(key, format!("{name:?}"), READS_NO_FILES)),
+        None => Err(fields.refuse(key, format!("{name:?}"), NO_FILES_HERE)),
     }
 }
 
@@ -123,7 +123,7 @@ fn coefficients(
     };
     let reading = read(file, &given(fields, site)?);
     let mut reading = reading.map_err(|error| refused(fields, &error))?;
-    idle(fields, &reading)?;
+    refuse_unused_keys(fields, &reading)?;
     same_volume(entries.table("body", 0), site, body, &mut reading)?;
     Ok(reading)
 }
@@ -137,7 +137,7 @@ fn refused(fields: Fields<'_>, error: &HydroError) -> CaseError {
 }
 
 /// The keys that only have a meaning with a file.
-const OF_A_FILE: [&str; 8] = [
+const KEYS_OF_A_FILE: [&str; 8] = [
     "deep_water",
     "pairs",
     "memory",
@@ -150,7 +150,7 @@ const OF_A_FILE: [&str; 8] = [
 
 /// The textbook's coefficients of a body whose outline is its section, if no file is named.
 fn section(fields: Fields<'_>, site: &Site, body: &BodySi) -> Result<Reading, CaseError> {
-    for key in OF_A_FILE {
+    for key in KEYS_OF_A_FILE {
         if let Some(value) = fields.given(key) {
             let allowed = "nothing without float.file, as textbook values of a section do not \
                            depend on it";
@@ -213,7 +213,7 @@ fn given(fields: Fields<'_>, site: &Site) -> Result<Given, CaseError> {
 }
 
 /// Refuses keys that would have no effect with this file.
-fn idle(fields: Fields<'_>, reading: &Reading) -> Result<(), CaseError> {
+fn refuse_unused_keys(fields: Fields<'_>, reading: &Reading) -> Result<(), CaseError> {
     for key in ["unit_length", "first_column"] {
         if let Some(value) = fields
             .given(key)
@@ -260,7 +260,7 @@ fn same_volume(
 }
 
 /// Three numbers; a single number is refused, as its degree of freedom would be unclear.
-fn three(fields: Fields<'_>, key: &str) -> Result<Option<[f64; 3]>, CaseError> {
+fn per_freedom(fields: Fields<'_>, key: &str) -> Result<Option<[f64; 3]>, CaseError> {
     match fields.given(key) {
         None => Ok(None),
         Some(value) => {

@@ -5,9 +5,9 @@ use snapload::CaseError;
 
 /// The part of its length by which a line may be too short for the drawn fairlead, as drawings are
 /// rounded; the body then rests a little lower.
-const ROUNDED: f64 = 0.02;
+const SHORTER_BY: f64 = 0.02;
 /// A larger ratio of the masses along the two axes is refused as a typing error.
-const UNLIKE: f64 = 1e6;
+const LARGEST_MASS_RATIO: f64 = 1e6;
 
 /// Refuses a current that would have no effect.
 fn check_current(structure: &Structure) -> Result<(), CaseError> {
@@ -60,9 +60,9 @@ fn check_anchors(structure: &Structure) -> Result<(), CaseError> {
 fn check_masses(structure: &Structure) -> Result<(), CaseError> {
     let body = &structure.body;
     let [surge, heave] = body.moving_mass_kg();
-    if !(heave / UNLIKE..=heave * UNLIKE).contains(&surge) {
+    if !(heave / LARGEST_MASS_RATIO..=heave * LARGEST_MASS_RATIO).contains(&surge) {
         let allowed = format!(
-            "at most {UNLIKE:e} times as much moving mass along one axis as along the other"
+            "at most {LARGEST_MASS_RATIO:e} times as much moving mass along one axis as along the other"
         );
         let added = &body.added_mass;
         let shown = format!(
@@ -128,7 +128,7 @@ fn check_submerged(structure: &Structure) -> Result<(), CaseError> {
         let path = |key: &str| format!("line.{}.{key}", index + 1);
         let (anchor, fairlead) = (line.anchor_m, line.fairlead_m);
         let reach = (fairlead[0] - anchor[0]).hypot(fairlead[1] - anchor[1]);
-        if reach > line.length_m * (1.0 + ROUNDED) {
+        if reach > line.length_m * (1.0 + SHORTER_BY) {
             let allowed = format!("at least the {reach:.3} m from its anchor to its fairlead");
             return Err(CaseError::value(&path("length"), line.length_m, allowed)
                 .with_hint("make the line longer, or move the body or the anchor"));

@@ -5,8 +5,8 @@ use crate::schema::STRUCTURE;
 use crate::structure::check::check;
 use crate::structure::design::{read_design, read_project};
 use crate::structure::{
-    AddedMass, Afloat, BodySi, ByDefault, IrregularSea, LineSi, Outline, Site, SpectrumShape,
-    Structure, THREE_HOURS_S, Water, Wave,
+    AddedMass, AddedMassDefaults, Afloat, BodySi, IrregularSea, LineSi, Outline, Site,
+    SpectrumShape, Structure, THREE_HOURS_S, Water, Wave,
 };
 use snapload::{CaseError, Entries, Fields, MAX_CABLES};
 use std::path::Path;
@@ -186,7 +186,7 @@ fn read_added_mass(
     })?;
     Ok(match one {
         Some(one) => AddedMass {
-            by_default: ByDefault::Rotation,
+            by_default: AddedMassDefaults::Rotation,
             ..AddedMass::given([one, one, textbook.pitch_kg_m2])
         },
         None => textbook,

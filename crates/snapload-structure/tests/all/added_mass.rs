@@ -4,7 +4,7 @@ use crate::verdicts::source;
 use snapload::analysis::no_progress;
 use snapload::{Playback, Stop};
 use snapload_structure::{
-    ElasticRun, Prepared, Structure, assess, both_models, note, run_elastic, springs,
+    ElasticRun, ModelAtRest, Structure, assess, compare_elastic, note, run_elastic, springs,
 };
 use std::f64::consts::PI;
 
@@ -38,7 +38,7 @@ fn a_rectangle_has_its_added_mass_from_the_table() {
     ] {
         assert!((ours / printed - 1.0).abs() < digits, "{ours} {printed}");
     }
-    let words = structure.default_words().expect("it is a default");
+    let words = structure.default_text().expect("it is a default");
     assert!(
         words.contains("added mass 109.2 t in x and 351.3 t in z") && words.contains("DNV-RP-C205"),
         "{words}"
@@ -57,8 +57,8 @@ fn a_rectangle_has_its_added_mass_from_the_table() {
 fn one_number_serves_both_axes() {
     let system = |more: &str| {
         let structure = upright(more, "restitution = 0.5");
-        assert_eq!(structure.default_words(), None);
-        Prepared::new(structure).unwrap().model.system
+        assert_eq!(structure.default_text(), None);
+        ModelAtRest::new(structure).unwrap().model.system
     };
     let one = system("added_mass = 2e5\nmoment_of_inertia = 4e5");
     let three = system("added_mass = [2e5, 2e5, 1e5]\nmoment_of_inertia = 3e5");
@@ -69,7 +69,7 @@ fn one_number_serves_both_axes() {
     let own = 90000.0 * 20.0 / 12.0;
     assert_eq!(body.moment_of_inertia_kg_m2, own);
     assert!((body.turning_inertia_kg_m2() - own - 151.2e3).abs() < 100.0);
-    assert!(structure.default_words().is_some());
+    assert!(structure.default_text().is_some());
 }
 
 /// Natural period of a coordinate: twice the mean time between its zeros.
@@ -103,14 +103,14 @@ fn each_freedom_swings_with_its_own_mass() {
             transient_s: 0.0,
             ..structure.clone()
         };
-        let mut prepared = Prepared::new(structure).unwrap();
+        let mut prepared = ModelAtRest::new(structure).unwrap();
         let law = springs(&prepared, 1.0).unwrap();
         // Lines that stretch let it start higher than those that do not.
         prepared.structure.start_m = Some(start);
-        let prepared = prepared.on_springs(&law).unwrap();
+        let prepared = prepared.with_elastic_lines(&law).unwrap();
         run_elastic(&prepared, &law, every_s, &no_progress).unwrap()
     };
-    let scale = Prepared::new(structure.clone()).unwrap().model.scales;
+    let scale = ModelAtRest::new(structure.clone()).unwrap().model.scales;
     // In the engine's picture z points down from where the lines are just taut.
     let heave = swing([0.0, rest_z - 0.001], 4.0, 0.002);
     let middle = (-4.0 - rest_z) / scale.length_m;
@@ -167,9 +167,15 @@ fn one_number_misses_the_peak_of_a_pontoon() {
             line(-1.0)
         );
         let structure = Structure::parse("pontoon", &text).unwrap();
-        let both = both_models(Prepared::new(structure).unwrap(), 1.0, 0.1, &no_progress).unwrap();
-        let peak = both.elastic.peaks_n.iter().copied().fold(0.0, f64::max);
-        (both.elastic.stop, peak)
+        let comparison =
+            compare_elastic(ModelAtRest::new(structure).unwrap(), 1.0, 0.1, &no_progress).unwrap();
+        let peak = comparison
+            .elastic
+            .peaks_n
+            .iter()
+            .copied()
+            .fold(0.0, f64::max);
+        (comparison.elastic.stop, peak)
     };
     let own_inertia = "moment_of_inertia = 150000";
     let of_surge = peak(&format!("added_mass = 109199\n{own_inertia}"));

@@ -3,7 +3,7 @@
 use crate::afloat::{by_hand, case, parsed, structure};
 use snapload::analysis::no_progress;
 use snapload_hydro::TermRow;
-use snapload_structure::{Prepared, assess, both_models};
+use snapload_structure::{ModelAtRest, assess, compare_elastic};
 
 /// On lines that are slack where it floats a body rests as its weight and water have it, at the surge
 /// of its start, whether lines stretch or not: heave by (ρV − m) g / C33, and pitch by the arm of its
@@ -14,7 +14,7 @@ fn without_tension_it_rests_as_it_floats() {
     let at = |mass: f64, arm: f64| {
         let text = case(-0.2, 2.0, 11.0, "", start).replace("80000", &mass.to_string());
         let weight = format!("[float]\ncentre_of_gravity = [{arm}, -0.2]");
-        Prepared::for_springs(structure(&text.replace("[float]", &weight))).unwrap()
+        ModelAtRest::for_elastic_lines(structure(&text.replace("[float]", &weight))).unwrap()
     };
     for (mass, arm) in [(98_400.0, 0.0), (90_000.0, 0.0), (98_400.0, 0.05)] {
         let prepared = at(mass, arm);
@@ -27,16 +27,17 @@ fn without_tension_it_rests_as_it_floats() {
         assert!((rest.place_m[0] - 0.3).abs() < 1e-12);
         assert!((rest.place_m[1] + 0.2 - heave).abs() < 1e-9, "{rest:?}");
         assert!((rest.theta_rad + pitch).abs() < 1e-9, "{rest:?} {pitch}");
-        let both = both_models(prepared.clone(), 1.0, f64::INFINITY, &no_progress).unwrap();
-        let sprung = &both.sprung.rest;
-        assert!((sprung.place_m[1] - rest.place_m[1]).abs() < 1e-9);
-        assert!((sprung.theta_rad - rest.theta_rad).abs() < 1e-9);
+        let comparison =
+            compare_elastic(prepared.clone(), 1.0, f64::INFINITY, &no_progress).unwrap();
+        let elastic_case = &comparison.elastic_case.rest;
+        assert!((elastic_case.place_m[1] - rest.place_m[1]).abs() < 1e-9);
+        assert!((elastic_case.theta_rad - rest.theta_rad).abs() < 1e-9);
     }
 }
 
 /// Where a line is too short for it to float without tension at its start, no place of rest is told.
 #[test]
-fn a_start_is_not_told_as_a_place_of_rest() {
+fn a_start_is_not_reported_as_a_place_of_rest() {
     let line = |side: f64| {
         let (anchor, fairlead) = (60.0 * side, 5.0 * side);
         format!(
@@ -55,17 +56,17 @@ fn a_start_is_not_told_as_a_place_of_rest() {
     };
     let assessment = assess(structure(&text(0.3)), 0, &no_progress).unwrap();
     assert!(!assessment.prepared.rest.rests);
-    let told = assessment.summary("case");
+    let summary = assessment.summary("case");
     assert!(
-        told.contains("at rest   not known, as no line holds the body"),
-        "{told}"
+        summary.contains("at rest   not known, as no line holds the body"),
+        "{summary}"
     );
-    assert!(told.contains("line 1    not known at rest"), "{told}");
+    assert!(summary.contains("line 1    not known at rest"), "{summary}");
     let json = assessment.to_json("case");
     assert!(json["rest"]["z_m"].is_null() && json["lines"][0]["rest_tension_n"].is_null());
     // So far turned nothing rests on elastic lines either.
-    let prepared = Prepared::for_springs(structure(&text(1000.0))).unwrap();
-    let refused = both_models(prepared, 1.0, f64::INFINITY, &no_progress).unwrap_err();
+    let prepared = ModelAtRest::for_elastic_lines(structure(&text(1000.0))).unwrap();
+    let refused = compare_elastic(prepared, 1.0, f64::INFINITY, &no_progress).unwrap_err();
     let shown = refused.to_string();
     assert!(
         shown.contains("turned by") && shown.contains("line.stiffness"),
@@ -84,7 +85,7 @@ fn what_nothing_holds_is_refused_with_the_lengths_that_would() {
         (110_000.0, "weighs 110.0 t"),
     ] {
         let refused = parsed(&text.replace("80000", &mass.to_string()));
-        let refused = refused.and_then(Prepared::new).unwrap_err();
+        let refused = refused.and_then(ModelAtRest::new).unwrap_err();
         let deeper = (mass - 98_400.0) * 9.81 / 804_420.0;
         let apart = 4.0_f64.hypot(8.8 - deeper);
         let shown = refused.to_string();

@@ -8,7 +8,7 @@ use snapload::{
 };
 use snapload_hydro::{Given, Line, Report, Request, Weight, read, response_of_the_memory};
 use snapload_structure::{
-    Lines, Outcome, Prepared, STRUCTURE, Structure, assess, note, run_elastic, seas, springs,
+    Lines, ModelAtRest, Outcome, STRUCTURE, Structure, assess, note, run_elastic, seas, springs,
 };
 use std::f64::consts::PI;
 use std::path::{Path, PathBuf};
@@ -181,7 +181,7 @@ fn slack_lines_leave_the_response_of_the_frequency_domain() {
     );
     let xi = xi.unwrap().amplitude[k];
     assert!(afloat.body.constant_force.amax() < 1.0 && body.constant_force[1] > 1e5);
-    let prepared = Prepared::new(structure).unwrap();
+    let prepared = ModelAtRest::new(structure).unwrap();
     let mut motion = prepared.begin(1.0).unwrap();
     let mut compared = 0;
     while let Some(step) = motion.step() {
@@ -226,20 +226,20 @@ fn slack_lines_leave_the_response_of_the_frequency_domain() {
 #[test]
 fn stretched_lines_share_the_load_with_the_water() {
     let text = case(-0.2, 2.0, 9.666, "", "duration = 5");
-    let prepared = Prepared::new(structure(&text)).unwrap();
+    let prepared = ModelAtRest::new(structure(&text)).unwrap();
     let law = springs(&prepared, 1.0).unwrap();
-    let sprung = prepared.on_springs(&law).unwrap();
-    let rise = sprung.rest.place_m[1] + 0.2;
+    let elastic_case = prepared.with_elastic_lines(&law).unwrap();
+    let rise = elastic_case.rest.place_m[1] + 0.2;
     // The surplus of buoyancy falls by ρ g A per metre of rise.
     let left = (98400.0 - 80000.0) * 9.81 - 804_420.0 * rise;
     let up: f64 = (0..2)
         .map(|line| {
             let [x, z] = [4.0, 8.8 + rise];
-            sprung.rest.tension_n[line] * z / f64::hypot(x, z)
+            elastic_case.rest.tension_n[line] * z / f64::hypot(x, z)
         })
         .sum();
     assert!((up / left - 1.0).abs() < 1e-4, "{up} {left}");
-    let [stiff, soft] = [&prepared, &sprung].map(|p| p.rest.tension_n[0]);
+    let [stiff, soft] = [&prepared, &elastic_case].map(|p| p.rest.tension_n[0]);
     assert!(soft < stiff && soft > 0.5 * stiff, "{stiff} {soft}");
     // In still water it stays there, and so do neighbours without waves.
     let mut motion = prepared.begin(0.0).unwrap();
@@ -348,7 +348,7 @@ fn what_a_floating_body_can_not_be_is_refused() {
         ),
     ] {
         let text = text.replace(from, to);
-        let error = parsed(&text).and_then(Prepared::new);
+        let error = parsed(&text).and_then(ModelAtRest::new);
         let error = error.expect_err(to).to_string();
         assert!(error.contains(says), "{to}: {error}");
     }
@@ -356,7 +356,7 @@ fn what_a_floating_body_can_not_be_is_refused() {
 
 /// Linear theory is left on elastic lines, too, and said to be.
 #[test]
-fn the_limits_are_told_of_lines_that_stretch() {
+fn the_limits_are_reported_for_elastic_lines() {
     let sea = "[sea]\nhs = 1.6\ntp = 5.5\ncomponents = 60";
     let text = case(-0.2, 2.0, 9.666, sea, "duration = 90");
     let result = seas(structure(&text), 2, Lines::Elastic, &no_progress).unwrap();

@@ -5,7 +5,7 @@ use crate::afloat::{by_hand, case, parsed, structure};
 use nalgebra::{Complex, Matrix3, Vector3};
 use serde_json::Value;
 use snapload::analysis::no_progress;
-use snapload_structure::{Prepared, Standing, assess, run_elastic, springs};
+use snapload_structure::{ModelAtRest, VerdictKind, assess, run_elastic, springs};
 use std::f64::consts::PI;
 use std::path::Path;
 
@@ -46,13 +46,13 @@ fn taut_springs_answer_small_waves_as_the_frequency_domain_does() {
     let structure = structure(&text.replace("stiffness = 1.2e8", "stiffness = 2e7"));
     let afloat = structure.afloat.clone().unwrap();
     let lines = structure.lines.clone();
-    let prepared = Prepared::new(structure).unwrap();
+    let prepared = ModelAtRest::new(structure).unwrap();
     let law = springs(&prepared, 1.0).unwrap();
-    let sprung = prepared.on_springs(&law).unwrap();
+    let elastic_case = prepared.with_elastic_lines(&law).unwrap();
 
-    let rest = &sprung.rest;
+    let rest = &elastic_case.rest;
     assert!(rest.theta_rad.abs() > 1e-3 && rest.place_m[0].abs() > 1e-3);
-    let scales = &sprung.model.scales;
+    let scales = &elastic_case.model.scales;
     let (mut stiffness, mut damping) = (afloat.body.stiffness, afloat.body.damping);
     let (sine, cosine) = (-rest.theta_rad).sin_cos();
     for ((line, spring), tension) in lines.iter().zip(&law).zip(&rest.tension_n) {
@@ -78,7 +78,7 @@ fn taut_springs_answer_small_waves_as_the_frequency_domain_does() {
 
     // Terms of the second order in the waves have other frequencies, and are fitted together with
     // the linear response.
-    let run = run_elastic(&sprung, &law, 0.2, &no_progress).unwrap();
+    let run = run_elastic(&elastic_case, &law, 0.2, &no_progress).unwrap();
     let samples: Vec<_> = run
         .samples
         .iter()
@@ -134,7 +134,7 @@ fn of_its_section(more: &str, line: &str) -> String {
 #[test]
 fn a_body_without_a_file_has_the_water_of_its_section() {
     let text = of_its_section("damping = [0, 3e4, 0]", "length = 9.8\nstiffness = 4.9e6");
-    let prepared = Prepared::new(structure(&text)).unwrap();
+    let prepared = ModelAtRest::new(structure(&text)).unwrap();
     let a33 = prepared.structure.body.added_mass.heave_kg;
     let b = 2.0;
     // Between the rows of the table, 2.1987 and 2.1421 b² at b/T of 5/3 and 2 (half of the double
@@ -142,7 +142,7 @@ fn a_body_without_a_file_has_the_water_of_its_section() {
     assert!((a33 / (1025.0 * 20.0 * b * b) - 2.1987).abs() < 1e-3);
     let c33 = 1025.0 * 9.81 * 2.0 * b * 20.0;
     let k = 4.9e6 / 9.8;
-    let found = prepared.on_lines_that_stretch();
+    let found = prepared.modes_on_elastic_lines();
     let heave = found.iter().find(|(natural, _)| natural.freedom == 1);
     let (natural, mode) = heave.unwrap();
     let omega = f64::sqrt((c33 + k) / (90000.0 + a33));
@@ -151,11 +151,11 @@ fn a_body_without_a_file_has_the_water_of_its_section() {
     assert!((mode.damping_ratio / ratio - 1.0).abs() < 1e-6);
     // At rest waterplane and line balance the surplus of buoyancy.
     let lift = (1025.0 * 96.0 - 90000.0) * 9.81;
-    let sprung = prepared
-        .on_springs(&springs(&prepared, 1.0).unwrap())
+    let elastic_case = prepared
+        .with_elastic_lines(&springs(&prepared, 1.0).unwrap())
         .unwrap();
     let rise = lift / (c33 + k);
-    assert!((sprung.rest.place_m[1] + 0.2 - rise).abs() < 1e-9);
+    assert!((elastic_case.rest.place_m[1] + 0.2 - rise).abs() < 1e-9);
     let assessment = assess(structure(&text), 0, &no_progress).unwrap();
     let rules: Vec<_> = assessment.warnings.iter().map(|w| w.rule).collect();
     assert!(
@@ -179,7 +179,7 @@ fn a_body_without_a_file_has_the_water_of_its_section() {
     ] {
         let text = text.replace(from, to);
         let error = parsed(&text)
-            .and_then(Prepared::new)
+            .and_then(ModelAtRest::new)
             .map(|_| ())
             .expect_err(to);
         assert!(error.to_string().contains(says), "{to}: {error}");
@@ -198,7 +198,7 @@ fn a_constant_moment_heels_the_body() {
     let structure_of = |moment| structure(&free.replace("pairs = 6", &with(moment)));
     let stiffness = structure_of(0.0).afloat.unwrap().body.stiffness;
     let end = |structure| {
-        let prepared = Prepared::new(structure).unwrap();
+        let prepared = ModelAtRest::new(structure).unwrap();
         let mut motion = prepared.begin(1.0).unwrap();
         while motion.step().is_some() {}
         // The engine's plane is a reflection of this one.
@@ -213,7 +213,7 @@ fn a_constant_moment_heels_the_body() {
     assert!(rest > 1e-3 && (heel - rest).abs() < 1e-9, "{heel} {rest}");
     let (_, other) = end(structure_of(-1e5));
     assert!((other + rest).abs() < 1e-9, "{other} {rest}");
-    let error = Prepared::new(structure_of(1e12))
+    let error = ModelAtRest::new(structure_of(1e12))
         .map(|_| ())
         .expect_err("it turns over");
     assert!(
@@ -225,7 +225,7 @@ fn a_constant_moment_heels_the_body() {
 /// A short line holds the body 0.2 m below the height for which the textbook values of its section
 /// hold.
 #[test]
-fn a_place_of_rest_below_the_given_one_is_told_as_below() {
+fn a_place_of_rest_below_the_given_one_is_reported_as_below() {
     let text = of_its_section("", "length = 9.6");
     let assessment = assess(structure(&text), 0, &no_progress).unwrap();
     let mut warnings = assessment.warnings.iter();
@@ -257,7 +257,7 @@ fn more_lines_than_hold_a_floating_body_share_by_stiffness() {
         "{head}[[line]]{tail}[[line]]{}",
         tail.replace("9.666", "9.668")
     );
-    let prepared = Prepared::new(structure(&doubled)).unwrap();
+    let prepared = ModelAtRest::new(structure(&doubled)).unwrap();
     let tensions = &prepared.rest.tension_n;
     // The rise h of the centre above −0.2 m, from k (d(h) − r) n_z and ρgS h.
     let pulls = |h: f64| {
@@ -289,7 +289,7 @@ fn more_lines_than_hold_a_floating_body_share_by_stiffness() {
             "{tensions:?} {short} {long}"
         );
     }
-    let shared = prepared.rest.shared.as_ref();
+    let by_stiffness = prepared.rest.by_stiffness.as_ref();
     let same = doubled
         .replace("9.668", "9.666")
         .replace("stiffness = 1.2e8\n", "");
@@ -301,11 +301,11 @@ fn more_lines_than_hold_a_floating_body_share_by_stiffness() {
             .iter()
             .all(|pull| (pull / rest.tension_n[0] - 1.0).abs() < 1e-6)
     );
-    let once = Prepared::new(structure(&text)).unwrap();
+    let once = ModelAtRest::new(structure(&text)).unwrap();
     assert!((2.0 * rest.tension_n[0] / once.rest.tension_n[0] - 1.0).abs() < 1e-6);
     assert!(even.warnings.iter().any(|w| w.rule == "shared loads"));
-    assert_eq!(even.verdict().standing, Standing::Open);
-    assert_eq!(shared.is_some(), long < 0.9 * short, "{short} {long}");
+    assert_eq!(even.verdict().standing, VerdictKind::Open);
+    assert_eq!(by_stiffness.is_some(), long < 0.9 * short, "{short} {long}");
 }
 
 /// A memory is about the reference point of its file, and is transformed to the body's centre: it
@@ -353,10 +353,10 @@ fn snaps_on_springs_are_those_of_another_program() {
         number(&known["height_m"]),
         2.0 * PI / number(&known["omega_rad_s"])
     );
-    let prepared = Prepared::new(structure(&text)).unwrap();
+    let prepared = ModelAtRest::new(structure(&text)).unwrap();
     let law = springs(&prepared, 1.0).unwrap();
-    let sprung = prepared.on_springs(&law).unwrap();
-    let run = run_elastic(&sprung, &law, f64::INFINITY, &no_progress).unwrap();
+    let elastic_case = prepared.with_elastic_lines(&law).unwrap();
+    let run = run_elastic(&elastic_case, &law, f64::INFINITY, &no_progress).unwrap();
     let known = known["pulls"].as_array().unwrap();
     assert_eq!(run.pulls.len(), known.len());
     for (pull, known) in run.pulls.iter().zip(known) {

@@ -81,7 +81,7 @@ fn thesis_in_disguise_is_the_thesis() {
 /// A cylinder of 3 m in 10 m of water, its axis 3.5 m down, under waves of 2 m and 6 s: values
 /// computed independently from linear theory.
 #[test]
-fn cylinder_feels_what_linear_theory_says() {
+fn cylinder_feels_what_linear_theory_predicts() {
     let text = include_str!("../../../../docs/examples/cylinder.toml");
     let structure = Structure::parse("cylinder.toml", text).unwrap();
     let wave = LinearWave::new(&structure.site, 1.0, 2.0 * PI / 6.0, -3.5);

@@ -2,7 +2,7 @@
 
 use snapload::Playback;
 use snapload::analysis::no_progress;
-use snapload_structure::{Prepared, Structure, assess, springs};
+use snapload_structure::{ModelAtRest, Structure, assess, springs};
 
 const EXAMPLE: &str = include_str!("../../../../docs/examples/cylinder.toml");
 
@@ -28,10 +28,13 @@ fn a_current_leans_the_line() {
         let up = structure.net_buoyancy_n() + lift;
         assert!((structure.drag_of_current_n() + push - along).abs() < 1e-9);
         let pull = along.hypot(up);
-        let prepared = Prepared::new(structure).unwrap();
+        let prepared = ModelAtRest::new(structure).unwrap();
         let law = springs(&prepared, 1.0).unwrap();
-        let sprung = prepared.on_springs(&law).unwrap();
-        for (rest, length) in [(&prepared.rest, 15.0), (&sprung.rest, 15.0 + pull / 2e5)] {
+        let elastic_case = prepared.with_elastic_lines(&law).unwrap();
+        for (rest, length) in [
+            (&prepared.rest, 15.0),
+            (&elastic_case.rest, 15.0 + pull / 2e5),
+        ] {
             let [x, z] = rest.place_m;
             // |u| is rounded off below 1e-5 of a unit of speed.
             assert!(
@@ -61,7 +64,7 @@ fn only_the_water_past_the_body_drags() {
         .replace("[body]", "[body]\ndrag_area = 60\nlinear_damping = 5e3")
         .replace("[site]", "[site]\ncurrent = 0.7")
         .replace("[wave]\nheight = 2", "[wave]\nheight = 0");
-    let prepared = Prepared::new(Structure::parse("case", &text).unwrap()).unwrap();
+    let prepared = ModelAtRest::new(Structure::parse("case", &text).unwrap()).unwrap();
     let drag = prepared.model.system.drag.as_ref().expect("it resists");
     let unit = prepared.model.scales.speed_m_s();
     let with_it = snapload::State {
@@ -77,7 +80,7 @@ fn only_the_water_past_the_body_drags() {
 
 /// A mirrored current mirrors the run, and every answer names the current.
 #[test]
-fn a_current_is_told_and_has_a_side() {
+fn a_current_is_reported_and_has_a_side() {
     let run = |side: f64| {
         let text = EXAMPLE
             .replace(

@@ -3,8 +3,8 @@
 use crate::verdicts::{source, structure};
 use snapload::analysis::no_progress;
 use snapload_structure::{
-    Answer, Assessment, Criterion, Lines, NaturalPeriods, Prepared, assess, both_models, seas,
-    springs,
+    Answer, Assessment, Criterion, Lines, ModelAtRest, NaturalPeriods, assess, compare_elastic,
+    seas, springs,
 };
 use std::f64::consts::TAU;
 
@@ -12,7 +12,7 @@ const CYLINDER: &str = include_str!("../../../../docs/examples/cylinder.toml");
 
 /// A body of 800 kg with its water, straight above its anchor, on two lines of 15 m that lie on
 /// each other and end `below` its centre.
-fn tethered(below: f64) -> Prepared {
+fn tethered(below: f64) -> ModelAtRest {
     let (fairlead, anchor) = (-5.0 - below, -20.0 - below);
     let line = format!(
         "[[line]]\nanchor = [0, {anchor}]\nfairlead = [0, {fairlead}]\nlength = 15\nstiffness = 3e6\n"
@@ -21,7 +21,7 @@ fn tethered(below: f64) -> Prepared {
         "[body]\nmass = 500\nadded_mass = 300\ndisplaced_volume = 0.8\nwidth = 1\nmoment_of_inertia = 90\n\
          position = [0, -5]\n{line}{line}[site]\ndepth = 30\n[run]\nrestitution = 0.5\n"
     );
-    Prepared::new(structure(&text)).expect("a start")
+    ModelAtRest::new(structure(&text)).expect("a start")
 }
 
 fn periods_s(modes: &[snapload_structure::NaturalMode]) -> Vec<Option<f64>> {
@@ -92,7 +92,7 @@ fn a_body_held_below_its_centre_is_a_double_pendulum() {
 /// with lines a hundred thousand times as stiff, those on inextensible lines.
 #[test]
 fn the_cylinder_swings_as_others_found() {
-    let prepared = Prepared::new(structure(CYLINDER)).expect("a start");
+    let prepared = ModelAtRest::new(structure(CYLINDER)).expect("a start");
     let found = NaturalPeriods::of(&prepared).expect("submerged");
     let elastic = periods_s(&found.elastic.expect("periods on springs"));
     assert!(
@@ -101,15 +101,17 @@ fn the_cylinder_swings_as_others_found() {
     );
     // In heave both lines act alike, each with k n_z² + (T/l) n_x².
     let springs = springs(&prepared, 1.0).expect("springs");
-    let sprung = prepared.on_springs(&springs).expect("a place of rest");
+    let elastic_case = prepared
+        .with_elastic_lines(&springs)
+        .expect("a place of rest");
     let line = &prepared.structure.lines[0];
     let centre = prepared.structure.body.position_m;
-    let span =
-        [0, 1].map(|k| sprung.rest.place_m[k] + line.fairlead_m[k] - centre[k] - line.anchor_m[k]);
+    let span = [0, 1]
+        .map(|k| elastic_case.rest.place_m[k] + line.fairlead_m[k] - centre[k] - line.anchor_m[k]);
     let length = span[0].hypot(span[1]);
     let [n_x, n_z] = span.map(|component| component / length);
     let rate = line.spring_rate_n_m().expect("a rate");
-    let stiffness = 2.0 * (rate * n_z * n_z + sprung.rest.tension_n[0] / length * n_x * n_x);
+    let stiffness = 2.0 * (rate * n_z * n_z + elastic_case.rest.tension_n[0] / length * n_x * n_x);
     let [_, moving] = prepared.structure.body.moving_mass_kg();
     let heave = TAU * (moving / stiffness).sqrt();
     assert!(
@@ -120,7 +122,7 @@ fn the_cylinder_swings_as_others_found() {
     for line in &mut stiff.lines {
         line.stiffness_n = line.stiffness_n.map(|stiffness| 1e5 * stiffness);
     }
-    let stiff = NaturalPeriods::of(&Prepared::new(stiff).expect("a start")).expect("submerged");
+    let stiff = NaturalPeriods::of(&ModelAtRest::new(stiff).expect("a start")).expect("submerged");
     let [taut] = periods_s(&stiff.inextensible)[..] else {
         panic!("two lines leave one freedom: {stiff:?}");
     };
@@ -134,7 +136,7 @@ fn assessed(design: &str) -> Assessment {
 }
 
 #[test]
-fn checks_are_what_their_formulas_say() {
+fn checks_agree_with_their_formulas() {
     let factors = "pretension_factor = 1.2\nenvironment_factor = 1.5\nstrength_factor = 0.95\n\
                    least_share = 0.1\nrest_factor = 1.3\ndynamic_factor = 1.1\nforce_share = 0.9";
     let assessment = assessed(factors);
@@ -154,7 +156,7 @@ fn checks_are_what_their_formulas_say() {
         assert!(outcome.slack_fraction > 0.0 && outcome.least_n == Some(0.0));
         let (known, passes) = match check.criterion {
             Criterion::Strength => {
-                let largest = outcome.peak_n.expect("a peak").max(outcome.held_n);
+                let largest = outcome.peak_n.expect("a peak").max(outcome.largest_taut_n);
                 let u = (1.2 * rest + 1.5 * (largest - rest)) / (0.95 * 1_319_000.0);
                 (u, u <= 1.0)
             }
@@ -172,7 +174,7 @@ fn checks_are_what_their_formulas_say() {
 
 /// Without factors no tension is checked; a slack line fails the check that it never goes slack.
 #[test]
-fn only_what_is_asked_for_is_checked() {
+fn only_requested_checks_are_made() {
     let text = format!("{CYLINDER}\nduration = 60\n");
     let plain = assess(structure(&text), 0, &no_progress).expect("an answer");
     assert!(plain.checks().is_empty());
@@ -241,24 +243,27 @@ fn springs_and_records_are_checked_by_the_same_rule() {
     let rule = "[design]\npretension_factor = 1.2\nenvironment_factor = 1.5\nstrength_factor = 0.95\n\
                 least_share = 0.05\n";
     let case = structure(&format!("{CYLINDER}\nduration = 120\n{rule}"));
-    let both = both_models(
-        Prepared::for_springs(case).expect("a start"),
+    let comparison = compare_elastic(
+        ModelAtRest::for_elastic_lines(case).expect("a start"),
         1.0,
         f64::INFINITY,
         &no_progress,
     );
-    let both = both.expect("an answer");
-    let checks = both.checks();
+    let comparison = comparison.expect("an answer");
+    let checks = comparison.checks();
     assert_eq!(checks.len(), 4);
     for check in &checks {
         let line = check.line.expect("a line") - 1;
-        let (rest, peak) = (both.sprung.rest.tension_n[line], both.elastic.peaks_n[line]);
-        let breaks = both.sprung.structure.lines[line]
+        let (rest, peak) = (
+            comparison.elastic_case.rest.tension_n[line],
+            comparison.elastic.peaks_n[line],
+        );
+        let breaks = comparison.elastic_case.structure.lines[line]
             .breaking_load_n
             .expect("known");
         let known = match check.criterion {
             Criterion::Strength => (1.2 * rest + 1.5 * (peak - rest)) / (0.95 * breaks),
-            _ => both.elastic.least_n[line].expect("judged") / rest,
+            _ => comparison.elastic.least_n[line].expect("judged") / rest,
         };
         assert!(
             (check.value.expect("a value") - known).abs() < 1e-12,
@@ -266,7 +271,8 @@ fn springs_and_records_are_checked_by_the_same_rule() {
         );
     }
     assert!(
-        both.summary("case")
+        comparison
+            .summary("case")
             .contains("factored tension over strength")
     );
 
@@ -303,11 +309,11 @@ fn springs_and_records_are_checked_by_the_same_rule() {
 /// The duration of a snap is π sqrt(m/k) with the effective mass at the line, rotation included:
 /// 1/m = n_x²/M_x + n_z²/M_z + s²/I.
 #[test]
-fn a_snap_lasts_as_long_as_its_effective_mass_says() {
+fn a_snap_lasts_as_long_as_its_effective_mass_requires() {
     let soft = CYLINDER.replace("type = \"studless chain\"", "type = \"polyester\"");
     let case = structure(&format!("{soft}\nduration = 60\n"));
     let (body, line) = (&case.body, &case.lines[0]);
-    let prepared = Prepared::new(case.clone()).expect("a start");
+    let prepared = ModelAtRest::new(case.clone()).expect("a start");
     let at = prepared.rest.place_m;
     let arm = [0, 1].map(|k| line.fairlead_m[k] - body.position_m[k]);
     let span = [0, 1].map(|k| at[k] + arm[k] - line.anchor_m[k]);
@@ -319,12 +325,16 @@ fn a_snap_lasts_as_long_as_its_effective_mass_says() {
     let rate = line.spring_rate_n_m().expect("known");
     let lasts = std::f64::consts::PI / (inverse * rate).sqrt();
     let found = snapload_structure::warnings(&prepared);
-    let told = found
+    let warning = found
         .iter()
         .find(|warning| warning.rule == "instant snap")
         .expect("soft");
     let words = format!("{lasts:.2} s in line 1");
-    assert!(told.message.contains(&words), "{} {words}", told.message);
+    assert!(
+        warning.message.contains(&words),
+        "{} {words}",
+        warning.message
+    );
 }
 
 /// If the lines can not hold the body against a load, the message names the load and not their
@@ -332,7 +342,7 @@ fn a_snap_lasts_as_long_as_its_effective_mass_says() {
 #[test]
 fn loads_that_push_it_away_are_named() {
     let pushed = CYLINDER.replace("position =", "constant_force = [4e6, -6e5]\nposition =");
-    let error = Prepared::new(structure(&pushed))
+    let error = ModelAtRest::new(structure(&pushed))
         .expect_err("pushed away")
         .to_string();
     assert!(

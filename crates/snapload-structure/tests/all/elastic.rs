@@ -4,13 +4,13 @@ use serde_json::Value;
 use snapload::Limit;
 use snapload::analysis::no_progress;
 use snapload_structure::{
-    ElasticRun, Prepared, STRUCTURE, Spring, Standing, Structure, both_models, damping_ratio,
-    run_elastic, springs,
+    ElasticRun, ModelAtRest, STRUCTURE, Spring, Structure, VerdictKind, compare_elastic,
+    damping_ratio, run_elastic, springs,
 };
 
 /// A body straight above its anchor on two equal lines that lie on each other, so that it moves up
 /// and down.
-fn vertical(restitution: f64, start_z: f64) -> Prepared {
+fn vertical(restitution: f64, start_z: f64) -> ModelAtRest {
     let text = format!(
         "[body]\nmass = 500\nadded_mass = 300\ndisplaced_volume = 0.8\nwidth = 1\nposition = [0, -5]\n\
          [[line]]\nanchor = [0, -20]\nfairlead = [0, -5]\nlength = 15\nstiffness = 3e6\n\
@@ -21,8 +21,8 @@ fn vertical(restitution: f64, start_z: f64) -> Prepared {
     prepared(&text, &[])
 }
 
-fn prepared(text: &str, set: &[&str]) -> Prepared {
-    Prepared::new(structure(text, set)).expect("a start")
+fn prepared(text: &str, set: &[&str]) -> ModelAtRest {
+    ModelAtRest::new(structure(text, set)).expect("a start")
 }
 
 fn structure(text: &str, set: &[&str]) -> Structure {
@@ -35,14 +35,14 @@ fn structure(text: &str, set: &[&str]) -> Structure {
 
 const CYLINDER: &str = include_str!("../../../../docs/examples/cylinder.toml");
 
-fn run(prepared: &Prepared, springs: &[Spring]) -> ElasticRun {
+fn run(prepared: &ModelAtRest, springs: &[Spring]) -> ElasticRun {
     run_elastic(prepared, springs, 0.05, &no_progress).expect("a run")
 }
 
 /// The state is kept at the times that one writes, whatever steps the integrator makes, and at the
 /// end: let go below, the body rises by F/M t²/2 until its lines take hold.
 #[test]
-fn looks_are_at_the_times_asked_for() {
+fn samples_are_at_the_requested_times() {
     let prepared = vertical(1.0, -6.0);
     let law = springs(&prepared, 1.0).expect("springs");
     let rise = prepared.structure.net_buoyancy_n() / 800.0;
@@ -73,7 +73,7 @@ fn looks_are_at_the_times_asked_for() {
 /// Let go below, the body rises at F/M to speed v = sqrt(2 F h/M), and a spring k stops it with
 /// k δ = F + sqrt(F² + k M v²), after a time known too; then it is thrown back at v.
 #[test]
-fn a_spring_stops_a_body_as_energy_says() {
+fn a_spring_stops_a_body_as_its_energy_requires() {
     let prepared = vertical(1.0, -6.0);
     let (rate, mass) = (2.0 * 3e6 / 15.0, 800.0);
     let force = prepared.structure.net_buoyancy_n();
@@ -248,12 +248,13 @@ fn it_begins_where_it_rests_on_springs() {
     for stiffer in [0.1, 1.0, 100.0] {
         let prepared = prepared(&still, &["run.duration=20", "run.transient=0"]);
         let law = springs(&prepared, stiffer).expect("springs");
-        let sprung = prepared.on_springs(&law).expect("a place of rest");
-        let motion = run(&sprung, &law);
-        let (rest, scales) = (&sprung.rest, &sprung.model.scales);
-        let line = &sprung.structure.lines[0];
-        let fairlead = [0, 1]
-            .map(|k| line.fairlead_m[k] - sprung.structure.body.position_m[k] + rest.place_m[k]);
+        let elastic_case = prepared.with_elastic_lines(&law).expect("a place of rest");
+        let motion = run(&elastic_case, &law);
+        let (rest, scales) = (&elastic_case.rest, &elastic_case.model.scales);
+        let line = &elastic_case.structure.lines[0];
+        let fairlead = [0, 1].map(|k| {
+            line.fairlead_m[k] - elastic_case.structure.body.position_m[k] + rest.place_m[k]
+        });
         let along = [0, 1].map(|k| fairlead[k] - line.anchor_m[k]);
         let slope = along[1] / along[0].hypot(along[1]);
         let known = prepared.structure.net_buoyancy_n() / (2.0 * slope);
@@ -297,7 +298,7 @@ fn lines_share_what_they_hold_by_their_stiffness() {
         );
         let prepared = prepared(&text, &[]);
         let law = springs(&prepared, 1.0).expect("springs");
-        prepared.on_springs(&law).expect("a place of rest")
+        prepared.with_elastic_lines(&law).expect("a place of rest")
     };
     let (even, short) = (case(0.0), case(3e-5));
     let buoyancy = even.structure.net_buoyancy_n();
@@ -379,25 +380,30 @@ fn it_may_start_where_the_lines_have_stretched() {
     let still = CYLINDER.replace("[wave]\nheight = 2\nperiod = 6\n", "");
     let at_rest = prepared(&still, &["run.duration=20"]);
     let law = springs(&at_rest, 1.0).expect("springs");
-    let [x, z] = at_rest.on_springs(&law).expect("rest").rest.place_m;
+    let [x, z] = at_rest.with_elastic_lines(&law).expect("rest").rest.place_m;
     let start = format!("run.start=[{x}, {z}]");
     let case = structure(&still, &["run.duration=20", &start]);
-    let refused = Prepared::new(case.clone()).expect_err("out of reach");
+    let refused = ModelAtRest::new(case.clone()).expect_err("out of reach");
     assert!(refused.to_string().contains("too short"), "{refused}");
-    let prepared = Prepared::for_springs(case).expect("a start");
-    let both = both_models(prepared, 1.0, f64::INFINITY, &no_progress).expect("a run");
-    assert!(both.inextensible.is_none());
-    for (peak, at_rest) in both.elastic.peaks_n.iter().zip(&both.sprung.rest.tension_n) {
+    let prepared = ModelAtRest::for_elastic_lines(case).expect("a start");
+    let comparison = compare_elastic(prepared, 1.0, f64::INFINITY, &no_progress).expect("a run");
+    assert!(comparison.inextensible.is_none());
+    for (peak, at_rest) in comparison
+        .elastic
+        .peaks_n
+        .iter()
+        .zip(&comparison.elastic_case.rest.tension_n)
+    {
         assert!((peak / at_rest - 1.0).abs() < 1e-7, "{peak} {at_rest}");
     }
-    assert_eq!(both.verdict().standing, Standing::Holds);
-    let summary = both.summary("case");
+    assert_eq!(comparison.verdict().standing, VerdictKind::Holds);
+    let summary = comparison.summary("case");
     assert!(
         summary.contains("with no inextensible lines, as the case starts beyond their reach"),
         "{summary}"
     );
     let under = structure(&still, &["run.start=[0, -9.5]"]);
-    let floor = Prepared::for_springs(under).expect_err("in the floor");
+    let floor = ModelAtRest::for_elastic_lines(under).expect_err("in the floor");
     assert!(floor.to_string().contains("above the floor"), "{floor}");
 }
 
@@ -416,11 +422,12 @@ fn the_pulls_are_those_of_moordyn() {
         }
         let set = case["set"].as_array().expect("settings").iter();
         let set: Vec<&str> = set.map(|set| set.as_str().expect("text")).collect();
-        let prepared = Prepared::for_springs(structure(CYLINDER, &set)).expect("a start");
-        let both = both_models(prepared, 1.0, f64::INFINITY, &no_progress).expect("a run");
+        let prepared = ModelAtRest::for_elastic_lines(structure(CYLINDER, &set)).expect("a start");
+        let comparison =
+            compare_elastic(prepared, 1.0, f64::INFINITY, &no_progress).expect("a run");
         let theirs = case["pulls"].as_array().expect("pulls");
-        assert_eq!(both.elastic.pulls.len(), theirs.len(), "{name}");
-        for (pull, row) in both.elastic.pulls.iter().zip(theirs) {
+        assert_eq!(comparison.elastic.pulls.len(), theirs.len(), "{name}");
+        for (pull, row) in comparison.elastic.pulls.iter().zip(theirs) {
             let number = |k: usize| row["moordyn"][k].as_f64().expect("a number");
             let step = case["step_s"].as_f64().expect("a step");
             assert_eq!(pull.line + 1, number(0) as usize);

@@ -78,7 +78,7 @@ fn statically_indeterminate_lines_share_evenly() {
 }
 
 #[test]
-fn lines_too_long_to_hold_the_body_down_are_refused_in_words() {
+fn lines_too_long_to_hold_the_body_down_are_refused_with_a_reason() {
     let text = case(
         [0.0, -12.0],
         &[

@@ -4,7 +4,9 @@
 use crate::verdicts::{source, structure};
 use snapload::analysis::no_progress;
 use snapload_structure::note::{page, seas_page};
-use snapload_structure::{Answer, Lines, Prepared, Standing, Warning, assess, both_models, seas};
+use snapload_structure::{
+    Answer, Lines, ModelAtRest, VerdictKind, Warning, assess, compare_elastic, seas,
+};
 
 const EXAMPLE: &str = include_str!("../../../../docs/examples/cylinder.toml");
 const SEA: &str = include_str!("../../../../docs/examples/cylinder-sea.toml");
@@ -17,12 +19,12 @@ fn flat(text: &str) -> String {
 /// Waves of 12 m throw the body onto the floor before the judged part begins: no number on the
 /// lines is reported, in words, in JSON or on the page.
 #[test]
-fn where_nothing_is_judged_no_numbers_are_told() {
+fn where_nothing_is_judged_no_numbers_are_reported() {
     let text = EXAMPLE.replace("height = 2\n", "height = 12\n");
     assert_ne!(text, EXAMPLE);
     let assessment = assess(structure(&text), 4, &no_progress).unwrap();
     assert!(assessment.outcome.end_s < 10.0 && assessment.outcome.is_unjudged());
-    let told = flat(&assessment.summary("case"));
+    let text = flat(&assessment.summary("case"));
     for words in [
         "of which nothing is judged, as judging begins at 60 s",
         "kN at rest; nothing is judged; breaks at 1319 kN",
@@ -31,7 +33,7 @@ fn where_nothing_is_judged_no_numbers_are_told() {
         "The mooring fails",
         "ended before 60 s, the start of the judged time",
     ] {
-        assert!(told.contains(words), "{words} in {told}");
+        assert!(text.contains(words), "{words} in {text}");
     }
     for words in [
         " 0 kN",
@@ -41,7 +43,7 @@ fn where_nothing_is_judged_no_numbers_are_told() {
         "0.00 m/s",
         "fastest snap",
     ] {
-        assert!(!told.contains(words), "{words} in {told}");
+        assert!(!text.contains(words), "{words} in {text}");
     }
     let json = assessment.to_json("case");
     for line in json["lines"].as_array().unwrap() {
@@ -67,28 +69,28 @@ fn where_nothing_is_judged_no_numbers_are_told() {
 
 /// The same for elastic lines, and for records.
 #[test]
-fn nothing_judged_is_told_of_springs_and_records() {
+fn nothing_judged_is_reported_for_elastic_lines_and_records() {
     let text = EXAMPLE.replace("height = 2\n", "height = 12\n");
-    let prepared = Prepared::for_springs(structure(&text)).unwrap();
-    let both = both_models(prepared, 1.0, f64::INFINITY, &no_progress).unwrap();
-    assert!(both.outcome.is_unjudged());
-    let told = flat(&both.summary("case"));
+    let prepared = ModelAtRest::for_elastic_lines(structure(&text)).unwrap();
+    let comparison = compare_elastic(prepared, 1.0, f64::INFINITY, &no_progress).unwrap();
+    assert!(comparison.outcome.is_unjudged());
+    let text = flat(&comparison.summary("case"));
     assert!(
-        told.contains("kN at rest; nothing is judged line 2"),
-        "{told}"
+        text.contains("kN at rest; nothing is judged line 2"),
+        "{text}"
     );
-    let line = &both.to_json("case")["lines"][0];
+    let line = &comparison.to_json("case")["lines"][0];
     assert!(line["slack_fraction"].is_null() && line["peak_n"].is_null());
     let high = SEA
         .replace("hs = 1.2", "hs = 9")
         .replace("[run]", "[run]\nduration = 300");
     let records = seas(structure(&high), 2, Lines::Inextensible, &no_progress).unwrap();
     assert_eq!(records.judged_s(), 0.0);
-    let told = flat(&records.summary("case"));
+    let text = flat(&records.summary("case"));
     assert!(
-        told.contains("judged nothing, as no record lasts longer than 60 s")
-            && !told.contains("slack"),
-        "{told}"
+        text.contains("judged nothing, as no record lasts longer than 60 s")
+            && !text.contains("slack"),
+        "{text}"
     );
     let json = records.to_json("case");
     assert!(
@@ -111,7 +113,7 @@ fn a_line_that_breaks_before_it_is_judged_leaves_the_verdict_open() {
         .fold(0.0, f64::max);
     assert!(hardest > 2.0);
     let verdict = assessment.verdict();
-    assert_eq!(verdict.standing, Standing::Open);
+    assert_eq!(verdict.standing, VerdictKind::Open);
     for words in [
         "In the judged time no line breaks".to_owned(),
         format!("kN, {hardest:.2} of its breaking load. It would break there"),
@@ -129,13 +131,13 @@ fn a_line_that_breaks_before_it_is_judged_leaves_the_verdict_open() {
     assert!(note.contains("class=\"verdict open\"") && !note.contains("class=\"verdict holds\""));
     let all = EXAMPLE.replace("[run]", "[run]\ntransient = 0");
     let all = assess(structure(&all), 0, &no_progress).unwrap();
-    assert_eq!(all.verdict().standing, Standing::Breaks);
+    assert_eq!(all.verdict().standing, VerdictKind::Breaks);
     // The same is reported of elastic lines.
     let short = EXAMPLE.replace("[run]", "[run]\nduration = 12");
-    let prepared = Prepared::for_springs(structure(&short)).unwrap();
-    let both = both_models(prepared, 1.0, f64::INFINITY, &no_progress).unwrap();
-    let verdict = both.verdict();
-    assert_eq!(verdict.standing, Standing::Open);
+    let prepared = ModelAtRest::for_elastic_lines(structure(&short)).unwrap();
+    let comparison = compare_elastic(prepared, 1.0, f64::INFINITY, &no_progress).unwrap();
+    let verdict = comparison.verdict();
+    assert_eq!(verdict.standing, VerdictKind::Open);
     assert!(
         verdict.words.contains("1.83 of its breaking load"),
         "{}",
@@ -148,7 +150,7 @@ fn a_line_that_breaks_before_it_is_judged_leaves_the_verdict_open() {
     let strong = assess(structure(&strong), 0, &no_progress)
         .unwrap()
         .verdict();
-    assert_eq!(strong.standing, Standing::Holds);
+    assert_eq!(strong.standing, VerdictKind::Holds);
     assert!(
         strong.words.contains("0.77 of its breaking load."),
         "{}",
@@ -161,7 +163,7 @@ fn a_line_that_breaks_before_it_is_judged_leaves_the_verdict_open() {
 /// records are judged from their first second, a line breaks in a record exactly if it breaks
 /// before the later judged part or within it.
 #[test]
-fn records_tell_what_breaks_before_they_are_judged() {
+fn records_report_what_breaks_before_they_are_judged() {
     for lines in [Lines::Inextensible, Lines::Elastic] {
         let judged_from = |seconds: u32| {
             let run = format!("[run]\nduration = 120\ntransient = {seconds}");
@@ -210,28 +212,29 @@ fn far_swings_are_warned_of_by_every_answer() {
                     breaking_load = 5e4\n[site]\ndepth = 10\n[sea]\nhs = 0.6\ntp = 6\n\
                     [run]\nrestitution = 1\nduration = 200\n\
                     transient = 100\n";
-    let told = |warnings: &[Warning]| warnings.iter().any(|warning| warning.rule == "phase");
+    let has_phase_warning =
+        |warnings: &[Warning]| warnings.iter().any(|warning| warning.rule == "phase");
     let assessment = assess(structure(swinging), 0, &no_progress).unwrap();
-    assert!(told(&assessment.warnings));
+    assert!(has_phase_warning(&assessment.warnings));
     for lines in [Lines::Inextensible, Lines::Elastic] {
         let records = seas(structure(swinging), 2, lines, &no_progress).unwrap();
-        assert!(told(&records.warnings), "{lines:?}");
+        assert!(has_phase_warning(&records.warnings), "{lines:?}");
     }
-    let prepared = Prepared::for_springs(structure(swinging)).unwrap();
-    let both = both_models(prepared, 1.0, f64::INFINITY, &no_progress).unwrap();
-    assert!(told(&both.warnings()));
+    let prepared = ModelAtRest::for_elastic_lines(structure(swinging)).unwrap();
+    let comparison = compare_elastic(prepared, 1.0, f64::INFINITY, &no_progress).unwrap();
+    assert!(has_phase_warning(&comparison.warnings()));
     // In a calm sea there is no such warning.
     let calm = swinging.replace("hs = 0.6", "hs = 0.02");
     for lines in [Lines::Inextensible, Lines::Elastic] {
         let records = seas(structure(&calm), 2, lines, &no_progress).unwrap();
-        assert!(!told(&records.warnings), "{lines:?}");
+        assert!(!has_phase_warning(&records.warnings), "{lines:?}");
     }
 }
 
 /// If nothing snaps, in a run and its neighbours, one sentence says so and no tension of snaps is
 /// reported.
 #[test]
-fn without_snaps_no_tension_of_snaps_is_told() {
+fn without_snaps_no_tension_of_snaps_is_reported() {
     let calm = EXAMPLE.replace("height = 2\n", "height = 0.1\n");
     for (count, words) in [
         (1, "No line snaps in the one neighbour in waves"),
@@ -239,36 +242,36 @@ fn without_snaps_no_tension_of_snaps_is_told() {
         (12, "No line snaps in any of the 12 neighbours in waves"),
     ] {
         let assessment = assess(structure(&calm), count, &no_progress).unwrap();
-        let told = flat(&assessment.trust_words());
-        assert!(told.contains(words), "{told}");
-        assert_eq!(told.matches("neighbour").count(), 1, "{told}");
-        assert!(!told.contains("0 kN"), "{told}");
+        let text = flat(&assessment.trust_text());
+        assert!(text.contains(words), "{text}");
+        assert_eq!(text.matches("neighbour").count(), 1, "{text}");
+        assert!(!text.contains("0 kN"), "{text}");
     }
-    let prepared = Prepared::for_springs(structure(&calm)).unwrap();
-    let both = both_models(prepared, 1.0, f64::INFINITY, &no_progress).unwrap();
+    let prepared = ModelAtRest::for_elastic_lines(structure(&calm)).unwrap();
+    let comparison = compare_elastic(prepared, 1.0, f64::INFINITY, &no_progress).unwrap();
     assert!(
-        !both.verdict().words.contains("0.00 m/s"),
+        !comparison.verdict().words.contains("0.00 m/s"),
         "{}",
-        both.verdict().words
+        comparison.verdict().words
     );
 }
 
 /// A snap has a single tension: the table with the elastic lines says what its numbers leave
 /// out, and gives the same tension as the assessment.
 #[test]
-fn the_hardest_snap_is_told_alike_beside_springs() {
+fn the_hardest_snap_is_reported_alike_in_the_comparison() {
     let short = EXAMPLE.replace("[run]", "[run]\nduration = 12");
     let assessment = assess(structure(&short), 0, &no_progress).unwrap();
     let peaks = assessment.snaps.iter().filter_map(|snap| snap.peak_n);
     let hardest = peaks.fold(0.0, f64::max) / 1e3;
-    let prepared = Prepared::for_springs(structure(&short)).unwrap();
-    let both = both_models(prepared, 1.0, f64::INFINITY, &no_progress).unwrap();
-    let told = flat(&both.summary("case"));
+    let prepared = ModelAtRest::for_elastic_lines(structure(&short)).unwrap();
+    let comparison = compare_elastic(prepared, 1.0, f64::INFINITY, &no_progress).unwrap();
+    let text = flat(&comparison.summary("case"));
     let words = format!(
         "snapload assess includes the line's own mass: the largest tension in a snap is then {hardest:.0} kN"
     );
-    assert!(told.contains(&words), "{words} in {told}");
-    let snap = &both.to_json("case")["inextensible"]["snaps"][0];
+    assert!(text.contains(&words), "{words} in {text}");
+    let snap = &comparison.to_json("case")["inextensible"]["snaps"][0];
     let of = |key: &str| snap[key].as_f64().unwrap();
     assert!(of("peak_n") > of("energy_peak_n"));
     let manual = include_str!("../../../../docs/structures.md");
@@ -279,9 +282,9 @@ fn the_hardest_snap_is_told_alike_beside_springs() {
 #[test]
 fn the_columns_of_pulls_are_explained() {
     let short = EXAMPLE.replace("[run]", "[run]\nduration = 12");
-    let prepared = Prepared::for_springs(structure(&short)).unwrap();
-    let both = both_models(prepared, 1.0, f64::INFINITY, &no_progress).unwrap();
-    let summary = both.summary("case");
+    let prepared = ModelAtRest::for_elastic_lines(structure(&short)).unwrap();
+    let comparison = compare_elastic(prepared, 1.0, f64::INFINITY, &no_progress).unwrap();
+    let summary = comparison.summary("case");
     let mut rows = summary
         .lines()
         .skip_while(|row| !row.starts_with("  line  from s"));
@@ -296,13 +299,13 @@ fn the_columns_of_pulls_are_explained() {
         );
         assert!(first[end..].starts_with(' '), "{name} in\n{names}\n{first}");
     }
-    let told = flat(&summary);
+    let text = flat(&summary);
     for column in [
         "from, to: its start and end",
         "kN: its largest tension",
         "back: speed at which the line shortens",
     ] {
-        assert!(told.contains(column), "{column} in {told}");
+        assert!(text.contains(column), "{column} in {text}");
     }
 }
 
@@ -341,9 +344,9 @@ least_share = 0
 
 /// A small body's numbers keep their digits: lines at an angle of cos 15/17 carry 2 kg g/2 17/15.
 #[test]
-fn a_small_body_is_told_in_digits() {
+fn a_small_body_is_printed_with_enough_digits() {
     let assessment = assess(structure(MODEL), 0, &no_progress).unwrap();
-    let told = flat(&assessment.summary("model"));
+    let text = flat(&assessment.summary("model"));
     let rest_n = 0.5 * 2.0 * 9.81 * 17.0 / 15.0;
     for words in [
         format!("{:.4} kN at rest", rest_n / 1e3),
@@ -351,24 +354,25 @@ fn a_small_body_is_told_in_digits() {
         "breaks at 0.0500 kN".to_owned(),
         "0.00200 t".to_owned(),
     ] {
-        assert!(told.contains(&words), "{words} in {told}");
+        assert!(text.contains(&words), "{words} in {text}");
     }
-    assert!(!told.contains(" 0 kN at"), "{told}");
+    assert!(!text.contains(" 0 kN at"), "{text}");
     let page = page(source("model"), &assessment, None).unwrap();
     assert!(page.contains("breaking load 0.0500 kN") && page.contains("EA 0.00200 MN"));
 }
 
 /// The verdict tells of slack where its checks look for it, in the time that is judged.
 #[test]
-fn slack_before_anything_is_judged_is_told_as_such() {
-    let prepared = Prepared::for_springs(structure(MODEL)).unwrap();
-    let both = both_models(prepared, 1.0, f64::INFINITY, &no_progress).unwrap();
+fn slack_before_anything_is_judged_is_reported_as_such() {
+    let prepared = ModelAtRest::for_elastic_lines(structure(MODEL)).unwrap();
+    let comparison = compare_elastic(prepared, 1.0, f64::INFINITY, &no_progress).unwrap();
     assert!(
-        both.checks()
+        comparison
+            .checks()
             .iter()
             .all(|check| check.answer == Answer::Passes)
     );
-    let words = flat(&both.verdict().words);
+    let words = flat(&comparison.verdict().words);
     assert!(
         words.contains("No line goes slack except in the first 6 s, which are not judged."),
         "{words}"

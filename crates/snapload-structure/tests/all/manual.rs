@@ -3,7 +3,7 @@
 use proptest::prelude::*;
 use snapload::{Bounds, DefaultValue, Entries, Kind};
 use snapload_structure::note::inputs;
-use snapload_structure::{Prepared, STRUCTURE, Structure};
+use snapload_structure::{ModelAtRest, STRUCTURE, Structure};
 use std::path::Path;
 
 /// The keys that a file gives.
@@ -117,18 +117,18 @@ fn every_key_makes_a_difference() {
                 structure(&entries).ok()
             };
             let elsewhere = TOLD_ELSEWHERE.contains(&table.name) || key.name == "max_snaps";
-            let (mut differs, mut told) = (false, false);
+            let (mut differs, mut shown) = (false, false);
             for value in values(key.kind) {
                 let changed = changed(&value);
                 differs |= changed.as_ref() != Some(&before);
-                told |= changed.is_none_or(|after| inputs(&after) != inputs(&before));
-                if differs && (told || elsewhere) {
+                shown |= changed.is_none_or(|after| inputs(&after) != inputs(&before));
+                if differs && (shown || elsewhere) {
                     break;
                 }
             }
             assert!(differs, "{path}.{}", key.name);
             assert!(
-                told || elsewhere,
+                shown || elsewhere,
                 "inputs.html is without {path}.{}",
                 key.name
             );
@@ -139,26 +139,26 @@ fn every_key_makes_a_difference() {
 #[test]
 fn errors_name_the_line_the_key_and_what_to_do() {
     let example = include_str!("../../../../docs/examples/cylinder.toml");
-    let told = |from: &str, to: &str| -> String {
+    let refusal = |from: &str, to: &str| -> String {
         let text = example.replacen(from, to, 1);
         assert_ne!(text, example);
         Structure::parse("case.toml", &text)
             .expect_err(to)
             .to_string()
     };
-    let typo = told("mass = 72452", "mas = 72452");
+    let typo = refusal("mass = 72452", "mas = 72452");
     assert!(
         typo.starts_with("case.toml, line ") && typo.contains("did you mean mass?"),
         "{typo}"
     );
-    let table = told("[site]", "[stie]");
+    let table = refusal("[site]", "[stie]");
     assert!(table.contains("did you mean site?"), "{table}");
-    let twice = told("[site]", "[body]");
+    let twice = refusal("[site]", "[body]");
     assert!(
         twice.contains("[body] occurs twice; write all its keys below one"),
         "{twice}"
     );
-    let lines = told("[[line]]", "[line]");
+    let lines = refusal("[[line]]", "[line]");
     assert!(lines.contains("[[line]]"), "{lines}");
     let mut entries = read(example);
     let above = entries.set("height=2").expect_err("no table").to_string();
@@ -166,35 +166,38 @@ fn errors_name_the_line_the_key_and_what_to_do() {
         above.contains("hint: write body.height or wave.height"),
         "{above}"
     );
-    let kind = told("depth = 10", "depth = \"ten\"");
+    let kind = refusal("depth = 10", "depth = \"ten\"");
     assert!(
         kind.contains(
             "site.depth = \"ten\" is not allowed; allowed: a number in m, 0 < depth <= 12000"
         ),
         "{kind}"
     );
-    let word = told("studless chain", "studles chain");
+    let word = refusal("studless chain", "studles chain");
     assert!(
         word.contains("line.1.type") && word.contains("\"studless chain\""),
         "{word}"
     );
-    let heavy = told("mass = 72452", "mass = 172452");
+    let heavy = refusal("mass = 72452", "mass = 172452");
     assert!(
         heavy.contains("body.mass = 172452") && heavy.contains("sinks"),
         "{heavy}"
     );
-    let short = told("length = 6", "length = 5");
+    let short = refusal("length = 6", "length = 5");
     assert!(
         short.contains("line.1.length = 5") && short.contains("5.999 m"),
         "{short}"
     );
-    let above = told("position = [0, -3.5]", "position = [0, 3.5]");
+    let above = refusal("position = [0, -3.5]", "position = [0, 3.5]");
     assert!(above.contains("z < 0"), "{above}");
-    let both = format!("{example}[sea]\nhs = 2\ntp = 6\n");
-    let both = Structure::parse("case.toml", &both)
+    let comparison = format!("{example}[sea]\nhs = 2\ntp = 6\n");
+    let comparison = Structure::parse("case.toml", &comparison)
         .expect_err("both")
         .to_string();
-    assert!(both.contains("one of [wave] and [sea]"), "{both}");
+    assert!(
+        comparison.contains("one of [wave] and [sea]"),
+        "{comparison}"
+    );
 }
 
 #[test]
@@ -250,7 +253,7 @@ proptest! {
         let mut entries = read(include_str!("../../../../docs/examples/cylinder.toml"));
         if entries.set(&format!("{key}={value:e}")).is_ok()
             && let Ok(structure) = Structure::from_entries(&entries)
-            && let Ok(prepared) = Prepared::new(structure)
+            && let Ok(prepared) = ModelAtRest::new(structure)
         {
             prop_assert!(prepared.rest.place_m.iter().all(|x| x.is_finite()));
             prop_assert!(prepared.rest.tension_n.iter().all(|tension| tension.is_finite() && *tension >= 0.0));

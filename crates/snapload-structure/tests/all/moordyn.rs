@@ -222,7 +222,7 @@ fn coupled_points_are_those_of_a_body_to_be_given() {
 }
 
 #[test]
-fn what_is_not_planar_or_not_supported_is_told() {
+fn what_is_not_planar_or_not_supported_is_reported() {
     for (from, to, says) in [
         (
             "2     Fixed     16      2  ",

@@ -2,7 +2,7 @@
 
 use snapload::analysis::no_progress;
 use snapload::{Impact, Playback, State};
-use snapload_structure::{Prepared, Snap, Structure, assess, snaps};
+use snapload_structure::{ModelAtRest, Snap, Structure, assess, snaps};
 use std::f64::consts::PI;
 
 const EXAMPLE: &str = include_str!("../../../../docs/examples/cylinder.toml");
@@ -19,7 +19,7 @@ fn wave_force_and_drag_follow_from_the_potential() {
                 "[body]",
                 "[body]\ndrag_area = 60\nlinear_damping = 5e3\nturning_damping = 7e4",
             );
-        let prepared = Prepared::new(Structure::parse("case", &text).unwrap()).unwrap();
+        let prepared = ModelAtRest::new(Structure::parse("case", &text).unwrap()).unwrap();
         let (g, d, z) = (9.806_65, 10.0, prepared.rest.place_m[1]);
         let omega = 2.0 * PI / 6.0;
         let k = snapload_structure::wave_number(omega, d, g);
@@ -87,7 +87,7 @@ fn energy_peak_is_that_of_a_body_on_a_spring() {
     let mut structure = Structure::parse("case", EXAMPLE).unwrap();
     // So stiff that the body hardly moves while the line stretches.
     structure.lines[0].stiffness_n = Some(1e12);
-    let prepared = Prepared::new(structure).unwrap();
+    let prepared = ModelAtRest::new(structure).unwrap();
     let (mass, inertia) = (
         prepared.structure.body.moving_mass_kg()[0],
         prepared.structure.body.moment_of_inertia_kg_m2,
@@ -292,7 +292,7 @@ fn lines_that_share_a_snap_share_its_energy() {
     let twin = "[[line]]\nanchor = [0, -12]\nfairlead = [0, -5.5]\nlength = 6.5\nspring_rate = 2e7\nbreaking_load = 1e6\n";
     let peaks = |text: &str| {
         let structure = Structure::parse("shared", text).unwrap();
-        let prepared = Prepared::new(structure).unwrap();
+        let prepared = ModelAtRest::new(structure).unwrap();
         let system = &prepared.model.system;
         let before = State {
             vy: -0.2,
@@ -354,7 +354,7 @@ fn double_lines_run_to_the_end_and_share_evenly() {
         for pair in outcome.lines.chunks(2) {
             assert_eq!(pair[0].snaps, pair[1].snaps);
             assert!(pair[0].snaps > 10);
-            let [a, b] = [pair[0].held_n, pair[1].held_n];
+            let [a, b] = [pair[0].largest_taut_n, pair[1].largest_taut_n];
             assert!((a / b - 1.0).abs() < 1e-6, "{a} {b}");
             assert!((pair[0].peak_n.unwrap() / pair[1].peak_n.unwrap() - 1.0).abs() < 1e-6);
         }

@@ -3,7 +3,9 @@
 
 use snapload::analysis::no_progress;
 use snapload_structure::note::Source;
-use snapload_structure::{Lines, Prepared, Standing, Structure, Water, assess, both_models, seas};
+use snapload_structure::{
+    Lines, ModelAtRest, Structure, VerdictKind, Water, assess, compare_elastic, seas,
+};
 
 const EXAMPLE: &str = include_str!("../../../../docs/examples/cylinder.toml");
 const SEA: &str = include_str!("../../../../docs/examples/cylinder-sea.toml");
@@ -36,20 +38,20 @@ fn rules(text: &str) -> Vec<&'static str> {
 fn soft_lines_leave_the_verdict_open() {
     let calm = EXAMPLE.replace("height = 2\n", "height = 0.5\n");
     let stiff = assess(structure(&calm), 2, &no_progress).unwrap();
-    assert_eq!(stiff.verdict().standing, Standing::Holds);
+    assert_eq!(stiff.verdict().standing, VerdictKind::Holds);
     let soft = soft(EXAMPLE);
     let open = assess(structure(&soft), 2, &no_progress).unwrap();
     let rule = open.warnings.iter().find(|w| w.rule == "instant snap");
     assert_eq!(rule.unwrap().decided_by, Some("snapload elastic"));
     let verdict = open.verdict();
-    assert_eq!(verdict.standing, Standing::Open);
+    assert_eq!(verdict.standing, VerdictKind::Open);
     assert!(
         verdict.words.contains("snapload elastic decides"),
         "{}",
         verdict.words
     );
     assert!(!verdict.words.contains("No line breaks") && !verdict.words.contains("would break"));
-    assert!(!open.trust_words().contains("not in doubt"));
+    assert!(!open.trust_text().contains("not in doubt"));
 }
 
 #[test]
@@ -80,7 +82,9 @@ fn what_a_line_holds_is_among_the_largest() {
     let largest = result.largest_n().unwrap();
     for (record, largest) in result.records.iter().zip(largest) {
         let lines = &record.outcome.lines;
-        let each = lines.iter().map(|l| l.held_n.max(l.peak_n.unwrap_or(0.0)));
+        let each = lines
+            .iter()
+            .map(|l| l.largest_taut_n.max(l.peak_n.unwrap_or(0.0)));
         assert_eq!(each.fold(0.0, f64::max), largest);
         assert!(largest >= record.outcome.peak_n().unwrap_or(0.0));
     }
@@ -116,7 +120,7 @@ fn too_few_records_are_not_too_few_snaps() {
 }
 
 #[test]
-fn what_is_hardly_meant_is_told() {
+fn implausible_values_cause_warnings() {
     assert!(
         !rules(EXAMPLE)
             .iter()
@@ -125,17 +129,17 @@ fn what_is_hardly_meant_is_told() {
     // A decimal point in the wrong place: a body of 3 mm, which is then twenty thousand kilometres
     // long.
     let thin = EXAMPLE.replace("width = 3 ", "width = 0.003 ");
-    let told = rules(&thin);
+    let violated = rules(&thin);
     assert!(
-        told.contains(&"proportions") && told.contains(&"fairleads"),
-        "{told:?}"
+        violated.contains(&"proportions") && violated.contains(&"fairleads"),
+        "{violated:?}"
     );
     let long = EXAMPLE.replacen("length = 6", "length = 60", 1);
     assert!(rules(&long).contains(&"long lines"));
 }
 
 #[test]
-fn a_run_that_ends_at_once_says_so() {
+fn a_run_that_ends_at_once_is_reported() {
     let text = EXAMPLE.replace("[run]", "[run]\nmax_snaps = 1");
     let verdict = assess(structure(&text), 0, &no_progress).unwrap().verdict();
     assert!(
@@ -157,9 +161,9 @@ fn a_sea_on_lines_that_stretch_decides() {
     if let Water::Sea(sea) = &mut alone.water {
         sea.seed = one.seed;
     }
-    let prepared = Prepared::new(alone).unwrap();
-    let both = both_models(prepared, 1.0, f64::INFINITY, &no_progress).unwrap();
-    for (line, peak) in both.elastic.peaks_n.iter().enumerate() {
+    let prepared = ModelAtRest::new(alone).unwrap();
+    let comparison = compare_elastic(prepared, 1.0, f64::INFINITY, &no_progress).unwrap();
+    for (line, peak) in comparison.elastic.peaks_n.iter().enumerate() {
         assert_eq!(one.outcome.lines[line].largest_n(), Some(*peak));
     }
     let [crests, troughs] = result.crests_and_troughs_n();
@@ -170,8 +174,8 @@ fn a_sea_on_lines_that_stretch_decides() {
 
 /// If a line is slack in most troughs, this is reported, and not that the troughs are above zero.
 #[test]
-fn slack_troughs_are_told_as_slack() {
-    let told = |height: &str| {
+fn slack_troughs_are_reported_as_slack() {
+    let text = |height: &str| {
         let text = SEA.replace("[run]", "[run]\nduration = 600");
         let text = text.replace("hs = 1.2", &format!("hs = {height}"));
         let result = seas(structure(&text), 3, Lines::Inextensible, &no_progress).unwrap();
@@ -187,7 +191,7 @@ fn slack_troughs_are_told_as_slack() {
             .join(" ");
         (part, words)
     };
-    let (part, words) = told("1.2");
+    let (part, words) = text("1.2");
     assert!(part > 0.5, "{part}");
     let slack = format!("troughs slack (0 kN) in {:.1} %", 100.0 * part);
     assert!(
@@ -195,7 +199,7 @@ fn slack_troughs_are_told_as_slack() {
         "{words}"
     );
     // Low waves leave no line slack.
-    let (part, words) = told("0.05");
+    let (part, words) = text("0.05");
     assert_eq!(part, 0.0);
     assert!(
         words.contains("troughs half below") && !words.contains("(0 kN)"),
@@ -231,10 +235,10 @@ fn every_line_of_a_sea_names_what_it_is_of() {
     );
     let calm = text.replace("hs = 1.2", "hs = 0.05");
     let calm = seas(structure(&calm), 1, Lines::Inextensible, &no_progress).unwrap();
-    let told = calm.summary("case");
+    let text = calm.summary("case");
     assert!(
-        told.contains("none of 1 cm/s or more in the one record from 60 s on"),
-        "{told}"
+        text.contains("none of 1 cm/s or more in the one record from 60 s on"),
+        "{text}"
     );
 }
 
@@ -272,8 +276,8 @@ fn the_stretch_of_lines_shares_the_load_at_rest() {
     let assessment = assess(structure(&text), 0, &no_progress).unwrap();
     let rest = &assessment.prepared.rest;
     let force = assessment.prepared.structure.net_buoyancy_n();
-    let shared = rest.shared.as_ref().unwrap();
-    let rigid = &shared.unstretched_n;
+    let by_stiffness = rest.by_stiffness.as_ref().unwrap();
+    let rigid = &by_stiffness.inextensible_n;
     assert!((rigid[0] - force).abs() < 1e-6 * force && rigid[1] == 0.0);
     let (k1, k2) = (3e6 / 15.0, 3e6 / 15.005);
     let second = (force - k1 * 0.005) / (k1 + k2);
@@ -284,9 +288,9 @@ fn the_stretch_of_lines_shares_the_load_at_rest() {
     // Straight above the anchor, as high as the longer line is with its stretch.
     let known = -20.0 + 15.005 + second;
     assert!(
-        (shared.place_m[1] - known).abs() < 1e-9,
+        (by_stiffness.place_m[1] - known).abs() < 1e-9,
         "{:?} {known}",
-        shared.place_m
+        by_stiffness.place_m
     );
     // The position of rest does not depend on the restitution.
     let dead = text.replace("restitution = 0.5", "restitution = 0");
@@ -305,9 +309,9 @@ fn the_stretch_of_lines_shares_the_load_at_rest() {
         "{}",
         warning.message
     );
-    assert_eq!(assessment.verdict().standing, Standing::Open);
+    assert_eq!(assessment.verdict().standing, VerdictKind::Open);
     // Lines of equal length share evenly in either model, and there is no warning.
     let even = text.replace("15.005", "15");
     let even = assess(structure(&even), 0, &no_progress).unwrap();
-    assert!(even.prepared.rest.shared.is_none());
+    assert!(even.prepared.rest.by_stiffness.is_none());
 }

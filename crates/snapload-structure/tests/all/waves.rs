@@ -221,7 +221,7 @@ fn too_little_is_not_fitted() {
 /// Breaking loads from a manufacturer's table of offshore mooring chain, in kN, rounded there to 1
 /// kN.
 #[test]
-fn chains_break_where_their_makers_say() {
+fn chains_break_at_their_makers_loads() {
     let table = [
         (0.038, [1319.0, 1473.0, 1621.0]),
         (0.050, [2230.0, 2490.0, 2740.0]),

@@ -4,8 +4,8 @@ use super::law::Spring;
 use snapload::{State, System, TautSet, Waves};
 use std::cell::RefCell;
 
-/// A body on springs.
-pub(super) struct SprungBody<'a> {
+/// A body on elastic lines.
+pub(super) struct BodyOnElasticLines<'a> {
     pub(super) system: &'a System,
     pub(super) springs: &'a [Spring],
     waves: RefCell<Waves>,
@@ -25,7 +25,7 @@ pub(super) struct Stretch {
     pub(super) force: f64,
 }
 
-impl<'a> SprungBody<'a> {
+impl<'a> BodyOnElasticLines<'a> {
     pub(super) fn new(system: &'a System, springs: &'a [Spring]) -> Self {
         Self {
             system,

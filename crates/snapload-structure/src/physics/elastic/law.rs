@@ -1,6 +1,6 @@
-//! The law of a line that stretches: a spring and a damper in parallel that can only pull.
+//! The law of an elastic line: a spring and a damper in parallel that can only pull.
 
-use crate::physics::prepared::Prepared;
+use crate::physics::model_at_rest::ModelAtRest;
 use crate::structure::LineSi;
 use snapload::CaseError;
 
@@ -74,7 +74,7 @@ pub fn damping_ratio(restitution: f64) -> f64 {
 ///
 /// # Errors
 /// A [`CaseError`] if a line has no stiffness, or the restitution is too small.
-pub fn springs(prepared: &Prepared, stiffer: f64) -> Result<Vec<Spring>, CaseError> {
+pub fn springs(prepared: &ModelAtRest, stiffer: f64) -> Result<Vec<Spring>, CaseError> {
     let restitution = prepared.structure.restitution;
     if restitution < LEAST_RESTITUTION {
         let shown = restitution;
@@ -92,7 +92,7 @@ pub fn springs(prepared: &Prepared, stiffer: f64) -> Result<Vec<Spring>, CaseErr
     Ok(springs.enumerate().map(damped).collect())
 }
 
-impl Prepared {
+impl ModelAtRest {
     /// The effective mass M/w of the body along a line at rest, in the engine's units.
     pub(in crate::physics) fn mass_along(&self, line: usize) -> f64 {
         let (rest, system) = (&self.rest, &self.model.system);
@@ -113,7 +113,7 @@ impl Prepared {
 /// # Errors
 /// A [`CaseError`] if a line has no stiffness.
 pub(in crate::physics) fn undamped(
-    prepared: &Prepared,
+    prepared: &ModelAtRest,
     stiffer: f64,
 ) -> Result<Vec<Spring>, CaseError> {
     let scales = &prepared.model.scales;

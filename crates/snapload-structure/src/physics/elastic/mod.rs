@@ -1,4 +1,4 @@
-//! Lines that stretch: the alternative to the inextensible line (docs/elastic.md).
+//! Elastic lines: the alternative to the inextensible line (docs/elastic.md).
 
 mod body;
 mod law;

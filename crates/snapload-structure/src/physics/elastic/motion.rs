@@ -2,17 +2,17 @@
 //!
 //! Between the instants at which a line begins or ceases to pull the forces are smooth. So the
 //! motion is integrated from one such instant to the next with the set of pulling lines fixed, by
-//! the Dormand-Prince pair of order 8, and the instants are found on its dense output, at [`LOOKS`]
-//! points of each step and then by bisection.
+//! the Dormand-Prince pair of order 8, and the instants are found on its dense output, at
+//! [`SAMPLES_PER_STEP`] points of each step and then by bisection.
 //!
 //! Library: `differential-equations` (DOP853 with dense output, few dependencies). Its own event
 //! detection misses events in the first step and two crossings within one step, so only its
 //! integrator is used.
 
-use super::body::SprungBody;
+use super::body::BodyOnElasticLines;
 use super::law::Spring;
-use super::record::{ElasticRun, Record};
-use crate::physics::prepared::Prepared;
+use super::record::{ElasticRun, PullRecorder};
+use crate::physics::model_at_rest::ModelAtRest;
 use differential_equations::ode::OrdinaryNumericalMethod;
 use differential_equations::prelude::{Error, ExplicitRungeKutta, Interpolation, ODE, Status};
 use snapload::analysis::{OnProgress, Progress, Unfinished};
@@ -25,12 +25,12 @@ const TOLERANCE: f64 = 1e-11;
 /// the steps.
 const STEP: f64 = 0.25;
 /// The number of such steps between two checks whether to stop.
-const TOGETHER: f64 = 4000.0;
+const STEPS_PER_CHECK: f64 = 4000.0;
 /// The longest integration in one call while no line pulls.
-const AT_A_TIME: f64 = 1.0;
+const LONGEST_SLACK_CALL: f64 = 1.0;
 /// Points in a step at which forces are evaluated.
-const LOOKS: u32 = 16;
-/// A negative force smaller than this just after a line has begun or ceased to pull is rounding.
+const SAMPLES_PER_STEP: u32 = 16;
+/// A negative force smaller than this just after a line has started or ceased to pull is rounding.
 const NOISE: f64 = 1e-12;
 /// A shorter time counts as zero.
 const INSTANT: f64 = 10.0 * f64::EPSILON;
@@ -41,9 +41,9 @@ type Components<const N: usize> = [f64; N];
 
 /// The number of components for a body without memory, with a usual memory, and with the longest
 /// memory supported.
-const DRY: usize = 6;
-const WET: usize = DRY + 2 * USUAL_MEMORY;
-const WETTEST: usize = DRY + 2 * MOST_MEMORY;
+const STATE_WITHOUT_MEMORY: usize = 6;
+const STATE_WITH_MEMORY: usize = STATE_WITHOUT_MEMORY + 2 * USUAL_MEMORY;
+const LARGEST_STATE: usize = STATE_WITHOUT_MEMORY + 2 * MOST_MEMORY;
 /// The usual number of memory states of a mirror-symmetric body.
 const USUAL_MEMORY: usize = 32;
 const LONG_MEMORY: usize = USUAL_MEMORY + 1;
@@ -53,7 +53,7 @@ const MOST_MEMORY: usize = 64;
 
 /// The motion with one set of pulling lines, from `begin` on.
 struct Phase<'a, const N: usize> {
-    body: &'a SprungBody<'a>,
+    body: &'a BodyOnElasticLines<'a>,
     begin: f64,
     pulling: TautSet,
     longest_step: f64,
@@ -66,20 +66,20 @@ fn state_of<const N: usize>(y: &Components<N>) -> State {
 
 /// The water's memory among the components.
 fn memory_of<const N: usize>(y: &Components<N>) -> &[[f64; 2]] {
-    y[DRY..].as_chunks().0
+    y[STATE_WITHOUT_MEMORY..].as_chunks().0
 }
 
 impl<const N: usize> ODE<f64, Components<N>> for Phase<'_, N> {
     fn diff(&self, s: f64, y: &Components<N>, dydt: &mut Components<N>) {
         let (state, system) = (state_of(y), self.body.system);
         let remembered = match N {
-            DRY => [0.0; 3],
+            STATE_WITHOUT_MEMORY => [0.0; 3],
             _ => system.memory_force(memory_of(y)),
         };
         let [ax, ay, atheta] =
             self.body
                 .acceleration(self.begin + s, &state, remembered, self.pulling);
-        let (motion, memory) = dydt.split_at_mut(DRY);
+        let (motion, memory) = dydt.split_at_mut(STATE_WITHOUT_MEMORY);
         motion.copy_from_slice(&[state.vx, state.vy, state.vtheta, ax, ay, atheta]);
         let rates = memory.as_chunks_mut().0;
         system.memory_rates(&state, memory_of(y), rates);
@@ -112,7 +112,9 @@ impl<'a, const N: usize> Phase<'a, N> {
     ) -> Result<Steps<'a, impl Method<N>, N>, CaseError> {
         let method = ExplicitRungeKutta::dop853().rtol(TOLERANCE).atol(TOLERANCE);
         let mut method = method.h_max(self.longest_step);
-        method.init(self, start, end, &y).map_err(gave_up)?;
+        method
+            .init(self, start, end, &y)
+            .map_err(integration_error)?;
         Ok(Steps {
             phase: self,
             method,
@@ -127,7 +129,7 @@ impl<'a, const N: usize> Phase<'a, N> {
             .until_change(line, state, self.pulling.contains(line))
     }
 
-    /// A line that no longer behaves as the phase assumes. `fresh` are lines that have just begun
+    /// A line that no longer behaves as the phase assumes. `fresh` are lines that have just started
     /// or ceased to pull, and whose force is zero up to rounding.
     fn changed(&self, state: &State, fresh: &mut TautSet) -> Option<usize> {
         for line in 0..self.body.springs.len() {
@@ -148,14 +150,14 @@ impl<'a, const N: usize> Phase<'a, N> {
         time: f64,
         start: Components<N>,
         fresh: &mut TautSet,
-        record: &mut Record<'_>,
+        record: &mut PullRecorder<'_>,
     ) -> Result<(f64, Components<N>, Option<usize>), CaseError> {
         let mut steps = self.steps([0.0, time], start)?;
         while steps.advance()? {
             let (before, now) = (steps.method.t_prev(), steps.method.t());
             let mut last = before;
-            for k in 1..=LOOKS {
-                let s = before + (now - before) * f64::from(k) / f64::from(LOOKS);
+            for k in 1..=SAMPLES_PER_STEP {
+                let s = before + (now - before) * f64::from(k) / f64::from(SAMPLES_PER_STEP);
                 let Ok(y) = steps.method.interpolate(s) else {
                     continue;
                 };
@@ -168,7 +170,7 @@ impl<'a, const N: usize> Phase<'a, N> {
                     return Ok((s, reached, Some(line)));
                 }
                 steps.keep_samples(s, record)?;
-                record.see(self.begin + s, &state, self.pulling);
+                record.add(self.begin + s, &state, self.pulling);
                 last = s;
             }
         }
@@ -196,7 +198,7 @@ impl<M: Method<N>, const N: usize> Steps<'_, M, N> {
             if self.method.t() + self.method.h() > self.end {
                 self.method.set_h(self.end - self.method.t());
             }
-            self.method.step(self.phase).map_err(gave_up)?;
+            self.method.step(self.phase).map_err(integration_error)?;
             if !matches!(self.method.status(), Status::RejectedStep) {
                 return Ok(true);
             }
@@ -204,11 +206,11 @@ impl<M: Method<N>, const N: usize> Steps<'_, M, N> {
     }
 
     /// Keeps the states of all samples up to a time of the phase, by the dense output of the step.
-    fn keep_samples(&mut self, s: f64, record: &mut Record<'_>) -> Result<(), CaseError> {
+    fn keep_samples(&mut self, s: f64, record: &mut PullRecorder<'_>) -> Result<(), CaseError> {
         let Phase { begin, pulling, .. } = *self.phase;
         while let Some((t_s, t)) = record.next_sample(begin + s) {
             let within = (t - begin).clamp(self.method.t_prev(), self.method.t());
-            let y = self.method.interpolate(within).map_err(gave_up)?;
+            let y = self.method.interpolate(within).map_err(integration_error)?;
             record.keep(t_s, &state_of(&y), pulling);
         }
         Ok(())
@@ -237,7 +239,7 @@ impl<M: Method<N>, const N: usize> Steps<'_, M, N> {
 /// A [`CaseError`] if there are not as many springs as lines, or the integrator fails, and
 /// [`Unfinished::Cancelled`].
 pub fn run_elastic(
-    prepared: &Prepared,
+    prepared: &ModelAtRest,
     springs: &[Spring],
     every_s: f64,
     on_progress: OnProgress,
@@ -247,11 +249,11 @@ pub fn run_elastic(
         let shown = springs.len().to_string();
         return Err(CaseError::value("springs", shown, "one for each line").into());
     }
-    let body = SprungBody::new(&model.system, springs);
+    let body = BodyOnElasticLines::new(&model.system, springs);
     match model.system.memory_at_rest().len() {
-        0 => run::<DRY>(prepared, &body, every_s, on_progress),
-        1..=USUAL_MEMORY => run::<WET>(prepared, &body, every_s, on_progress),
-        LONG_MEMORY..=MOST_MEMORY => run::<WETTEST>(prepared, &body, every_s, on_progress),
+        0 => run::<STATE_WITHOUT_MEMORY>(prepared, &body, every_s, on_progress),
+        1..=USUAL_MEMORY => run::<STATE_WITH_MEMORY>(prepared, &body, every_s, on_progress),
+        LONG_MEMORY..=MOST_MEMORY => run::<LARGEST_STATE>(prepared, &body, every_s, on_progress),
         states => {
             let allowed = format!("a memory of at most {MOST_MEMORY} states with elastic lines");
             Err(CaseError::value("float.pairs", format!("({states} states)"), allowed).into())
@@ -260,23 +262,23 @@ pub fn run_elastic(
 }
 
 fn run<const N: usize>(
-    prepared: &Prepared,
-    body: &SprungBody<'_>,
+    prepared: &ModelAtRest,
+    body: &BodyOnElasticLines<'_>,
     every_s: f64,
     on_progress: OnProgress,
 ) -> Result<ElasticRun, Unfinished> {
-    let mut record = Record::new(prepared, body, every_s)?;
+    let mut record = PullRecorder::new(prepared, body, every_s)?;
     let (mut t, mut state, mut fresh) = (0.0, prepared.start(), TautSet::SLACK);
     let mut components: Components<N> = [0.0; N];
-    components[..DRY].copy_from_slice(&state.components());
+    components[..STATE_WITHOUT_MEMORY].copy_from_slice(&state.components());
     let mut pulling = body.pulling(&state);
     record.change(t, &state, TautSet::SLACK, pulling);
-    record.see(t, &state, pulling);
+    record.add(t, &state, pulling);
     let end = prepared.model.rules.t_end;
     while t < end && exceeded(prepared, &state).is_none() {
         Progress::new("elastic lines", t, end).report(on_progress)?;
         let longest_step = STEP / body.quickest(&state, pulling);
-        let until = end.min(t + AT_A_TIME.min(TOGETHER * longest_step));
+        let until = end.min(t + LONGEST_SLACK_CALL.min(STEPS_PER_CHECK * longest_step));
         let phase = Phase {
             body,
             begin: t,
@@ -295,7 +297,7 @@ fn run<const N: usize>(
             false => pulling.with(line),
         };
         (t, fresh) = (t + s, fresh.with(line));
-        record.see(t, &state, before);
+        record.add(t, &state, before);
         record.change(t, &state, before, pulling);
     }
     let stop = exceeded(prepared, &state);
@@ -304,14 +306,14 @@ fn run<const N: usize>(
 
 /// The limit that a state exceeds, as for inextensible lines. It is checked from time to
 /// time, so that a run may end a little late.
-fn exceeded(prepared: &Prepared, state: &State) -> Option<Stop> {
+fn exceeded(prepared: &ModelAtRest, state: &State) -> Option<Stop> {
     let (system, rules) = (&prepared.model.system, &prepared.model.rules);
     let mut limits = rules.limits.iter();
     let beyond = limits.find(|(limit, bound)| limit.quantity(system, state) >= *bound);
     beyond.map(|(limit, _)| limit.stop())
 }
 
-fn gave_up<const N: usize>(error: Error<f64, Components<N>>) -> CaseError {
+fn integration_error<const N: usize>(error: Error<f64, Components<N>>) -> CaseError {
     let shown: String = format!("({error:?})").chars().take(80).collect();
     let allowed = "a stiffness with which the motion can be integrated";
     CaseError::value("line.stiffness", shown, allowed)

@@ -1,9 +1,9 @@
 //! The record of a motion on elastic lines.
 
-use super::body::SprungBody;
+use super::body::BodyOnElasticLines;
 use crate::options::sampling;
 use crate::physics::model::Scales;
-use crate::physics::prepared::Prepared;
+use crate::physics::model_at_rest::ModelAtRest;
 use crate::physics::snap::number_of_line;
 use crate::physics::waterline::Waterline;
 use crate::physics::waves_of_tension::WavesOfTension;
@@ -22,7 +22,7 @@ pub struct Pull {
     pub from_s: f64,
     /// When it ceased to pull, or the run ended \[s\].
     pub to_s: f64,
-    /// The rate of its stretch when it began to pull \[m/s\].
+    /// The rate of its stretch when it became taut \[m/s\].
     pub speed_m_s: f64,
     /// The rate of its contraction when it ceased to pull; none if it pulls to the end \[m/s\].
     pub rebound_m_s: Option<f64>,
@@ -48,7 +48,7 @@ pub struct Sample {
 pub struct ElasticRun {
     /// Every pull, in the order of their beginnings.
     pub pulls: Vec<Pull>,
-    /// The motion at the times asked for.
+    /// The motion at the requested times.
     pub samples: Vec<Sample>,
     /// When it ended \[s\].
     pub end_s: f64,
@@ -79,12 +79,12 @@ impl ElasticRun {
 }
 
 /// Records a motion.
-pub(super) struct Record<'a> {
+pub(super) struct PullRecorder<'a> {
     scales: &'a Scales,
     structure: &'a Structure,
     /// The x of the position of rest on these lines \[m\].
     rest_x_m: f64,
-    body: &'a SprungBody<'a>,
+    body: &'a BodyOnElasticLines<'a>,
     /// The times of the samples that are still to come, before the end \[s\].
     samples: Peekable<Box<dyn Iterator<Item = f64>>>,
     kept: bool,
@@ -96,15 +96,15 @@ pub(super) struct Record<'a> {
     open: Vec<Option<usize>>,
 }
 
-impl<'a> Record<'a> {
+impl<'a> PullRecorder<'a> {
     /// Of a run whose state is kept at every multiple of `every_s` and at its end, or nowhere if that
     /// is infinite.
     ///
     /// # Errors
     /// A [`CaseError`] if that is no time, or gives too many samples.
     pub(super) fn new(
-        prepared: &'a Prepared,
-        body: &'a SprungBody<'a>,
+        prepared: &'a ModelAtRest,
+        body: &'a BodyOnElasticLines<'a>,
         every_s: f64,
     ) -> Result<Self, CaseError> {
         let scales = &prepared.model.scales;
@@ -159,7 +159,7 @@ impl<'a> Record<'a> {
     }
 
     /// Records a state along the motion.
-    pub(super) fn see(&mut self, t: f64, state: &State, pulling: TautSet) {
+    pub(super) fn add(&mut self, t: f64, state: &State, pulling: TautSet) {
         let t_s = t * self.scales.time_s;
         self.run.turned_rad = self.run.turned_rad.max(state.theta.abs());
         let [x, z] = self.scales.to_si([state.x, state.y]);
@@ -177,7 +177,7 @@ impl<'a> Record<'a> {
                 let (peak, least) = (&mut self.run.peaks_n[line], &mut self.run.least_n[line]);
                 *peak = peak.max(tension);
                 *least = Some(least.map_or(tension, |least| least.min(tension)));
-                self.run.waves_n.extend(self.waves[line].see([tension; 2]));
+                self.run.waves_n.extend(self.waves[line].add([tension; 2]));
             }
         }
         for (line, &tension) in tensions.iter().enumerate() {
@@ -228,7 +228,7 @@ impl<'a> Record<'a> {
     ) -> ElasticRun {
         self.run.stop = stop;
         self.run.end_s = match stop {
-            // As it was asked for, not as it comes back from the engine's units.
+            // The requested duration, not converted back from the engine's units.
             None => self.structure.duration_s,
             Some(_) => t * self.scales.time_s,
         };

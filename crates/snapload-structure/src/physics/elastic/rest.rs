@@ -13,11 +13,11 @@
 //! Optimization* (2006), chapter 4): Newton's step with a multiple of the identity added to the
 //! second derivatives, large enough for the energy to decrease.
 
-use super::body::SprungBody;
+use super::body::BodyOnElasticLines;
 use super::law::Spring;
 use crate::physics::equilibrium::{Equilibrium, moved};
 use crate::physics::model::Model;
-use crate::physics::prepared::Prepared;
+use crate::physics::model_at_rest::ModelAtRest;
 use nalgebra::{Matrix3, Vector3};
 use snapload::{CaseError, State};
 use std::f64::consts::FRAC_PI_2;
@@ -29,25 +29,27 @@ const STEPS: usize = 400;
 /// Step of the difference quotients for the derivatives of rows.
 const DIFFERENCE: f64 = 1e-6;
 /// What lines have to do for a body to rest on them.
-const HELD: &str = "elastic lines that hold the body at rest";
+const ELASTIC_LINES_THAT_HOLD: &str = "elastic lines that hold the body at rest";
 /// What is added to the second derivatives at first, and at most.
 const DAMPING: [f64; 2] = [1e-6, 1e12];
 
-impl Prepared {
-    /// The same structure about its position of rest on springs, from which it starts in the waves
-    /// at that depth, unless the case gives a start.
+impl ModelAtRest {
+    /// The same structure about its position of rest on elastic lines, from which it starts in the
+    /// waves at that depth, unless the case gives a start.
     ///
     /// # Errors
     /// A [`CaseError`] if it has no position of rest on them.
-    pub fn on_springs(&self, springs: &[Spring]) -> Result<Self, CaseError> {
+    pub fn with_elastic_lines(&self, springs: &[Spring]) -> Result<Self, CaseError> {
         let still = self.model.still();
-        let body = SprungBody::new(&still, springs);
+        let body = BodyOnElasticLines::new(&still, springs);
         let rest = self.model.at_rest(self.rest.place_m, self.rest.theta_rad);
         let rest = least_energy(&body, rest)?;
         if rest.theta.abs() >= FRAC_PI_2 {
             let shown = format!("(turned by {:.0} degrees)", rest.theta.abs().to_degrees());
-            return Err(CaseError::value("line.stiffness", shown, HELD)
-                .with_hint("check the lengths of the lines and the moments on the body"));
+            return Err(
+                CaseError::value("line.stiffness", shown, ELASTIC_LINES_THAT_HOLD)
+                    .with_hint("check the lengths of the lines and the moments on the body"),
+            );
         }
         let place_m = self.model.scales.to_si([rest.x, rest.y]);
         let tension = |line: usize| body.stretch(line, &rest).force.max(0.0);
@@ -61,8 +63,8 @@ impl Prepared {
             taut: taut.collect(),
             tension_n,
             indeterminate: false,
-            shared: None,
-            relaxed_n: None,
+            by_stiffness: None,
+            elastic_tension_n: None,
         };
         let structure = self.structure.clone();
         // With a start of the case the run is compared with inextensible lines, in the same
@@ -74,23 +76,25 @@ impl Prepared {
             Some(_) => self.model.clone(),
             None => Model::about(&structure, rest.place_m, &[]),
         };
-        let mut sprung = Self::starting(structure, rest, model);
-        sprung.held.clone_from(&self.held);
-        Ok(sprung)
+        let mut elastic_case = Self::starting(structure, rest, model);
+        elastic_case
+            .modes_on_taut_lines
+            .clone_from(&self.modes_on_taut_lines);
+        Ok(elastic_case)
     }
 
-    /// The derivative of the force on a body at rest on springs, as by [`Prepared::on_springs`],
-    /// with respect to its position: the second derivatives of V over (x, y, θ), in the engine's
-    /// units.
+    /// The derivative of the force on a body at rest on elastic lines, as by
+    /// [`ModelAtRest::with_elastic_lines`], with respect to its position: the second derivatives of
+    /// V over (x, y, θ), in the engine's units.
     pub(in crate::physics) fn stiffness_on(&self, springs: &[Spring]) -> Matrix3<f64> {
-        let body = SprungBody::new(&self.model.system, springs);
+        let body = BodyOnElasticLines::new(&self.model.system, springs);
         let at = self.model.at_rest(self.rest.place_m, self.rest.theta_rad);
         curvature(&body, &at)
     }
 }
 
 /// V at a position, and ∇V.
-fn energy(body: &SprungBody, at: &State) -> (f64, Vector3<f64>) {
+fn energy(body: &BodyOnElasticLines, at: &State) -> (f64, Vector3<f64>) {
     let force = body.system.forcing.constant;
     let mut energy = -(force.x * at.x + force.y * at.y);
     let mut gradient = Vector3::new(-force.x, -force.y, 0.0);
@@ -114,7 +118,7 @@ fn energy(body: &SprungBody, at: &State) -> (f64, Vector3<f64>) {
 /// The second derivatives of V, Σ k_i ((n_i, s_i)ᵀ(n_i, s_i) + δ_i ∇(n_i, s_i)) over the stretched
 /// lines. Only the rows are differentiated numerically, as the stretch of a line may be smaller
 /// than the step of the differences.
-fn curvature(body: &SprungBody, at: &State) -> Matrix3<f64> {
+fn curvature(body: &BodyOnElasticLines, at: &State) -> Matrix3<f64> {
     let water = body.system.floating.as_ref();
     let mut curvature = water.map_or(Matrix3::zeros(), |water| Matrix3::from(water.stiffness));
     for (line, spring) in body.springs.iter().enumerate() {
@@ -136,7 +140,7 @@ fn curvature(body: &SprungBody, at: &State) -> Matrix3<f64> {
     (curvature + curvature.transpose()) * 0.5
 }
 
-fn least_energy(body: &SprungBody, start: State) -> Result<State, CaseError> {
+fn least_energy(body: &BodyOnElasticLines, start: State) -> Result<State, CaseError> {
     let mut at = start;
     let [mut damping, most] = DAMPING;
     let (mut least, mut gradient) = energy(body, &at);
@@ -163,18 +167,20 @@ fn least_energy(body: &SprungBody, start: State) -> Result<State, CaseError> {
             }
             damping *= 10.0;
             if damping > most {
-                return nowhere(&gradient);
+                return no_equilibrium_error(&gradient);
             }
         }
     }
-    nowhere(&gradient)
+    no_equilibrium_error(&gradient)
 }
 
-fn nowhere(left: &Vector3<f64>) -> Result<State, CaseError> {
+fn no_equilibrium_error(left: &Vector3<f64>) -> Result<State, CaseError> {
     let shown = format!(
         "(forces out of balance by {:.1e} of the buoyancy)",
         left.amax()
     );
-    Err(CaseError::value("line.stiffness", shown, HELD)
-        .with_hint("give run.start, or check the stiffness and the lengths of the lines"))
+    Err(
+        CaseError::value("line.stiffness", shown, ELASTIC_LINES_THAT_HOLD)
+            .with_hint("give run.start, or check the stiffness and the lengths of the lines"),
+    )
 }

@@ -1,15 +1,15 @@
-// The keys of a structure in groups, those first that an engineer turns.
+// The keys of a structure in groups, those that are changed most often first.
 
 import { fieldText } from "./formatting.js";
 
 const WAVES = { wave: "Regular wave", sea: "Irregular sea" };
-/** Of one line: what no other shares with it. */
+/** The keys that are shown for each line. */
 const OF_ONE_LINE = ["anchor", "fairlead", "length", "diameter"];
-/** A slider spans so much of the value that the case gives, where the key says nothing. */
+/** The range of a slider as parts of the case's value, if the key has no usual range. */
 const AROUND = [0.5, 1.5];
 
-/** Groups of keys for the controls. Files that the case names are not changed here. */
-export function structureGroups(state) {
+/** Groups of keys for the controls. Files named in the case can not be changed here. */
+export function structureKeyGroups(state) {
   const { keys } = state.schema;
   const under = (path) => keys.filter((key) => key.under === path).map((key) => ranged(state, key));
   const waves = Object.entries(WAVES).map(([name, title]) => ({
@@ -25,7 +25,7 @@ export function structureGroups(state) {
     keys: under(`line.${i + 1}`).filter((key) => OF_ONE_LINE.includes(key.name.split(".")[2])),
     open: false,
   }));
-  // Anchors and fairleads of all lines at once would be one point.
+  // Anchors and fairleads can not be set for all lines at once.
   const all = under("line").filter((key) => !["line.anchor", "line.fairlead"].includes(key.name));
   return [
     ...waves,
@@ -38,7 +38,7 @@ export function structureGroups(state) {
   ];
 }
 
-/** A key with the range of its slider: about the value of the case, where the key has no usual one. */
+/** A key with the range of its slider: about the case's value if the key has no usual range. */
 function ranged(state, key) {
   const value = state.value(key.name);
   if (key.kind.type === "count" || key.usual || !(typeof value === "number" && value > 0)) return key;
@@ -46,7 +46,7 @@ function ranged(state, key) {
   return { ...key, usual: { low, high } };
 }
 
-/** A sea with other phases is the next seed. */
+/** A button for the next seed: the same sea with other phases. */
 function anotherSea(state) {
   const button = Object.assign(document.createElement("button"), {
     type: "button",
@@ -58,15 +58,15 @@ function anotherSea(state) {
   return button;
 }
 
-/** Why a key can not be given as things are. */
-export function whyNot(name, state) {
+/** Why a key is not available in the current case. */
+export function reasonUnavailable(name, state) {
   if (name.startsWith("body.added_mass") && state.floats) return "[float] gives the added mass";
   if (name === "body.height" && state.value("body.shape") !== "rectangle") return "a circle has only a width";
   return undefined;
 }
 
-/** What is changed in words, such as `wave.height = 2.5`. */
-export const changesInWords = (values) =>
+/** The changes as text, such as `wave.height = 2.5`. */
+export const changesText = (values) =>
   Object.entries(values)
     .map(([name, value]) => `${name} = ${fieldText(value)}`)
     .join(", ");

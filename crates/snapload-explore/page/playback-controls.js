@@ -1,13 +1,13 @@
-// The buttons of playback, the strip of events, the clock, and the part of time that the charts show.
+// The playback buttons, the strip of events, the clock, and the time window of the charts.
 
-import { $, mark, put } from "./dom.js";
+import { $, setAttributes, setProperties } from "./dom.js";
 import { NEAR_PX, prepare } from "./plot.js";
 import { SPEEDS } from "./state.js";
 import { colours } from "./theme.js";
 import { fixed, modeName, number } from "./formatting.js";
 
-export class Transport {
-  /** `speedWords` tells of a speed. */
+export class PlaybackControls {
+  /** `speedWords` returns the text of a speed. */
   constructor(state, playback, speedWords = (speed) => `${speed} T/s`) {
     this.state = state;
     this.playback = playback;
@@ -30,7 +30,7 @@ export class Transport {
     });
   }
 
-  /** The first and the last time that can be gone to. */
+  /** The first and the last time of the slider. */
   get ends() {
     return [0, this.run.tEnd];
   }
@@ -40,7 +40,7 @@ export class Transport {
     this.playback.seek(t);
   }
 
-  /** Shows so many times as much time about the cursor. */
+  /** Multiplies the length of the time window about the cursor. */
   zoom(factor) {
     const end = this.run.tEnd;
     const [from, to] = this.state.window ?? [0, end];
@@ -64,20 +64,20 @@ export class Transport {
     if (!this.run) return;
     const { t, speed, window } = this.state;
     const [from, to] = window ?? [0, this.run.tEnd];
-    put($("scrub"), { min: String(from), max: String(to) });
-    put($("scrub"), { value: String(t) });
+    setProperties($("scrub"), { min: String(from), max: String(to) });
+    setProperties($("scrub"), { value: String(t) });
     const words = this.words(t, this.run);
-    if (!this.playback.playing) mark($("scrub"), { "aria-valuetext": words.value });
-    mark($("clock"), { "data-t": String(t) });
-    put($("clock"), { value: words.clock });
-    put($("counted"), { textContent: words.counted });
-    put($("speed"), { value: String(speed) });
-    put($("loop"), { checked: this.state.loop });
-    put($("window-words"), { value: window ? `t ${number(from, 4)} to ${number(to, 4)}` : "" });
-    put($("zoom-all"), { disabled: window === null });
+    if (!this.playback.playing) setAttributes($("scrub"), { "aria-valuetext": words.value });
+    setAttributes($("clock"), { "data-t": String(t) });
+    setProperties($("clock"), { value: words.clock });
+    setProperties($("counted"), { textContent: words.counted });
+    setProperties($("speed"), { value: String(speed) });
+    setProperties($("loop"), { checked: this.state.loop });
+    setProperties($("window-words"), { value: window ? `t ${number(from, 4)} to ${number(to, 4)}` : "" });
+    setProperties($("zoom-all"), { disabled: window === null });
   }
 
-  /** The time as it is read aloud and shown, and what happened before it. */
+  /** The time as spoken and shown text, and the number of events before it. */
   words(t, run) {
     return {
       value: `${fixed(t, 3)} of ${fixed(run.tEnd, 3)} T, ${modeName(run.tautAt(t))}`,
@@ -108,7 +108,7 @@ export class Transport {
       const high = 2.5 * Math.min(taut.length, 2);
       if (high) band(modes.t_start[i], modes.t_end[i], paints.strained, height - high, high);
     });
-    // As snaps accumulate there are thousands in one place: the highest so far hides the others.
+    // An accumulation has thousands of snaps in one place: the highest so far hides the others.
     const highest = new Map();
     impacts.t.forEach((t, i) => {
       if (t < from || t > to) return;

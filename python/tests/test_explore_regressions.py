@@ -19,47 +19,47 @@ SLIDE = "(slider, value) => { slider.value = value; slider.dispatchEvent(new Eve
 
 def test_the_verdict_is_that_of_the_picture(open_page):
     page = open_page("t=0")
-    expect(page.locator("#said")).to_contain_text("Settled at t = 7.246")
+    expect(page.locator("#message")).to_contain_text("Settled at t = 7.246")
     expect(page.locator("#announced")).to_contain_text("Settled at t = 7.246")
     before = count(page)
     page.locator("#slider-f_o").evaluate(SLIDE, 0.31)
     settled(page, before)
-    assert "Settled" not in page.locator("#said").inner_text()
-    assert "Settled" in page.locator("#announced").inner_text(), "a screen reader is told once it rests"
-    expect(page.locator("#announced")).to_have_text(page.locator("#said").inner_text())
+    assert "Settled" not in page.locator("#message").inner_text()
+    assert "Settled" in page.locator("#announced").inner_text(), "the screen reader text follows once it rests"
+    expect(page.locator("#announced")).to_have_text(page.locator("#message").inner_text())
 
 
-TOLD = """() => {
-    window.told = [];
-    const note = () => window.told.push({
-        words: document.getElementById('said').textContent,
-        stale: ['summary', 'said', 'seal', 'section-said']
+RECORD_NOTES = """() => {
+    window.notes = [];
+    const note = () => window.notes.push({
+        words: document.getElementById('message').textContent,
+        stale: ['summary', 'message', 'seal', 'section-message']
             .map(id => document.getElementById(id).classList.contains('stale')),
     });
     new MutationObserver(note).observe(document.getElementById('summary'), { attributes: true, childList: true });
 }"""
 
 
-def test_words_of_the_run_before_are_pale_beside_a_newer_picture(open_page):
+def test_texts_of_an_earlier_run_are_pale_next_to_a_newer_picture(open_page):
     page = open_page("t=0")
-    expect(page.locator("#said")).to_contain_text("Settled at t = 7.246")
+    expect(page.locator("#message")).to_contain_text("Settled at t = 7.246")
     # Nobody looks at the page: it has no frames.
     page.evaluate("() => (window.requestAnimationFrame = () => 1)")
-    page.evaluate(TOLD)
+    page.evaluate(RECORD_NOTES)
     picture = "canvas => canvas.toDataURL()"
     before = page.locator("#strip").evaluate(picture)
     page.locator("#slider-f_o").evaluate(SLIDE, 0.31)
-    expect(page.locator("#said")).not_to_contain_text("Settled")
+    expect(page.locator("#message")).not_to_contain_text("Settled")
     assert page.locator("#strip").evaluate(picture) != before
-    told = page.evaluate("() => window.told")
-    assert "Settled" in told[0]["words"] and all(told[0]["stale"]), told
-    assert not any(told[-1]["stale"]), told
+    notes = page.evaluate("() => window.notes")
+    assert "Settled" in notes[0]["words"] and all(notes[0]["stale"]), notes
+    assert not any(notes[-1]["stale"]), notes
     expect(page.locator("#summary")).to_have_css("opacity", "1")
 
 
-def test_words_keep_up_with_a_fast_drag(open_page):
+def test_texts_keep_up_with_a_fast_drag(open_page):
     page = open_page("t=0")
-    page.evaluate(TOLD)
+    page.evaluate(RECORD_NOTES)
     # Frames that are slower than answers: one picture takes the place of the other before it is painted.
     page.evaluate("() => (window.requestAnimationFrame = f => setTimeout(f, 1500))")
     # Answers are what is counted, and no time: a machine that is busy gives them later, and the words with them.
@@ -73,33 +73,33 @@ def test_words_keep_up_with_a_fast_drag(open_page):
                 return answer;
             };
             const slider = document.getElementById('slider-f_o');
-            const told = [];
+            const notes = [];
             for (let k = 0; answers < 60 && k < 3000; k += 1) {
                 slider.value = 0.3 + (k % 100) / 1000;
                 slider.dispatchEvent(new Event('input'));
                 await new Promise(done => setTimeout(done, 30));
-                told.push(...window.told.splice(0).filter(({ stale }) => !stale[0]).map(() => answers));
+                notes.push(...window.notes.splice(0).filter(({ stale }) => !stale[0]).map(() => answers));
             }
-            return told;
+            return notes;
         }"""
     )
     assert answers, "they wait for the end of the drag"
     assert max(later - before for before, later in pairwise([0, *answers, 60])) <= 20, answers
 
 
-def test_forced_colours_leave_the_pictures_theirs(open_page):
+def test_pictures_keep_their_colours_with_forced_colours(open_page):
     usual, forced = open_page("t=1"), open_page("t=1", forced_colors="active")
     assert drawn(forced) == drawn(usual)
 
 
-def test_a_file_is_written_while_the_page_goes_on(open_page):
+def test_a_file_is_written_while_the_page_stays_responsive(open_page):
     page = open_page("f_o=0.31&t=0")
     waiting = []
     page.route("**/api/export/*", lambda route: waiting.append(route))
     button = page.locator('[data-file="impacts.csv"]')
     button.click()
     expect(button).to_be_disabled()
-    expect(page.locator("#export-said")).to_have_text("impacts.csv of your own values: writing")
+    expect(page.locator("#export-message")).to_have_text("impacts.csv of your own values: writing")
     before = count(page)
     page.locator("#field-f_o").fill("0.29")
     settled(page, before)
@@ -280,7 +280,7 @@ def test_what_is_no_decimal_is_refused(open_page):
         expect(page.locator("#error-nu")).to_be_hidden()
 
 
-def test_what_is_read_between_distant_rows_says_so(open_page, command_json):
+def test_a_reading_between_distant_rows_is_marked_as_approximate(open_page, command_json):
     values = {"f_o": "0.05", "stop_when_settled": "false", "t_end": "600"}
     at = 433.21
     page = open_page("&".join(f"{key}={value}" for key, value in values.items()) + f"&t={at}")
@@ -315,7 +315,7 @@ def test_a_swipe_over_a_slider_leaves_its_value(open_page):
     assert slider.input_value() == "0.3"
 
 
-def test_a_refused_link_says_what_is_shown(open_page):
+def test_a_refused_link_reports_what_is_shown(open_page):
     page = open_page("e=7", refused=1)
     expect(page.locator("#failed")).to_contain_text("e = 7 is not allowed")
     expect(page.locator("#failed")).to_contain_text("the first case of the page, the standard case")
@@ -347,7 +347,7 @@ def test_the_tick_of_the_loop_has_its_word_on_a_phone(open_page, viewport):
     assert speed["x"] + speed["width"] <= viewport["width"]
 
 
-def test_a_number_of_cells_stands_beside_its_word(open_page):
+def test_a_number_of_cells_is_next_to_its_label(open_page):
     page = open_page("t=0&map=f_o,0.2,0.4,3,e,0.7,0.95,3,reason")
     for side in ["x", "y"]:
         label = page.locator("label", has=page.locator(f"#map-{side}-count")).bounding_box()
@@ -357,9 +357,9 @@ def test_a_number_of_cells_stands_beside_its_word(open_page):
 
 def test_the_digits_of_the_norms_are_those_of_the_command(open_page, command):
     page = open_page("f_o=0.31&t=0")
-    said = command("run", "--ensemble", "0", "--set", "f_o=0.31")
-    told = dict(re.findall(r"(rho\d|y_max|theta_max) = [^(]*\((\d+ digits?)\)", said))
-    assert set(told) == {"rho1", "rho2", "rho3", "y_max", "theta_max"}, said
-    for norm, digits in told.items():
+    output = command("run", "--ensemble", "0", "--set", "f_o=0.31")
+    known = dict(re.findall(r"(rho\d|y_max|theta_max) = [^(]*\((\d+ digits?)\)", output))
+    assert set(known) == {"rho1", "rho2", "rho3", "y_max", "theta_max"}, output
+    for norm, digits in known.items():
         term = page.locator("#summary div", has=page.locator(f'[data-norm="{norm}"]'))
         expect(term.locator("small")).to_have_text(digits)

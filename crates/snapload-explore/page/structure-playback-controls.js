@@ -1,18 +1,18 @@
-// Playback of a structure's run: the strip of the interval that is shown, and the whole record with where that is.
+// Playback of a structure's run: a strip with the interval that is shown, and one with the whole record.
 
 import { $ } from "./dom.js";
 import { prepare } from "./plot.js";
 import { tautWords } from "./structure-scene-view.js";
 import { colours, lineColour } from "./theme.js";
-import { Transport } from "./transport.js";
+import { PlaybackControls } from "./playback-controls.js";
 import { fixed, round } from "./formatting.js";
 
 const INSET_PX = 8;
-/** Of a swarm of snaps the hardest in so many pixels is enough. */
+/** Of many snaps only the hardest within this many pixels is drawn. */
 const APART_PX = 1.5;
 
-export class StructureTransport extends Transport {
-  /** `onInterval` is told where the interval that is shown is to begin. */
+export class StructurePlaybackControls extends PlaybackControls {
+  /** `onInterval` receives the start of the interval that is to be shown. */
   constructor(state, playback, { onInterval }) {
     super(state, playback, (speed) => (speed === 1 ? "real time" : `${speed} times`));
     $("interval-start").addEventListener("input", () => {
@@ -21,7 +21,7 @@ export class StructureTransport extends Transport {
     });
   }
 
-  /** Only the motion of the interval that is shown is here. */
+  /** Only the motion of the interval that is shown is available. */
   get ends() {
     return this.run.window;
   }
@@ -54,7 +54,7 @@ export class StructureTransport extends Transport {
     $("record").setAttribute("aria-label", `${run.snapsInWords} in ${round(run.tEnd)} s; the height shows the strength`);
   }
 
-  /** Snaps as ticks in the colours of their lines; taut lines as bands in the interval, and the interval in the record. */
+  /** Snaps as ticks in the colours of their lines, taut lines as bands, and the interval within the record. */
   #strip(canvas, [from, to], close) {
     const { context, width, height } = prepare(canvas);
     const { run } = this;
@@ -90,23 +90,23 @@ export class StructureTransport extends Transport {
 
   #ticks(context, x, [from, to], height, paints) {
     const { run } = this;
-    let held = null;
-    const put = () => {
-      if (!held) return;
-      const high = (height - 6) * Math.sqrt(run.hardness[held.i] / (run.hardest || 1));
-      context.fillStyle = lineColour(paints, run.snaps.line[held.i]);
-      context.fillRect(held.px - 0.6, height - 5 - high, 1.2, high);
+    let pending = null;
+    const drawTick = () => {
+      if (!pending) return;
+      const high = (height - 6) * Math.sqrt(run.hardness[pending.i] / (run.hardest || 1));
+      context.fillStyle = lineColour(paints, run.snaps.line[pending.i]);
+      context.fillRect(pending.px - 0.6, height - 5 - high, 1.2, high);
     };
     run.snaps.t.forEach((t, i) => {
       if (t < from || t > to) return;
       const px = x(t);
-      if (held && px - held.px < APART_PX) {
-        if (run.hardness[i] > run.hardness[held.i]) held.i = i;
+      if (pending && px - pending.px < APART_PX) {
+        if (run.hardness[i] > run.hardness[pending.i]) pending.i = i;
         return;
       }
-      put();
-      held = { i, px };
+      drawTick();
+      pending = { i, px };
     });
-    put();
+    drawTick();
   }
 }

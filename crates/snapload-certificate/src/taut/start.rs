@@ -24,7 +24,7 @@ fn parts([x, y, theta, vx, vy, spin, t]: [Ball; 7]) -> ([Ball; 6], Ball) {
 }
 
 /// Where a motion begins.
-pub(crate) struct Begun<const N: usize> {
+pub(crate) struct Started<const N: usize> {
     /// A number before all instants at which it begins.
     pub(crate) t: Ball,
     /// The states at that time, of the motions continued to there along their own equations;
@@ -36,7 +36,7 @@ pub(crate) struct Begun<const N: usize> {
 
 /// The beginning of a motion after the laws of an event.
 ///
-/// Let y be the coordinates after the event, at the instant t*, and T the time asked for. The state
+/// Let y be the coordinates after the event, at the instant t*, and T the required time. The state
 /// at T is z = Φ(y), the flow of the new equations q̇ = F over T − t*, and as a function of y and t*
 ///
 /// dz = DΦ (dy − F(y) dt*).
@@ -44,12 +44,12 @@ pub(crate) struct Begun<const N: usize> {
 /// The flow stays in a box W with y + [0, T − t*] F(W) within W (Picard), so that z is within
 /// y + (T − t*) F(W); and with η = |T − t*| L, L a bound on the row sums of |∂F/∂q| over W, every
 /// entry of DΦ − 1 is at most e^η − 1, no more than 2η for η ≤ 1 (Grönwall).
-pub(crate) fn begin<const N: usize>(
+pub(crate) fn start_motion<const N: usize>(
     equations: &Equations<'_>,
     chart: &impl Chart<N>,
     laws: &[Law],
     instants: &Instants,
-) -> Result<Begun<N>, ProofFailure> {
+) -> Result<Started<N>, ProofFailure> {
     let model = equations.model;
     let lost = || ProofFailure::undecided("the beginning of a motion");
     let (whole, when) = hull_of(instants);
@@ -98,7 +98,7 @@ pub(crate) fn begin<const N: usize>(
             others.fold(moved[i][j].clone(), |sum, term| sum + term)
         })
     });
-    Ok(Begun {
+    Ok(Started {
         set: instants.mapped(&image, &jacobian)?,
         slack: (&when - &t).upper(),
         t,
@@ -106,7 +106,7 @@ pub(crate) fn begin<const N: usize>(
 }
 
 /// What is known of a motion over a short time.
-struct Short<const N: usize> {
+struct ShortTimeBox<const N: usize> {
     /// F on the box.
     speeds: [Ball; N],
     /// The largest row sum of |∂F/∂q| there.
@@ -119,7 +119,7 @@ fn picard<const N: usize>(
     time: &Ball,
     at: &[Ball; N],
     shift: &Ball,
-) -> Result<Short<N>, ProofFailure> {
+) -> Result<ShortTimeBox<N>, ProofFailure> {
     let lost = || ProofFailure::undecided("the beginning of a motion");
     let span = shift.upper();
     let times = time.clone().widened(span);
@@ -154,5 +154,5 @@ fn picard<const N: usize>(
             .fold(Radius::ZERO, Radius::plus);
         steepness = steepness.max(sum);
     }
-    Ok(Short { speeds, steepness })
+    Ok(ShortTimeBox { speeds, steepness })
 }

@@ -1,24 +1,24 @@
 //! A structure with its position of rest and its model, ready to run.
 
-use super::afloat::{HeldMotion, model, rest_afloat};
+use super::afloat::{TautMode, model, rest_afloat};
 use super::elastic::undamped;
-use super::equilibrium::{Equilibrium, Shared, equilibrium, load_at_fault};
+use super::equilibrium::{DistributionByStiffness, Equilibrium, equilibrium, steady_load_error};
 use super::model::{CURRENT, Model};
 use crate::structure::{IrregularSea, Structure, Water};
 use snapload::{CaseError, Simulation, StartError, State, Stop};
-use snapload_hydro::periods_in_words;
+use snapload_hydro::periods_summary;
 
 /// A body turned by less than this at rest is upright: the resulting errors of its gaps are only
 /// rounding \[rad\].
-const UPRIGHT: f64 = 1e-12;
+const UPRIGHT_RAD: f64 = 1e-12;
 
 /// Tensions at rest count as differently distributed if they differ by more than this part of the
 /// largest.
-const SHARED: f64 = 0.05;
+const DIFFERENT_BY: f64 = 0.05;
 
 /// Structure, position of rest and model, ready to run.
 #[derive(Clone, Debug)]
-pub struct Prepared {
+pub struct ModelAtRest {
     /// The structure.
     pub structure: Structure,
     /// Its position of rest.
@@ -26,11 +26,11 @@ pub struct Prepared {
     /// The same in the engine's units.
     pub model: Model,
     /// The small motions about the position of rest that the taut lines of a floating body allow.
-    pub held: Vec<HeldMotion>,
+    pub modes_on_taut_lines: Vec<TautMode>,
     start: State,
 }
 
-impl Prepared {
+impl ModelAtRest {
     /// Finds the structure's position of rest and makes its model.
     ///
     /// # Errors
@@ -45,11 +45,11 @@ impl Prepared {
     ///
     /// # Errors
     /// A [`CaseError`] if it has no position of rest or the start is not possible.
-    pub fn for_springs(structure: Structure) -> Result<Self, CaseError> {
+    pub fn for_elastic_lines(structure: Structure) -> Result<Self, CaseError> {
         let prepared = Self::at_rest(structure)?;
         match prepared.simulation(1.0) {
             Ok(_) | Err(StartError::CableTooShort { .. }) => Ok(prepared),
-            Err(error) => Err(prepared.explain(error)),
+            Err(error) => Err(prepared.start_error(error)),
         }
     }
 
@@ -60,40 +60,41 @@ impl Prepared {
 
     /// With its position of rest and its model, but its start unchecked.
     fn at_rest(structure: Structure) -> Result<Self, CaseError> {
-        let (mut rest, held) = match &structure.afloat {
+        let (mut rest, modes_on_taut_lines) = match &structure.afloat {
             Some(afloat) => rest_afloat(&structure, afloat)?,
             None => (equilibrium(&structure)?, Vec::new()),
         };
-        let model = model_at_rest(&structure, &rest)?;
+        let model = model_about_rest(&structure, &rest)?;
         if structure.afloat.is_some() {
-            rest.share_evenly(&model);
+            rest.distribute_by_least_squares(&model);
         }
         let mut prepared = Self {
-            held,
+            modes_on_taut_lines,
             ..Self::starting(structure, rest, model)
         };
         if prepared.rest.rests {
-            prepared.share_by_stiffness();
+            prepared.distribute_by_stiffness();
         }
         Ok(prepared)
     }
 
     /// Takes the tensions at rest from the stiffness of the lines if that is known and lines that
     /// do not stretch would distribute the load differently.
-    fn share_by_stiffness(&mut self) {
-        let sprung = undamped(self, 1.0).and_then(|springs| self.on_springs(&springs));
-        let Ok(sprung) = sprung else {
+    fn distribute_by_stiffness(&mut self) {
+        let elastic_case =
+            undamped(self, 1.0).and_then(|springs| self.with_elastic_lines(&springs));
+        let Ok(elastic_case) = elastic_case else {
             return;
         };
-        let by_stiffness = sprung.rest.tension_n;
+        let by_stiffness = elastic_case.rest.tension_n;
         let rigid = &self.rest.tension_n;
-        if shared_otherwise(&self.structure, [rigid, &by_stiffness]) {
-            self.rest.shared = Some(Shared {
-                unstretched_n: std::mem::replace(&mut self.rest.tension_n, by_stiffness),
-                place_m: sprung.rest.place_m,
+        if distributes_differently(&self.structure, [rigid, &by_stiffness]) {
+            self.rest.by_stiffness = Some(DistributionByStiffness {
+                inextensible_n: std::mem::replace(&mut self.rest.tension_n, by_stiffness),
+                place_m: elastic_case.rest.place_m,
             });
         } else if differ(rigid, &by_stiffness, [1.0; 2]) {
-            self.rest.relaxed_n = Some(by_stiffness);
+            self.rest.elastic_tension_n = Some(by_stiffness);
         }
     }
 
@@ -107,7 +108,7 @@ impl Prepared {
             structure,
             rest,
             model,
-            held: Vec::new(),
+            modes_on_taut_lines: Vec::new(),
             start,
         }
     }
@@ -122,7 +123,7 @@ impl Prepared {
             ..self.structure.clone()
         };
         Ok(Self {
-            model: model_at_rest(&structure, &self.rest)?,
+            model: model_about_rest(&structure, &self.rest)?,
             structure,
             ..self.clone()
         })
@@ -141,9 +142,10 @@ impl Prepared {
     /// The motion at its start, in waves `height` times as high.
     ///
     /// # Errors
-    /// A [`CaseError`] on the start, which [`Prepared::new`] has excluded.
+    /// A [`CaseError`] on the start, which [`ModelAtRest::new`] has excluded.
     pub fn begin(&self, height: f64) -> Result<Simulation, CaseError> {
-        self.simulation(height).map_err(|error| self.explain(error))
+        self.simulation(height)
+            .map_err(|error| self.start_error(error))
     }
 
     fn simulation(&self, height: f64) -> Result<Simulation, StartError> {
@@ -167,32 +169,33 @@ impl Prepared {
 
     /// Facts about a floating body besides its motion, each a label and its text; empty for a
     /// submerged one.
-    pub fn words_afloat(&self) -> Vec<(&'static str, String)> {
+    pub fn rows_afloat(&self) -> Vec<(&'static str, String)> {
         let Some(afloat) = &self.structure.afloat else {
             return Vec::new();
         };
         let report = &afloat.report;
         let mut rows = vec![(
             "afloat",
-            format!("{}; memory: {}", report.name, report.memory_words()),
+            format!("{}; memory: {}", report.name, report.memory_summary()),
         )];
         if let Ok(floating) = &report.floating {
-            let free = periods_in_words(&floating.natural, &floating.modes);
+            let free = periods_summary(&floating.natural, &floating.modes);
             rows.push((
                 "periods",
                 format!("without lines, about the body's centre: {free}"),
             ));
         }
-        if !self.held.is_empty() {
-            let (natural, modes): (Vec<_>, Vec<_>) = self.held.iter().cloned().unzip();
-            let held = periods_in_words(&natural, &modes);
+        if !self.modes_on_taut_lines.is_empty() {
+            let (natural, modes): (Vec<_>, Vec<_>) =
+                self.modes_on_taut_lines.iter().cloned().unzip();
+            let held = periods_summary(&natural, &modes);
             rows.push(("taut", format!("while the lines stay taut: {held}")));
         }
-        let stretched = self.on_lines_that_stretch();
+        let stretched = self.modes_on_elastic_lines();
         if !stretched.is_empty() {
             let (natural, modes): (Vec<_>, Vec<_>) = stretched.into_iter().unzip();
-            let words = periods_in_words(&natural, &modes);
-            rows.push(("elastic", format!("with elastic lines: {words}")));
+            let text = periods_summary(&natural, &modes);
+            rows.push(("elastic", format!("with elastic lines: {text}")));
         }
         rows
     }
@@ -202,11 +205,11 @@ impl Prepared {
         self.start
     }
 
-    fn explain(&self, error: StartError) -> CaseError {
+    fn start_error(&self, error: StartError) -> CaseError {
         if self.structure.start_m.is_none() && matches!(error, StartError::BeyondLimit { .. }) {
             let allowed = "a load under which the body rests above the floor, turned by less than 90 \
                            degrees";
-            if let Some(error) = load_at_fault(&self.structure, allowed) {
+            if let Some(error) = steady_load_error(&self.structure, allowed) {
                 return error;
             }
         }
@@ -228,9 +231,9 @@ impl Prepared {
 }
 
 /// Whether the distribution of the load at rest differs from that on inextensible lines,
-/// whose tensions come first. For a floating body the water carries the load that stretching lines
+/// whose tensions come first. For a floating body the water carries the load that elastic lines
 /// lose, so that the parts of the lines' total load are compared.
-fn shared_otherwise(structure: &Structure, tensions_n: [&[f64]; 2]) -> bool {
+fn distributes_differently(structure: &Structure, tensions_n: [&[f64]; 2]) -> bool {
     let units = match structure.afloat {
         Some(_) => tensions_n.map(|pulls| pulls.iter().sum::<f64>().max(f64::MIN_POSITIVE)),
         None => [1.0; 2],
@@ -243,17 +246,17 @@ fn differ(rigid: &[f64], by_stiffness: &[f64], [one, other]: [f64; 2]) -> bool {
     let largest = by_stiffness
         .iter()
         .fold(0.0_f64, |most, pull| most.max(*pull));
-    let apart = |(a, b): (&f64, &f64)| (a / one - b / other).abs() > SHARED * largest / other;
+    let apart = |(a, b): (&f64, &f64)| (a / one - b / other).abs() > DIFFERENT_BY * largest / other;
     rigid.iter().zip(by_stiffness).any(apart)
 }
 
 /// The model about the position of rest. For a turned body the lengths of the lines give their
 /// gaps; the lines that hold an upright one are exactly taut there.
-fn model_at_rest(structure: &Structure, rest: &Equilibrium) -> Result<Model, CaseError> {
+fn model_about_rest(structure: &Structure, rest: &Equilibrium) -> Result<Model, CaseError> {
     if let Some(afloat) = &structure.afloat {
         return model(structure, afloat);
     }
-    let upright = rest.theta_rad.abs() < UPRIGHT;
+    let upright = rest.theta_rad.abs() < UPRIGHT_RAD;
     let taut: &[usize] = if upright { &rest.taut } else { &[] };
     Ok(Model::about(structure, rest.place_m, taut))
 }

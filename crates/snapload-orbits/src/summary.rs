@@ -2,11 +2,11 @@
 
 use crate::attraction::Attraction;
 use crate::basin::{Basin, Window};
-use crate::diagram::At;
+use crate::diagram::DiagramPoint;
 use crate::erosion::{Erosion, KNEE, decided_part};
 use crate::orbit::Orbit;
 use crate::section::Section;
-use crate::sequence::{Sequence, words};
+use crate::sequence::{Sequence, symbol_text};
 use snapload::analysis::START_KEYS;
 use std::fmt::Write;
 
@@ -15,13 +15,13 @@ const NO_START: &str =
     "each start of the window is beyond a cable or a limit; choose another window";
 
 /// An orbit.
-pub fn orbit_in_words(orbit: &Orbit) -> String {
+pub fn orbit_summary(orbit: &Orbit) -> String {
     let stability = orbit.stability().name();
     let mut text = format!(
         "Orbit     {stability}, of {} (t = {:.6})\nEvents    {}\n",
         of_the_forcing(orbit.periods as usize),
         orbit.length,
-        events_in_words(&orbit.lap.sequence)
+        events_text(&orbit.lap.sequence)
     );
     if orbit.smallest_periods < orbit.periods {
         let _ = writeln!(
@@ -54,7 +54,7 @@ pub fn orbit_in_words(orbit: &Orbit) -> String {
             text,
             "Proved    to exist within {:.1e} of the section, with no other orbit within {:.1e}{}",
             proved.error_of(&orbit.z),
-            proved.alone_within,
+            proved.unique_within,
             match proved.is_prime() {
                 true => "",
                 false => "; fewer periods are not ruled out",
@@ -78,7 +78,7 @@ fn of_the_forcing(n: usize) -> String {
 }
 
 /// The events of a sequence in whole words, where the symbol abbreviates them.
-fn events_in_words(sequence: &Sequence) -> String {
+fn events_text(sequence: &Sequence) -> String {
     let event = |word: String| match word.split_once(' ') {
         None => format!("snap of cable {word}"),
         Some((what, cable)) => format!("{what} of cable {cable}"),
@@ -91,7 +91,7 @@ fn events_in_words(sequence: &Sequence) -> String {
 }
 
 /// An exponent with its standard error, which is rounded up so that the accuracy is not overstated.
-pub(crate) fn exponent_in_words([mean, error]: [f64; 2]) -> String {
+pub(crate) fn exponent_text([mean, error]: [f64; 2]) -> String {
     let known = (error * 1e4).ceil().max(1.0) / 1e4;
     match (mean.is_finite(), error.is_finite()) {
         // Adding 0 makes 0 of -0.
@@ -102,9 +102,9 @@ pub(crate) fn exponent_in_words([mean, error]: [f64; 2]) -> String {
 }
 
 /// The exponents of a section in a line.
-fn exponents_in_words(exponents: &[[f64; 2]]) -> String {
+fn exponents_text(exponents: &[[f64; 2]]) -> String {
     let left = exponents.iter().filter(|[mean, _]| mean.is_finite());
-    let mut all: Vec<String> = left.map(|both| exponent_in_words(*both)).collect();
+    let mut all: Vec<String> = left.map(|both| exponent_text(*both)).collect();
     let closed = exponents.len() - all.len();
     if closed > 0 {
         all.push(format!("{closed} of -inf (directions closed by contact)"));
@@ -114,7 +114,7 @@ fn exponents_in_words(exponents: &[[f64; 2]]) -> String {
 
 /// A message if a motion stopped before the first point of its section; it continues "the motion of
 /// this start".
-pub fn without_points_in_words(section: &Section) -> Option<String> {
+pub fn without_points_summary(section: &Section) -> Option<String> {
     let stop = section.stop.filter(|_| section.points.is_empty())?;
     Some(format!(
         "stops at t = {:.4}: {}. That is before the first point of the section, which comes after {}",
@@ -125,9 +125,9 @@ pub fn without_points_in_words(section: &Section) -> Option<String> {
 }
 
 /// A section.
-pub fn section_in_words(section: &Section) -> String {
+pub fn section_summary(section: &Section) -> String {
     let mut text = String::new();
-    if let Some(why) = without_points_in_words(section) {
+    if let Some(why) = without_points_summary(section) {
         return format!("Stopped   the motion from this start {why}\n");
     }
     if let Some(stop) = section.stop {
@@ -149,7 +149,7 @@ pub fn section_in_words(section: &Section) -> String {
         ),
     };
     if !section.exponents.is_empty() {
-        let all = exponents_in_words(&section.exponents);
+        let all = exponents_text(&section.exponents);
         let _ = writeln!(text, "Exponents per unit of time: {all}");
     }
     if let Some(kept) = &section.impacts {
@@ -168,7 +168,7 @@ pub fn section_in_words(section: &Section) -> String {
 }
 
 /// A diagram.
-pub fn diagram_in_words(key: &str, found: &[At]) -> String {
+pub fn diagram_summary(key: &str, found: &[DiagramPoint]) -> String {
     let mut text = format!("{key:<12} period  snaps    exponent\n");
     for at in found {
         let period = at.period.map_or("none".to_owned(), |n| n.to_string());
@@ -176,7 +176,7 @@ pub fn diagram_in_words(key: &str, found: &[At]) -> String {
             .snaps()
             .map_or("-".to_owned(), |snaps| format!("{snaps:.3}"));
         let exponent = at.section.exponents.first();
-        let exponent = exponent.map_or("-".to_owned(), |both| exponent_in_words(*both));
+        let exponent = exponent.map_or("-".to_owned(), |both| exponent_text(*both));
         let value = six_digits(at.value);
         let _ = match at.stop() {
             Some(stop) => writeln!(text, "{value:<12} {}", stop.label()),
@@ -187,7 +187,7 @@ pub fn diagram_in_words(key: &str, found: &[At]) -> String {
 }
 
 /// A safe basin.
-pub fn basin_in_words(basin: &Basin) -> String {
+pub fn basin_summary(basin: &Basin) -> String {
     let m = &basin.measures;
     if m.legal == 0 {
         return format!("Safe      none, as no cell is legal: {NO_START}\n");
@@ -203,7 +203,7 @@ pub fn basin_in_words(basin: &Basin) -> String {
     {
         let _ = writeln!(text, "          {count} {}", stop.label());
     }
-    if basin.looked_beside {
+    if basin.neighbours_run {
         let _ = writeln!(text, "Undecided {}", m.undecided);
     }
     if let Some(lim) = m.lim {
@@ -212,7 +212,7 @@ pub fn basin_in_words(basin: &Basin) -> String {
             "Nearest   unsafe start {lim:.4} from the equilibrium (LIM)"
         );
     }
-    text += &beside_the_equilibrium(&basin.window);
+    text += &distances_undefined_text(&basin.window);
     if let Some(radius) = m.integrity_factor {
         let _ = writeln!(
             text,
@@ -229,18 +229,18 @@ pub fn basin_in_words(basin: &Basin) -> String {
 }
 
 /// Why a plane of starts has no distances from the equilibrium; nothing where it has them.
-fn beside_the_equilibrium(window: &Window) -> String {
-    let away = window.away_from_equilibrium();
-    if !window.are_starts() || away.is_empty() {
+fn distances_undefined_text(window: &Window) -> String {
+    let off = window.keys_off_equilibrium();
+    if !window.are_starts() || off.is_empty() {
         return String::new();
     }
-    let keys = away.iter().map(|(key, value)| format!("{key} = {value}"));
+    let keys = off.iter().map(|(key, value)| format!("{key} = {value}"));
     let keys = keys.collect::<Vec<_>>().join(", ");
     format!("Nearest   undefined (LIM, IIM): the equilibrium is not in this plane, as {keys}\n")
 }
 
 /// An erosion: a row a value, and after an empty line what they come to.
-pub fn erosion_in_words(erosion: &Erosion) -> String {
+pub fn erosion_summary(erosion: &Erosion) -> String {
     let mut text = format!(
         "{:<12} safe     undecided  of decided  nearest  disc\n",
         erosion.key
@@ -250,11 +250,11 @@ pub fn erosion_in_words(erosion: &Erosion) -> String {
         let m = &basin.measures;
         let (lim, disc) = (maybe(m.lim), maybe(m.integrity_factor));
         let safe = maybe((m.legal > 0).then_some(m.gim));
-        let undecided = match basin.looked_beside {
+        let undecided = match basin.neighbours_run {
             true => m.undecided.to_string(),
             false => "-".to_owned(),
         };
-        let decided = maybe(decided_part(m).filter(|_| basin.looked_beside));
+        let decided = maybe(decided_part(m).filter(|_| basin.neighbours_run));
         let value = six_digits(*value);
         let _ = writeln!(
             text,
@@ -277,7 +277,7 @@ pub fn erosion_in_words(erosion: &Erosion) -> String {
         (Some(only), None) => writeln!(text, "Safe      {}", part(only)),
         (None, _) => Ok(()),
     };
-    let _ = writeln!(text, "Knee      {}", knee_in_words(erosion));
+    let _ = writeln!(text, "Knee      {}", knee_text(erosion));
     let mut windows = erosion.points.iter().map(|(_, basin)| &basin.window);
     text += &match windows.next() {
         // The plane moves with the key itself.
@@ -286,10 +286,10 @@ pub fn erosion_in_words(erosion: &Erosion) -> String {
              is not in that plane\n",
             erosion.key
         ),
-        Some(first) => beside_the_equilibrium(first),
+        Some(first) => distances_undefined_text(first),
         None => String::new(),
     };
-    if !erosion.looked_beside() {
+    if !erosion.neighbours_run() {
         text += "Undecided unknown, as neighbours were not run\n";
     }
     text
@@ -302,7 +302,7 @@ fn six_digits(value: f64) -> String {
 }
 
 /// Where the knee is and what it means, or why there is none.
-fn knee_in_words(erosion: &Erosion) -> String {
+fn knee_text(erosion: &Erosion) -> String {
     let key = erosion.key;
     if erosion
         .points
@@ -311,12 +311,12 @@ fn knee_in_words(erosion: &Erosion) -> String {
     {
         return format!("none, as no start is legal at any value: {NO_START}");
     }
-    let (cell, safe) = match erosion.looked_beside() {
+    let (cell, safe) = match erosion.neighbours_run() {
         true => ("decided cell", "safe part of the decided cells"),
         false => ("legal cell", "safe part"),
     };
     let knee = erosion.knee();
-    let told = match (knee, erosion.decided().as_slice()) {
+    let text = match (knee, erosion.decided().as_slice()) {
         (Some(knee), [(first, part), ..]) => {
             let (knee, first) = (six_digits(knee), six_digits(*first));
             format!(
@@ -342,20 +342,20 @@ fn knee_in_words(erosion: &Erosion) -> String {
     match erosion.knee_between() {
         Some([low, high]) if [low, high] != [knee; 2] => {
             let (low, high) = (place(low), place(high));
-            format!("{told}; from {low} to {high}, depending on how undecided cells end")
+            format!("{text}; from {low} to {high}, depending on how undecided cells end")
         }
-        _ => told,
+        _ => text,
     }
 }
 
 /// Basins of attraction.
-pub fn attraction_in_words(found: &Attraction) -> String {
+pub fn attraction_summary(found: &Attraction) -> String {
     let mut text = String::new();
     for (attractor, number) in found.attractors.iter().zip(1..) {
         let symbol = attractor
             .orbit
             .as_ref()
-            .map(|orbit| words(&orbit.lap.sequence));
+            .map(|orbit| symbol_text(&orbit.lap.sequence));
         let _ = writeln!(
             text,
             "Attractor {number}: {} cells, {}, {}",
@@ -365,9 +365,9 @@ pub fn attraction_in_words(found: &Attraction) -> String {
         );
     }
     let others = found
-        .fates
+        .outcomes
         .iter()
-        .filter(|fate| matches!(fate, crate::Fate::Stopped(..)));
+        .filter(|outcome| matches!(outcome, crate::CellOutcome::Stopped(..)));
     let _ = writeln!(text, "Stopped   {} cells", others.count());
     text
 }

@@ -4,7 +4,7 @@ use super::design::{Check, checks};
 use super::outcome::{Outcome, add_slack};
 use crate::options::{STIFFER, check};
 use crate::physics::elastic::{ElasticRun, Spring, run_elastic, springs};
-use crate::physics::prepared::Prepared;
+use crate::physics::model_at_rest::ModelAtRest;
 use crate::physics::snap::{Snap, snaps_of_step};
 use crate::physics::warnings::{Warning, limits_afloat, phase_warning, turning_warning, warnings};
 use snapload::CaseError;
@@ -13,15 +13,15 @@ use std::time::Instant;
 
 /// The same case on both models of a line.
 #[derive(Clone, Debug)]
-pub struct BothModels {
+pub struct ElasticComparison {
     /// Structure, position of rest, model.
-    pub prepared: Prepared,
+    pub prepared: ModelAtRest,
     /// The factor by which the lines' stiffness was multiplied.
     pub stiffer: f64,
     /// The elastic lines.
     pub springs: Vec<Spring>,
     /// The same about its position of rest on these lines.
-    pub sprung: Prepared,
+    pub elastic_case: ModelAtRest,
     /// The motion on them.
     pub elastic: ElasticRun,
     /// Its outcome.
@@ -35,7 +35,7 @@ pub struct BothModels {
 /// A motion on inextensible lines.
 #[derive(Clone, Debug, Default)]
 pub struct Inextensible {
-    /// The snaps, without slow ones and jolts.
+    /// The snaps, without slow ones and impacts while taut.
     pub snaps: Vec<Snap>,
     /// The part of the time in which each line is slack.
     pub slack_fraction: Vec<f64>,
@@ -48,50 +48,50 @@ pub struct Inextensible {
 /// is kept every `every_s` seconds.
 ///
 /// # Errors
-/// A [`CaseError`] unless `stiffer` is of [`STIFFER`], if a line has no stiffness, or the integrator gives up, and
-/// [`Unfinished::Cancelled`].
-pub fn both_models(
-    prepared: Prepared,
+/// A [`CaseError`] unless `stiffer` is of [`STIFFER`], if a line has no stiffness, or the
+/// integrator gives up, and [`Unfinished::Cancelled`].
+pub fn compare_elastic(
+    prepared: ModelAtRest,
     stiffer: f64,
     every_s: f64,
     on_progress: OnProgress,
-) -> Result<BothModels, Unfinished> {
+) -> Result<ElasticComparison, Unfinished> {
     check(&STIFFER, stiffer)?;
     let springs = springs(&prepared, stiffer)?;
     let clock = Instant::now();
-    let sprung = prepared.on_springs(&springs)?;
-    let elastic = run_elastic(&sprung, &springs, every_s, on_progress)?;
+    let elastic_case = prepared.with_elastic_lines(&springs)?;
+    let elastic = run_elastic(&elastic_case, &springs, every_s, on_progress)?;
     let elastic_took_s = clock.elapsed().as_secs_f64();
     let inextensible = match prepared.starts_within_reach() {
         true => Some(Inextensible::of(&prepared)?),
         false => None,
     };
-    Ok(BothModels {
-        outcome: Outcome::of_pulls(&sprung, &elastic),
+    Ok(ElasticComparison {
+        outcome: Outcome::of_pulls(&elastic_case, &elastic),
         prepared,
         stiffer,
         springs,
-        sprung,
+        elastic_case,
         elastic,
         elastic_took_s,
         inextensible,
     })
 }
 
-impl BothModels {
+impl ElasticComparison {
     /// The checks by the rule of the case, of the elastic lines.
     pub fn checks(&self) -> Vec<Check> {
-        checks(&self.sprung, &self.outcome, false)
+        checks(&self.elastic_case, &self.outcome, false)
     }
 
     /// Rules of thumb that the case violates, except those that are decided by elastic lines.
     pub fn warnings(&self) -> Vec<Warning> {
-        let (structure, run) = (&self.sprung.structure, &self.elastic);
-        warnings(&self.sprung)
+        let (structure, run) = (&self.elastic_case.structure, &self.elastic);
+        warnings(&self.elastic_case)
             .into_iter()
             .chain(phase_warning(
                 structure,
-                self.sprung.rest.place_m[1],
+                self.elastic_case.rest.place_m[1],
                 run.excursion_m,
             ))
             .chain(turning_warning(structure, run.turned_rad))
@@ -106,14 +106,14 @@ impl BothModels {
 }
 
 impl Inextensible {
-    fn of(prepared: &Prepared) -> Result<Self, CaseError> {
+    fn of(prepared: &ModelAtRest) -> Result<Self, CaseError> {
         let clock = Instant::now();
         let mut simulation = prepared.begin(1.0)?;
         let (mut snaps, mut slack) = (Vec::new(), vec![0.0; prepared.structure.lines.len()]);
         while let Some(step) = simulation.step() {
             add_slack(&mut slack, &step);
             let found = snaps_of_step(prepared, &simulation, &step).into_iter();
-            snaps.extend(found.filter(|snap| snap.counts() && !snap.is_jolt));
+            snaps.extend(found.filter(|snap| snap.counts() && !snap.is_impact_while_taut));
         }
         let end = simulation.time().max(f64::MIN_POSITIVE);
         Ok(Self {

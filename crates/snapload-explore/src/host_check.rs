@@ -74,7 +74,7 @@ impl Names {
 }
 
 /// Refuses requests that are not from our own page, and adds the headers to every answer.
-pub(crate) async fn guard(
+pub(crate) async fn host_check(
     State(names): State<Arc<Names>>,
     request: Request,
     next: Next,

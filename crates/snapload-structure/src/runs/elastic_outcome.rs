@@ -2,7 +2,7 @@
 
 use super::outcome::{LineOutcome, Outcome};
 use crate::physics::elastic::{ElasticRun, run_elastic, springs};
-use crate::physics::prepared::Prepared;
+use crate::physics::model_at_rest::ModelAtRest;
 use crate::physics::snap::SLOWEST_M_S;
 use snapload::Stop;
 use snapload::analysis::{OnProgress, Unfinished};
@@ -14,21 +14,21 @@ impl Outcome {
     /// # Errors
     /// A [`snapload::CaseError`] if a line has no stiffness or the body rests nowhere on them, and
     /// [`Unfinished::Cancelled`].
-    pub fn on_springs(
-        prepared: &Prepared,
+    pub fn with_elastic_lines(
+        prepared: &ModelAtRest,
         on_progress: OnProgress,
-    ) -> Result<(Prepared, Self), Unfinished> {
+    ) -> Result<(ModelAtRest, Self), Unfinished> {
         let springs = springs(prepared, 1.0)?;
-        let sprung = prepared.on_springs(&springs)?;
-        let run = run_elastic(&sprung, &springs, f64::INFINITY, on_progress)?;
-        let outcome = Self::of_pulls(&sprung, &run);
-        Ok((sprung, outcome))
+        let elastic_case = prepared.with_elastic_lines(&springs)?;
+        let run = run_elastic(&elastic_case, &springs, f64::INFINITY, on_progress)?;
+        let outcome = Self::of_pulls(&elastic_case, &run);
+        Ok((elastic_case, outcome))
     }
 
     /// The outcome of a motion on elastic lines. A snap is a pull that begins at
     /// [`SLOWEST_M_S`] or more.
-    pub(super) fn of_pulls(sprung: &Prepared, run: &ElasticRun) -> Self {
-        let transient_s = sprung.structure.transient_s;
+    pub(super) fn of_pulls(elastic_case: &ModelAtRest, run: &ElasticRun) -> Self {
+        let transient_s = elastic_case.structure.transient_s;
         let judged = || run.pulls.iter().filter(|pull| pull.peak_s >= transient_s);
         let early = || run.pulls.iter().filter(|pull| pull.peak_s < transient_s);
         let snapping =
@@ -42,9 +42,9 @@ impl Outcome {
             LineOutcome {
                 snaps: speeds().count() as u64,
                 speed_m_s: speeds().fold(0.0, f64::max),
-                jolts: 0,
+                impacts_while_taut: 0,
                 peak_n: Some(run.peaks_n[line]),
-                held_n: run.peaks_n[line],
+                largest_taut_n: run.peaks_n[line],
                 least_n: run.least_n[line],
                 slack_fraction: run.slack_fraction(line),
                 early_n: early()

@@ -1,6 +1,6 @@
 //! The answers in a few lines of text, each with a label.
 
-use super::{Floating, Report, UNDAMPED};
+use super::{Floating, Report, ZERO_DAMPING};
 use crate::coefficients::FREEDOMS;
 use crate::digits::kilo;
 use crate::linear::{Mode, Natural, Peak};
@@ -8,20 +8,20 @@ use crate::memory::{BlockQuality, EntryQuality};
 use std::f64::consts::PI;
 
 /// A body counts as balanced if it floats within this many metres of its position in the file.
-const BALANCED: f64 = 0.01;
+const BALANCED_HEAVE_M: f64 = 0.01;
 
 impl Report {
-    /// Labels with their words, the most important first.
+    /// Rows of a label and a text, the most important first.
     pub fn summary(&self) -> Vec<(String, String)> {
         let mut rows = Vec::new();
-        let mut say = |label: &str, words: String| rows.push((label.to_owned(), words));
+        let mut push_row = |label: &str, message: String| rows.push((label.to_owned(), message));
         let hydro = &self.reading.hydro;
         let [low, high] = hydro.range_rad_s();
         let depth = match hydro.water.depth_m.is_finite() {
             true => format!("{} m deep", hydro.water.depth_m),
             false => "deep".to_owned(),
         };
-        say(
+        push_row(
             "file",
             format!(
                 "{}, {} frequencies from {low:.3} to {high:.3} rad/s, {} direction{}; water of {} \
@@ -35,19 +35,19 @@ impl Report {
                 hydro.reference_m[1],
             ),
         );
-        say("memory", self.memory_words());
+        push_row("memory", self.memory_summary());
         match &self.floating {
-            Ok(floating) => floating.say(&mut say),
-            Err(error) => say("omitted", format!("periods and response: {error}")),
+            Ok(floating) => floating.push_rows(&mut push_row),
+            Err(error) => push_row("omitted", format!("periods and response: {error}")),
         }
         for warning in &self.warnings {
-            say("warning", format!("{}: {}", warning.what, warning.words));
+            push_row("warning", format!("{}: {}", warning.what, warning.message));
         }
         rows
     }
 
     /// How the memory was made and how well it fits.
-    pub fn memory_words(&self) -> String {
+    pub fn memory_summary(&self) -> String {
         let fit = &self.fit;
         let worst =
             |of: fn(&EntryQuality) -> f64| 100.0 * fit.entries.iter().map(of).fold(0.0, f64::max);
@@ -81,32 +81,32 @@ impl Report {
 
 impl Floating {
     /// The responses to waves from either side.
-    fn say_responses(&self, say: &mut impl FnMut(&str, String)) {
+    fn push_response_rows(&self, push_row: &mut impl FnMut(&str, String)) {
         // A mirror-symmetric body responds alike to waves from either side.
-        let mut told: Vec<(String, Vec<&str>)> = Vec::new();
+        let mut rows: Vec<(String, Vec<&str>)> = Vec::new();
         for (index, [response, _]) in self.responses.iter().enumerate() {
             let to = if response.direction > 0.0 {
                 "+x"
             } else {
                 "−x"
             };
-            let words = largest(&self.largest(index));
-            match told.iter_mut().find(|(known, _)| *known == words) {
+            let message = largest(&self.largest(index));
+            match rows.iter_mut().find(|(known, _)| *known == message) {
                 Some((_, directions)) => directions.push(to),
-                None => told.push((words, vec![to])),
+                None => rows.push((message, vec![to])),
             }
         }
-        for (words, directions) in told {
+        for (message, directions) in rows {
             let to = directions.join(" and ");
-            say("response", format!("waves to {to}, largest: {words}"));
+            push_row("response", format!("waves to {to}, largest: {message}"));
         }
     }
 
-    /// The rest of weight, buoyancy and constant forces at the file's position, in words.
-    fn balance_words(&self) -> Option<String> {
+    /// The rest of weight, buoyancy and constant forces at the file's position, as text.
+    fn balance_summary(&self) -> Option<String> {
         let body = &self.body;
         let lift = body.constant_force[1];
-        let lift = (lift.abs() > BALANCED * body.stiffness[(1, 1)].abs()).then(|| {
+        let lift = (lift.abs() > BALANCED_HEAVE_M * body.stiffness[(1, 1)].abs()).then(|| {
             let way = if lift > 0.0 { "lift" } else { "weight" };
             format!("{} kN of {way}", kilo(&lift.abs(), 1))
         });
@@ -126,9 +126,9 @@ impl Floating {
         ))
     }
 
-    fn say(&self, say: &mut impl FnMut(&str, String)) {
+    fn push_rows(&self, push_row: &mut impl FnMut(&str, String)) {
         let body = &self.body;
-        say(
+        push_row(
             "body",
             format!(
                 "{} t, centre of gravity ({}, {}) m, moment of inertia {} t m² about it; stiffness {} kN/m in \
@@ -141,23 +141,23 @@ impl Floating {
                 kilo(&body.stiffness[(2, 2)], 4),
             ),
         );
-        if let Some(words) = self.balance_words() {
-            say("balance", words);
+        if let Some(message) = self.balance_summary() {
+            push_row("balance", message);
         }
-        say("periods", periods_in_words(&self.natural, &self.modes));
-        self.say_responses(say);
+        push_row("periods", periods_summary(&self.natural, &self.modes));
+        self.push_response_rows(push_row);
         if let Some((rest, natural, modes)) = &self.rest {
             let tensions = rest.tension_n.iter().map(|t| kilo(t, 2));
-            let words = format!(
+            let message = format!(
                 "surge {:.4} m, heave {:.4} m, pitch {:.3}°; tensions {} kN",
                 plain(rest.q[0], 1e-4),
                 plain(rest.q[1], 1e-4),
                 plain(rest.q[2].to_degrees(), 1e-3),
                 tensions.collect::<Vec<_>>().join(", "),
             );
-            say("rest", words);
+            push_row("rest", message);
             if !natural.is_empty() {
-                say("held", periods_in_words(natural, modes));
+                push_row("held", periods_summary(natural, modes));
             }
         }
     }
@@ -185,18 +185,18 @@ fn largest(peaks: &[(Peak, Option<f64>); 3]) -> String {
         };
         format!("{} {size} at {:.2} s", FREEDOMS[i], period(peak))
     };
-    let mut words = (0..3).map(of).collect::<Vec<_>>().join(", ");
+    let mut message = (0..3).map(of).collect::<Vec<_>>().join(", ");
     let narrow = (0..3).filter_map(|i| Some((i, peaks[i].1?)));
     let narrow: Vec<(usize, f64)> = narrow.collect();
-    if let Some((_, ratio)) = narrow.iter().find(|(_, ratio)| *ratio > UNDAMPED) {
+    if let Some((_, ratio)) = narrow.iter().find(|(_, ratio)| *ratio > ZERO_DAMPING) {
         let names: Vec<&str> = narrow.iter().map(|(i, _)| FREEDOMS[*i]).collect();
-        words += &format!(
+        message += &format!(
             ". The peak of {} is so narrow that it is only as accurate as the damping, {:.2} % of critical",
             names.join(" and "),
             100.0 * ratio
         );
     }
-    words
+    message
 }
 
 /// A positive number with three digits, which is its accuracy.
@@ -205,8 +205,8 @@ fn three_digits(value: f64) -> String {
     format!("{value:.*}", (2 - before).clamp(0, 9) as usize)
 }
 
-/// Natural periods with their damping, in words.
-pub fn periods_in_words(natural: &[Natural], modes: &[Mode]) -> String {
+/// Natural periods with their damping, as text.
+pub fn periods_summary(natural: &[Natural], modes: &[Mode]) -> String {
     let one = |(natural, mode): (&Natural, &Mode)| {
         // The two differ there, as one uses A at the nearest frequency and the other A(∞).
         let outside = match natural.outside {

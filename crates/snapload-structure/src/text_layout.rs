@@ -3,7 +3,7 @@
 use askama::Template;
 pub(crate) use snapload_hydro::digits::{count, decimals, decimals_for, digits, kilo, tenths};
 
-/// Columns of the text beside a label.
+/// Columns of the text next to a label.
 const WIDTH: usize = 98;
 
 /// The text of a template as one paragraph.
@@ -13,38 +13,38 @@ pub(crate) fn paragraph(template: &impl Template) -> String {
 }
 
 /// The lines of a template; below the first line, those with a bar are a label and its text.
-pub(crate) fn laid_out(template: &impl Template) -> String {
+pub(crate) fn lay_out(template: &impl Template) -> String {
     let text = template.to_string();
     let (heading, rows) = text.split_once('\n').unwrap_or((&text, ""));
     let row = |row: &str| match row.split_once('|') {
-        Some((label, words)) => told(label, words),
+        Some((label, text)) => labelled_row(label, text),
         None => format!("{row}\n"),
     };
     format!("{heading}\n{}", rows.lines().map(row).collect::<String>())
 }
 
 /// A label and its text, wrapped to a readable width.
-pub fn told(label: &str, words: &str) -> String {
-    let mut text = format!("  {label:<10}");
+pub fn labelled_row(label: &str, text: &str) -> String {
+    let mut row = format!("  {label:<10}");
     let mut column = 0;
-    for word in words.split(' ') {
+    for word in text.split(' ') {
         let width = word.chars().count();
         if column > 0 && column + 1 + width > WIDTH {
-            text.push_str("\n            ");
+            row.push_str("\n            ");
             column = 0;
         }
         if column > 0 {
-            text.push(' ');
+            row.push(' ');
             column += 1;
         }
-        text.push_str(word);
+        row.push_str(word);
         column += width;
     }
-    text.push('\n');
-    text
+    row.push('\n');
+    row
 }
 
 /// Kilonewtons of a tension that is not always known.
-pub(crate) fn maybe_kilo(newtons: &Option<f64>) -> String {
+pub(crate) fn kilo_or_not_known(newtons: &Option<f64>) -> String {
     newtons.map_or("not known".to_owned(), |newtons| kilo(&newtons, 0))
 }

@@ -4,12 +4,12 @@
 //! generic and are compiled with the settings of this crate, so that they are fast in a program
 //! that leaves its own code unoptimised.
 
-use crate::branch::{Along, Branch};
+use crate::branch::{Branch, BranchOptions};
 use crate::branch_events::BranchEvent;
-use crate::curve::{Across, Curve};
+use crate::curve::{Curve, CurveOptions};
 use crate::hybrid::{Family, Hybrid, Point};
 use crate::moored::Moored;
-use crate::orbit::{NoOrbit, Orbit, Wanted};
+use crate::orbit::{NoOrbit, Orbit, OrbitRequest};
 use snapload::analysis::{Cancelled, OnProgress};
 
 /// One of many states of a lap.
@@ -31,8 +31,13 @@ impl Moored {
     /// # Errors
     /// As there.
     #[inline(never)]
-    pub fn orbit(&self, at: [f64; 2], start: &Point, wanted: &Wanted) -> Result<Orbit, NoOrbit> {
-        Orbit::find(self, at, start, wanted)
+    pub fn orbit(
+        &self,
+        at: [f64; 2],
+        start: &Point,
+        request: &OrbitRequest,
+    ) -> Result<Orbit, NoOrbit> {
+        Orbit::find(self, at, start, request)
     }
 
     /// [`Branch::of`] an orbit of these systems.
@@ -43,10 +48,10 @@ impl Moored {
     pub fn branch(
         &self,
         orbit: &Orbit,
-        along: &Along,
+        options: &BranchOptions,
         on_progress: OnProgress,
     ) -> Result<Branch, Cancelled> {
-        Branch::of(self, orbit, along, on_progress)
+        Branch::of(self, orbit, options, on_progress)
     }
 
     /// [`Branch::of_doubling`] of these systems.
@@ -57,10 +62,10 @@ impl Moored {
     pub fn branch_of_doubling(
         &self,
         event: &BranchEvent,
-        along: &Along,
+        options: &BranchOptions,
         on_progress: OnProgress,
     ) -> Result<Option<Branch>, Cancelled> {
-        Branch::of_doubling(self, event, along, on_progress)
+        Branch::of_doubling(self, event, options, on_progress)
     }
 
     /// [`Curve::of`] special orbits of these systems.
@@ -71,10 +76,10 @@ impl Moored {
     pub fn curve(
         &self,
         event: &BranchEvent,
-        across: &Across,
+        options: &CurveOptions,
         on_progress: OnProgress,
     ) -> Result<Result<Curve, NoOrbit>, Cancelled> {
-        Curve::of(self, event, across, on_progress)
+        Curve::of(self, event, options, on_progress)
     }
 
     /// States along an orbit by its sequence of events, admissible or not: the lap in about
