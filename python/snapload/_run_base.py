@@ -57,7 +57,7 @@ class BaseRun:
         if self._engine_object is None:
             rerun = self._rerun()
             if json.loads(rerun.head()) != self._head:
-                raise ValueError(f"another version of snapload made this run; {_engine.__version__} computes a different one")
+                raise ValueError(f"another version of snapload made this run; {_engine.__version__} computes another")
             self._engine_object = rerun
         return self._engine_object
 

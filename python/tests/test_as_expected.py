@@ -196,7 +196,7 @@ def test_a_case_is_a_mapping(tmp_path: Path):
         (lambda _: snapload.sweep(snapload.Case(), cases="/no/such.csv"), FileNotFoundError, "no/such"),
         (lambda _: snapload.merge(["/no/such"], "x.parquet"), FileNotFoundError, "no/such"),
         (lambda _: snapload.sweep(snapload.Case(), e=[[0.5, 0.6]]), ValueError, "e = an array of 1 x 2 values"),
-        (lambda path: snapload.sweep(snapload.Case(), out=path / "x.nc"), ValueError, "choose a name that ends in .parquet"),
+        (lambda path: snapload.sweep(snapload.Case(), out=path / "x.nc"), ValueError, "a name that ends in .parquet"),
         (lambda _: snapload.sweep(snapload.Case(), threads=2, client=1), ValueError, "threads are those of this"),
         (lambda _: snapload.sweep(snapload.Case(), seed=2), ValueError, "there are none; add random"),
         (lambda _: snapload.sweep(snapload.Case(), random=4, e=[0.5]), ValueError, "allowed with random: its two ends"),
