@@ -51,7 +51,7 @@ class NoOrbitError(ValueError):
     >>> try:
     ...     snapload.Case(f_o=0.5).orbit()
     ... except snapload.NoOrbitError as error:
-    ...     print(str(error)[:55])
+    ...     print(str(error)[:57])
     no orbit was found: the motion from this start stops at t
     """
 

@@ -127,7 +127,8 @@ def test_a_sea_takes_the_place_of_the_wave(open_structure, command_json, tmp_pat
 
 
 def test_a_note_reports_its_progress(open_structure, tmp_path: Path):
-    page = open_structure(f"{SHORT}&elastic=false&t=0")
+    # Long enough that the page asks more than once during each stage.
+    page = open_structure("run.duration=360&elastic=false&t=0")
     page.evaluate(
         """() => {
             window.messages = [];
