@@ -165,6 +165,10 @@ pub(super) fn multiply(a: Operand, b: Operand, out: &mut [u64]) -> Option<Scale>
 ///
 /// Long division from the topmost limb, by one limb more than is kept. The first digit is 0 or 1,
 /// as both topmost bits are set. If it is 0, the topmost bit of the next one is set.
+///
+/// What is left after the last digit needs no bit of its own. With the limbs as integers, in units
+/// of the last digit, the quotient is A 2^128 / d, and a halfway point h is a multiple of 2^65. So
+/// their difference is a multiple of 2^65 / d, and as d < 2^64 it is zero or more than two units.
 pub(super) fn divide(a: Operand, b: Operand, divisor: u64, out: &mut [u64]) -> Option<Scale> {
     if a.is_zero() {
         out.fill(0);
@@ -183,7 +187,6 @@ pub(super) fn divide(a: Operand, b: Operand, divisor: u64, out: &mut [u64]) -> O
         out[k] = next_digit(k.checked_sub(1).map_or(0, |k| a.limbs[k]));
     }
     let mut below = next_digit(0);
-    below |= u64::from(rest != 0);
     let exponent = a.exponent.checked_sub(b.exponent)?;
     // The divisor is its topmost limb times 2^(64 (n − 1)), and the dividend was extended by one.
     let mut exponent = exponent.checked_sub(64 * n as i64)?;

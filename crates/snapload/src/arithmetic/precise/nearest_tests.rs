@@ -129,6 +129,96 @@ fn same(
     );
 }
 
+/// The quotient by a number of a single limb.
+fn same_quotient(a: &Exact, divisor: &Exact) {
+    // Many more bits than are kept, and one that tells whether there are any more.
+    let scaled = &a.integer << 512usize;
+    let quotient = &scaled / &divisor.integer;
+    let inexact = &quotient * &divisor.integer != scaled;
+    let exact = Exact {
+        integer: (quotient << 1) + UBig::from(u8::from(inexact)),
+        exponent: a.exponent - divisor.exponent - 513,
+        negative: a.negative != divisor.negative,
+    };
+    let by_limb =
+        |a: Operand, b: Operand, out: &mut [u64]| divide(a, b, b.single_limb().expect("one"), out);
+    same(exact, by_limb, [a, divisor]);
+}
+
+/// Numbers whose bits are nearly all zeros or nearly all ones: a power of two, or the number below
+/// it, with some bits flipped at either end.
+fn extreme_numbers() -> Vec<Exact> {
+    let top = UBig::ONE << (BITS - 1);
+    let flips = [0, 1, BITS - 3, BITS - 2];
+    let mut numbers = Vec::new();
+    for chosen in 0..1u32 << flips.len() {
+        let chosen = flips
+            .iter()
+            .enumerate()
+            .filter(|(i, _)| chosen >> i & 1 == 1);
+        let flipped = chosen.fold(UBig::ZERO, |sum, (_, bit)| sum + (UBig::ONE << *bit));
+        let ones = (&top << 1) - UBig::ONE;
+        for integer in [&top + &flipped, ones - flipped] {
+            numbers.push(Exact {
+                integer: integer << SPARE as usize,
+                exponent: 0,
+                negative: false,
+            });
+        }
+    }
+    numbers
+}
+
+/// Results that are halfway between two numbers, or off it by the last of all bits: the smaller
+/// operand has its bits about the lowest ones of the larger one, and far below them.
+#[test]
+fn halfway_cases_are_decided_by_the_last_bit() {
+    let numbers = extreme_numbers();
+    for a in &numbers {
+        for b in &numbers {
+            same(a.product(b), multiply, [a, b]);
+            for shift in 0..=260 {
+                for negative in [false, true] {
+                    let b = Exact {
+                        exponent: -shift,
+                        negative,
+                        ..b.clone()
+                    };
+                    same(a.sum(&b), add, [a, &b]);
+                }
+            }
+        }
+    }
+}
+
+/// Quotients that exceed a halfway point by a part of 2^-64: a · 2^64 = q d + 1 with a q of one bit
+/// more than is kept. It is odd, as the left side is even.
+#[test]
+fn halfway_quotients_are_decided_by_the_remainder() {
+    for k in 0..200u64 {
+        // Odd, with the topmost bit set, and otherwise arbitrary.
+        let d = UBig::from(k.wrapping_mul(0x9e37_79b9_7f4a_7c15) | 1 << 63 | 1);
+        // The inverse of 2^64 modulo d, by halving.
+        let mut a = UBig::ONE;
+        for _ in 0..64 {
+            if &a % UBig::from(2u8) != UBig::ZERO {
+                a += &d;
+            }
+            a >>= 1;
+        }
+        // The same modulo d, with as many bits as are kept.
+        a += &d << (BITS - 64);
+        let quotient = (&a << 64) / &d;
+        assert_eq!((a.bit_len(), quotient.bit_len()), (BITS, BITS + 1));
+        let of = |integer| Exact {
+            integer,
+            exponent: 0,
+            negative: false,
+        };
+        same_quotient(&of(a << SPARE as usize), &of(d << 128));
+    }
+}
+
 proptest! {
     #![proptest_config(ProptestConfig::with_cases(2000))]
 
@@ -151,16 +241,7 @@ proptest! {
         let (exponent, negative) = of_double(b, &mut limbs).expect("finite");
         let top = UBig::from(limbs[2]) << 128;
         let divisor = Exact { integer: top, exponent, negative };
-        // Many more bits than are kept, and one that tells whether there are any more.
-        let scaled = &a.integer << 512usize;
-        let quotient = &scaled / &divisor.integer;
-        let inexact = &quotient * &divisor.integer != scaled;
-        let exact = Exact {
-            integer: (quotient << 1) + UBig::from(u8::from(inexact)),
-            exponent: a.exponent - exponent - 513,
-            negative: a.negative != negative,
-        };
-        same(exact, |a, b, out| divide(a, b, b.single_limb().expect("a double"), out), [&a, &divisor]);
+        same_quotient(&a, &divisor);
     }
 
     #[test]
