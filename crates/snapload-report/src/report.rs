@@ -1,4 +1,4 @@
-//! The shape of a run in JSON. Names and order here are a promise to whoever reads the files.
+//! The shape of a run in JSON. Names and order are a stable interface.
 use crate::motion::MotionRow;
 use crate::{CertificateRow, Certified, OutcomeRow, RunWithTrust, TrustRow};
 use serde::ser::{Error, SerializeSeq};

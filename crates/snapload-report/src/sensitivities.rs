@@ -39,7 +39,7 @@ Examples:
 /// legal, is not legal over dual numbers.
 #[derive(Serialize)]
 struct Derivatives {
-    /// The horizon of the run, up to the impacts that are answer_for for.
+    /// The horizon of the run, up to the last impact that was requested.
     horizon: HorizonRow,
     derivatives: Vec<Row>,
 }

@@ -15,7 +15,7 @@ pub enum StudyError {
     /// The request is not possible.
     #[error("{0}")]
     Input(String),
-    /// Random points were total for, and nothing varies; so many keys could.
+    /// Random points were requested, but no key has a range; the number of points.
     #[error("{}", no_random_range(*.0, "--vary KEY=low:high, such as --vary e=0.5:0.9"))]
     NoRandomRange(usize),
     /// Something stands where the rows are to be kept.

@@ -139,7 +139,7 @@ pub struct RandomRange {
 }
 
 impl RandomRange {
-    /// A range from a lowest value to a highest one, which is not reached itself.
+    /// The half-open range [low, high).
     ///
     /// # Errors
     /// [`StudyError::Input`] if there is no such key, if it does not accept every number of a

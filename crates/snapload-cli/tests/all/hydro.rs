@@ -138,7 +138,8 @@ fn decay_lists_its_swings() {
 }
 
 /// Displacements are from where the body floats: a weight of 98.4 t at an arm of 0.3 m turns it by
-/// 98.4 · 9.81 · 0.3/682.7556 rad. Where a swing is larger than the one before, it is output why.
+/// 98.4 · 9.81 · 0.3/682.7556 rad. Where a swing is larger than the one before,
+/// the output gives the reason.
 #[test]
 fn decay_reports_where_displacements_are_measured_from() {
     let room = room();

@@ -181,7 +181,7 @@ impl Entry {
         let used = |name: &str| place(name, "}") || place(name, ":");
         if let Some(name) = finding.values.keys().find(|name| !used(name)) {
             return Err(format!(
-                "its judge gives `{name}`, which its text does not use"
+                "its check gives `{name}`, which its text does not use"
             ));
         }
         let mut named: Vec<&str> = remarks().map(|(name, _)| &**name).collect();
@@ -189,12 +189,12 @@ impl Entry {
         let undecided = |name: &&&str| !finding.conditions.contains_key(**name);
         if let Some(name) = named.iter().find(undecided) {
             return Err(format!(
-                "a remark depends on `{name}`, which its judge does not decide"
+                "a remark depends on `{name}`, which its check does not decide"
             ));
         }
         match finding.conditions.keys().find(|name| !named.contains(name)) {
             Some(name) => Err(format!(
-                "its judge decides `{name}`, on which no remark depends"
+                "its check decides `{name}`, on which no remark depends"
             )),
             None => Ok(()),
         }
@@ -212,7 +212,7 @@ fn fill(template: &str, values: &BTreeMap<&str, Value>) -> Result<String, String
         let (name, format) = place.split_once(':').unwrap_or((place, ""));
         let value = values
             .get(name)
-            .ok_or_else(|| format!("its judge gives no `{name}`"))?;
+            .ok_or_else(|| format!("its check gives no `{name}`"))?;
         let shown = value
             .show(format)
             .ok_or_else(|| format!("`{name}` can not be shown as `{format}`"))?;
@@ -272,22 +272,22 @@ mod tests {
         let more = finding(Reproduced).value("two", 2_usize);
         assert_eq!(
             refused(more),
-            "its judge gives `two`, which its text does not use"
+            "its check gives `two`, which its text does not use"
         );
         let more = finding(Reproduced).condition("snows", true);
         assert_eq!(
             refused(more),
-            "its judge decides `snows`, on which no remark depends"
+            "its check decides `snows`, on which no remark depends"
         );
         let mut less = finding(Reproduced);
         less.conditions.remove("rains");
         assert_eq!(
             refused(less),
-            "a remark depends on `rains`, which its judge does not decide"
+            "a remark depends on `rains`, which its check does not decide"
         );
         let mut less = finding(Reproduced);
         less.values.remove("holding");
-        assert_eq!(refused(less), "its judge gives no `holding`");
+        assert_eq!(refused(less), "its check gives no `holding`");
         let text = finding(Reproduced).value("all", "two".to_owned());
         assert_eq!(refused(text), "`all` can not be shown as `.1`");
         Ok(())

@@ -91,7 +91,7 @@ pub(super) type Checks<F> = [(&'static str, F)];
 /// A check whose evidence is the material `M`.
 type Check<M> = fn(&M) -> Checked;
 
-/// Asks the checks of a section, which may be in several tables.
+/// Runs the checks of a section, which may be in several tables.
 pub(super) fn run_checks<M: ?Sized>(
     tables: &[&Checks<Check<M>>],
     material: &M,

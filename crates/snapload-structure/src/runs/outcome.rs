@@ -56,8 +56,8 @@ pub struct Outcome {
     pub end_s: f64,
     /// The largest rotation on either side \[rad\].
     pub turned_rad: f64,
-    /// The largest horizontal distance from the position of rest at the ends of its intervals of
-    /// motion \[m\].
+    /// The largest horizontal distance from the position of rest at the ends of the segments of
+    /// its motion \[m\].
     pub excursion_m: f64,
     /// The extreme positions of a floating body relative to the still water; none for a submerged
     /// one.

@@ -80,7 +80,7 @@ impl CaseError {
         Self::new(Fault::UnknownCase, code, "", nearest.join(", "))
     }
 
-    /// A text that can not be read; `reason` is the reason.
+    /// A text that can not be read, and why.
     pub fn syntax(reason: impl Into<String>) -> Self {
         let mut error = Self::new(Fault::Syntax, "", "", String::new());
         error.value = reason.into();

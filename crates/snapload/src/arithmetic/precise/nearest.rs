@@ -1,4 +1,4 @@
-//! Sums, products, quotients by doubles and comparisons of significands of fixed size, rounded to
+//! Sums, products, quotients by one limb and comparisons of significands of fixed size, rounded to
 //! nearest.
 //!
 //! A significand is an array of `u64` limbs, the least significant one first. Its topmost bit is
@@ -10,10 +10,12 @@
 
 use std::cmp::Ordering;
 
-/// The bits of the lowest limb that are always zero.
+/// The bits of the lowest limb that are always zero. The library's numbers, which have as many bits
+/// as are kept here, fit with one more, and [`divide`] needs one.
 pub(super) const SPARE: u32 = 2;
+const _: () = assert!(SPARE >= 1);
 
-/// What a significand lacks to be a number: its power of two, and its sign.
+/// The exponent of a number, and whether it is negative.
 pub(super) type Scale = (i64, bool);
 
 /// A number whose significand is borrowed.
@@ -36,7 +38,7 @@ impl Operand<'_> {
     }
 
     /// Compares without the signs. Significands that are not zero have their topmost bits set, so
-    /// that the exponents decide.
+    /// that the exponents decide first, and the limbs if they are equal.
     fn compare_magnitude(self, other: Self) -> Ordering {
         let by_zero = (!self.is_zero()).cmp(&!other.is_zero());
         let by_limbs = || self.limbs.iter().rev().cmp(other.limbs.iter().rev());
@@ -79,7 +81,7 @@ pub(super) fn compare(a: Operand, b: Operand) -> Ordering {
     sign(a).cmp(&sign(b)).then(magnitudes)
 }
 
-/// a + b, with the significand in `out`; none if the exponent is out of range.
+/// a + b, with the significand in `out`; none if the exponent is out of range, or close to it.
 ///
 /// Let a be the larger one in magnitude. Below its significand one more limb is computed, and what
 /// b has below that limb only sets the lowest bit. A difference with b shifted by two bits or more
@@ -124,10 +126,10 @@ pub(super) fn add(a: Operand, b: Operand, out: &mut [u64]) -> Option<Scale> {
     }
 }
 
-/// a · b, with the significand in `out`; none if the exponent is out of range.
+/// a · b, with the significand in `out`; none if the exponent is out of range, or close to it.
 ///
 /// The product is computed column by column from the lowest one. Of the columns below the upper
-/// half, the highest is kept for rounding, and the others only tell whether a bit is set.
+/// half, the highest is kept for rounding; of the others it only matters whether a bit is set.
 pub(super) fn multiply(a: Operand, b: Operand, out: &mut [u64]) -> Option<Scale> {
     if a.is_zero() || b.is_zero() {
         out.fill(0);
@@ -161,14 +163,15 @@ pub(super) fn multiply(a: Operand, b: Operand, out: &mut [u64]) -> Option<Scale>
 }
 
 /// a / b with a divisor of a single limb `divisor`, the significand in `out`; none if the exponent
-/// is out of range.
+/// is out of range, or close to it.
 ///
 /// Long division from the topmost limb, by one limb more than is kept. The first digit is 0 or 1,
 /// as both topmost bits are set. If it is 0, the topmost bit of the next one is set.
 ///
 /// What is left after the last digit needs no bit of its own. With the limbs as integers, in units
-/// of the last digit, the quotient is A 2^128 / d, and a halfway point h is a multiple of 2^65. So
-/// their difference is a multiple of 2^65 / d, and as d < 2^64 it is zero or more than two units.
+/// of the last digit, the quotient is A 2^128 / d, and a halfway point h is a multiple of 2^(63 +
+/// SPARE), at least of 2^64. So their difference is a multiple of 2^64 / d, and as d < 2^64 it is
+/// zero or more than one unit.
 pub(super) fn divide(a: Operand, b: Operand, divisor: u64, out: &mut [u64]) -> Option<Scale> {
     if a.is_zero() {
         out.fill(0);
@@ -176,10 +179,10 @@ pub(super) fn divide(a: Operand, b: Operand, divisor: u64, out: &mut [u64]) -> O
     }
     let n = out.len();
     let divisor = u128::from(divisor);
-    let mut rest = 0;
+    let mut remainder = 0;
     let mut next_digit = |limb: u64| {
-        let dividend = (rest << 64) | u128::from(limb);
-        rest = dividend % divisor;
+        let dividend = (remainder << 64) | u128::from(limb);
+        remainder = dividend % divisor;
         (dividend / divisor) as u64
     };
     let first = next_digit(a.limbs[n - 1]);
@@ -211,14 +214,10 @@ pub(super) fn of_double(value: f64, out: &mut [u64]) -> Option<Scale> {
         0 => (fraction, -1074),
         _ => (fraction | (1 << 52), field as i64 - 1075),
     };
-    let below_top = out.len() - 1;
-    out[below_top] = integer;
-    normalise(
-        out,
-        0,
-        power - 64 * below_top as i64,
-        value.is_sign_negative(),
-    )
+    let top = out.len() - 1;
+    out.fill(0);
+    out[top] = integer;
+    normalise(out, 0, power - 64 * top as i64, value.is_sign_negative())
 }
 
 fn shift_down_by_one(limbs: &mut [u64]) {

@@ -191,31 +191,37 @@ fn halfway_cases_are_decided_by_the_last_bit() {
     }
 }
 
-/// Quotients that exceed a halfway point by a part of 2^-64: a · 2^64 = q d + 1 with a q of one bit
-/// more than is kept. It is odd, as the left side is even.
+/// Quotients next to a halfway point, by a part of 2^-64 above it or below it: a · 2^k = q d ± 1 with
+/// a q of one bit more than is kept. It is odd, as the left side is even. The dividend's first limb
+/// is at least the divisor, or below it.
 #[test]
 fn halfway_quotients_are_decided_by_the_remainder() {
-    for k in 0..200u64 {
-        // Odd, with the topmost bit set, and otherwise arbitrary.
-        let d = UBig::from(k.wrapping_mul(0x9e37_79b9_7f4a_7c15) | 1 << 63 | 1);
-        // The inverse of 2^64 modulo d, by halving.
-        let mut a = UBig::ONE;
-        for _ in 0..64 {
-            if &a % UBig::from(2u8) != UBig::ZERO {
-                a += &d;
+    let (bits, quarter) = (SPARE as usize, UBig::ONE << (BITS - 66));
+    for (k, quarters) in [(64, 4u8), (65, 3)] {
+        for seed in 0..200u64 {
+            // Odd, with the two topmost bits set, and otherwise arbitrary.
+            let d = UBig::from(seed.wrapping_mul(0x9e37_79b9_7f4a_7c15) | 3 << 62 | 1);
+            // The inverse of 2^k modulo d, by halving.
+            let mut inverse = UBig::ONE;
+            for _ in 0..k {
+                if &inverse % UBig::from(2u8) != UBig::ZERO {
+                    inverse += &d;
+                }
+                inverse >>= 1;
             }
-            a >>= 1;
+            for (residue, above) in [(inverse.clone(), true), (&d - &inverse, false)] {
+                // The same modulo d, with as many bits as are kept.
+                let a = residue + &d * &quarter * UBig::from(quarters);
+                let nearest = (&a << k) + if above { UBig::ZERO } else { UBig::ONE };
+                assert_eq!((a.bit_len(), (nearest / &d).bit_len()), (BITS, BITS + 1));
+                let of = |integer| Exact {
+                    integer,
+                    exponent: 0,
+                    negative: false,
+                };
+                same_quotient(&of(a << bits), &of(&d << 128));
+            }
         }
-        // The same modulo d, with as many bits as are kept.
-        a += &d << (BITS - 64);
-        let quotient = (&a << 64) / &d;
-        assert_eq!((a.bit_len(), quotient.bit_len()), (BITS, BITS + 1));
-        let of = |integer| Exact {
-            integer,
-            exponent: 0,
-            negative: false,
-        };
-        same_quotient(&of(a << SPARE as usize), &of(d << 128));
     }
 }
 

@@ -4,9 +4,10 @@
 //!
 //! A result is rounded to nearest, to a number of bits; there is none where it has no value.
 
-use super::nearest::{self, Operand, Scale};
+use super::nearest::{self, Operand, SPARE, Scale};
 use dashu_float::round::mode::HalfEven;
 use dashu_float::{Context, FBig, FpError, Repr};
+use dashu_int::ops::BitTest;
 use dashu_int::{IBig, Sign, UBig};
 
 /// A number in the library's representation.
@@ -44,11 +45,12 @@ pub(super) fn integer(value: i64) -> Number {
     Repr::new(IBig::from(value), 0)
 }
 
-/// Writes the significand of a number that has at most one bit more than it, as the library's sums
-/// may have. None if the number has no value.
+/// Writes the significand of a number, which the library has rounded to as many bits as are kept.
+/// None if the number has no value.
 pub(super) fn write(number: &Number, limbs: &mut [u64]) -> Option<Scale> {
     let (sign, magnitude) = number.significand().clone().into_parts();
     let bytes = magnitude.to_le_bytes();
+    debug_assert!(magnitude.bit_len() <= 64 * limbs.len() - SPARE as usize);
     if number.is_infinite() || bytes.len() > 8 * limbs.len() {
         return None;
     }
