@@ -12,6 +12,16 @@ pub(crate) fn paragraph(template: &impl Template) -> String {
     text.split_whitespace().collect::<Vec<_>>().join(" ")
 }
 
+/// A ratio that is judged by whether it reaches 1, with two decimals; one next to 1 with as many as
+/// show on which side of it it is.
+pub(crate) fn ratio(value: &f64) -> String {
+    let written = |decimals: usize| format!("{value:.decimals$}");
+    let is_below = |text: &String| text.parse().is_ok_and(|number: f64| number < 1.0);
+    let mut all = (2..=6).map(written);
+    let shown = all.find(|text| is_below(text) == (*value < 1.0));
+    shown.unwrap_or_else(|| written(2))
+}
+
 /// The lines of a template; below the first line, those with a bar are a label and its text.
 pub(crate) fn lay_out(template: &impl Template) -> String {
     let text = template.to_string();

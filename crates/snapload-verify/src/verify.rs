@@ -125,7 +125,7 @@ fn with_words<const WORDS: usize>(
     }
     Ok(Verification {
         digits: Precise::<WORDS>::DIGITS,
-        digits_left: digits_left::<WORDS>(&trust, &simulation),
+        digits_left: decimals.digits_left(impacts.len(), simulation.time().to_f64()),
         run,
         trust,
         differences,
@@ -155,30 +155,43 @@ fn ends_otherwise<T: Real>(
 struct Decimals<'a> {
     trust: &'a Trust,
     digits: f64,
+    /// The digits that are lost.
     lost: f64,
+    /// The digits that the ordinary run loses per unit of time, up to the last impact at which its
+    /// error is known.
+    rate: f64,
 }
 
 impl<'a> Decimals<'a> {
     fn of(trust: &'a Trust, digits: u32) -> Self {
-        let digits = f64::from(digits);
-        let lost = 0.0;
         Self {
             trust,
-            digits,
-            lost,
+            digits: f64::from(digits),
+            lost: 0.0,
+            rate: 0.0,
         }
     }
 
-    /// The number at an impact, by its index: the digits that the ordinary run has lost up to there
-    /// are also lost in the run with many digits; after the ordinary one has lost all, the mean
-    /// growth is used.
-    fn at(&mut self, impact: usize, t: f64) -> usize {
+    /// The digits that remain at an impact, by its index, or at a time after the last one: those
+    /// that the ordinary run has lost up to there are also lost in the run with many digits. After
+    /// the ordinary one has lost all, errors grow as fast as they did until then, or by its mean
+    /// exponent if that is larger.
+    fn digits_left(&mut self, impact: usize, t: f64) -> f64 {
         let errors = &self.trust.errors;
         let known = errors.get(impact).filter(|error| error.is_finite());
-        let growth = known.map_or(0.0, |error| (error / f64::EPSILON).log10());
-        let mean = self.trust.exponents[0] * t * std::f64::consts::LOG10_E;
-        self.lost = self.lost.max(growth).max(mean);
-        (self.digits - self.lost - 2.0).max(0.0) as usize
+        let known = known.map(|error| (error / f64::EPSILON).log10());
+        if let Some(growth) = known.filter(|_| t > 0.0) {
+            self.rate = growth / t;
+        }
+        let mean = self.trust.exponents[0] * std::f64::consts::LOG10_E;
+        let growth = known.unwrap_or(self.rate * t);
+        self.lost = self.lost.max(growth).max(mean * t);
+        self.digits - self.lost
+    }
+
+    /// The number of decimals at an impact.
+    fn at(&mut self, impact: usize, t: f64) -> usize {
+        (self.digits_left(impact, t) - 2.0).max(0.0) as usize
     }
 }
 
@@ -191,12 +204,6 @@ impl ExactImpact {
             impulse: impact.impulse.to_decimals(decimals),
         }
     }
-}
-
-/// The digits that remain at the end after the growth of errors.
-fn digits_left<const WORDS: usize>(trust: &Trust, simulation: &Simulation<Precise<WORDS>>) -> f64 {
-    let growth = trust.exponents[0].max(0.0) * simulation.time().to_f64();
-    f64::from(Precise::<WORDS>::DIGITS) - growth * std::f64::consts::LOG10_E
 }
 
 fn difference<T: Real>(ours: &Impact, exact: &Impact<T>) -> f64 {

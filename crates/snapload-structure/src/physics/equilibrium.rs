@@ -84,14 +84,7 @@ pub fn equilibrium(structure: &Structure) -> Result<Equilibrium, CaseError> {
         return Err(no_equilibrium_error(structure));
     }
     let place_m = model.scales.to_si([best.x, best.y]);
-    let top = place_m[1] + structure.body.half_height_m(best.theta);
-    if top > 0.0 {
-        let allowed = format!(
-            "lines that hold the body under water; with these it rises until its top is {top:.2} m above the still water"
-        );
-        return Err(CaseError::value("line.length", lengths(structure), allowed)
-            .with_hint("shorten the lines, or add lines"));
-    }
+    check_submerged(structure, place_m, best.theta)?;
     Ok(Equilibrium {
         place_m,
         theta_rad: -best.theta,
@@ -186,6 +179,23 @@ fn no_equilibrium_error(structure: &Structure) -> CaseError {
         "check anchors, fairleads and lengths: every line must reach, and together they must \
          hold the body without turning it over",
     )
+}
+
+/// A body without hydrostatics has to rest under water, on inextensible lines and on elastic ones.
+pub(super) fn check_submerged(
+    structure: &Structure,
+    place_m: [f64; 2],
+    theta_rad: f64,
+) -> Result<(), CaseError> {
+    let top = place_m[1] + structure.body.half_height_m(theta_rad);
+    if top <= 0.0 {
+        return Ok(());
+    }
+    let allowed = format!(
+        "lines that hold the body under water; with these it rises until its top is {top:.2} m above the still water"
+    );
+    Err(CaseError::value("line.length", lengths(structure), allowed)
+        .with_hint("shorten the lines, add lines, or use stiffer ones"))
 }
 
 fn lengths(structure: &Structure) -> String {

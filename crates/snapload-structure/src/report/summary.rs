@@ -16,7 +16,7 @@ use crate::runs::outcome::Outcome;
 use crate::runs::quantile::{quantile, slack_part};
 use crate::runs::seas::{Lines, Seas};
 use crate::structure::{Structure, Water};
-use crate::text_layout::{count, decimals, kilo, lay_out, tenths};
+use crate::text_layout::{count, decimals, kilo, lay_out, ratio, tenths};
 use askama::Template;
 
 /// The number of pulls and snaps that are listed; JSON has them all.
@@ -101,7 +101,7 @@ impl Assessment {
         let rows = self.by_restitution();
         let utilisations: Vec<_> = rows.iter().map(|row| row.largest_utilisation).collect();
         let speeds = rows.iter().map(|row| row.fastest_snap_m_s).collect();
-        let (what, values) = match utilisations.iter().all(Option::is_some) {
+        let (what, values) = match utilisations.iter().any(Option::is_some) {
             true => ("largest utilisation", utilisations),
             false => ("fastest snap (m/s)", speeds),
         };
@@ -111,7 +111,7 @@ impl Assessment {
         let restitutions = rows.iter().map(|row| Some(row.restitution)).collect();
         let [values, restitutions] = [values, restitutions].map(|numbers: Vec<Option<f64>>| {
             let one = |number: Option<f64>| {
-                number.map_or("not judged".to_owned(), |number| format!("{number:.2}"))
+                number.map_or("not judged".to_owned(), |number| ratio(&number))
             };
             let all = numbers.into_iter().map(one);
             all.collect::<Vec<_>>().join(", ")

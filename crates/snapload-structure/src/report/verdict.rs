@@ -9,7 +9,7 @@ use crate::runs::outcome::{LineOutcome, Outcome};
 use crate::runs::quantile::{quantile, sorted};
 use crate::runs::seas::Seas;
 use crate::structure::{Structure, Water};
-use crate::text_layout::{digits, kilo, paragraph, tenths};
+use crate::text_layout::{digits, kilo, paragraph, ratio, tenths};
 use askama::Template;
 use serde::Serialize;
 use snapload::Stop;
@@ -116,6 +116,8 @@ struct SeasVerdictText {
     fit: Option<Gumbel>,
     exceeding: usize,
     cut_short: usize,
+    /// The number of records in which no line snaps.
+    without_snaps: usize,
     records: usize,
     length_s: f64,
     max_snaps: u64,
@@ -314,7 +316,41 @@ impl Assessment {
         // Of equal loads the snap is named, as it has a speed.
         let early = Early::taut_or_snap(structure, outcome).chain(early);
         let early = Early::hardest(early, structure, outcome);
-        verdict(structure, outcome, &self.warnings, early, false)
+        let alone = verdict(structure, outcome, &self.warnings, early, false);
+        self.with_neighbours_in(alone)
+    }
+
+    /// A verdict that no line breaks does not stand if a line breaks in a neighbour, and says with
+    /// which restitution one would.
+    fn with_neighbours_in(&self, mut verdict: Verdict) -> Verdict {
+        if verdict.standing != VerdictKind::Holds {
+            return verdict;
+        }
+        let structure = &self.prepared.structure;
+        let fails = |outcome: &Outcome| {
+            let parts = outcome.utilisations(structure);
+            outcome.stop.exceeds() || parts.into_iter().flatten().any(|part| part >= 1.0)
+        };
+        let failing = self.neighbours.iter().filter(|n| fails(n)).count();
+        if failing > 0 {
+            verdict.standing = VerdictKind::Open;
+            verdict.words += &format!(
+                " In {failing} of {} neighbours a line would break or the mooring fail, so the verdict is open.",
+                self.neighbours.len()
+            );
+        }
+        let others = self
+            .restitutions
+            .iter()
+            .filter(|(_, outcome)| fails(outcome));
+        let others: Vec<String> = others.map(|(e, _)| format!("{e:.2}")).collect();
+        if !others.is_empty() {
+            verdict.words += &format!(
+                " With a restitution of {} a line would break or the mooring fail; the restitution must be known.",
+                others.join(" or ")
+            );
+        }
+        verdict
     }
 
     /// How far the run can be trusted, with the numbers.
@@ -358,6 +394,7 @@ impl Seas {
             fit: self.peak_in_three_hours(),
             exceeding: self.exceeding(),
             cut_short: self.cut_short(),
+            without_snaps: self.without_snaps(),
             records: self.records.len(),
             length_s: self.prepared.structure.duration_s,
             max_snaps: self.prepared.structure.max_snaps,

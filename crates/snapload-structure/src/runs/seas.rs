@@ -161,9 +161,22 @@ impl Seas {
         self.outcomes().map(Outcome::speed_m_s).collect()
     }
 
+    /// The number of records in which no line snaps.
+    pub(crate) fn without_snaps(&self) -> usize {
+        let speeds = self.speeds_m_s();
+        speeds.iter().filter(|speed| **speed == 0.0).count()
+    }
+
     /// The distribution of the largest tension in three hours, if all records are long enough to
-    /// have snaps \[N\].
+    /// have snaps, or none has any \[N\].
+    ///
+    /// A snap begins at twice the tension at rest. Records with snaps and without them therefore
+    /// have two distributions, to which one fit is of no use.
     pub fn peak_in_three_hours(&self) -> Option<Gumbel> {
+        let mixed = (1..self.records.len()).contains(&self.without_snaps());
+        if mixed {
+            return None;
+        }
         self.fit_for_three_hours(&self.largest_n()?)
     }
 

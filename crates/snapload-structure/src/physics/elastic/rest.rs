@@ -15,7 +15,7 @@
 
 use super::body::BodyOnElasticLines;
 use super::law::Spring;
-use crate::physics::equilibrium::{Equilibrium, moved};
+use crate::physics::equilibrium::{Equilibrium, check_submerged, moved};
 use crate::physics::model::Model;
 use crate::physics::model_at_rest::ModelAtRest;
 use nalgebra::{Matrix3, Vector3};
@@ -52,6 +52,9 @@ impl ModelAtRest {
             );
         }
         let place_m = self.model.scales.to_si([rest.x, rest.y]);
+        if self.structure.afloat.is_none() {
+            check_submerged(&self.structure, place_m, rest.theta)?;
+        }
         let tension = |line: usize| body.stretch(line, &rest).force.max(0.0);
         let tension_n = (0..springs.len()).map(|line| tension(line) * self.model.scales.force_n);
         let tension_n: Vec<f64> = tension_n.collect();
