@@ -99,7 +99,7 @@ impl Orbit {
         let orbit = &self.orbit;
         let mut bytes = Vec::new();
         for on in self.family.along_lap(orbit, pieces, PIECES) {
-            let head = [on.leg as f64, on.held as f64, on.t];
+            let head = [on.leg as f64, on.taut_count as f64, on.t];
             let row = head.into_iter().chain(on.z);
             bytes.extend(row.flat_map(f64::to_ne_bytes));
         }

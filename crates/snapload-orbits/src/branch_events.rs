@@ -276,7 +276,7 @@ fn normal_acceleration<F: Family>(segment: &Segment<F>, orbit: &Orbit, at: &Extr
     let jets = continuation.family.jets(orbit.at);
     let start: Point<Jet> = leg.start.map(constant);
     let s = Jet::variable(at.t - leg.t, DURATION);
-    let there = jets.flow(leg.held, constant(leg.t), &start, s);
+    let there = jets.flow(leg.taut, constant(leg.t), &start, s);
     -jets.speed(at.surface, &there).slope[DURATION]
 }
 

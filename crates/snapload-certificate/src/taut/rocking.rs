@@ -20,7 +20,7 @@ pub(crate) struct Rocking {
 }
 
 /// The position of the body, as terms.
-struct Held {
+struct PositionTerms {
     theta: Term,
     spin: Term,
     /// sin θ and cos θ.
@@ -91,7 +91,7 @@ impl Rocking {
     }
 
     /// Where both cables hold the body.
-    fn held(&self, p: &mut Program, model: &Model) -> Held {
+    fn position_terms(&self, p: &mut Program, model: &Model) -> PositionTerms {
         let [theta, spin] = [0, 1].map(|which| p.coordinate(which));
         let turn: [Term; 2] = p.sin_cos(theta).into();
         let one = p.constant(Ball::integer(1).with_limbs(model.limbs));
@@ -99,7 +99,7 @@ impl Rocking {
         let d = [p.subtract(along, one), dy];
         let across = [p.negate(d[1]), d[0]];
         let (reach, inverse_d) = Self::reach(p, model, turn);
-        Held {
+        PositionTerms {
             theta,
             spin,
             turn,
@@ -158,14 +158,14 @@ impl Chart<2> for Rocking {
     /// T₁ + T₂ = r R·m/|m|²,   T₁ − T₂ = r R·d/D.
     fn terms(&self, model: &Model) -> Terms {
         let mut p = Program::new();
-        let Held {
+        let PositionTerms {
             theta,
             spin,
             d,
             inverse_d,
             path: [m, c_rate, c_bend],
             ..
-        } = self.held(&mut p, model);
+        } = self.position_terms(&mut p, model);
         let f = force(&mut p, model);
         let one = p.constant(Ball::integer(1).with_limbs(model.limbs));
 
@@ -224,13 +224,13 @@ impl Chart<2> for Rocking {
 
     fn place(&self, model: &Model) -> Program {
         let mut p = Program::new();
-        let Held {
+        let PositionTerms {
             theta,
             spin,
             turn,
             path: [m, c_rate, _],
             ..
-        } = self.held(&mut p, model);
+        } = self.position_terms(&mut p, model);
         let lever = turn.map(|term| p.scale(term, model.b.clone()));
         let level = p.constant(model.level.clone());
         let [x, y] = [p.add(m[0], lever[0]), p.subtract(m[1], lever[1])];

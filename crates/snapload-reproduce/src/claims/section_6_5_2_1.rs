@@ -55,7 +55,7 @@ const CHECKS: &Checks<fn(&Material) -> Checked> = &[
     ("6.5.2.1-04", |of| {
         identity(&of.rocking, |state| {
             let ([_, _, theta], [_, _, rate]) = (state.place, state.velocity);
-            let [_, _, newton] = state.held_by_both().acceleration;
+            let [_, _, newton] = state.with_both_taut().acceleration;
             let printed = eq_6_63_second(&state.sizes, theta, rate, state.force);
             [(printed - newton) / (1.0 + newton.abs())]
         })
@@ -69,7 +69,7 @@ const CHECKS: &Checks<fn(&Material) -> Checked> = &[
     }),
     ("6.5.2.1-06", |of| {
         let compression = over(&of.rocking, |state| {
-            let lambda = state.held_by_both().lambda;
+            let lambda = state.with_both_taut().lambda;
             let factors = eq_6_66_factors(&state.sizes, state.place);
             // The residual relative to the size of the force, which is unbounded where the cables
             // are nearly in line.
@@ -174,7 +174,7 @@ fn cross(p: [f64; 3], q: [f64; 3]) -> [f64; 3] {
 
 /// The cables that stay taut by the signs of λ1 and λ2.
 fn by_signs(state: &Moment) -> TautSet {
-    let lambda = state.held_by_both().lambda;
+    let lambda = state.with_both_taut().lambda;
     BOTH.into_iter()
         .filter(|side| lambda[*side] < 0.0)
         .collect()
@@ -186,7 +186,7 @@ fn complementary(state: &Moment) -> TautSet {
     let w = |p, q| state.coupling(p, q);
     let opening = BOTH.map(|side| state.opening(side));
     let failure = |taut: TautSet| {
-        let lambda = state.held(taut).lambda;
+        let lambda = state.with_taut(taut).lambda;
         let fails = BOTH.map(|side| {
             if taut.contains(side) {
                 lambda[side] * w(side, side)
@@ -212,7 +212,7 @@ fn at_loss(state: &Moment, side: usize) -> Option<Moment> {
         force: [fx, fy],
         ..*state
     };
-    let of = |moment: &Moment| moment.held_by_both().lambda;
+    let of = |moment: &Moment| moment.with_both_taut().lambda;
     let start = of(&with(0.0))[side];
     let slope = of(&with(1.0))[side] - start;
     let lost = with((JUST - start) / slope);
