@@ -117,8 +117,8 @@ impl Path for Flight<'_> {
         let m = self.model;
         let reach = Ball::within(half);
         let (state, _) = self.at(middle);
-        let stretch = middle.clone().widened(half);
-        let (velocity, force) = self.velocity(&stretch);
+        let span = middle.clone().widened(half);
+        let (velocity, force) = self.velocity(&span);
         let turn_then = m.turn(&state[2]);
         let spin = &state[5];
         let turn = m.turn(&(&state[2] + &(spin * &reach)));

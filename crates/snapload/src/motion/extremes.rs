@@ -23,7 +23,7 @@ impl<T: Real> Extremes<T> {
         }
     }
 
-    /// Takes in a stretch of motion of duration `s` from `first` to `last`, on which ÿ ≤ `up`, |ÿ|
+    /// Takes in a segment of motion of duration `s` from `first` to `last`, on which ÿ ≤ `up`, |ÿ|
     /// ≤ `y_bend` and |θ̈| ≤ `theta_bend`. `state` gives the state within.
     #[inline(always)]
     pub(crate) fn cover(

@@ -9,7 +9,7 @@ use crate::motion::segments::{Segment, Segments};
 use crate::motion::simulation::{Simulation, Step};
 use std::ops::ControlFlow;
 
-/// A stretch of time with one set of taut cables.
+/// An interval of time with one set of taut cables.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ModeInterval {
     /// The taut cables.

@@ -17,16 +17,16 @@ pub struct Spring {
 }
 
 impl Spring {
-    /// The force of spring and damper at the stretch δ = |P − A| − r:
+    /// The force of spring and damper at the elongation δ = |P − A| − r:
     ///
     /// ```text
     /// T = k δ + c δ̇,    with which the line pulls while δ > 0 and T > 0
     /// ```
     ///
     /// The linear dashpot of T. Schwager and T. Pöschel, *Granular Matter* 9 (2007) 465, which
-    /// releases when the force returns to zero; with a damper that is before the stretch does.
-    pub fn force(&self, stretch: f64, rate: f64) -> f64 {
-        self.rate * stretch + self.damping * rate
+    /// releases when the force returns to zero; with a damper that is before the elongation does.
+    pub fn force(&self, elongation: f64, rate: f64) -> f64 {
+        self.rate * elongation + self.damping * rate
     }
 }
 

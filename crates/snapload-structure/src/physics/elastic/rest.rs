@@ -52,7 +52,7 @@ impl ModelAtRest {
             );
         }
         let place_m = self.model.scales.to_si([rest.x, rest.y]);
-        let tension = |line: usize| body.stretch(line, &rest).force.max(0.0);
+        let tension = |line: usize| body.elongation(line, &rest).force.max(0.0);
         let tension_n = (0..springs.len()).map(|line| tension(line) * self.model.scales.force_n);
         let tension_n: Vec<f64> = tension_n.collect();
         let taut = (0..springs.len()).filter(|&line| tension_n[line] > 0.0);
@@ -106,24 +106,24 @@ fn energy(body: &BodyOnElasticLines, at: &State) -> (f64, Vector3<f64>) {
         gradient += stiffness * q - constant;
     }
     for (line, spring) in body.springs.iter().enumerate() {
-        let (row, stretch) = body.row(line, at);
-        if stretch > 0.0 {
-            energy += 0.5 * spring.rate * stretch * stretch;
-            gradient += Vector3::from(row) * (spring.rate * stretch);
+        let (row, elongation) = body.row(line, at);
+        if elongation > 0.0 {
+            energy += 0.5 * spring.rate * elongation * elongation;
+            gradient += Vector3::from(row) * (spring.rate * elongation);
         }
     }
     (energy, gradient)
 }
 
 /// The second derivatives of V, Σ k_i ((n_i, s_i)ᵀ(n_i, s_i) + δ_i ∇(n_i, s_i)) over the stretched
-/// lines. Only the rows are differentiated numerically, as the stretch of a line may be smaller
+/// lines. Only the rows are differentiated numerically, as the elongation of a line may be smaller
 /// than the step of the differences.
 fn curvature(body: &BodyOnElasticLines, at: &State) -> Matrix3<f64> {
     let water = body.system.floating.as_ref();
     let mut curvature = water.map_or(Matrix3::zeros(), |water| Matrix3::from(water.stiffness));
     for (line, spring) in body.springs.iter().enumerate() {
-        let (row, stretch) = body.row(line, at);
-        if stretch <= 0.0 {
+        let (row, elongation) = body.row(line, at);
+        if elongation <= 0.0 {
             continue;
         }
         let row = Vector3::from(row);
@@ -134,7 +134,7 @@ fn curvature(body: &BodyOnElasticLines, at: &State) -> Matrix3<f64> {
             let [ahead, behind] = [step, -step].map(|step| body.row(line, &moved(at, &step)).0);
             let slope = (Vector3::from(ahead) - Vector3::from(behind)) / (2.0 * DIFFERENCE);
             let mut column = curvature.column_mut(k);
-            column += slope * (spring.rate * stretch);
+            column += slope * (spring.rate * elongation);
         }
     }
     (curvature + curvature.transpose()) * 0.5
