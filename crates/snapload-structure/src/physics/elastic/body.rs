@@ -1,13 +1,13 @@
 //! A body on elastic lines: the forces of the lines at a state, and the acceleration.
 
-use super::law::Spring;
+use super::law::ElasticLine;
 use snapload::{State, System, TautSet, Waves};
 use std::cell::RefCell;
 
 /// A body on elastic lines.
 pub(super) struct BodyOnElasticLines<'a> {
     pub(super) system: &'a System,
-    pub(super) springs: &'a [Spring],
+    pub(super) elastic_lines: &'a [ElasticLine],
     waves: RefCell<Waves>,
 }
 
@@ -26,10 +26,10 @@ pub(super) struct Elongation {
 }
 
 impl<'a> BodyOnElasticLines<'a> {
-    pub(super) fn new(system: &'a System, springs: &'a [Spring]) -> Self {
+    pub(super) fn new(system: &'a System, elastic_lines: &'a [ElasticLine]) -> Self {
         Self {
             system,
-            springs,
+            elastic_lines,
             waves: RefCell::new(Waves::new(system)),
         }
     }
@@ -50,7 +50,7 @@ impl<'a> BodyOnElasticLines<'a> {
             arm,
             elongation,
             rate,
-            force: self.springs[line].force(elongation, rate),
+            force: self.elastic_lines[line].force(elongation, rate),
         }
     }
 
@@ -73,7 +73,7 @@ impl<'a> BodyOnElasticLines<'a> {
             } = self.elongation(*line, state);
             elongation > 0.0 && force > 0.0
         };
-        (0..self.springs.len()).filter(pulls).collect()
+        (0..self.elastic_lines.len()).filter(pulls).collect()
     }
 
     /// The event function of a line: positive as long as it continues to pull, or not to pull.
@@ -94,7 +94,7 @@ impl<'a> BodyOnElasticLines<'a> {
         pulling.iter().fold(1.0, |quickest: f64, line| {
             let inverse_mass =
                 body.largest_inverse_effective_mass(self.elongation(line, state).arm);
-            quickest.max((self.springs[line].rate * inverse_mass).sqrt())
+            quickest.max((self.elastic_lines[line].rate * inverse_mass).sqrt())
         })
     }
 

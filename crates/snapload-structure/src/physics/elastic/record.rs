@@ -123,12 +123,12 @@ impl<'a> PullRecorder<'a> {
             transient_s: prepared.structure.transient_s,
             run: ElasticRun {
                 waterline: Waterline::before(&prepared.structure),
-                peaks_n: vec![0.0; body.springs.len()],
-                least_n: vec![None; body.springs.len()],
+                peaks_n: vec![0.0; body.elastic_lines.len()],
+                least_n: vec![None; body.elastic_lines.len()],
                 ..ElasticRun::default()
             },
             waves: WavesOfTension::of_lines(&prepared.rest),
-            open: vec![None; body.springs.len()],
+            open: vec![None; body.elastic_lines.len()],
         })
     }
 
