@@ -244,8 +244,8 @@ impl<F: Family> Continuation<'_, F> {
     }
 }
 
-/// The segment between one point of a branch and the next.
-pub(crate) struct Segment<'a, F: Family> {
+/// The step from one point of a branch to the next.
+pub(crate) struct BranchStep<'a, F: Family> {
     pub(crate) continuation: &'a Continuation<'a, F>,
     pub(crate) from: &'a Unknowns,
     pub(crate) tangent: &'a DVector<f64>,
