@@ -164,9 +164,9 @@ impl Branch {
             on_progress,
             done: 0,
         };
-        let born = HalfBranch::empty(orbit.at[0], "the period doubling");
+        let doubled = HalfBranch::empty(orbit.at[0], "the period doubling");
         let forward = follower.run(&continuation, &start, &apart, &orbit)?;
-        Ok(Some(joined(&orbit, born, forward)))
+        Ok(Some(joined(&orbit, doubled, forward)))
     }
 }
 

@@ -242,8 +242,8 @@ pub(crate) fn located<F: Family>(
     let bend = grazes.map(|extreme| normal_acceleration(branch_step, &orbit, &extreme));
     // If events have passed the section, they are numbered from there.
     let (u, ..) = continuation.corrected(branch_step.from, tangent, sigma)?;
-    let anew = continuation.renumbered(&u);
-    let orbit = anew.map_or(orbit, |(moved, u, _)| {
+    let renumbered = continuation.renumbered(&u);
+    let orbit = renumbered.map_or(orbit, |(moved, u, _)| {
         Orbit::of(&moved.lap(u.at), &u.closed())
     });
     let orbit = match kind {

@@ -106,7 +106,7 @@ pub(crate) fn first_crossing(
             ahead.push((to.clone(), path.event_values(&to)));
             continue;
         };
-        match judge(path, &at, &next, &closed) {
+        match classify_piece(path, &at, &next, &closed) {
             Piece::Clear => {
                 at = next;
                 closed.clear();
@@ -189,7 +189,7 @@ fn others_clear(
     let middle = (&from.0 + &to.0).half();
     let half = length.upper().scaled(-1).plus(middle.radius());
     let bends = path.bends(&middle.centre(), half);
-    let sag = length.squared().half();
+    let half_square = length.squared().half();
     bends.iter().enumerate().all(|(which, bend)| {
         skipped.contains(&which)
             || stays_below(
@@ -197,7 +197,7 @@ fn others_clear(
                 &to.1[which],
                 known.contains(&which),
                 bend,
-                &sag,
+                &half_square,
             )
     })
 }
@@ -224,7 +224,7 @@ fn undecided(path: &impl Path, (_, values): &Moment) -> ProofFailure {
     ))
 }
 
-/// The name of a event function.
+/// The name of an event function.
 pub(crate) fn name(which: usize) -> &'static str {
     match which {
         0 => "the length of cable 1",
@@ -292,17 +292,17 @@ fn likely_length(path: &impl Path, lo: &Ball, first: &[EventValue], zeros: &Zero
 
 /// Decides what happens on the piece between two times. The values in `closed` are known to be at
 /// most zero at the first time, and not evaluated there.
-fn judge(path: &impl Path, from: &Moment, to: &Moment, closed: &[usize]) -> Piece {
+fn classify_piece(path: &impl Path, from: &Moment, to: &Moment, closed: &[usize]) -> Piece {
     let length = &to.0 - &from.0;
     let middle = (&from.0 + &to.0).half();
     let half = length.upper().scaled(-1).plus(middle.radius());
     let bends = path.bends(&middle.centre(), half);
-    let sag = length.squared().half();
+    let half_square = length.squared().half();
     let mut crossed = None;
     for (which, bend) in bends.iter().enumerate() {
         let (start, end) = (&from.1[which], &to.1[which]);
         let known = closed.contains(&which);
-        if stays_below(start, end, known, bend, &sag) {
+        if stays_below(start, end, known, bend, &half_square) {
             continue;
         }
         let slope = match (known, crossed) {
@@ -332,13 +332,13 @@ fn judge(path: &impl Path, from: &Moment, to: &Moment, closed: &[usize]) -> Piec
 /// - if f < −KH²/2 at one end and K ≥ 0: the chord is then below −KH²/2 times the share of the way
 ///   from the other end, −KHt/2 or −KH(H − t)/2, and K t (H − t)/2 is no larger in size.
 ///
-/// `sag` is H²/2; the comparisons hold for every number of the balls.
+/// `half_square` is H²/2; the comparisons hold for every number of the balls.
 pub(crate) fn stays_below(
     start: &EventValue,
     end: &EventValue,
     known: bool,
     bend: &Ball,
-    sag: &Ball,
+    half_square: &Ball,
 ) -> bool {
     if !end.value.is_negative() || !(known || start.value.is_negative()) {
         return false;
@@ -346,7 +346,7 @@ pub(crate) fn stays_below(
     if bend.is_positive() {
         return true;
     }
-    let least = bend * sag;
+    let least = bend * half_square;
     let beyond = |value: &Ball, share: i64| value.is_below(&least.scaled(-share));
     if known {
         return beyond(&end.value, 0);

@@ -140,8 +140,8 @@ proptest! {
                 rate: Ball::double(q) + Ball::double(s) * &t,
             }
         };
-        let sag = Ball::double(h).with_limbs(4).squared().half();
-        let certified = stays_below(&at(0.0), &at(h), known, &Ball::double(s), &sag);
+        let half_square = Ball::double(h).with_limbs(4).squared().half();
+        let certified = stays_below(&at(0.0), &at(h), known, &Ball::double(s), &half_square);
         // In the interior the largest value is at t = −q/s, for s < 0.
         let top = if s < 0.0 { (-q / s).clamp(0.0, h) } else { 0.0 };
         let largest = at(top).value.to_f64().max(at(h).value.to_f64());

@@ -206,7 +206,7 @@ fn complementary(state: &Moment) -> TautSet {
 /// The same state under the wave force for which the tension of one cable is just below zero.
 fn at_loss(state: &Moment, side: usize) -> Option<Moment> {
     /// λ of a cable that has just lost its tension.
-    const JUST: f64 = 1e-6;
+    const LAMBDA_AT_LOSS: f64 = 1e-6;
     let [_, fy] = state.force;
     let with = |fx| Moment {
         force: [fx, fy],
@@ -215,7 +215,7 @@ fn at_loss(state: &Moment, side: usize) -> Option<Moment> {
     let of = |moment: &Moment| moment.with_both_taut().lambda;
     let start = of(&with(0.0))[side];
     let slope = of(&with(1.0))[side] - start;
-    let lost = with((JUST - start) / slope);
+    let lost = with((LAMBDA_AT_LOSS - start) / slope);
     // The other one must pull by more than rounding.
     (slope.abs() > 1e-3 && of(&lost)[1 - side] < -1e-3).then_some(lost)
 }

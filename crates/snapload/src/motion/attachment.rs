@@ -194,7 +194,7 @@ impl<L: Lane> Instant<L> {
     /// The state, from that at the start.
     #[inline(always)]
     pub(crate) fn state(&self, start: &State<L>, s: L) -> State<L> {
-        flown(start, s, [self.push.drift, self.push.gain])
+        advanced(start, s, [self.push.drift, self.push.gain])
     }
 
     /// The effect a time `s` into a flight with angular velocity `spin` under a constant force;
@@ -221,7 +221,11 @@ impl<L: Lane> Instant<L> {
 /// The state a time `s` after `start`, from the drift of position and the gain of velocity by the
 /// forces.
 #[inline(always)]
-pub(crate) fn flown<L: Lane>(start: &State<L>, s: L, [drift, gain]: [Vector2<L>; 2]) -> State<L> {
+pub(crate) fn advanced<L: Lane>(
+    start: &State<L>,
+    s: L,
+    [drift, gain]: [Vector2<L>; 2],
+) -> State<L> {
     State {
         x: start.x + start.vx.mul_add(s, drift.x),
         y: start.y + start.vy.mul_add(s, drift.y),

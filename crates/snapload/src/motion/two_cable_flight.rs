@@ -6,7 +6,7 @@ use crate::arithmetic::plane::Vector2;
 use crate::arithmetic::processor::apart;
 use crate::model::forcing::Harmonic;
 use crate::model::state::State;
-use crate::motion::attachment::{Attachment, GapJet, INFLATION, Instant, flown};
+use crate::motion::attachment::{Attachment, GapJet, INFLATION, Instant, advanced};
 use crate::motion::limits::NEVER;
 use crate::motion::two_cables::{AfterImpact, TwoCableSystem};
 
@@ -303,7 +303,7 @@ impl<L: Lane> TwoCableFlight<L> {
         let push = trial.now.push.later(later, self.force_bend(&trial.now));
         FlightEnd {
             s,
-            state: flown(&from.state, s, push),
+            state: advanced(&from.state, s, push),
             jets: [
                 jet.later(later, trial.fourths[0]),
                 other.later(later, trial.fourths[1]),

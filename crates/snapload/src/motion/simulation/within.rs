@@ -30,7 +30,7 @@ pub(in crate::motion) enum SegmentMotion<'a, T: Real> {
     Expanded(&'a Series<T>),
 }
 
-/// A gap to be looked at, by the best instructions for it.
+/// A gap to be evaluated, by the best instructions for it.
 struct GapAndRate<'a, T: Real>(&'a SegmentMotion<'a, T>, usize, T);
 
 impl<T: Real> Kernel for GapAndRate<'_, T> {
@@ -41,7 +41,7 @@ impl<T: Real> Kernel for GapAndRate<'_, T> {
     }
 }
 
-/// Tensions to be looked at, likewise.
+/// Tensions to be evaluated, likewise.
 struct TensionsWithin<'a, T: Real>(&'a Simulation<T>, &'a Step<T>, T);
 
 impl<T: Real> Kernel for TensionsWithin<'_, T> {
@@ -63,7 +63,7 @@ impl<T: Real> Kernel for TensionRanges<'_, T> {
     }
 }
 
-/// A state to be looked at, likewise.
+/// A state to be evaluated, likewise.
 pub(in crate::motion) struct StateAt<'a, T: Real>(
     pub(in crate::motion) &'a SegmentMotion<'a, T>,
     pub(in crate::motion) T,
@@ -198,7 +198,7 @@ impl<T: Real> Simulation<T> {
     pub(super) fn motion(&self, taut: TautSet) -> SegmentMotion<'_, T> {
         match self.expanded(taut) {
             Some(series) => SegmentMotion::Expanded(series),
-            None => SegmentMotion::Closed(self.flown()),
+            None => SegmentMotion::Closed(self.latest_flight()),
         }
     }
 
@@ -211,7 +211,7 @@ impl<T: Real> Simulation<T> {
 
     /// The flight of the latest step.
     #[inline(always)]
-    fn flown(&self) -> Cow<'_, Flight<T>> {
+    fn latest_flight(&self) -> Cow<'_, Flight<T>> {
         let Some(from) = &self.bounce_start else {
             return Cow::Borrowed(&self.flight);
         };
