@@ -118,7 +118,7 @@ pub fn certify(
         end
     });
     let last = best.last().map(|line| line.time().to_owned());
-    let taut_segments = best
+    let segments = best
         .iter()
         .filter(|line| matches!(line, Line::TautSegment(_)))
         .count();
@@ -145,18 +145,13 @@ pub fn certify(
         Err(ProofFailure::Cancelled | ProofFailure::StoppedEarly) => return Err(Cancelled),
     };
     Ok(Ok(Certification {
-        impacts: best.len() - taut_segments,
-        taut_segments,
+        impacts: best.len() - segments,
+        taut_segments: segments,
         t,
         end,
         bits,
         written: CertificateText {
-            format: if taut_segments > 0 {
-                TAUT_FORMAT
-            } else {
-                FORMAT
-            }
-            .to_owned(),
+            format: if segments > 0 { TAUT_FORMAT } else { FORMAT }.to_owned(),
             model: MODEL.to_owned(),
             bits: bits as u64,
             case: CaseText::of(case),

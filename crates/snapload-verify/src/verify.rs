@@ -258,7 +258,7 @@ mod tests {
 
     /// It reports its progress, which only increases, and ends when it is cancelled.
     #[test]
-    fn a_proof_can_be_watched_and_cancelled() -> Result<(), Unfinished> {
+    fn a_proof_reports_progress_and_can_be_cancelled() -> Result<(), Unfinished> {
         let case = Case::new(Parameters::STANDARD)?;
         let reports = Mutex::new(Vec::new());
         verify(&case, 60, 1e-3, &|progress| {

@@ -210,7 +210,7 @@ impl Chart<2> for Rocking {
         for top in tops {
             terms.add_event_function(EventFunction::Top, top);
         }
-        terms.watch_rotation(model, theta);
+        terms.add_rotation_events(model, theta);
         terms
     }
 

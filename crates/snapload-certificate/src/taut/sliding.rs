@@ -65,8 +65,8 @@ impl Chart<4> for Sliding {
         };
         terms.add_event_function(EventFunction::Tension(self.0), minus_tension);
         let position = PositionTerms { a, n, turn, lever };
-        self.watch_gap_and_tops(&mut terms, model, &position);
-        terms.watch_rotation(model, theta);
+        self.add_gap_and_top_events(&mut terms, model, &position);
+        terms.add_rotation_events(model, theta);
         terms
     }
 
@@ -167,8 +167,8 @@ struct PositionTerms {
 }
 
 impl Sliding {
-    /// Watches the other cable's gap and the tops.
-    fn watch_gap_and_tops(&self, terms: &mut Terms, model: &Model, position: &PositionTerms) {
+    /// Adds the other cable's gap and the tops.
+    fn add_gap_and_top_events(&self, terms: &mut Terms, model: &Model, position: &PositionTerms) {
         let p = &mut terms.program;
         // The centre, with the anchors' level as zero and this anchor's x, is r n − ρ.
         let reach = position.n.map(|n| p.scale(n, model.r.clone()));

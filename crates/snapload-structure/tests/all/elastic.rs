@@ -113,9 +113,9 @@ fn the_damper_gives_the_restitution() {
             let law: Vec<ElasticLine> = elastic_lines(&prepared, stiffer)
                 .expect("elastic lines")
                 .into_iter()
-                .map(|elastic_line| ElasticLine {
-                    damping: elastic_line.damping / 2.0_f64.sqrt(),
-                    ..elastic_line
+                .map(|line| ElasticLine {
+                    damping: line.damping / 2.0_f64.sqrt(),
+                    ..line
                 })
                 .collect();
             let mut short = prepared.clone();
@@ -166,10 +166,8 @@ fn stiff_lines_are_lines_that_do_not_stretch() {
     prepared.model.rules.t_end = (snaps[2].1 + 1e-3) / time;
     let mut last = f64::INFINITY;
     for stiffer in [1e2, 1e4, 1e6] {
-        let motion = run(
-            &prepared,
-            &elastic_lines(&prepared, stiffer).expect("elastic lines"),
-        );
+        let law = elastic_lines(&prepared, stiffer).expect("elastic lines");
+        let motion = run(&prepared, &law);
         let mut worst = 0.0_f64;
         for (pull, (line, t, v)) in motion.pulls.iter().zip(&snaps) {
             assert_eq!(pull.line, *line, "{:?} {snaps:?}", motion.pulls);
@@ -195,14 +193,14 @@ fn energy_is_kept_or_lost() {
         let law = elastic_lines(&prepared, 1.0).expect("elastic lines");
         let motion = run(&prepared, &law);
         let energy = |state: &snapload::State| {
-            let stored =
-                law.iter()
-                    .zip(&prepared.model.system.cables)
-                    .map(|(elastic_line, cable)| {
-                        let [u, v] = cable.span(state).components();
-                        let stretch = (u.hypot(v) - cable.length()).max(0.0);
-                        0.5 * elastic_line.rate * stretch * stretch
-                    });
+            let stored = law
+                .iter()
+                .zip(&prepared.model.system.cables)
+                .map(|(line, cable)| {
+                    let [u, v] = cable.span(state).components();
+                    let stretch = (u.hypot(v) - cable.length()).max(0.0);
+                    0.5 * line.rate * stretch * stretch
+                });
             prepared.model.system.energy(state) + stored.sum::<f64>()
         };
         let first = energy(&prepared.start());
@@ -231,10 +229,7 @@ fn energy_is_kept_or_lost() {
 #[test]
 fn a_body_at_rest_stays() {
     let prepared = prepared(CYLINDER, &["wave.height=0", "run.duration=30"]);
-    let motion = run(
-        &prepared,
-        &elastic_lines(&prepared, 1e3).expect("elastic lines"),
-    );
+    let motion = run(&prepared, &elastic_lines(&prepared, 1e3).expect("lines"));
     assert!((motion.end_s - 30.0).abs() < 1e-9, "{} s", motion.end_s);
     assert_eq!(motion.samples.len() / 100, 6, "{}", motion.samples.len());
     for (line, at_rest) in prepared.rest.tension_n.iter().enumerate() {

@@ -180,7 +180,7 @@ pub(crate) struct TautMotion<'a, T> {
 
 /// An event function that may be reached within a step, as a power series.
 #[derive(Clone, Debug)]
-pub(crate) struct Watched<T> {
+pub(crate) struct EventSeries<T> {
     pub(crate) function: EventFunction,
     pub(crate) series: Polynomial<T>,
     /// The last order that is known.
@@ -189,7 +189,7 @@ pub(crate) struct Watched<T> {
     pub(crate) left_out: T,
 }
 
-impl<T: Real> Watched<T> {
+impl<T: Real> EventSeries<T> {
     /// Whether it provably stays below zero.
     #[inline(always)]
     pub(crate) fn stays_negative(&self, step: T) -> bool {
@@ -252,17 +252,21 @@ impl<T: Real> Limits<T> {
         }
     }
 
-    /// Adds their event functions in taut motion, as power series, to those that are watched; those
+    /// Adds their event functions in taut motion, as power series, to those of the step; those
     /// that provably are not reached within the step are left out.
     #[inline(always)]
-    pub(crate) fn watch_series(&self, motion: &TautMotion<T>, watched: &mut Vec<Watched<T>>) {
+    pub(crate) fn add_event_series(
+        &self,
+        motion: &TautMotion<T>,
+        events: &mut Vec<EventSeries<T>>,
+    ) {
         let [_, y, theta] = motion.place;
         for (limit, bound) in self.bounds.iter() {
             match limit {
                 Limit::Rotation => {
                     for mut side in [*theta, theta.negated()] {
                         side[0] -= bound;
-                        watch(limit, side, motion.left_out, motion.step, watched);
+                        add_event(limit, side, motion.left_out, motion.step, events);
                     }
                 }
                 Limit::UpperBound => {
@@ -273,7 +277,7 @@ impl<T: Real> Limits<T> {
                             top[k] = y[k] + px * sine + py * cosine;
                         }
                         top[0] = top[0] + self.radius - bound;
-                        watch(limit, top, motion.left_out, motion.step, watched);
+                        add_event(limit, top, motion.left_out, motion.step, events);
                     }
                 }
             }
@@ -283,21 +287,21 @@ impl<T: Real> Limits<T> {
 
 /// Adds an event function that is known to the last order, if it may be reached within the step.
 #[inline(always)]
-fn watch<T: Real>(
+fn add_event<T: Real>(
     limit: Limit,
     series: Polynomial<T>,
     left_out: T,
     step: T,
-    watched: &mut Vec<Watched<T>>,
+    events: &mut Vec<EventSeries<T>>,
 ) {
-    let event = Watched {
+    let event = EventSeries {
         function: EventFunction::Limit(limit),
         series,
         order: ORDER,
         left_out,
     };
     if !event.stays_negative(step) {
-        watched.push(event);
+        events.push(event);
     }
 }
 
