@@ -239,7 +239,7 @@ pub(crate) fn located<F: Family>(
         Test::Limit(limit) => (Kind::Limit(limit), None),
     };
     let grazes = extreme.filter(|_| kind == Kind::Graze);
-    let bend = grazes.map(|extreme| normal_acceleration(branch_step, &orbit, &extreme));
+    let acceleration = grazes.map(|extreme| normal_acceleration(branch_step, &orbit, &extreme));
     // If events have passed the section, they are numbered from there.
     let (u, ..) = continuation.corrected(branch_step.from, tangent, sigma)?;
     let renumbered = continuation.renumbered(&u);
@@ -256,8 +256,8 @@ pub(crate) fn located<F: Family>(
         value: orbit.at,
         surface: extreme.map(|extreme| extreme.surface),
         t: extreme.map(|extreme| extreme.t),
-        normal_acceleration: bend,
-        sqrt_coefficient: bend.map(|a| (1.0 + restitution) * (2.0 * a).max(0.0).sqrt()),
+        normal_acceleration: acceleration,
+        sqrt_coefficient: acceleration.map(|a| (1.0 + restitution) * (2.0 * a).max(0.0).sqrt()),
         is_own_snap: test == Test::Speed,
         arclength: sigma,
         sigma,

@@ -113,7 +113,7 @@ impl Path for Flight<'_> {
     ///
     /// with D enclosed by its value at the middle and, by the mean value theorem, Ṗ times half the
     /// length.
-    fn bends(&self, middle: &Ball, half: Radius) -> Vec<Ball> {
+    fn second_derivatives(&self, middle: &Ball, half: Radius) -> Vec<Ball> {
         let m = self.model;
         let reach = Ball::within(half);
         let (state, _) = self.at(middle);

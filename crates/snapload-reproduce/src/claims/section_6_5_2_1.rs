@@ -116,8 +116,8 @@ fn eq_6_61_place(m: &Sizes, theta: Jet) -> [Jet; 2] {
 fn eq_6_63_second(m: &Sizes, theta: f64, rate: f64, force: [f64; 2]) -> f64 {
     let [[_, dx, ddx], [_, dy, ddy]] = eq_6_61_place(m, jet([theta, 1.0, 0.0])).map(derivatives);
     let generalized = force[0] * dx + force[1] * dy;
-    let bend = rate * rate * (dx * ddx + dy * ddy);
-    (generalized - dy - bend) / (m.i + dx * dx + dy * dy)
+    let velocity_term = rate * rate * (dx * ddx + dy * ddy);
+    (generalized - dy - velocity_term) / (m.i + dx * dx + dy * dy)
 }
 
 /// The factors of λ1 and λ2 in 6.66, 6.67, 6.68.

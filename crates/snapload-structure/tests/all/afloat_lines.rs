@@ -17,9 +17,9 @@ fn by_its_line(anchor: [f64; 2], r: [f64; 2], centre: [f64; 2]) -> (Vector3<f64>
     let n = span.map(|part| part / length);
     let row = Vector3::new(n[0], n[1], n[0] * r[1] - n[1] * r[0]);
     let j = nalgebra::Matrix2x3::new(1.0, 0.0, r[1], 0.0, 1.0, -r[0]);
-    let mut bend = (j.transpose() * j - row * row.transpose()) / length;
-    bend[(2, 2)] -= n[0] * r[0] + n[1] * r[1];
-    (row, bend)
+    let mut hessian = (j.transpose() * j - row * row.transpose()) / length;
+    hessian[(2, 2)] -= n[0] * r[0] + n[1] * r[1];
+    (row, hessian)
 }
 
 /// On stretched lines that stay taut surge, heave and pitch are, for small waves, the linear answer
@@ -58,9 +58,9 @@ fn taut_elastic_lines_answer_small_waves_as_the_frequency_domain_does() {
     for ((line, elastic_line), tension) in lines.iter().zip(&law).zip(&rest.tension_n) {
         let [x, z] = [line.fairlead_m[0], line.fairlead_m[1] + 0.2];
         let r = [x * cosine + z * sine, -x * sine + z * cosine];
-        let (row, bend) = by_its_line(line.anchor_m, r, rest.place_m);
+        let (row, hessian) = by_its_line(line.anchor_m, r, rest.place_m);
         let c = elastic_line.damping * scales.force_n * scales.time_s / scales.length_m;
-        stiffness += row * row.transpose() * (2e7 / line.length_m) + bend * *tension;
+        stiffness += row * row.transpose() * (2e7 / line.length_m) + hessian * *tension;
         damping += row * row.transpose() * c;
     }
     let fit = &afloat.report.fit;

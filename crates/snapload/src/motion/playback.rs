@@ -86,8 +86,10 @@ impl Piece<'_, '_> {
     }
 
     /// Bounds on |ÿ| and |θ̈| along it.
-    pub(crate) fn bends(&self) -> [f64; 2] {
-        let [_, y, theta] = self.segment_motion().bends(self.playback.run.system());
+    pub(crate) fn acceleration_bounds(&self) -> [f64; 2] {
+        let [_, y, theta] = self
+            .segment_motion()
+            .acceleration_bounds(self.playback.run.system());
         [y, theta]
     }
 
@@ -96,8 +98,8 @@ impl Piece<'_, '_> {
         let motion = self.segment_motion();
         let within = |s: f64| dispatch(StateAt(&motion, self.begun + s));
         let [first, last] = self.ends();
-        let bends = motion.bends(self.playback.run.system());
-        extremes.cover(within, self.width, [&first, &last], bends);
+        let acceleration_bounds = motion.acceleration_bounds(self.playback.run.system());
+        extremes.cover(within, self.width, [&first, &last], acceleration_bounds);
     }
 }
 

@@ -374,9 +374,9 @@ impl<T: Real> Simulation<T> {
                 crossing.reached == Reached::default() && s >= self.rules.t_end - self.t;
             let state = motion.state(s);
             let mut extremes = self.extremes;
-            let bends = motion.bends(&self.system);
+            let acceleration_bounds = motion.acceleration_bounds(&self.system);
             let within = |s| dispatch_over::<T, _>(StateAt(&motion, s));
-            extremes.cover(within, s, [&self.state, &state], bends);
+            extremes.cover(within, s, [&self.state, &state], acceleration_bounds);
             let mut contacts = self.contacts;
             for (cable, contact) in contacts[..self.system.cables.len()].iter_mut().enumerate() {
                 if self.active.taut.contains(cable) {

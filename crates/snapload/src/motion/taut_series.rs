@@ -405,7 +405,7 @@ impl<T: Real> Series<T> {
     }
 
     /// Bound on |g̈| of a slack cable over the step.
-    pub(crate) fn gap_bend(&self, cable: usize) -> T {
+    pub(crate) fn gap_acceleration_bound(&self, cable: usize) -> T {
         self.lines[cable].gap.derivative_bound(2, self.step, ORDER)
     }
 

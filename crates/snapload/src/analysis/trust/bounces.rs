@@ -410,8 +410,8 @@ impl<L: Lane> Reach<L> {
         let turned = start.theta.abs().larger(end.theta.abs());
         let left = two_cables.rotation_limit - turned;
         let turns = L::ZERO.below(left) & (self.theta * SQUARE).below(left * left);
-        let bend = two_cables.vertical_acceleration_bound * s * s * 0.125;
-        let left = two_cables.level - (start.y.larger(end.y) + bend);
+        let bulge = two_cables.vertical_acceleration_bound * s * s * 0.125;
+        let left = two_cables.level - (start.y.larger(end.y) + bulge);
         let outline = two_cables.outline;
         let top = (outline * outline).mul_add(self.theta, self.height) * 2.0;
         turns & L::ZERO.below(left) & (top * SQUARE).below(left * left)

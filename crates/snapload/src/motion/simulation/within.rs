@@ -107,7 +107,7 @@ impl<T: Real> SegmentMotion<'_, T> {
 
     /// Bounds on ÿ, |ÿ| and |θ̈| along it.
     #[inline(always)]
-    pub(in crate::motion) fn bends(&self, system: &System<T>) -> [T; 3] {
+    pub(in crate::motion) fn acceleration_bounds(&self, system: &System<T>) -> [T; 3] {
         let forcing = &system.forcing;
         match self {
             Self::Closed(_) => [
@@ -273,13 +273,13 @@ impl<T: Real> Simulation<T> {
         if s <= T::ZERO {
             return false;
         }
-        let bend = match self.expanded(step.taut) {
+        let acceleration = match self.expanded(step.taut) {
             Some(series) if series.gap_opens_from_rest(cable, s) => return false,
-            Some(series) => series.gap_bend(cable),
-            None => self.gap_bend(step, cable),
+            Some(series) => series.gap_acceleration_bound(cable),
+            None => self.gap_acceleration_bound(step, cable),
         };
         let first = self.contact_at_start(step, cable).gap;
-        if first.max(self.contacts[cable].gap) + margin + bend * s * s * 0.125 < T::ZERO {
+        if first.max(self.contacts[cable].gap) + margin + acceleration * s * s * 0.125 < T::ZERO {
             return false;
         }
         let (offset, slope) = if first < T::ZERO {
@@ -292,12 +292,12 @@ impl<T: Real> Simulation<T> {
             let (gap, rate) = dispatch_over::<T, _>(GapAndRate(&motion, cable, s));
             (gap + offset + slope * s, rate + slope)
         };
-        rises_above_zero(&nearness, s, bend)
+        rises_above_zero(&nearness, s, acceleration)
     }
 
     /// Bound on |g̈| = 2 |Ṗ² + d·P̈| along a flight.
     #[inline(always)]
-    fn gap_bend(&self, step: &Step<T>, cable: usize) -> T {
+    fn gap_acceleration_bound(&self, step: &Step<T>, cable: usize) -> T {
         let tether = &self.system.cables[cable];
         let (start, reach) = (&step.start, tether.fairlead().length());
         let spin = start.vtheta.abs();
