@@ -99,7 +99,7 @@ impl Orbit {
         let orbit = &self.orbit;
         let mut bytes = Vec::new();
         for on in self.family.along_lap(orbit, pieces, PIECES) {
-            let head = [on.leg as f64, on.held as f64, on.t];
+            let head = [on.leg as f64, on.taut_count as f64, on.t];
             let row = head.into_iter().chain(on.z);
             bytes.extend(row.flat_map(f64::to_ne_bytes));
         }
@@ -341,13 +341,13 @@ impl Branch {
             branch_options(&here, self.key, range, step, points).map_err(error_of_case)?;
         let family = Moored::case(*self.case.parameters(), [Some(key), None]);
         let from = self.from.iter().cloned().chain([event.clone()]).collect();
-        let born = interruptible(py, progress, move |shared| {
+        let doubled = interruptible(py, progress, move |shared| {
             let on_progress = |progress: snapload::analysis::Progress| shared.report(progress);
             family.branch_of_doubling(&event, &options, &on_progress)
         })?;
-        let born = born.map_err(|cancelled| error_of_work(cancelled.into()))?;
+        let doubled = doubled.map_err(|cancelled| error_of_work(cancelled.into()))?;
         let none = "no direction of a branch of twice the length is found there";
-        Ok(match born {
+        Ok(match doubled {
             Some(branch) => {
                 let (case, branch) = (self.case.clone(), Arc::new(branch));
                 (

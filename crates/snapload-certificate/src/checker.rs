@@ -89,9 +89,9 @@ fn shape(certificate: &CertificateText) -> Result<ExactCase, String> {
                 decimal("the time", t)?;
                 decimal("v_n", v_n)?;
             }
-            Line::Stretch(stretch) if certificate.format == TAUT_FORMAT => {
-                decimal("the time", &stretch.from)?;
-                decimal("the time", &stretch.until)?;
+            Line::TautSegment(segment) if certificate.format == TAUT_FORMAT => {
+                decimal("the time", &segment.from)?;
+                decimal("the time", &segment.until)?;
             }
             _ => return Err("a line that is neither an impact nor a stretch".to_owned()),
         }
@@ -179,7 +179,7 @@ fn agrees(proved: &Proved, nth: usize, claim: Option<&Line>) -> Result<(), Proof
         (Proved::Impact(impact), Some(Line::Impact(cable, t, v_n))) => {
             impact_agrees(impact, nth, (*cable, t, v_n))
         }
-        (Proved::Stretch(ours), Some(Line::Stretch(theirs))) => {
+        (Proved::Segment(ours), Some(Line::TautSegment(theirs))) => {
             if theirs.mode != ours.mode() || theirs.event != ours.event {
                 return Err(ProofFailure::Refuted(format!(
                     "entry {nth} is a stretch of cables {:?} that ends with {}, but another is claimed",

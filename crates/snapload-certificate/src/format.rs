@@ -47,23 +47,23 @@ impl CertificateText {
 pub(crate) enum Line {
     /// Cable from 1, time, normal velocity.
     Impact(u8, String, String),
-    Stretch(#[serde(deserialize_with = "keyed")] Stretch),
+    TautSegment(#[serde(deserialize_with = "keyed")] TautSegment),
 }
 
 impl Line {
-    /// The time of the event, or the end of the stretch.
+    /// The time of the event, or the end of the segment.
     pub(crate) fn time(&self) -> &str {
         match self {
             Self::Impact(_, t, _) => t,
-            Self::Stretch(stretch) => &stretch.until,
+            Self::TautSegment(segment) => &segment.until,
         }
     }
 }
 
-/// A stretch of motion with one taut cable.
+/// A segment of motion with one taut cable.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub(crate) struct Stretch {
+pub(crate) struct TautSegment {
     /// The taut cables, from 1.
     pub(crate) mode: Vec<u8>,
     pub(crate) from: String,

@@ -4,7 +4,7 @@
 use crate::arithmetic::ball::Ball;
 use crate::case::ExactCase;
 use crate::model::Model;
-use crate::proved::{Proved, ProvedEnd, ProvedImpact, ProvedStretch, Reason};
+use crate::proved::{Proved, ProvedEnd, ProvedImpact, ProvedSegment, Reason};
 use crate::run::{Next, Run, Stick, Struck};
 use crate::slack::search::{Zero, Zeros};
 use crate::taut::law::{Law, after};
@@ -142,7 +142,7 @@ fn follow_taut(
         let end = enclose_taut_motion(run.fine, &start, &mut |t| report(Proved::Step(t.clone())));
         let end = end.map_err(|failure| failure.at(from.to_f64()))?;
         let (state, t) = hull_of(&end.instants);
-        report(Proved::Stretch(ProvedStretch {
+        report(Proved::Segment(ProvedSegment {
             taut: now.taut.clone(),
             from,
             until: t.clone(),
@@ -217,7 +217,7 @@ fn snapped(
     Ok((impact, next))
 }
 
-/// The event that ends a stretch, in the notation of a certificate.
+/// The event that ends a segment, in the notation of a certificate.
 fn event_name(event: Event) -> String {
     match event {
         Event::Released(cable) => format!("tension {}", cable + 1),

@@ -13,9 +13,9 @@ pub(crate) struct ProvedImpact {
     pub(crate) v_n: Ball,
 }
 
-/// A stretch with taut cables.
+/// A segment with taut cables.
 #[derive(Clone, Debug)]
-pub(crate) struct ProvedStretch {
+pub(crate) struct ProvedSegment {
     /// By index from 0.
     pub(crate) taut: Vec<usize>,
     pub(crate) from: Ball,
@@ -24,7 +24,7 @@ pub(crate) struct ProvedStretch {
     pub(crate) event: String,
 }
 
-impl ProvedStretch {
+impl ProvedSegment {
     /// The taut cables, from 1, as a certificate has them.
     pub(crate) fn mode(&self) -> Vec<u8> {
         self.taut.iter().map(|cable| *cable as u8 + 1).collect()
@@ -35,17 +35,17 @@ impl ProvedStretch {
 #[derive(Clone, Debug)]
 pub(crate) enum Proved {
     Impact(ProvedImpact),
-    Stretch(ProvedStretch),
-    /// A step of taut motion to this time, within a stretch that continues.
+    Segment(ProvedSegment),
+    /// A step of taut motion to this time, within a segment that continues.
     Step(Ball),
 }
 
 impl Proved {
-    /// The time of the event, or the end of the stretch.
+    /// The time of the event, or the end of the segment.
     pub(crate) fn time(&self) -> &Ball {
         match self {
             Self::Impact(impact) => &impact.t,
-            Self::Stretch(stretch) => &stretch.until,
+            Self::Segment(segment) => &segment.until,
             Self::Step(t) => t,
         }
     }

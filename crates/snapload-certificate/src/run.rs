@@ -67,7 +67,7 @@ pub(crate) enum Next {
     End(Box<ProvedEnd>),
 }
 
-/// Where a event function crosses zero.
+/// Where an event function crosses zero.
 pub(crate) struct Root {
     pub(crate) which: usize,
     /// The time, since T, at which the centre's flight crosses.

@@ -4,7 +4,7 @@ use crate::arithmetic::ball::Ball;
 use crate::arithmetic::decimal::{fixed, significant};
 use crate::case::ExactCase;
 use crate::format::{
-    CaseText, CertificateText, EndText, FORMAT, Line, MODEL, Stretch, TAUT_FORMAT, UNDECIDED,
+    CaseText, CertificateText, EndText, FORMAT, Line, MODEL, TAUT_FORMAT, TautSegment, UNDECIDED,
 };
 use crate::proof::prove;
 use crate::proved::{Proved, Reason};
@@ -22,8 +22,8 @@ const DIGITS: i64 = 17;
 pub struct Certification {
     /// How many impacts were proved.
     pub impacts: usize,
-    /// How many stretches with a taut cable.
-    pub stretches: usize,
+    /// How many segments with a taut cable.
+    pub taut_segments: usize,
     /// The time of the last proved event: the end, or the last impact.
     pub t: String,
     /// How the run ends, or what could not be decided.
@@ -68,7 +68,7 @@ impl Certification {
                 t,
                 v_n,
             }),
-            Line::Stretch(_) => None,
+            Line::TautSegment(_) => None,
         })
     }
 
@@ -91,7 +91,7 @@ impl Serialize for Certification {
 #[derive(Clone, Copy, Debug)]
 pub struct Cancelled;
 
-/// The impacts and taut stretches that are to be written.
+/// The impacts and taut segments that are to be written.
 type Lines = Vec<Line>;
 /// The reason, time and state of an end as they are to be written.
 type PrintedEnd = (Reason, String, [String; 6]);
@@ -118,9 +118,9 @@ pub fn certify(
         end
     });
     let last = best.last().map(|line| line.time().to_owned());
-    let stretches = best
+    let segments = best
         .iter()
-        .filter(|line| matches!(line, Line::Stretch(_)))
+        .filter(|line| matches!(line, Line::TautSegment(_)))
         .count();
     let (end, t, written) = match found {
         Ok(((reason, t, state), _)) => {
@@ -145,13 +145,13 @@ pub fn certify(
         Err(ProofFailure::Cancelled | ProofFailure::StoppedEarly) => return Err(Cancelled),
     };
     Ok(Ok(Certification {
-        impacts: best.len() - stretches,
-        stretches,
+        impacts: best.len() - segments,
+        taut_segments: segments,
         t,
         end,
         bits,
         written: CertificateText {
-            format: if stretches > 0 { TAUT_FORMAT } else { FORMAT }.to_owned(),
+            format: if segments > 0 { TAUT_FORMAT } else { FORMAT }.to_owned(),
             model: MODEL.to_owned(),
             bits: bits as u64,
             case: CaseText::of(case),
@@ -198,11 +198,11 @@ fn written(proved: &Proved) -> Option<Line> {
             let v_n = significant(&impact.v_n, DIGITS)?;
             Line::Impact(impact.cable as u8 + 1, t, v_n)
         }
-        Proved::Stretch(stretch) => Line::Stretch(Stretch {
-            mode: stretch.mode(),
-            from: fixed(&stretch.from, PLACES)?,
+        Proved::Segment(segment) => Line::TautSegment(TautSegment {
+            mode: segment.mode(),
+            from: fixed(&segment.from, PLACES)?,
             until: t,
-            event: stretch.event.clone(),
+            event: segment.event.clone(),
         }),
     })
 }

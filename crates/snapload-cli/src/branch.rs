@@ -139,8 +139,8 @@ fn switched(
         let event = branch.event(Kind::PeriodDoubling, *number);
         let event = event.map_err(|why| Failure::Failed(format!("--switch: {why}")))?;
         let event = event.clone();
-        let born = family.branch_of_doubling(&event, options, on_progress)?;
-        branch = born.ok_or_else(|| {
+        let doubled = family.branch_of_doubling(&event, options, on_progress)?;
+        branch = doubled.ok_or_else(|| {
             let message = "--switch: no direction of a branch of twice the length is found there";
             Failure::Failed(message.to_owned())
         })?;

@@ -68,7 +68,7 @@ fn as_option(mut error: CaseError) -> CaseError {
 /// A row a sample.
 fn table(comparison: &ElasticComparison, out: &mut dyn io::Write) -> io::Result<()> {
     let mut table = csv::Writer::from_writer(out);
-    let lines = comparison.springs.len();
+    let lines = comparison.elastic_lines.len();
     let tensions = (1..=lines).map(|line| format!("tension_{line}_n"));
     let names = ["t_s", "x_m", "z_m", "theta_rad"].map(str::to_owned);
     table.write_record(names.into_iter().chain(tensions))?;

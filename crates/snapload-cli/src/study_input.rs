@@ -183,8 +183,8 @@ impl StudyOptions {
 /// The axes of a study from its description; none if it is not a grid.
 pub(crate) fn axes_of(description: &str) -> Option<Vec<Axis>> {
     let entries = Entries::parse(&STUDY, "", description).ok()?;
-    let says = |key: &str| entries.table("study", 0).given(key).is_some();
-    if says("random") || says("list") || entries.count("vary") == 0 {
+    let is_given = |key: &str| entries.table("study", 0).given(key).is_some();
+    if is_given("random") || is_given("list") || entries.count("vary") == 0 {
         return None;
     }
     let axes = entries

@@ -128,7 +128,7 @@ export async function* fetchMap(question, signal) {
  */
 export async function fetchWithProgress(path, question, signal, onProgress) {
   try {
-    for await (const line of linesOf(await post(path, { ...question, told: true }, signal))) {
+    for await (const line of linesOf(await post(path, { ...question, progress: true }, signal))) {
       if (line.error) throw new Refused(line.error.message, line.error.key);
       if (line.answer !== undefined) return line.answer;
       onProgress(line);

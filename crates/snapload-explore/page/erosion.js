@@ -34,6 +34,6 @@ export function drawErosion(canvas, { points, knee, over }, colours, across) {
     context.setLineDash([]);
   }
   const part = ({ fraction }, row) => (there[row] ? number(fraction, 3) : "no legal start");
-  const told = points.map((point, row) => `${number(point.value, 3)}: ${part(point, row)}`).join(", ");
-  canvas.setAttribute("aria-label", `The safe part over ${over}: ${told}`);
+  const text = points.map((point, row) => `${number(point.value, 3)}: ${part(point, row)}`).join(", ");
+  canvas.setAttribute("aria-label", `The safe part over ${over}: ${text}`);
 }

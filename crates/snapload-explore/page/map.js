@@ -236,12 +236,12 @@ export class SweepMap {
     if (!this.cells) return;
     const [i, j] = this.cursor;
     const { x, y } = this.cells;
-    const leap = event.shiftKey ? 5 : 1;
+    const stepSize = event.shiftKey ? 5 : 1;
     const to = {
-      ArrowLeft: [i - leap, j],
-      ArrowRight: [i + leap, j],
-      ArrowUp: [i, j + leap],
-      ArrowDown: [i, j - leap],
+      ArrowLeft: [i - stepSize, j],
+      ArrowRight: [i + stepSize, j],
+      ArrowUp: [i, j + stepSize],
+      ArrowDown: [i, j - stepSize],
       Home: [0, j],
       End: [x.count - 1, j],
       PageUp: [i, y.count - 1],

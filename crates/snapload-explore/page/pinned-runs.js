@@ -64,10 +64,10 @@ export class PinnedRuns {
     const more = (a, b, words) => (a === b ? "" : ` (${words[a > b ? 0 : 1]})`);
     const hardest = more(number(run.norms.rho1), number(shown.norms.rho1), ["harder", "softer"]);
     const sure = run.horizon.t === null ? "" : " (not certain)";
-    const told = `${reasonText(run.end.reason)} at t = ${number(run.end.t)}${sure}, hardest snap ${number(run.norms.rho1)}`;
+    const outcome = `${reasonText(run.end.reason)} at t = ${number(run.end.t)}${sure}, hardest snap ${number(run.norms.rho1)}`;
     return (
       `<li><i class="swatch" style="background:${colour}"></i> <button type="button" class="back" data-pin="${i}" ` +
-      `title="Show this run">${what}</button>: ${told}${run.norms.rho1 === shown.norms.rho1 ? "" : hardest} ` +
+      `title="Show this run">${what}</button>: ${outcome}${run.norms.rho1 === shown.norms.rho1 ? "" : hardest} ` +
       `<button type="button" class="unpin" data-pin="${i}" aria-label="Unpin ${what}">×</button></li>`
     );
   }

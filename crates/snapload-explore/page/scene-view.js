@@ -20,7 +20,7 @@ export class SceneView {
     this.state = state;
     this.playback = playback;
     this.run = null;
-    this.saying = null;
+    this.announceTimer = null;
     this.fixedCamera = null;
     this.canvas = $("scene");
     for (const name of ["picture", "view"]) {
@@ -54,10 +54,10 @@ export class SceneView {
   describe() {
     const { run } = this;
     this.#summarise();
-    clearTimeout(this.saying);
+    clearTimeout(this.announceTimer);
     const words = this.#words();
     $("message").textContent = words;
-    this.saying = setTimeout(() => ($("announced").textContent = words), $("announced").textContent ? REST_MS : 0);
+    this.announceTimer = setTimeout(() => ($("announced").textContent = words), $("announced").textContent ? REST_MS : 0);
     $("ramp-key").hidden = !(run.timeTaut > 0);
     $("ramp-words").textContent = `tension, up to ${number(run.mostTension, 3)} F`;
   }

@@ -15,7 +15,7 @@ export class StructureSceneView {
     this.state = state;
     this.playback = playback;
     this.run = null;
-    this.saying = null;
+    this.announceTimer = null;
     this.fixedCamera = null;
     this.canvas = $("scene");
   }
@@ -29,9 +29,9 @@ export class StructureSceneView {
     $("trust").textContent = trust.words;
     const whole = `the whole record of ${round(run.lasts_s)} s follows when the values stop changing`;
     $("preview").textContent = run.preview ? `These results are for the first ${round(run.tEnd)} s; ${whole}.` : "";
-    clearTimeout(this.saying);
+    clearTimeout(this.announceTimer);
     const words = sentence(run.standing) + ` ${verdict.words}`;
-    this.saying = setTimeout(() => ($("announced").textContent = words), $("announced").textContent ? REST_MS : 0);
+    this.announceTimer = setTimeout(() => ($("announced").textContent = words), $("announced").textContent ? REST_MS : 0);
   }
 
   get t() {

@@ -21,7 +21,7 @@ function bar(utilisation) {
 }
 
 function lineRow(line, elastic) {
-  const beside = (text) => (elastic ? cell(text(elastic), "num stretch") : "");
+  const elasticCell = (text) => (elastic ? cell(text(elastic), "num stretch") : "");
   return (
     `<tr><th scope="row"><span class="c${((line.line - 1) % 6) + 1}">${line.line}</span></th>` +
     cell(bar(line.utilisation), "utilised") +
@@ -29,9 +29,9 @@ function lineRow(line, elastic) {
     cell(kilo(line.breaking_load_n)) +
     cell(kilo(line.held_tension_n)) +
     cell(kilo(line.peak_tension_n)) +
-    beside(({ peak_n }) => kilo(peak_n)) +
+    elasticCell(({ peak_n }) => kilo(peak_n)) +
     cell(percent(line.slack_fraction)) +
-    beside(({ slack_fraction }) => percent(slack_fraction)) +
+    elasticCell(({ slack_fraction }) => percent(slack_fraction)) +
     cell(line.snaps ? fixed(line.fastest_snap_m_s, 2) : "–") +
     cell(line.snaps === null ? "–" : String(line.snaps)) +
     cell(kilo(line.rest_tension_n)) +
@@ -45,11 +45,11 @@ export function showLines(run) {
   const elastic = run.elastic?.elastic;
   const head = (words, unit, kind = "num") =>
     `<th scope="col" class="${kind}">${words}${unit ? `<br><span>${unit}</span>` : ""}</th>`;
-  const beside = (words, unit) => (elastic ? head(`${words},<br>elastic`, unit, "num stretch") : "");
+  const elasticHead = (words, unit) => (elastic ? head(`${words},<br>elastic`, unit, "num stretch") : "");
   $("lines").innerHTML =
     `<thead><tr><th scope="col">Line</th>${head("Utilisation", "", "")}${head("Safety<br>factor", "")}` +
-    `${head("Breaking<br>load", "kN")}${head("While<br>taut", "kN")}${head("Snap<br>peak", "kN")}${beside("Peak", "kN")}` +
-    `${head("Slack", "%")}${beside("Slack", "%")}${head("Fastest<br>snap", "m/s")}${head("Snaps", "")}` +
+    `${head("Breaking<br>load", "kN")}${head("While<br>taut", "kN")}${head("Snap<br>peak", "kN")}${elasticHead("Peak", "kN")}` +
+    `${head("Slack", "%")}${elasticHead("Slack", "%")}${head("Fastest<br>snap", "m/s")}${head("Snaps", "")}` +
     `${head("At rest", "kN")}${head("Least", "kN")}</tr></thead><tbody>` +
     run.lines.map((line, i) => lineRow(line, elastic?.lines[i])).join("") +
     "</tbody>";
@@ -75,8 +75,8 @@ export function showChecks(run) {
   });
   const heard = run.rebound ? `<p class="small">${sentence(run.rebound)}</p>` : "";
   $("checks").innerHTML = (rows.length ? `<h3>Design checks</h3><ul class="checks">${rows.join("")}</ul>` : "") + heard;
-  const told = warnings.map(({ rule, message }) => `<li><b>${escape(rule)}</b>: ${escape(message)}</li>`);
-  $("warnings").innerHTML = told.length ? `<h3>Warnings</h3><ul class="warnings">${told.join("")}</ul>` : "";
+  const items = warnings.map(({ rule, message }) => `<li><b>${escape(rule)}</b>: ${escape(message)}</li>`);
+  $("warnings").innerHTML = items.length ? `<h3>Warnings</h3><ul class="warnings">${items.join("")}</ul>` : "";
   $("summary").textContent = run.summary;
 }
 

@@ -131,7 +131,7 @@ async fn answer_question(
     Path(name): Path<String>,
     Body(request): Body<question::Request>,
 ) -> Result<Response, Refusal> {
-    let question = snapload_report::question(&name).ok_or_else(Refusal::nothing_there)?;
+    let question = snapload_report::question(&name).ok_or_else(Refusal::not_found)?;
     let work = move |allowance: &Allowance| question::answer(question, request, allowance);
     compute(&shared.provers, work).await.map(json)
 }
@@ -197,7 +197,7 @@ async fn answer_export(
     Path(name): Path<String>,
     Body(request): Body<export::Request>,
 ) -> Result<Response, Refusal> {
-    let file = export::File::named(&name).ok_or_else(Refusal::nothing_there)?;
+    let file = export::File::named(&name).ok_or_else(Refusal::not_found)?;
     let kind = file.content_type();
     let bytes = compute(&shared.writers, move |allowance| {
         file.write(request, allowance)
@@ -265,7 +265,7 @@ async fn answer_structure_export(
     Path(name): Path<String>,
     Body(request): Body<structure::ExportRequest>,
 ) -> Result<Response, Refusal> {
-    let file = structure::File::named(&name).ok_or_else(Refusal::nothing_there)?;
+    let file = structure::File::named(&name).ok_or_else(Refusal::not_found)?;
     let writers = Arc::clone(&shared.writers);
     let progress = request.progress;
     let work = move |allowance: &Allowance| {

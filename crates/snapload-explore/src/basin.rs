@@ -27,7 +27,7 @@ pub(crate) struct Request {
     #[serde(default)]
     over: Option<AxisGiven>,
     /// Whether to report the progress, line by line.
-    #[serde(default, rename = "told")]
+    #[serde(default)]
     pub(crate) progress: bool,
 }
 

@@ -20,8 +20,8 @@ pub(crate) async fn file(uri: Uri) -> Result<Response, Refusal> {
 /// The file of a name.
 pub(crate) fn named(name: &str) -> Result<Response, Refusal> {
     let name = if name == ICON_OF_OTHERS { ICON } else { name };
-    let kind = kind(name).ok_or_else(Refusal::nothing_there)?;
-    let file = PAGE.get_file(name).ok_or_else(Refusal::nothing_there)?;
+    let kind = kind(name).ok_or_else(Refusal::not_found)?;
+    let file = PAGE.get_file(name).ok_or_else(Refusal::not_found)?;
     let mut answer = ([(CONTENT_TYPE, kind)], file.contents()).into_response();
     if name == ICON {
         // Otherwise a browser requests it again with each change of the address, of which a run

@@ -63,7 +63,7 @@ impl Refusal {
     }
 
     /// A path that does not exist.
-    pub(crate) fn nothing_there() -> Self {
+    pub(crate) fn not_found() -> Self {
         Self::new(StatusCode::NOT_FOUND, "there is nothing at this path")
     }
 

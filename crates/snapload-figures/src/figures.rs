@@ -14,7 +14,7 @@ const CABLES: [(&str, Stroke); 2] = [
 
 /// A part of the path of the body's centre.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Leg {
+pub struct PathPart {
     /// How the body moves along it.
     pub mode: Mode,
     /// The centre's positions, `[x, y]`.
@@ -65,16 +65,16 @@ const BEYOND: &str = "past the horizon";
 /// `boundaries` are the polylines on which cable 1 and cable 2 become taut. The letters of the
 /// marks are the caller's: I start, S sliding starts, R rocking starts, G the other boundary is
 /// hit while one cable is taut, E end. A legend appears where the path has more than one mode.
-pub fn trajectory(path: &[Leg], boundaries: [&[Point]; 2], marks: &[Mark]) -> Plot {
+pub fn trajectory(path: &[PathPart], boundaries: [&[Point]; 2], marks: &[Mark]) -> Plot {
     let [first, second] = boundaries.map(<[Point]>::to_vec);
     let mut layers = vec![
         Layer::Boundary(first, "*g*₁ = 0, *θ* = 0".to_string()),
         Layer::Boundary(second, "*g*₂ = 0, *θ* = 0".to_string()),
     ];
-    let one = path.windows(2).all(|legs| legs[0].mode == legs[1].mode);
+    let one = path.windows(2).all(|parts| parts[0].mode == parts[1].mode);
     for (mode, stroke, words) in MODES {
-        let legs = path.iter().filter(|leg| leg.mode == mode);
-        let pieces = legs.map(|leg| leg.points.clone()).collect();
+        let parts = path.iter().filter(|part| part.mode == mode);
+        let pieces = parts.map(|part| part.points.clone()).collect();
         let words = if one { "" } else { words };
         layers.push(Layer::Line(pieces, stroke, words.to_string()));
     }

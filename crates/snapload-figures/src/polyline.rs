@@ -100,8 +100,8 @@ fn simplify(points: &[Point]) -> Vec<Point> {
     }
     let last = points.len() - 1;
     let mut keep = vec![false; points.len()];
-    let stretches = (0..last).step_by(SEGMENT_POINTS);
-    let mut open: Vec<(usize, usize)> = stretches
+    let pieces = (0..last).step_by(SEGMENT_POINTS);
+    let mut open: Vec<(usize, usize)> = pieces
         .map(|start| (start, (start + SEGMENT_POINTS).min(last)))
         .collect();
     while let Some((from, to)) = open.pop() {

@@ -2,7 +2,7 @@
 
 use crate::draw::draw;
 use crate::error::FigureError;
-use crate::figures::{self, Leg, Mode};
+use crate::figures::{self, Mode, PathPart};
 use crate::picture::Picture;
 use crate::plot::{Axis, Inset, Mark, Plot, Point, Range, Width};
 use snapload::{ModeInterval, Motion, Playback, TautSet, Trajectory, Vector2};
@@ -170,13 +170,13 @@ impl<'a> RunPlots<'a> {
             }
         };
         let same = |a: &Segment, b: &Segment| mode_of(a) == mode_of(b);
-        let legs = self.segments.chunk_by(same).map(|segments| Leg {
+        let parts = self.segments.chunk_by(same).map(|segments| PathPart {
             mode: mode_of(&segments[0]),
             points: joined(segments, place),
         });
-        let legs: Vec<Leg> = legs.collect();
+        let parts: Vec<PathPart> = parts.collect();
         let boundaries = [0, 1].map(|cable| boundary(self.run, cable));
-        figures::trajectory(&legs, [&boundaries[0], &boundaries[1]], &self.marks())
+        figures::trajectory(&parts, [&boundaries[0], &boundaries[1]], &self.marks())
     }
 
     fn snaps(&self, cable: usize) -> Vec<Point> {

@@ -8,7 +8,7 @@ pub struct Spline {
     x: Vec<f64>,
     y: Vec<f64>,
     /// The second derivative at each point.
-    bend: Vec<f64>,
+    second_derivatives: Vec<f64>,
 }
 
 impl Spline {
@@ -17,7 +17,7 @@ impl Spline {
         Self {
             x: x.to_vec(),
             y: y.to_vec(),
-            bend: bends(x, y),
+            second_derivatives: second_derivatives(x, y),
         }
     }
 
@@ -38,8 +38,10 @@ impl Spline {
         let left = right - 1;
         let h = self.x[right] - self.x[left];
         let (a, b) = (self.x[right] - x, x - self.x[left]);
-        let cubic = (self.bend[left] * a * a * a + self.bend[right] * b * b * b) / (6.0 * h);
-        let line = |index: usize| self.y[index] / h - self.bend[index] * h / 6.0;
+        let cubic = (self.second_derivatives[left] * a * a * a
+            + self.second_derivatives[right] * b * b * b)
+            / (6.0 * h);
+        let line = |index: usize| self.y[index] / h - self.second_derivatives[index] * h / 6.0;
         cubic + line(left) * a + line(right) * b
     }
 }
@@ -53,7 +55,7 @@ impl Spline {
 ///
 /// where the outer two are eliminated first, and the rest follow by elimination.
 /// Source: C. de Boor, *A Practical Guide to Splines* (1978), chapter IV.
-fn bends(x: &[f64], y: &[f64]) -> Vec<f64> {
+fn second_derivatives(x: &[f64], y: &[f64]) -> Vec<f64> {
     let n = x.len();
     let h: Vec<f64> = x.windows(2).map(|pair| pair[1] - pair[0]).collect();
     let slope: Vec<f64> = (0..n.saturating_sub(1))
@@ -90,14 +92,14 @@ fn bends(x: &[f64], y: &[f64]) -> Vec<f64> {
         on[k] -= factor * above[k - 1];
         right[k] -= factor * right[k - 1];
     }
-    let mut bend = vec![0.0; n];
+    let mut second = vec![0.0; n];
     for k in (0..inner).rev() {
-        let next = if k + 1 < inner { bend[k + 2] } else { 0.0 };
-        bend[k + 1] = (right[k] - above[k] * next) / on[k];
+        let next = if k + 1 < inner { second[k + 2] } else { 0.0 };
+        second[k + 1] = (right[k] - above[k] * next) / on[k];
     }
-    bend[0] = ((h[0] + h[1]) * bend[1] - h[0] * bend[2]) / h[1];
-    bend[n - 1] = ((h[n - 2] + h[n - 3]) * bend[n - 2] - h[n - 2] * bend[n - 3]) / h[n - 3];
-    bend
+    second[0] = ((h[0] + h[1]) * second[1] - h[0] * second[2]) / h[1];
+    second[n - 1] = ((h[n - 2] + h[n - 3]) * second[n - 2] - h[n - 2] * second[n - 3]) / h[n - 3];
+    second
 }
 
 #[cfg(test)]

@@ -1,7 +1,7 @@
 //! Branches: an orbit as a parameter changes, with the bifurcations and other events along it.
 
 use crate::branch_events::{BranchEvent, Kind, Test, located, tests_of};
-use crate::continuation::{Continuation, Segment, Unknowns};
+use crate::continuation::{BranchStep, Continuation, Unknowns};
 use crate::hybrid::{Family, Point};
 use crate::orbit::{NoOrbit, Orbit};
 use crate::survey::root;
@@ -164,9 +164,9 @@ impl Branch {
             on_progress,
             done: 0,
         };
-        let born = HalfBranch::empty(orbit.at[0], "the period doubling");
+        let doubled = HalfBranch::empty(orbit.at[0], "the period doubling");
         let forward = follower.run(&continuation, &start, &apart, &orbit)?;
-        Ok(Some(joined(&orbit, born, forward)))
+        Ok(Some(joined(&orbit, doubled, forward)))
     }
 }
 
@@ -261,13 +261,13 @@ impl Follower<'_> {
             };
             let found = Orbit::of(&continuation.lap(there.at.at), &there.at.closed());
             let reached = tests_of(&found, &there.direction);
-            let segment = Segment {
+            let branch_step = BranchStep {
                 continuation: &continuation,
                 from: &here,
                 tangent: &tangent,
                 length: there.length,
             };
-            let ended = self.take_events(&segment, [&tests, &reached], arclength, &mut half);
+            let ended = self.take_events(&branch_step, [&tests, &reached], arclength, &mut half);
             arclength += there.length;
             let ended = ended.or_else(|| {
                 half.end.at = found.at[0];
@@ -345,7 +345,7 @@ impl Follower<'_> {
     /// Locates the events between two points; returns why the branch ends there, if it does.
     fn take_events<F: Family>(
         &self,
-        segment: &Segment<F>,
+        branch_step: &BranchStep<F>,
         [before, after]: [&[(Test, f64)]; 2],
         arclength: f64,
         half: &mut HalfBranch,
@@ -353,7 +353,7 @@ impl Follower<'_> {
         let mut found: Vec<BranchEvent> = Vec::new();
         for ((test, a), (_, b)) in before.iter().zip(after) {
             if a.is_finite() && b.is_finite() && (*a < 0.0) != (*b < 0.0) {
-                found.extend(located(segment, *test, *a, *b));
+                found.extend(located(branch_step, *test, *a, *b));
             }
         }
         let [low, high] = self.options.range;

@@ -1,6 +1,6 @@
 //! Events along a branch: test functions, and their zeros.
 
-use crate::continuation::Segment;
+use crate::continuation::BranchStep;
 use crate::hybrid::{DURATION, Family, Hybrid, Jet, Point, constant};
 use crate::orbit::Orbit;
 use crate::survey::{Extreme, root};
@@ -207,14 +207,14 @@ fn pairs(multipliers: &[[f64; 2]]) -> f64 {
 /// The event between two points at which a test function changes its sign; none if that is not a
 /// zero of it, or not the event wanted.
 pub(crate) fn located<F: Family>(
-    segment: &Segment<F>,
+    branch_step: &BranchStep<F>,
     test: Test,
     before: f64,
     after: f64,
 ) -> Option<BranchEvent> {
-    let (continuation, tangent) = (segment.continuation, segment.tangent);
+    let (continuation, tangent) = (branch_step.continuation, branch_step.tangent);
     let orbit_at = |sigma: f64| {
-        let (u, ..) = continuation.corrected(segment.from, tangent, sigma)?;
+        let (u, ..) = continuation.corrected(branch_step.from, tangent, sigma)?;
         let direction = continuation.tangent(&u, tangent)?;
         Some((Orbit::of(&continuation.lap(u.at), &u.closed()), direction))
     };
@@ -222,7 +222,7 @@ pub(crate) fn located<F: Family>(
         let found = orbit_at(sigma);
         found.map_or(f64::NAN, |(orbit, direction)| raw(test, &orbit, &direction))
     };
-    let sigma = root(&of, (0.0, before), (segment.length, after));
+    let sigma = root(&of, (0.0, before), (branch_step.length, after));
     let (orbit, direction) = orbit_at(sigma)?;
     if raw(test, &orbit, &direction).abs() > ZERO || !is_meant(test, &orbit) {
         return None;
@@ -239,11 +239,11 @@ pub(crate) fn located<F: Family>(
         Test::Limit(limit) => (Kind::Limit(limit), None),
     };
     let grazes = extreme.filter(|_| kind == Kind::Graze);
-    let bend = grazes.map(|extreme| normal_acceleration(segment, &orbit, &extreme));
+    let acceleration = grazes.map(|extreme| normal_acceleration(branch_step, &orbit, &extreme));
     // If events have passed the section, they are numbered from there.
-    let (u, ..) = continuation.corrected(segment.from, tangent, sigma)?;
-    let anew = continuation.renumbered(&u);
-    let orbit = anew.map_or(orbit, |(moved, u, _)| {
+    let (u, ..) = continuation.corrected(branch_step.from, tangent, sigma)?;
+    let renumbered = continuation.renumbered(&u);
+    let orbit = renumbered.map_or(orbit, |(moved, u, _)| {
         Orbit::of(&moved.lap(u.at), &u.closed())
     });
     let orbit = match kind {
@@ -256,8 +256,8 @@ pub(crate) fn located<F: Family>(
         value: orbit.at,
         surface: extreme.map(|extreme| extreme.surface),
         t: extreme.map(|extreme| extreme.t),
-        normal_acceleration: bend,
-        sqrt_coefficient: bend.map(|a| (1.0 + restitution) * (2.0 * a).max(0.0).sqrt()),
+        normal_acceleration: acceleration,
+        sqrt_coefficient: acceleration.map(|a| (1.0 + restitution) * (2.0 * a).max(0.0).sqrt()),
         is_own_snap: test == Test::Speed,
         arclength: sigma,
         sigma,
@@ -266,8 +266,8 @@ pub(crate) fn located<F: Family>(
 }
 
 /// a = −g̈/2r of a surface at an instant of a lap.
-fn normal_acceleration<F: Family>(segment: &Segment<F>, orbit: &Orbit, at: &Extreme) -> f64 {
-    let continuation = segment.continuation;
+fn normal_acceleration<F: Family>(branch_step: &BranchStep<F>, orbit: &Orbit, at: &Extreme) -> f64 {
+    let continuation = branch_step.continuation;
     let system = continuation.family.plain(orbit.at);
     let legs = continuation
         .lap(orbit.at)
@@ -276,7 +276,7 @@ fn normal_acceleration<F: Family>(segment: &Segment<F>, orbit: &Orbit, at: &Extr
     let jets = continuation.family.jets(orbit.at);
     let start: Point<Jet> = leg.start.map(constant);
     let s = Jet::variable(at.t - leg.t, DURATION);
-    let there = jets.flow(leg.held, constant(leg.t), &start, s);
+    let there = jets.flow(leg.taut, constant(leg.t), &start, s);
     -jets.speed(at.surface, &there).slope[DURATION]
 }
 

@@ -230,7 +230,7 @@ fn rate<F: Family>(
     let jets = continuation.family.jets(u.at);
     let start: Point<Jet> = leg.start.map(constant);
     let there = jets.flow(
-        leg.held,
+        leg.taut,
         constant(leg.t),
         &start,
         Jet::variable(s, DURATION),
@@ -245,7 +245,7 @@ impl Contact {
         let legs = continuation.lap(u.at).legs(&system, &u.z, &u.durations);
         let leg = legs.get(self.leg)?;
         let mut s = self.t - leg.t;
-        let there = |s: f64| system.flow(leg.held, leg.t, &leg.start, s);
+        let there = |s: f64| system.flow(leg.taut, leg.t, &leg.start, s);
         for _ in 0..MOST_STEPS {
             let speed = system.speed(self.surface, &there(s));
             let step = speed / rate(continuation, u, leg, self.surface, s);

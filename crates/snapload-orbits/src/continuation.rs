@@ -179,13 +179,13 @@ impl<F: Family> Continuation<'_, F> {
         let system = self.family.plain(u.at);
         let legs = lap.legs(&system, &u.z, &u.durations);
         let (first, last) = (legs.first()?, legs.last()?);
-        let held = self.sequence.held();
+        let taut_sets = self.sequence.taut_sets();
         let mut moved = self.clone();
         let mut durations = u.durations.clone();
         let (z, shift) = if first.s < 0.0 {
             // The first event is now the last one of the lap before.
             moved.sequence.events.rotate_left(1);
-            moved.sequence.start = held[1];
+            moved.sequence.start = taut_sets[1];
             let leg = &legs[1];
             durations.rotate_left(1);
             let early = first.s;
@@ -196,13 +196,13 @@ impl<F: Family> Continuation<'_, F> {
                 durations[0] = length + early;
             }
             (
-                system.flow(leg.held, leg.t, &leg.start, t_start - leg.t),
+                system.flow(leg.taut, leg.t, &leg.start, t_start - leg.t),
                 -1,
             )
         } else {
             // The last event is now the first one after the section.
             moved.sequence.events.rotate_right(1);
-            moved.sequence.start = held[count - 1];
+            moved.sequence.start = taut_sets[count - 1];
             let leg = &legs[count - 1];
             let late = -last.s;
             durations.rotate_right(1);
@@ -210,7 +210,7 @@ impl<F: Family> Continuation<'_, F> {
             if count > 1 {
                 durations[1] -= late;
             }
-            let z = system.flow(leg.held, leg.t, &leg.start, t_start + length - leg.t);
+            let z = system.flow(leg.taut, leg.t, &leg.start, t_start + length - leg.t);
             (z, 1)
         };
         let here = Unknowns {
@@ -244,8 +244,8 @@ impl<F: Family> Continuation<'_, F> {
     }
 }
 
-/// The segment between one point of a branch and the next.
-pub(crate) struct Segment<'a, F: Family> {
+/// The step from one point of a branch to the next.
+pub(crate) struct BranchStep<'a, F: Family> {
     pub(crate) continuation: &'a Continuation<'a, F>,
     pub(crate) from: &'a Unknowns,
     pub(crate) tangent: &'a DVector<f64>,

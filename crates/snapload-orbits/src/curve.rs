@@ -228,7 +228,7 @@ fn others(kind: Kind, orbit: &Orbit) -> Stability {
 }
 
 fn point<F: Family>(on_curve: &OnCurve<F>, orbit: Orbit, arclength: f64) -> CurvePoint {
-    let bend = on_curve
+    let acceleration = on_curve
         .condition
         .normal_acceleration(&on_curve.continuation, &on_curve.here);
     let restitution = on_curve
@@ -248,8 +248,8 @@ fn point<F: Family>(on_curve: &OnCurve<F>, orbit: Orbit, arclength: f64) -> Curv
         arclength,
         coefficient: form.as_ref().map(|form| form.value),
         eigenvector: form.map(|form| form.eigenvector),
-        normal_acceleration: bend,
-        sqrt_coefficient: bend.map(|a| (1.0 + restitution) * (2.0 * a).max(0.0).sqrt()),
+        normal_acceleration: acceleration,
+        sqrt_coefficient: acceleration.map(|a| (1.0 + restitution) * (2.0 * a).max(0.0).sqrt()),
     }
 }
 

@@ -27,14 +27,14 @@ pub trait Hybrid<T: Real> {
     /// All surfaces.
     fn surfaces(&self) -> TautSet;
 
-    /// The state a time `s`, of either sign, after `z` at time `t`, with `held` surfaces.
-    fn flow(&self, held: TautSet, t: T, z: &Point<T>, s: T) -> Point<T>;
+    /// The state a time `s`, of either sign, after `z` at time `t`, with the surfaces of `taut` taut.
+    fn flow(&self, taut: TautSet, t: T, z: &Point<T>, s: T) -> Point<T>;
 
     /// The same motion at any time from 0 to `s`, for many evaluations: equal to [`Hybrid::flow`]
     /// up to rounding.
-    fn path(&self, held: TautSet, t: T, z: &Point<T>, _s: T) -> impl Fn(T) -> Point<T> {
+    fn path(&self, taut: TautSet, t: T, z: &Point<T>, _s: T) -> impl Fn(T) -> Point<T> {
         let z = *z;
-        move |s| self.flow(held, t, &z, s)
+        move |s| self.flow(taut, t, &z, s)
     }
 
     /// How far the state is beyond a surface, as a length: negative where it is legal.
@@ -44,7 +44,7 @@ pub trait Hybrid<T: Real> {
     fn speed(&self, surface: usize, z: &Point<T>) -> T;
 
     /// The force by which a held surface holds; it is released where this is zero.
-    fn tension(&self, surface: usize, held: TautSet, t: T, z: &Point<T>) -> T;
+    fn tension(&self, surface: usize, taut: TautSet, t: T, z: &Point<T>) -> T;
 
     /// The law where `struck` surfaces are reached and those of `pulling` take impulses: the state
     /// after it, and the impulses.

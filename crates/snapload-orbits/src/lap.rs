@@ -36,7 +36,7 @@ pub struct Lap<'a, F: Family> {
 #[derive(Clone, Copy, Debug)]
 pub struct Leg {
     /// The held surfaces.
-    pub held: TautSet,
+    pub taut: TautSet,
     /// When it begins.
     pub t: f64,
     /// The state then.
@@ -93,14 +93,14 @@ impl<F: Family> Lap<'_, F> {
         let (mut t, _) = self.times();
         let start = self.sequence.start;
         let mut z = system.placed(start, start, z);
-        let held = self.sequence.held();
-        let mut legs = Vec::with_capacity(held.len());
-        for (k, held) in held.into_iter().enumerate() {
+        let taut_sets = self.sequence.taut_sets();
+        let mut legs = Vec::with_capacity(taut_sets.len());
+        for (k, taut) in taut_sets.into_iter().enumerate() {
             let s = durations.get(k).copied();
             let s = s.unwrap_or_else(|| self.last_leg(durations));
-            let end = system.flow(held, t, &z, s);
+            let end = system.flow(taut, t, &z, s);
             legs.push(Leg {
-                held,
+                taut,
                 t,
                 start: z,
                 s,
@@ -121,7 +121,7 @@ impl<F: Family> Lap<'_, F> {
         let leg = legs.iter().rfind(|leg| leg.t <= t).unwrap_or(&legs[0]);
         match periods {
             0 => leg.start,
-            _ => system.flow(leg.held, leg.t, &leg.start, t - leg.t),
+            _ => system.flow(leg.taut, leg.t, &leg.start, t - leg.t),
         }
     }
 
@@ -150,18 +150,18 @@ impl<F: Family> Lap<'_, F> {
         let placed = system.placed(start, start, &variable(z));
         let mut state = values(&placed);
         let mut legs = Vec::new();
-        for (k, held) in self.sequence.held().into_iter().enumerate() {
+        for (k, taut) in self.sequence.taut_sets().into_iter().enumerate() {
             let s = durations.get(k).copied();
             let s = s.unwrap_or_else(|| self.last_leg(durations));
             let [at, lasts] = [Jet::variable(t, TIME), Jet::variable(s, DURATION)];
-            let reached = system.flow(held, at, &variable(&state), lasts);
+            let reached = system.flow(taut, at, &variable(&state), lasts);
             let leg = match self.sequence.events.get(k) {
                 None => Linear::new(None, &reached),
                 Some(event) => {
                     let zero = match event.kind {
                         EventKind::Snap { .. } => system.gap(event.surface(), &reached),
                         EventKind::Release(_) => {
-                            system.tension(event.surface(), held, at + lasts, &reached)
+                            system.tension(event.surface(), taut, at + lasts, &reached)
                         }
                     };
                     Linear::new(Some(zero), &after(&system, event, &reached))

@@ -38,15 +38,15 @@ impl<T: Real> Hybrid<T> for Cables<T> {
         self.system().all_cables()
     }
 
-    fn flow(&self, held: TautSet, t: T, z: &Point<T>, s: T) -> Point<T> {
+    fn flow(&self, taut: TautSet, t: T, z: &Point<T>, s: T) -> Point<T> {
         let state = State::from_components(*z);
-        self.prescribed.carried(held, t, &state, s).components()
+        self.prescribed.carried(taut, t, &state, s).components()
     }
 
-    fn path(&self, held: TautSet, t: T, z: &Point<T>, s: T) -> impl Fn(T) -> Point<T> {
+    fn path(&self, taut: TautSet, t: T, z: &Point<T>, s: T) -> impl Fn(T) -> Point<T> {
         let path = self
             .prescribed
-            .path(held, t, &State::from_components(*z), s);
+            .path(taut, t, &State::from_components(*z), s);
         move |s| path.state(s).components()
     }
 
@@ -64,9 +64,9 @@ impl<T: Real> Hybrid<T> for Cables<T> {
             .velocity(&state)
     }
 
-    fn tension(&self, surface: usize, held: TautSet, t: T, z: &Point<T>) -> T {
+    fn tension(&self, surface: usize, taut: TautSet, t: T, z: &Point<T>) -> T {
         self.prescribed
-            .tensions(held, t, &State::from_components(*z))[surface]
+            .tensions(taut, t, &State::from_components(*z))[surface]
     }
 
     fn law(&self, struck: TautSet, pulling: TautSet, z: &Point<T>) -> (Point<T>, PerCable<T>) {

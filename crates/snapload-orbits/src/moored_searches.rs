@@ -18,7 +18,7 @@ pub struct OnLap {
     /// The index of its leg.
     pub leg: usize,
     /// The number of surfaces held there.
-    pub held: usize,
+    pub taut_count: usize,
     /// When.
     pub t: f64,
     /// The state.
@@ -91,12 +91,12 @@ impl Moored {
         for (number, leg) in legs.iter().enumerate() {
             let share = (f64::from(pieces) * leg.s.abs() / orbit.length).ceil() as usize;
             let count = share.max(fewest).max(1);
-            let path = system.path(leg.held, leg.t, &leg.start, leg.s);
+            let path = system.path(leg.taut, leg.t, &leg.start, leg.s);
             states.extend((0..=count).map(|k| {
                 let s = leg.s * k as f64 / count as f64;
                 OnLap {
                     leg: number,
-                    held: leg.held.len(),
+                    taut_count: leg.taut.len(),
                     t: leg.t + s,
                     z: path(s),
                 }

@@ -76,7 +76,7 @@ pub fn multipliers<F: Family>(
     legs: &[Leg],
 ) -> Multipliers {
     let variables = lap.family.variables();
-    let (most, leg) = most_held(lap.sequence, &closed.durations, lap.times().1);
+    let (most, leg) = most_taut(lap.sequence, &closed.durations, lap.times().1);
     let reduced = if most.is_empty() {
         let linear = lap.linearise(&closed.z, &closed.durations);
         linear.monodromy(variables)
@@ -121,15 +121,15 @@ pub(crate) fn eigenvalues(matrix: DMatrix<f64>) -> Vec<[f64; 2]> {
 }
 
 /// The largest set of held surfaces, and the longest leg with it.
-fn most_held(sequence: &Sequence, durations: &[f64], length: f64) -> (TautSet, usize) {
+fn most_taut(sequence: &Sequence, durations: &[f64], length: f64) -> (TautSet, usize) {
     let rest = length - durations.iter().sum::<f64>();
     let durations = durations.iter().copied().chain([rest]);
     let mut found = (TautSet::SLACK, 0);
     let mut longest = 0.0;
-    for (k, (held, s)) in sequence.held().into_iter().zip(durations).enumerate() {
-        let more = held.len() > found.0.len() && s > 0.0;
-        if more || (held.len() == found.0.len() && s > longest) {
-            (found, longest) = ((held, k), s);
+    for (k, (taut, s)) in sequence.taut_sets().into_iter().zip(durations).enumerate() {
+        let more = taut.len() > found.0.len() && s > 0.0;
+        if more || (taut.len() == found.0.len() && s > longest) {
+            (found, longest) = ((taut, k), s);
         }
     }
     found
@@ -149,7 +149,7 @@ fn cut_within<F: Family>(lap: &Lap<F>, system: &F::Plain, legs: &[Leg], leg: usi
     let here = &legs[leg];
     // The first and the last leg are joined, as the section cuts one leg.
     let half = here.s * 0.5;
-    let z = system.flow(here.held, here.t, &here.start, half);
+    let z = system.flow(here.taut, here.t, &here.start, half);
     let mut events = lap.sequence.events.clone();
     events.rotate_left(leg);
     let mut durations = Vec::with_capacity(events.len());
@@ -164,7 +164,7 @@ fn cut_within<F: Family>(lap: &Lap<F>, system: &F::Plain, legs: &[Leg], leg: usi
     }
     Cut {
         sequence: Sequence {
-            start: here.held,
+            start: here.taut,
             events,
         },
         durations,
@@ -174,9 +174,9 @@ fn cut_within<F: Family>(lap: &Lap<F>, system: &F::Plain, legs: &[Leg], leg: usi
 }
 
 /// An orthonormal basis of the deviations that keep held surfaces closed.
-fn directions_left<F: Family>(lap: &Lap<F>, held: TautSet, z: &Point) -> DMatrix<f64> {
+fn directions_left<F: Family>(lap: &Lap<F>, taut: TautSet, z: &Point) -> DMatrix<f64> {
     let (system, variables) = (lap.family.jets(lap.at), lap.family.variables());
-    let mut taken = closed_by(&system, variables, held, z);
+    let mut taken = closed_by(&system, variables, taut, z);
     let constraints = taken.len();
     // Unit vectors that are nearly spanned already are left out at first; then the basis is
     // completed with them.
@@ -197,12 +197,12 @@ fn directions_left<F: Family>(lap: &Lap<F>, held: TautSet, z: &Point) -> DMatrix
 pub(crate) fn closed_by<H: Hybrid<Jet>>(
     system: &H,
     variables: &[usize],
-    held: TautSet,
+    taut: TautSet,
     z: &Point,
 ) -> Vec<DVector<f64>> {
     let jets = variable(z);
     let mut taken: Vec<DVector<f64>> = Vec::new();
-    for surface in held.iter() {
+    for surface in taut.iter() {
         for closed in [system.gap(surface, &jets), system.speed(surface, &jets)] {
             let row = variables.iter().map(|&i| closed.slope[i]);
             let row = DVector::from_iterator(variables.len(), row);

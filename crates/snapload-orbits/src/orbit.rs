@@ -106,7 +106,11 @@ impl Orbit {
         };
         let mut why_not = survey.why_not(&closed.durations);
         let return_error = run_once(lap, closed, &timed, multipliers.largest(), &mut why_not);
-        let slack = timed.sequence.held().iter().all(|held| held.is_empty());
+        let slack = timed
+            .sequence
+            .taut_sets()
+            .iter()
+            .all(|taut| taut.is_empty());
         let snaps = timed.sequence.snaps() as i32;
         let rule = family
             .contraction(lap.at)
@@ -244,10 +248,10 @@ fn rows<F: Family>(lap: &Lap<F>, system: &F::Plain, legs: &[Leg]) -> Vec<EventRo
                 impulse[surface],
             );
         }
-        for surface in leg.held.iter().filter(|&k| !event.after.contains(k)) {
+        for surface in leg.taut.iter().filter(|&k| !event.after.contains(k)) {
             row("release", surface, 0.0, 0.0);
         }
-        for surface in event.after.iter().filter(|&k| !leg.held.contains(k)) {
+        for surface in event.after.iter().filter(|&k| !leg.taut.contains(k)) {
             row("stick", surface, 0.0, 0.0);
         }
     }

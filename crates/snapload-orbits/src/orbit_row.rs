@@ -200,9 +200,9 @@ fn modes(orbit: &Orbit) -> Vec<ModeRow> {
     let mut from = t_start;
     let mut rows: Vec<ModeRow> = Vec::new();
     let ends = orbit.lap.durations.iter().copied().map(Some).chain([None]);
-    for (held, lasts) in orbit.lap.sequence.held().into_iter().zip(ends) {
+    for (set, lasts) in orbit.lap.sequence.taut_sets().into_iter().zip(ends) {
         let to = lasts.map_or(t_start + orbit.length, |s| from + s);
-        let taut = numbers(held);
+        let taut = numbers(set);
         match rows.last_mut() {
             Some(last) if last.taut == taut => last.to = to,
             _ => rows.push(ModeRow { from, to, taut }),

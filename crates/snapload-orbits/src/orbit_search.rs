@@ -102,7 +102,7 @@ impl Orbit {
         }
         for closed in &sets {
             let z = system.placed(*closed, *closed, start);
-            found.extend(search.by_holding(*closed, &z));
+            found.extend(search.with_taut(*closed, &z));
         }
         // Admissible orbits, and those close to the start, come first.
         let rank = |orbit: &Orbit| {
@@ -241,11 +241,11 @@ impl<F: Family> Search<'_, F> {
     }
 
     /// Closes a lap on which the closed surfaces are held throughout.
-    fn by_holding(&self, held: TautSet, start: &Point) -> Option<Orbit> {
+    fn with_taut(&self, taut: TautSet, start: &Point) -> Option<Orbit> {
         let period = self.family.forcing_period(self.at).value;
         let t = self.request.phase * period;
         let length = f64::from(self.periods()) * period;
-        let found = scan(self.family, self.at, held, (t, start), length)?;
+        let found = scan(self.family, self.at, taut, (t, start), length)?;
         if !self.matches_request(&found.sequence) {
             return None;
         }

@@ -23,8 +23,8 @@ impl Orbit {
     /// Proves that there is an orbit with these snaps near this one, for the case of decimals to
     /// which it belongs.
     pub fn prove(&self, case: &ExactCase) -> Proof {
-        let held = self.lap.sequence.held().into_iter();
-        let taut = held.fold(TautSet::SLACK, TautSet::union);
+        let taut_sets = self.lap.sequence.taut_sets().into_iter();
+        let taut = taut_sets.fold(TautSet::SLACK, TautSet::union);
         if let Some(cable) = taut.iter().next() {
             return Err(format!(
                 "cable {} is taut on a part of the lap, but proofs of orbits cover slack flight only",

@@ -12,12 +12,12 @@ const STEPS: usize = 400;
 /// The most snaps in a lap.
 const MOST_SNAPS: usize = 200;
 
-/// The motion from `z` at time `t` over `length`, with `held` surfaces held throughout, and every
+/// The motion from `z` at time `t` over `length`, with the surfaces of `taut` held throughout, and every
 /// other one struck where it closes. None if there are too many snaps.
 pub fn scan<F: Family>(
     family: &F,
     at: [f64; 2],
-    held: TautSet,
+    taut: TautSet,
     (t, z): (f64, &Point),
     length: f64,
 ) -> Option<Timed> {
@@ -25,21 +25,21 @@ pub fn scan<F: Family>(
     let period = family.forcing_period(at).value;
     let mut lap = Timed {
         sequence: Sequence {
-            start: held,
+            start: taut,
             events: Vec::new(),
         },
         ..Timed::default()
     };
     let (end, width) = (t + length, period / STEPS as f64);
-    let (mut t, mut z, mut since) = (t, system.placed(held, held, z), t);
+    let (mut t, mut z, mut since) = (t, system.placed(taut, taut, z), t);
     while t < end {
         let s = width.min(end - t);
-        let next = system.flow(held, t, &z, s);
-        let free = system.surfaces().iter().filter(|&k| !held.contains(k));
+        let next = system.flow(taut, t, &z, s);
+        let free = system.surfaces().iter().filter(|&k| !taut.contains(k));
         let crossed = free.filter(|&k| system.gap(k, &next) > 0.0 && system.gap(k, &z) <= 1e-12);
         let first = crossed
             .map(|surface| {
-                let gap = |s: f64| system.gap(surface, &system.flow(held, t, &z, s));
+                let gap = |s: f64| system.gap(surface, &system.flow(taut, t, &z, s));
                 (
                     root(&gap, (0.0, gap(0.0).min(-1e-300)), (s, gap(s))),
                     surface,
@@ -54,16 +54,16 @@ pub fn scan<F: Family>(
             return None;
         }
         let struck = TautSet::only(surface);
-        let hit = system.flow(held, t, &z, s);
-        let (_, impulse) = system.law(struck, struck.union(held), &hit);
+        let hit = system.flow(taut, t, &z, s);
+        let (_, impulse) = system.law(struck, struck.union(taut), &hit);
         let pulling: TautSet = struck
-            .union(held)
+            .union(taut)
             .iter()
             .filter(|&k| k == surface || impulse[k] > 0.0)
             .collect();
         let event = Event {
             kind: EventKind::Snap { struck, pulling },
-            after: held,
+            after: taut,
         };
         lap.durations.push(t + s - since);
         lap.speeds.push(system.speed(surface, &hit));

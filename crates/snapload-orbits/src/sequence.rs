@@ -52,7 +52,7 @@ const ACCUMULATING: f64 = 0.01;
 impl Sequence {
     /// The held surfaces of each leg: from the section to the first event, and so on, to the
     /// section.
-    pub fn held(&self) -> Vec<TautSet> {
+    pub fn taut_sets(&self) -> Vec<TautSet> {
         let after = self.events.iter().map(|event| event.after);
         std::iter::once(self.start).chain(after).collect()
     }
@@ -77,7 +77,7 @@ impl Sequence {
     /// go.
     pub fn symbol(&self) -> Vec<String> {
         let mut parts = Vec::new();
-        for (event, before) in self.events.iter().zip(self.held()) {
+        for (event, before) in self.events.iter().zip(self.taut_sets()) {
             parts.extend(event.struck().iter().map(|cable| (cable + 1).to_string()));
             let gone = before.iter().filter(|&cable| !event.after.contains(cable));
             parts.extend(gone.map(|cable| format!("release {}", cable + 1)));
@@ -119,9 +119,9 @@ impl Timed {
     /// The sequence without the slow snaps that lead to a stick.
     fn without_accumulations(&self) -> Sequence {
         let mut kept: Vec<(Event, f64)> = Vec::new();
-        let mut held = self.sequence.start;
+        let mut taut = self.sequence.start;
         for (event, speed) in self.sequence.events.iter().zip(&self.speeds) {
-            let sticks = event.after.iter().any(|cable| !held.contains(cable));
+            let sticks = event.after.iter().any(|cable| !taut.contains(cable));
             if sticks {
                 while let Some((last, slow)) = kept.last()
                     && !last.struck().is_empty()
@@ -131,7 +131,7 @@ impl Timed {
                 }
             }
             kept.push((*event, *speed));
-            held = event.after;
+            taut = event.after;
         }
         Sequence {
             start: self.sequence.start,

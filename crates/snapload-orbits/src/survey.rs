@@ -11,7 +11,7 @@ use snapload::{Limit, TautSet};
 /// Samples of a leg for each period of the forcing, without and with held surfaces, and the least
 /// number of samples of a leg.
 const SAMPLES: f64 = 160.0;
-const HELD_SAMPLES: f64 = 64.0;
+const TAUT_SAMPLES: f64 = 64.0;
 const FEWEST_SAMPLES: f64 = 6.0;
 /// The most iterations by which an extreme is refined.
 const MOST_REFINEMENTS: usize = 60;
@@ -139,7 +139,7 @@ pub fn survey<F: Family>(lap: &Lap<F>, system: &F::Plain, legs: &[Leg]) -> Surve
             let speed = system.speed(surface, &leg.end);
             least(&mut found.least_speed, at(speed, surface));
         }
-        let busy = event.struck().union(leg.held).union(event.after);
+        let busy = event.struck().union(leg.taut).union(event.after);
         for surface in system.surfaces().iter().filter(|&s| !busy.contains(s)) {
             if !event.struck().is_empty() {
                 most(
@@ -151,7 +151,7 @@ pub fn survey<F: Family>(lap: &Lap<F>, system: &F::Plain, legs: &[Leg]) -> Surve
         if k > 0 && lap.sequence.events[k - 1].surface() != event.surface() {
             least(&mut found.shortest, at(leg.s, event.surface()));
         }
-        before = leg.held;
+        before = leg.taut;
     }
     found
 }
@@ -177,13 +177,13 @@ struct Sampler<'a, F: Family> {
 
 impl<F: Family> Sampler<'_, F> {
     fn leg(&self, k: usize, leg: &Leg, before: TautSet, found: &mut Survey) {
-        let density = if leg.held.is_empty() {
+        let density = if leg.taut.is_empty() {
             SAMPLES
         } else {
-            HELD_SAMPLES
+            TAUT_SAMPLES
         };
         let count = (density * leg.s / self.period).ceil().max(FEWEST_SAMPLES) as usize;
-        let path = self.system.path(leg.held, leg.t, &leg.start, leg.s);
+        let path = self.system.path(leg.taut, leg.t, &leg.start, leg.s);
         let sampled = Sampled {
             width: leg.s / count as f64,
             samples: (0..=count)
@@ -192,8 +192,8 @@ impl<F: Family> Sampler<'_, F> {
             path: &path,
         };
         self.gaps(k, leg, before, &sampled, found);
-        for surface in leg.held.iter() {
-            let tension = |s: f64, z: &Point| -self.system.tension(surface, leg.held, leg.t + s, z);
+        for surface in leg.taut.iter() {
+            let tension = |s: f64, z: &Point| -self.system.tension(surface, leg.taut, leg.t + s, z);
             let (value, s) = sampled.highest(&tension);
             let extreme = Extreme {
                 value: -value,
@@ -245,7 +245,7 @@ impl<F: Family> Sampler<'_, F> {
             .system
             .surfaces()
             .iter()
-            .filter(|&s| !leg.held.contains(s))
+            .filter(|&s| !leg.taut.contains(s))
         {
             // A surface that has just been released opens as the cube of time, so that its v_n is
             // only rounding at first.

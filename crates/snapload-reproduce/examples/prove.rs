@@ -5,7 +5,10 @@ use std::{error::Error, fs, path::Path};
 
 fn main() -> Result<(), Box<dyn Error>> {
     let data = Path::new(env!("CARGO_MANIFEST_DIR")).join("data");
-    fs::write(data.join("stretches.csv"), snapload_reproduce::stretches()?)?;
+    fs::write(
+        data.join("stretches.csv"),
+        snapload_reproduce::taut_intervals()?,
+    )?;
     fs::write(data.join("proved.csv"), snapload_reproduce::proofs()?)?;
     Ok(())
 }

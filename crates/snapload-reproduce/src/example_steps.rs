@@ -5,7 +5,7 @@ use snapload::CaseError;
 use snapload_certificate::{ExactCase, certify};
 use std::ops::ControlFlow;
 
-/// A proved stretch of motion with taut cables.
+/// A proved interval of motion with taut cables.
 #[derive(Clone, Debug, PartialEq)]
 struct TautInterval {
     /// The taut cables, by number: `1`, `2` or `1+2`.
@@ -16,19 +16,19 @@ struct TautInterval {
     event: String,
     /// The velocity of the snap that ends it, if one does.
     v_n: Option<f64>,
-    /// The number of snaps and stretches before it, which is its index in the certificate.
+    /// The number of snaps and intervals before it, which is its index in the certificate.
     place: usize,
     /// The number of snaps among these.
     snaps: usize,
 }
 
-/// The end of the proofs of the examples. After it there is one stretch of rocking.
+/// The end of the proofs of the examples. After it there is one interval of rocking.
 const UNTIL: f64 = 12.0;
 /// The examples.
 const CASES: [&str; 2] = ["sliding-example", "rocking-example"];
-/// The beginning of the event's name if a snap ends the stretch.
+/// The beginning of the event's name if a snap ends the interval.
 const SNAP: &str = "impact";
-/// Shorter stretches are described together.
+/// Shorter intervals are described together.
 const SHORT: f64 = 0.02;
 
 /// The command that proves an example.
@@ -36,17 +36,17 @@ pub(crate) fn proof(case: &str) -> String {
     format!("snapload certify --taut --case {case} --set t_end={UNTIL} --json -")
 }
 
-/// The file of stretches, made again.
+/// The file of intervals, made again.
 ///
 /// # Errors
 /// A case that is not legal, or a proof that did not succeed, which would be errors of the program.
-pub fn stretches() -> Result<String, CaseError> {
+pub fn taut_intervals() -> Result<String, CaseError> {
     let proved = CASES.map(|code| proved(code, UNTIL));
     let lines: Vec<String> = proved.into_iter().collect::<Result<_, _>>()?;
     Ok(String::from("case,taut,from,until,event,v_n,place,snaps\n") + &lines.concat())
 }
 
-/// The stretches of an example up to a time, one in each line.
+/// The intervals of an example up to a time, one in each line.
 fn proved(code: &str, until: f64) -> Result<String, CaseError> {
     let mut parameters = snapload::named_case(code)?.parameters;
     parameters.t_end = until;
@@ -66,7 +66,7 @@ fn proved(code: &str, until: f64) -> Result<String, CaseError> {
         let taut: Vec<String> = mode.iter().map(ToString::to_string).collect();
         let (taut, event) = (taut.join("+"), word("event"));
         let (from, until) = (word("from"), word("until"));
-        // The snap that ends a stretch is in the following line; its velocity is the third value.
+        // The snap that ends an interval is in the following line; its velocity is the third value.
         let snap = lines.get(place + 1).filter(|_| event.starts_with(SNAP));
         let v_n = snap.and_then(|snap| snap[2].as_str()).unwrap_or_default();
         text += &format!("{code},{taut},{from},{until},{event},{v_n},{place},{snaps}\n");
@@ -74,7 +74,7 @@ fn proved(code: &str, until: f64) -> Result<String, CaseError> {
     Ok(text)
 }
 
-/// The stored stretches of an example.
+/// The stored intervals of an example.
 fn stored(code: &str) -> Vec<TautInterval> {
     let lines = include_str!("../data/stretches.csv").lines();
     lines
@@ -103,7 +103,7 @@ impl TautInterval {
         time(&self.until) - time(&self.from)
     }
 
-    /// A description of the stretch and its end; `next` is the one after it.
+    /// A description of the interval and its end; `next` is the one after it.
     fn description(&self, next: Option<&Self>) -> String {
         let lasts = self.lasts();
         let what = match self.taut.as_str() {
@@ -129,33 +129,33 @@ impl TautInterval {
 pub(crate) fn slides(code: &str) -> Vec<(f64, Option<f64>)> {
     let slides = stored(code)
         .into_iter()
-        .filter(|stretch| stretch.taut.len() == 1);
+        .filter(|interval| interval.taut.len() == 1);
     slides
-        .map(|stretch| (stretch.lasts(), stretch.v_n))
+        .map(|interval| (interval.lasts(), interval.v_n))
         .collect()
 }
 
 /// The steps of an example: when each begins, except the first, and what happens.
 pub(crate) fn steps(code: &str) -> Vec<(Option<Number>, String)> {
-    let (stretches, command) = (stored(code), proof(code));
+    let (intervals, command) = (stored(code), proof(code));
     let begins = |k: usize| {
-        let (stretch, key) = (
-            &stretches[k],
-            format!(".impacts[{}].from", stretches[k].place),
+        let (interval, key) = (
+            &intervals[k],
+            format!(".impacts[{}].from", intervals[k].place),
         );
-        Number::decimal(&stretch.from, 4, &command, &format!("{key} | tonumber"))
+        Number::decimal(&interval.from, 4, &command, &format!("{key} | tonumber"))
     };
     let mut steps = vec![(
         None,
-        slack_text(stretches.first().map_or(0, |first| first.snaps)),
+        slack_text(intervals.first().map_or(0, |first| first.snaps)),
     )];
     let mut k = 0;
-    while k < stretches.len() {
-        let short = |stretch: &&TautInterval| stretch.lasts() < SHORT;
-        let together = stretches[k..].iter().take_while(short).count();
+    while k < intervals.len() {
+        let short = |interval: &&TautInterval| interval.lasts() < SHORT;
+        let together = intervals[k..].iter().take_while(short).count();
         let number = begins(k);
         let (what, next) = if together > 1 {
-            let (first, next) = (&stretches[k], stretches.get(k + together));
+            let (first, next) = (&intervals[k], intervals.get(k + together));
             let snaps = next.map_or(0, |next| next.snaps - first.snaps);
             let what = format!(
                 "slides {together} times with the left cable taut, none for longer than {SHORT}, with {snaps} \
@@ -163,13 +163,13 @@ pub(crate) fn steps(code: &str) -> Vec<(Option<Number>, String)> {
             );
             (what, k + together)
         } else {
-            let next = stretches.get(k + 1);
-            let snaps = next.map_or(0, |next| next.snaps - stretches[k].snaps);
+            let next = intervals.get(k + 1);
+            let snaps = next.map_or(0, |next| next.snaps - intervals[k].snaps);
             let then = match snaps {
                 0 | 1 => String::new(),
                 _ => format!("; then {}", slack_text(snaps)),
             };
-            (stretches[k].description(next) + &then, k + 1)
+            (intervals[k].description(next) + &then, k + 1)
         };
         steps.push((Some(number), what));
         k = next;
@@ -186,7 +186,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn the_first_stretches_are_proved_again() -> Result<(), CaseError> {
+    fn the_first_taut_intervals_are_proved_again() -> Result<(), CaseError> {
         let again = proved(CASES[1], 8.15594)?;
         let (stored, again) = (stored(CASES[1]), again.lines().collect::<Vec<_>>());
         assert!(again.len() > 3);
@@ -199,19 +199,19 @@ mod tests {
     #[test]
     fn both_examples_end_in_rocking() {
         for code in CASES {
-            let stretches = stored(code);
-            assert!(stretches.len() > 10);
-            let last = stretches.last().expect("a stretch");
+            let intervals = stored(code);
+            assert!(intervals.len() > 10);
+            let last = intervals.last().expect("an interval");
             assert_eq!(
                 (last.taut.as_str(), last.event.as_str()),
                 ("1+2", "end_time")
             );
-            let snaps = |stretch: &TautInterval| stretch.event.starts_with(SNAP);
-            let velocities = stretches.iter().filter(|s| snaps(s) != s.v_n.is_some());
+            let snaps = |interval: &TautInterval| interval.event.starts_with(SNAP);
+            let velocities = intervals.iter().filter(|s| snaps(s) != s.v_n.is_some());
             assert_eq!(velocities.count(), 0);
             // In order, and none begins before the previous one ends.
             let in_order = |pair: &[TautInterval]| pair[0].until <= pair[1].from;
-            assert!(stretches.windows(2).all(in_order));
+            assert!(intervals.windows(2).all(in_order));
         }
     }
 }

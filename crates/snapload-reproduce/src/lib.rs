@@ -18,7 +18,7 @@ mod study;
 mod tables;
 mod verdict;
 
-pub use example_steps::stretches;
+pub use example_steps::taut_intervals;
 pub use proved::proofs;
 pub use study::Study;
 

@@ -84,7 +84,7 @@ impl Proved {
     }
 
     /// The proof, made again.
-    pub(crate) fn anew(parameters: &Parameters) -> Option<Self> {
+    pub(crate) fn compute(parameters: &Parameters) -> Option<Self> {
         let case = ExactCase::of(parameters, |_| None).ok()?;
         let proof = match certify(&case, false, &mut |_| ControlFlow::Continue(())) {
             Ok(proof) => proof.ok()?,
@@ -185,13 +185,13 @@ pub fn proofs() -> Result<String, CaseError> {
     let of_table_6_1 = in_parallel(named.len(), |k| {
         let both = Reading::BOTH.map(|reading| reading.apply(named[k]));
         let lines = both.iter().filter(|case| case.stop_when_settled);
-        let lines = lines.filter_map(|case| Some(line(case, &Proved::anew(case)?)));
+        let lines = lines.filter_map(|case| Some(line(case, &Proved::compute(case)?)));
         Ok::<String, CaseError>(lines.collect())
     })?;
     let rows = published();
     let of_table_6_2 = in_parallel(rows.len(), |k| {
         let (parameters, published) = rows[k];
-        let found = amplitudes(&parameters, Proved::anew, published);
+        let found = amplitudes(&parameters, Proved::compute, published);
         let lines = found.iter().filter_map(|(f_o, proved)| {
             let case = Parameters {
                 f_o: *f_o,
@@ -203,7 +203,7 @@ pub fn proofs() -> Result<String, CaseError> {
     })?;
     let further = further();
     let of_claims = in_parallel(further.len(), |k| {
-        let proved = Proved::anew(&further[k]);
+        let proved = Proved::compute(&further[k]);
         Ok::<String, CaseError>(proved.map_or_else(String::new, |p| line(&further[k], &p)))
     })?;
     let mut lines: Vec<String> = of_table_6_1.concat().lines().map(str::to_owned).collect();
@@ -241,7 +241,7 @@ mod tests {
             e,
         ] {
             let stored = Proved::stored(&case);
-            assert_eq!(Proved::anew(&case).as_ref(), stored, "{case:?}");
+            assert_eq!(Proved::compute(&case).as_ref(), stored, "{case:?}");
             let (stored, run) = (stored.expect("a proof"), RoundedRun::of_76_digits(&case)?);
             assert_eq!(
                 (run.end().reason, run.snaps()),

@@ -102,20 +102,21 @@ impl Study {
     /// # Errors
     /// [`Unfinished::Cancelled`]; a case that is not legal would be an error of the program.
     pub fn compute(on_progress: OnProgress) -> Result<Self, Unfinished> {
-        let tell = |doing: &str, part: f64| Progress::new(doing, part, 1.0).report(on_progress);
-        tell("the cases of Table 6.1", 0.0)?;
+        let report_progress =
+            |doing: &str, part: f64| Progress::new(doing, part, 1.0).report(on_progress);
+        report_progress("the cases of Table 6.1", 0.0)?;
         let cases = cases()?;
-        tell("Table 6.2", 0.1)?;
+        report_progress("Table 6.2", 0.1)?;
         let critical = CriticalRow::all()?;
         let mut curves = Vec::new();
         for over in CURVES {
             for r in LENGTHS {
                 let part = 0.2 + 0.15 * curves.len() as f64;
-                tell(&format!("critical force over {}, r = {r}", over.0), part)?;
+                report_progress(&format!("critical force over {}, r = {r}", over.0), part)?;
                 curves.push(curve(r, over)?);
             }
         }
-        tell("the norms", 0.8)?;
+        report_progress("the norms", 0.8)?;
         let norms = LENGTHS.into_iter().map(|r| {
             let of = |reading: Reading| {
                 let points = up_to_exceeding(&reading.apply(standard(r)), ForceScan::default());

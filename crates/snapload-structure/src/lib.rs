@@ -21,7 +21,9 @@ mod text_layout;
 pub use catalogue::{Section, section};
 pub use options::{EVERY, NEIGHBOURS, PAIRS, SEEDS, SEGMENTS, STIFFER, checked_every};
 pub use physics::afloat::TautMode;
-pub use physics::elastic::{ElasticRun, Pull, Sample, Spring, damping_ratio, run_elastic, springs};
+pub use physics::elastic::{
+    ElasticLine, ElasticRun, Pull, Sample, damping_ratio, elastic_lines, run_elastic,
+};
 pub use physics::equilibrium::{Equilibrium, equilibrium};
 pub use physics::gumbel::{Estimate, Gumbel, reduced_variate};
 pub use physics::model::{Groups, Model, Scales, force_per_acceleration};

@@ -13,8 +13,8 @@ type Digits153 = Precise<8>;
 #[derive(Clone, Debug)]
 pub struct RoundedRun {
     system: System,
-    /// The beginning of each stretch, from which the motion within it is computed.
-    stretches: Vec<(f64, State)>,
+    /// The beginning of each segment, from which the motion within it is computed.
+    segments: Vec<(f64, State)>,
     impacts: Vec<Impact>,
     end: End,
     norms: Norms,
@@ -53,12 +53,12 @@ impl RoundedRun {
     }
 
     fn of<T: Steps>(system: System, mut simulation: Simulation<T>) -> Self {
-        let (mut stretches, mut impacts) = (Vec::new(), Vec::new());
+        let (mut segments, mut impacts) = (Vec::new(), Vec::new());
         let mut norms = Norms::default();
         while let Some(step) = simulation.step() {
             let [t_start, t_end] = [step.t_start, step.t_end].map(Real::to_f64);
             if t_end > t_start {
-                stretches.push((t_start, rounded(&step.start)));
+                segments.push((t_start, rounded(&step.start)));
             }
             for impact in step.impacts() {
                 let v_n = impact.v_n.to_f64();
@@ -84,10 +84,10 @@ impl RoundedRun {
             t_limit: simulation.t_limit().map(Real::to_f64),
             state: rounded(simulation.state()),
         };
-        stretches.push((end.t, end.state));
+        segments.push((end.t, end.state));
         Self {
             system,
-            stretches,
+            segments,
             impacts,
             end,
             norms,
@@ -121,8 +121,8 @@ impl RoundedRun {
 
     /// The state at a time within it.
     pub fn at(&self, t: f64) -> State {
-        let after = self.stretches.partition_point(|(from, _)| *from <= t);
-        let (from, start) = self.stretches[after.saturating_sub(1)];
+        let after = self.segments.partition_point(|(from, _)| *from <= t);
+        let (from, start) = self.segments[after.saturating_sub(1)];
         let on = || Simulation::new(self.system.clone(), Rules::until(t), from, start).ok();
         match on().filter(|_| t > from) {
             Some(mut simulation) => {

@@ -124,7 +124,7 @@ impl Scalar for Interval {
         let (sine, cosine) = functions.sin_cos(&self.ball()?);
         Some((Self::of(&sine), Self::of(&cosine)))
     }
-    fn is_nothing(&self) -> bool {
+    fn is_exact_zero(&self) -> bool {
         self.low == 0.0 && self.high == 0.0
     }
 }

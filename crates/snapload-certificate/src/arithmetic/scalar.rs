@@ -23,7 +23,7 @@ pub(crate) trait Scalar: Clone {
     fn sqrt(&self) -> Option<Self>;
     fn sin_cos(&self, functions: &Elementary) -> Option<(Self, Self)>;
     /// Whether the enclosure contains zero and no other number.
-    fn is_nothing(&self) -> bool;
+    fn is_exact_zero(&self) -> bool;
 }
 
 impl Scalar for Ball {
@@ -62,7 +62,7 @@ impl Scalar for Ball {
     fn sin_cos(&self, functions: &Elementary) -> Option<(Self, Self)> {
         Some(functions.sin_cos(self))
     }
-    fn is_nothing(&self) -> bool {
+    fn is_exact_zero(&self) -> bool {
         self.is_zero()
     }
 }
@@ -139,7 +139,7 @@ impl<S: Scalar, const N: usize> Scalar for Jet<S, N> {
         let second = Self::with(cosine, |i| minus.times(&self.slopes[i]));
         Some((first, second))
     }
-    fn is_nothing(&self) -> bool {
-        self.value.is_nothing() && self.slopes.iter().all(S::is_nothing)
+    fn is_exact_zero(&self) -> bool {
+        self.value.is_exact_zero() && self.slopes.iter().all(S::is_exact_zero)
     }
 }

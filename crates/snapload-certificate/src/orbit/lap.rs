@@ -98,7 +98,7 @@ impl Laps {
                     self.pass(&run, &left, &mut sections)?;
                     return Ok(Lap {
                         image: end.state,
-                        derivative: product(&self.flown(&left), &derivative),
+                        derivative: product(&self.flight_jacobian(&left), &derivative),
                         impacts,
                         sections,
                     });
@@ -135,7 +135,7 @@ impl Laps {
 
     /// ∂(state)/∂(state before) of a flight: the force does not depend on the state, so that a
     /// deviation of the position grows at the rate of the velocity's deviation, which is constant.
-    fn flown(&self, time: &Ball) -> Matrix {
+    fn flight_jacobian(&self, time: &Ball) -> Matrix {
         let time = time.with_limbs(self.coarse.limbs);
         let mut matrix = unit();
         for i in 0..3 {

@@ -113,12 +113,12 @@ impl Path for Flight<'_> {
     ///
     /// with D enclosed by its value at the middle and, by the mean value theorem, Ṗ times half the
     /// length.
-    fn bends(&self, middle: &Ball, half: Radius) -> Vec<Ball> {
+    fn second_derivatives(&self, middle: &Ball, half: Radius) -> Vec<Ball> {
         let m = self.model;
         let reach = Ball::within(half);
         let (state, _) = self.at(middle);
-        let stretch = middle.clone().widened(half);
-        let (velocity, force) = self.velocity(&stretch);
+        let span = middle.clone().widened(half);
+        let (velocity, force) = self.velocity(&span);
         let turn_then = m.turn(&state[2]);
         let spin = &state[5];
         let turn = m.turn(&(&state[2] + &(spin * &reach)));

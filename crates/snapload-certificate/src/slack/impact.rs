@@ -117,11 +117,11 @@ impl Impact {
         });
         Ok(std::array::from_fn(|i| match i {
             0..3 => std::array::from_fn(|j| {
-                let flown = match j {
+                let flight_term = match j {
                     0..3 => a[i][j].clone(),
                     _ => &a[i][j - 3] * before,
                 };
-                flown + after * &lower[i][j]
+                flight_term + after * &lower[i][j]
             }),
             _ => lower[i - 3].clone(),
         }))

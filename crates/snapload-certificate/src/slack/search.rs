@@ -31,7 +31,7 @@ pub(crate) trait Path {
     fn event_value(&self, which: usize, tau: &Ball) -> EventValue;
     /// The second derivatives of the values over all times that differ from `middle` by at most
     /// `half`.
-    fn bends(&self, middle: &Ball, half: Radius) -> Vec<Ball>;
+    fn second_derivatives(&self, middle: &Ball, half: Radius) -> Vec<Ball>;
     /// The event that happens where a value reaches zero, in words.
     fn event_name(&self, which: usize) -> String;
     /// All of them.
@@ -106,7 +106,7 @@ pub(crate) fn first_crossing(
             ahead.push((to.clone(), path.event_values(&to)));
             continue;
         };
-        match judge(path, &at, &next, &closed) {
+        match classify_piece(path, &at, &next, &closed) {
             Piece::Clear => {
                 at = next;
                 closed.clear();
@@ -158,12 +158,12 @@ fn without_rate(
             .upper()
             .plus(at.0.upper().scaled(1));
         let middle = (&at.0 + &Ball::double(step / 2.0)).centre();
-        let bends = path.bends(&middle, half);
+        let second_derivatives = path.second_derivatives(&middle, half);
         let falls = slow.iter().all(|(which, zero)| match zero {
             Zero::Released => path
                 .third(*which, &middle, half)
                 .is_some_and(|third| third.is_negative()),
-            _ => bends[*which].is_negative(),
+            _ => second_derivatives[*which].is_negative(),
         });
         let next: Moment = (to.clone(), path.event_values(&to));
         let mut ends = skipped.iter().map(|which| &next.1[*which].value);
@@ -188,18 +188,21 @@ fn others_clear(
     let length = &to.0 - &from.0;
     let middle = (&from.0 + &to.0).half();
     let half = length.upper().scaled(-1).plus(middle.radius());
-    let bends = path.bends(&middle.centre(), half);
-    let sag = length.squared().half();
-    bends.iter().enumerate().all(|(which, bend)| {
-        skipped.contains(&which)
-            || stays_below(
-                &from.1[which],
-                &to.1[which],
-                known.contains(&which),
-                bend,
-                &sag,
-            )
-    })
+    let second_derivatives = path.second_derivatives(&middle.centre(), half);
+    let half_square = length.squared().half();
+    second_derivatives
+        .iter()
+        .enumerate()
+        .all(|(which, second_derivative)| {
+            skipped.contains(&which)
+                || stays_below(
+                    &from.1[which],
+                    &to.1[which],
+                    known.contains(&which),
+                    second_derivative,
+                    &half_square,
+                )
+        })
 }
 
 /// An error that names the value nearest to zero there, or the two that are equally near.
@@ -224,7 +227,7 @@ fn undecided(path: &impl Path, (_, values): &Moment) -> ProofFailure {
     ))
 }
 
-/// The name of a event function.
+/// The name of an event function.
 pub(crate) fn name(which: usize) -> &'static str {
     match which {
         0 => "the length of cable 1",
@@ -266,21 +269,25 @@ fn beginning(
 /// A guess of how long no value reaches zero, from the parabolas through the values, rates and
 /// second derivatives now.
 fn likely_length(path: &impl Path, lo: &Ball, first: &[EventValue], zeros: &Zeros) -> f64 {
-    let bends = path.bends(lo, Radius::ZERO);
+    let second_derivatives = path.second_derivatives(lo, Radius::ZERO);
     let mut least = 0.4;
-    for (which, (event_value, bend)) in first.iter().zip(bends).enumerate() {
-        let (rate, bend) = (event_value.rate.to_f64(), bend.to_f64());
+    for (which, (event_value, second_derivative)) in
+        first.iter().zip(second_derivatives).enumerate()
+    {
+        let (rate, second_derivative) = (event_value.rate.to_f64(), second_derivative.to_f64());
         let value = if zeros.iter().any(|(zero, _)| *zero == which) {
             0.0
         } else {
             event_value.value.to_f64()
         };
-        // value + rate t + bend t²/2 = 0, without cancellation.
-        let root = (rate * rate - 2.0 * bend * value).max(0.0).sqrt();
+        // value + rate t + second_derivative t²/2 = 0, without cancellation.
+        let root = (rate * rate - 2.0 * second_derivative * value)
+            .max(0.0)
+            .sqrt();
         let t = if rate > 0.0 {
             -2.0 * value / (rate + root)
         } else {
-            (root - rate) / bend
+            (root - rate) / second_derivative
         };
         // A value that leaves zero with zero rate and second derivative has no such parabola.
         if t > 1e-15 && t < least {
@@ -292,21 +299,21 @@ fn likely_length(path: &impl Path, lo: &Ball, first: &[EventValue], zeros: &Zero
 
 /// Decides what happens on the piece between two times. The values in `closed` are known to be at
 /// most zero at the first time, and not evaluated there.
-fn judge(path: &impl Path, from: &Moment, to: &Moment, closed: &[usize]) -> Piece {
+fn classify_piece(path: &impl Path, from: &Moment, to: &Moment, closed: &[usize]) -> Piece {
     let length = &to.0 - &from.0;
     let middle = (&from.0 + &to.0).half();
     let half = length.upper().scaled(-1).plus(middle.radius());
-    let bends = path.bends(&middle.centre(), half);
-    let sag = length.squared().half();
+    let second_derivatives = path.second_derivatives(&middle.centre(), half);
+    let half_square = length.squared().half();
     let mut crossed = None;
-    for (which, bend) in bends.iter().enumerate() {
+    for (which, second_derivative) in second_derivatives.iter().enumerate() {
         let (start, end) = (&from.1[which], &to.1[which]);
         let known = closed.contains(&which);
-        if stays_below(start, end, known, bend, &sag) {
+        if stays_below(start, end, known, second_derivative, &half_square) {
             continue;
         }
         let slope = match (known, crossed) {
-            (false, None) => rising(start, end, bend, &length),
+            (false, None) => rising(start, end, second_derivative, &length),
             _ => None,
         };
         let Some(slope) = slope else {
@@ -332,21 +339,21 @@ fn judge(path: &impl Path, from: &Moment, to: &Moment, closed: &[usize]) -> Piec
 /// - if f < −KH²/2 at one end and K ≥ 0: the chord is then below −KH²/2 times the share of the way
 ///   from the other end, −KHt/2 or −KH(H − t)/2, and K t (H − t)/2 is no larger in size.
 ///
-/// `sag` is H²/2; the comparisons hold for every number of the balls.
+/// `half_square` is H²/2; the comparisons hold for every number of the balls.
 pub(crate) fn stays_below(
     start: &EventValue,
     end: &EventValue,
     known: bool,
-    bend: &Ball,
-    sag: &Ball,
+    second_derivative: &Ball,
+    half_square: &Ball,
 ) -> bool {
     if !end.value.is_negative() || !(known || start.value.is_negative()) {
         return false;
     }
-    if bend.is_positive() {
+    if second_derivative.is_positive() {
         return true;
     }
-    let least = bend * sag;
+    let least = second_derivative * half_square;
     let beyond = |value: &Ball, share: i64| value.is_below(&least.scaled(-share));
     if known {
         return beyond(&end.value, 0);
@@ -357,13 +364,18 @@ pub(crate) fn stays_below(
 }
 
 /// The rate of a value throughout a piece, if the value rises there from below zero to above.
-fn rising(start: &EventValue, end: &EventValue, bend: &Ball, length: &Ball) -> Option<Ball> {
+fn rising(
+    start: &EventValue,
+    end: &EventValue,
+    second_derivative: &Ball,
+    length: &Ball,
+) -> Option<Ball> {
     if !(start.value.is_negative() && end.value.is_positive()) {
         return None;
     }
     // The rate is enclosed by the rate at either end and its largest change over [0, H].
     let within = length.half().widened(length.upper().scaled(-1));
-    let change = bend * &within;
+    let change = second_derivative * &within;
     [&start.rate + &change, &end.rate - &change]
         .into_iter()
         .find(Ball::is_positive)

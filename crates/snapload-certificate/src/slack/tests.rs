@@ -88,7 +88,7 @@ fn the_jacobian_agrees_with_differences() {
 /// Second differences over a stretch lie within the second derivatives that are given for the
 /// stretch: each is the second derivative somewhere in it.
 #[test]
-fn bends_hold_second_differences() {
+fn second_derivatives_enclose_second_differences() {
     for parameters in [
         Parameters::STANDARD,
         rectangle(),
@@ -101,7 +101,8 @@ fn bends_hold_second_differences() {
         let state = [0.05, 0.2, 0.3, 0.4, -0.2, -1.5].map(|x| Ball::double(x).with_limbs(LIMBS));
         let flight = Flight::new(&model, Ball::double(0.75), state);
         for (middle, half) in [(0.5, -3), (0.25, -6), (1.0, -1)] {
-            let bends = flight.bends(&Ball::double(middle), Radius::power_of_two(half));
+            let second_derivatives =
+                flight.second_derivatives(&Ball::double(middle), Radius::power_of_two(half));
             for k in -7..=7 {
                 let at = |shift: i64| {
                     let step = Ball::integer(shift).scaled(half - 7);
@@ -109,13 +110,13 @@ fn bends_hold_second_differences() {
                     flight.event_values(&(Ball::double(middle).with_limbs(LIMBS) + place + step))
                 };
                 let (before, now, after) = (at(-1), at(0), at(1));
-                for (i, bend) in bends.iter().enumerate() {
+                for (i, second_derivative) in second_derivatives.iter().enumerate() {
                     let second = &before[i].value + &after[i].value - now[i].value.twice();
                     let second = second.scaled(-2 * (half - 7));
-                    let off = &second - bend;
+                    let off = &second - second_derivative;
                     assert!(
                         !off.is_positive() && !off.is_negative(),
-                        "{i}: {second:?} {bend:?}"
+                        "{i}: {second:?} {second_derivative:?}"
                     );
                 }
             }
@@ -140,8 +141,8 @@ proptest! {
                 rate: Ball::double(q) + Ball::double(s) * &t,
             }
         };
-        let sag = Ball::double(h).with_limbs(4).squared().half();
-        let certified = stays_below(&at(0.0), &at(h), known, &Ball::double(s), &sag);
+        let half_square = Ball::double(h).with_limbs(4).squared().half();
+        let certified = stays_below(&at(0.0), &at(h), known, &Ball::double(s), &half_square);
         // In the interior the largest value is at t = −q/s, for s < 0.
         let top = if s < 0.0 { (-q / s).clamp(0.0, h) } else { 0.0 };
         let largest = at(top).value.to_f64().max(at(h).value.to_f64());

@@ -46,8 +46,8 @@ impl Terms {
         self.program.outputs.push(value);
     }
 
-    /// Watches both sides of the rotation limit.
-    pub(crate) fn watch_rotation(&mut self, model: &Model, theta: Term) {
+    /// Adds both sides of the rotation limit.
+    pub(crate) fn add_rotation_events(&mut self, model: &Model, theta: Term) {
         let limit = self.program.constant(model.functions.half_pi().clone());
         let minus_theta = self.program.negate(theta);
         for angle in [theta, minus_theta] {

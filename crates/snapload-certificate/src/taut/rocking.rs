@@ -20,7 +20,7 @@ pub(crate) struct Rocking {
 }
 
 /// The position of the body, as terms.
-struct Held {
+struct PositionTerms {
     theta: Term,
     spin: Term,
     /// sin θ and cos θ.
@@ -86,12 +86,12 @@ impl Rocking {
         let q_rate = p.multiply(per_angle, bent);
         let squared = p.multiply(s_rate, s_rate);
         let sum = p.add(q_rate, squared);
-        let s_bend = p.multiply(sum, inverse_s);
-        ([s, s_rate, p.negate(s_bend)], inverse_d)
+        let s_second = p.multiply(sum, inverse_s);
+        ([s, s_rate, p.negate(s_second)], inverse_d)
     }
 
     /// Where both cables hold the body.
-    fn held(&self, p: &mut Program, model: &Model) -> Held {
+    fn position_terms(&self, p: &mut Program, model: &Model) -> PositionTerms {
         let [theta, spin] = [0, 1].map(|which| p.coordinate(which));
         let turn: [Term; 2] = p.sin_cos(theta).into();
         let one = p.constant(Ball::integer(1).with_limbs(model.limbs));
@@ -99,7 +99,7 @@ impl Rocking {
         let d = [p.subtract(along, one), dy];
         let across = [p.negate(d[1]), d[0]];
         let (reach, inverse_d) = Self::reach(p, model, turn);
-        Held {
+        PositionTerms {
             theta,
             spin,
             turn,
@@ -116,7 +116,7 @@ impl Rocking {
         model: &Model,
         across: [Term; 2],
         turn: [Term; 2],
-        [s, s_rate, s_bend]: [Term; 3],
+        [s, s_rate, s_second]: [Term; 3],
     ) -> [[Term; 2]; 3] {
         let [sine, cosine] = turn;
         let minus_sine = p.negate(sine);
@@ -124,7 +124,7 @@ impl Rocking {
         let along = [cosine, sine];
         let normal = [minus_sine, cosine];
         let rate = along.map(|term| p.scale(term, -&model.a));
-        let bend = normal.map(|term| p.scale(term, -&model.a));
+        let across_second = normal.map(|term| p.scale(term, -&model.a));
         let sign = Ball::integer(self.sign);
         let signed = |terms: [Term; 2], p: &mut Program| terms.map(|t| p.scale(t, sign.clone()));
         let m = p.times(across, s);
@@ -134,17 +134,17 @@ impl Rocking {
         let m_rate = signed(m_rate, p);
         let double = p.scale(s_rate, Ball::integer(2));
         let second = [
-            p.times(across, s_bend),
+            p.times(across, s_second),
             p.times(rate, double),
-            p.times(bend, s),
+            p.times(across_second, s),
         ];
-        let m_bend = p.sum(second[0], second[1]);
-        let m_bend = p.sum(m_bend, second[2]);
-        let m_bend = signed(m_bend, p);
+        let m_second = p.sum(second[0], second[1]);
+        let m_second = p.sum(m_second, second[2]);
+        let m_second = signed(m_second, p);
         let more = along.map(|term| p.scale(term, model.b.clone()));
         let c_rate = p.sum(m_rate, more);
         let more = normal.map(|term| p.scale(term, model.b.clone()));
-        [m, c_rate, p.sum(m_bend, more)]
+        [m, c_rate, p.sum(m_second, more)]
     }
 }
 
@@ -158,21 +158,21 @@ impl Chart<2> for Rocking {
     /// T₁ + T₂ = r R·m/|m|²,   T₁ − T₂ = r R·d/D.
     fn terms(&self, model: &Model) -> Terms {
         let mut p = Program::new();
-        let Held {
+        let PositionTerms {
             theta,
             spin,
             d,
             inverse_d,
-            path: [m, c_rate, c_bend],
+            path: [m, c_rate, c_second],
             ..
-        } = self.held(&mut p, model);
+        } = self.position_terms(&mut p, model);
         let f = force(&mut p, model);
         let one = p.constant(Ball::integer(1).with_limbs(model.limbs));
 
         let spin_squared = p.multiply(spin, spin);
-        let [push, bend] = [p.dot(f, c_rate), p.dot(c_rate, c_bend)];
-        let bend = p.multiply(bend, spin_squared);
-        let along = p.subtract(push, bend);
+        let [push, velocity_term] = [p.dot(f, c_rate), p.dot(c_rate, c_second)];
+        let velocity_term = p.multiply(velocity_term, spin_squared);
+        let along = p.subtract(push, velocity_term);
         let along = p.scale(along, model.inverse_inertia.clone());
         let size = p.dot(c_rate, c_rate);
         let size = p.scale(size, model.inverse_inertia.clone());
@@ -182,9 +182,9 @@ impl Chart<2> for Rocking {
         p.rates = vec![spin, spin_rate];
 
         let turning = p.times(c_rate, spin_rate);
-        let bending = p.times(c_bend, spin_squared);
+        let by_velocity = p.times(c_second, spin_squared);
         let rest = p.difference(f, turning);
-        let rest = p.difference(rest, bending);
+        let rest = p.difference(rest, by_velocity);
         let m_squared = p.dot(m, m);
         let inverse_m = p.reciprocal(m_squared);
         let both = p.dot(rest, m);
@@ -210,7 +210,7 @@ impl Chart<2> for Rocking {
         for top in tops {
             terms.add_event_function(EventFunction::Top, top);
         }
-        terms.watch_rotation(model, theta);
+        terms.add_rotation_events(model, theta);
         terms
     }
 
@@ -224,13 +224,13 @@ impl Chart<2> for Rocking {
 
     fn place(&self, model: &Model) -> Program {
         let mut p = Program::new();
-        let Held {
+        let PositionTerms {
             theta,
             spin,
             turn,
             path: [m, c_rate, _],
             ..
-        } = self.held(&mut p, model);
+        } = self.position_terms(&mut p, model);
         let lever = turn.map(|term| p.scale(term, model.b.clone()));
         let level = p.constant(model.level.clone());
         let [x, y] = [p.add(m[0], lever[0]), p.subtract(m[1], lever[1])];

@@ -179,7 +179,7 @@ impl<C: Clone> Program<C> {
         let product = |a: &[S], b: &[S]| {
             let pairs = a.iter().zip(b.iter().rev());
             pairs
-                .filter(|(a, b)| !(a.is_nothing() || b.is_nothing()))
+                .filter(|(a, b)| !(a.is_exact_zero() || b.is_exact_zero()))
                 .map(|(a, b)| a.times(b))
                 .reduce(|sum, term| sum.plus(&term))
                 .unwrap_or_else(S::zero)
@@ -188,7 +188,7 @@ impl<C: Clone> Program<C> {
         let angle_sum = |angle: Term, other: usize| {
             let a = list[angle.0][1..=k].iter().enumerate();
             let terms = a
-                .filter(|(_, a)| !a.is_nothing())
+                .filter(|(_, a)| !a.is_exact_zero())
                 .map(|(i, a)| a.times_small(i as u32 + 1).times(&list[other][k - i - 1]));
             let sum = terms.reduce(|sum, term| sum.plus(&term));
             sum.unwrap_or_else(S::zero).over_small(k as u32)

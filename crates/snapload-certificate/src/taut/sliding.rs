@@ -64,9 +64,9 @@ impl Chart<4> for Sliding {
             event_functions: Vec::new(),
         };
         terms.add_event_function(EventFunction::Tension(self.0), minus_tension);
-        let held = Held { a, n, turn, lever };
-        self.watch_gap_and_tops(&mut terms, model, &held);
-        terms.watch_rotation(model, theta);
+        let position = PositionTerms { a, n, turn, lever };
+        self.add_gap_and_top_events(&mut terms, model, &position);
+        terms.add_rotation_events(model, theta);
         terms
     }
 
@@ -156,7 +156,7 @@ impl Chart<4> for Sliding {
 }
 
 /// The position of the body, as terms.
-struct Held {
+struct PositionTerms {
     /// The coordinates of the taut cable's end, in the body's frame.
     a: Ball,
     n: [Term; 2],
@@ -167,13 +167,13 @@ struct Held {
 }
 
 impl Sliding {
-    /// Watches the other cable's gap and the tops.
-    fn watch_gap_and_tops(&self, terms: &mut Terms, model: &Model, held: &Held) {
+    /// Adds the other cable's gap and the tops.
+    fn add_gap_and_top_events(&self, terms: &mut Terms, model: &Model, position: &PositionTerms) {
         let p = &mut terms.program;
         // The centre, with the anchors' level as zero and this anchor's x, is r n − ρ.
-        let reach = held.n.map(|n| p.scale(n, model.r.clone()));
-        let [x, y] = p.difference(reach, held.lever);
-        let other = arm(p, [&-&held.a, &model.b], held.turn);
+        let reach = position.n.map(|n| p.scale(n, model.r.clone()));
+        let [x, y] = p.difference(reach, position.lever);
+        let other = arm(p, [&-&position.a, &model.b], position.turn);
         // From the other cable's anchor to this one's is 2 or −2.
         let apart = p.constant(Ball::integer(2 * side(self.0)));
         let [dx, dy] = p.sum([x, y], other);

@@ -66,7 +66,7 @@ pub(crate) struct Step<'a, const N: usize> {
     spread: [Ball; N],
     /// For each output the coefficients of the second and third derivative over the set, the
     /// remainder's as the last.
-    bends: Vec<[Vec<Interval>; 2]>,
+    higher_derivatives: Vec<[Vec<Interval>; 2]>,
 }
 
 /// The remainder of the polynomial is kept below 2^(−38 · limbs).
@@ -130,7 +130,7 @@ impl<'a, const N: usize> Step<'a, N> {
                     length: h,
                     rates: rates.collect(),
                     centre,
-                    bends: bends(&whole),
+                    higher_derivatives: higher_derivatives(&whole),
                     whole,
                     spread,
                 });
@@ -283,12 +283,14 @@ pub(crate) fn some_ball(interval: Interval) -> Ball {
     interval.ball().unwrap_or_else(endless)
 }
 
-fn bends<const N: usize>(whole: &Expansion<Jet<Interval, N>, N>) -> Vec<[Vec<Interval>; 2]> {
+fn higher_derivatives<const N: usize>(
+    whole: &Expansion<Jet<Interval, N>, N>,
+) -> Vec<[Vec<Interval>; 2]> {
     let all = whole.outputs.iter().map(|series| {
         let value: Vec<Interval> = series.iter().map(|jet| jet.value).collect();
-        let bend = derivative(&derivative(&value));
-        let third = derivative(&bend);
-        [bend, third]
+        let second = derivative(&derivative(&value));
+        let third = derivative(&second);
+        [second, third]
     });
     all.collect()
 }
@@ -311,7 +313,7 @@ fn with_last<S: Scalar, const N: usize>(
 /// d)!.
 impl<const N: usize> Path for Step<'_, N> {
     fn count(&self) -> usize {
-        self.bends.len()
+        self.higher_derivatives.len()
     }
 
     fn event_name(&self, which: usize) -> String {
@@ -327,17 +329,17 @@ impl<const N: usize> Path for Step<'_, N> {
         }
     }
 
-    fn bends(&self, middle: &Ball, half: Radius) -> Vec<Ball> {
+    fn second_derivatives(&self, middle: &Ball, half: Radius) -> Vec<Ball> {
         let over = Interval::of(&middle.clone().widened(half));
-        let bends = self.bends.iter();
-        bends
-            .map(|[bend, _]| some_ball(value_of(bend, over)))
+        let higher_derivatives = self.higher_derivatives.iter();
+        higher_derivatives
+            .map(|[second, _]| some_ball(value_of(second, over)))
             .collect()
     }
 
     fn third(&self, which: usize, middle: &Ball, half: Radius) -> Option<Ball> {
         let over = Interval::of(&middle.clone().widened(half));
-        let [_, third] = &self.bends[which];
+        let [_, third] = &self.higher_derivatives[which];
         Some(some_ball(value_of(third, over)))
     }
 }

@@ -305,28 +305,31 @@ fn steps_enclose_taut_motion<const N: usize>(chart: &impl Chart<N>, start: [f64;
         let h = step.length.to_f64();
         for corner in 0..corners {
             for tau in [h / 4.0, h] {
-                let truth = followed(&exact, &at(corner), time, tau);
+                let reference = followed(&exact, &at(corner), time, tau);
                 let tau = Ball::double(tau);
                 let mut pairs: Vec<(Ball, Ball)> = step
                     .at(&tau)
                     .into_iter()
-                    .zip(truth.iter().cloned())
+                    .zip(reference.iter().cloned())
                     .collect();
                 if tau.to_f64() >= h {
                     let end = step.end(&set).expect("a set").hull();
-                    pairs.extend(end.into_iter().zip(truth.iter().cloned()));
+                    pairs.extend(end.into_iter().zip(reference.iter().cloned()));
                 }
                 let when = Ball::double(time) + &tau;
-                let now = exact.program.expand(&truth, &when, 1, &fine.functions);
+                let now = exact.program.expand(&reference, &when, 1, &fine.functions);
                 let now = now.expect("no division by zero").outputs;
                 for (which, series) in now.iter().enumerate() {
                     let event_value = step.event_value(which, &tau);
                     pairs.push((event_value.value, series[0].clone()));
                     pairs.push((event_value.rate, series[1].clone()));
                 }
-                for (ours, truth) in pairs {
-                    let off = (&ours.centre() - &truth).lower();
-                    assert!(off <= ours.radius(), "{corner} {tau:?}: {ours:?} {truth:?}");
+                for (ours, reference) in pairs {
+                    let off = (&ours.centre() - &reference).lower();
+                    assert!(
+                        off <= ours.radius(),
+                        "{corner} {tau:?}: {ours:?} {reference:?}"
+                    );
                 }
             }
         }
@@ -367,12 +370,12 @@ fn starts_enclose_taut_motion<const N: usize>(
         let series = series.expect("no division by zero").state;
         let shift = &t - &when;
         for (i, (ours, series)) in hull.iter().zip(&series).enumerate() {
-            let truth = series
+            let reference = series
                 .iter()
                 .rev()
                 .fold(Ball::zero(), |sum, c| sum * &shift + c);
-            let off = (&ours.centre() - &truth).lower();
-            assert!(off <= ours.radius(), "{corner} {i}: {ours:?} {truth:?}");
+            let off = (&ours.centre() - &reference).lower();
+            assert!(off <= ours.radius(), "{corner} {i}: {ours:?} {reference:?}");
         }
     }
 }

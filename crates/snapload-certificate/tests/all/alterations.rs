@@ -259,10 +259,10 @@ fn lists_in_place_of_keys_are_no_certificates() {
         "body",
     ];
     case["case"] = values(&whole["case"], &keys);
-    let mut stretch = whole;
-    stretch["format"] = json!("snapload-certificate-2");
-    stretch["impacts"][0] = json!([[2], "0.5", "0.6", "impact 1"]);
-    for altered in [top, end, case, stretch] {
+    let mut segment = whole;
+    segment["format"] = json!("snapload-certificate-2");
+    segment["impacts"][0] = json!([[2], "0.5", "0.6", "impact 1"]);
+    for altered in [top, end, case, segment] {
         let verdict = check(&altered.to_string());
         assert!(matches!(verdict, Verdict::Malformed(_)), "{verdict:?}");
     }

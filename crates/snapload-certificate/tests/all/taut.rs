@@ -21,7 +21,7 @@ enum Line {
         t: f64,
         v_n: f64,
     },
-    Stretch {
+    TautSegment {
         mode: Vec<u64>,
         from: f64,
         until: f64,
@@ -42,7 +42,7 @@ fn lines(proof: &Certification) -> Vec<Line> {
             }
         } else {
             let mode = line["mode"].as_array()?.iter();
-            Line::Stretch {
+            Line::TautSegment {
                 mode: mode.filter_map(Value::as_u64).collect(),
                 from: number(&line["from"])?,
                 until: number(&line["until"])?,
@@ -53,10 +53,10 @@ fn lines(proof: &Certification) -> Vec<Line> {
     lines.map(|each| line(each).expect("a line")).collect()
 }
 
-/// The taut cables of each stretch, from when to when, and what ends it.
-fn stretches(lines: &[Line]) -> Vec<(&[u64], f64, f64, &str)> {
-    let stretches = lines.iter().filter_map(|line| match line {
-        Line::Stretch {
+/// The taut cables of each segment, from when to when, and what ends it.
+fn taut_segments(lines: &[Line]) -> Vec<(&[u64], f64, f64, &str)> {
+    let segments = lines.iter().filter_map(|line| match line {
+        Line::TautSegment {
             mode,
             from,
             until,
@@ -64,14 +64,14 @@ fn stretches(lines: &[Line]) -> Vec<(&[u64], f64, f64, &str)> {
         } => Some((mode.as_slice(), *from, *until, event.as_str())),
         Line::Impact { .. } => None,
     });
-    stretches.collect()
+    segments.collect()
 }
 
-/// The changes at the end of each stretch: the number of taut cables before, the event, and the
+/// The changes at the end of each segment: the number of taut cables before, the event, and the
 /// cables that are taut afterwards.
 fn changes(lines: &[Line]) -> Vec<String> {
-    let stretches = stretches(lines);
-    let pairs = stretches.windows(2);
+    let segments = taut_segments(lines);
+    let pairs = segments.windows(2);
     let change = pairs.map(|pair| {
         let [(mode, _, until, event), (next, from, ..)] = [pair[0], pair[1]];
         let then = match next.len() {
@@ -127,7 +127,7 @@ fn taut_runs_are_those_of_the_simulator() {
         let lines = lines(&proof);
         let ours = lines.iter().filter_map(|line| match line {
             Line::Impact { cable, t, v_n } => Some((*cable, *t, *v_n)),
-            Line::Stretch { .. } => None,
+            Line::TautSegment { .. } => None,
         });
         let ours: Vec<(usize, f64, f64)> = ours.collect();
         assert_eq!(ours.len(), snaps.len(), "{settings}");
@@ -173,12 +173,12 @@ fn the_sliding_example_is_proved_into_rocking() {
     });
     assert!(matches!(proof.end, Ended::Proved(_)), "{:?}", proof.end);
     let lines = lines(&proof);
-    let stretches = stretches(&lines);
-    let (first, second) = (&stretches[0], &stretches[1]);
+    let segments = taut_segments(&lines);
+    let (first, second) = (&segments[0], &segments[1]);
     assert_eq!((first.0, first.3), (&[2][..], "impact 1"));
     assert!((first.1 - 7.907).abs() < 1e-3 && (first.2 - 8.008).abs() < 1e-3);
     assert!(second.0 == [2] && (second.1 - 8.755).abs() < 1e-2);
-    let last = stretches.last().expect("a stretch");
+    let last = segments.last().expect("a segment");
     assert!(
         last.0 == [1, 2] && (last.1 - 8.8765).abs() < 1e-3,
         "{}",
@@ -186,9 +186,9 @@ fn the_sliding_example_is_proved_into_rocking() {
     );
 }
 
-/// A taut stretch is checked again, and is refused if any part of it is altered.
+/// A taut segment is checked again, and is refused if any part of it is altered.
 #[test]
-fn altered_stretches_are_refused() {
+fn altered_taut_segments_are_refused() {
     let parameters = Parameters {
         e: 0.0,
         f_o: 0.8,
@@ -198,7 +198,7 @@ fn altered_stretches_are_refused() {
     };
     let proof = taut(&parameters);
     assert!(matches!(proof.end, Ended::Proved(_)), "{:?}", proof.end);
-    assert_eq!(proof.stretches, 1);
+    assert_eq!(proof.taut_segments, 1);
     let verdict = check(&proof.text());
     assert!(matches!(verdict, Verdict::Proved { .. }), "{verdict:?}");
     let certificate: Value = serde_json::from_str(&proof.text()).expect("JSON");
@@ -217,7 +217,7 @@ fn altered_stretches_are_refused() {
             "{key} {value}: {verdict:?}"
         );
     }
-    // Format 1 has no stretches.
+    // Format 1 has no segments.
     let mut altered = certificate;
     altered["format"] = serde_json::json!("snapload-certificate-1");
     assert!(matches!(check(&altered.to_string()), Verdict::Malformed(_)));

@@ -41,8 +41,8 @@ fn a_branch_goes_over_at_a_doubling() {
     assert_eq!(from.len(), 1);
     assert_eq!(from[0]["kind"], "period_doubling");
     // The value was computed with 50 digits by an independent program, and rounded.
-    let born = 1.680507876014799;
-    assert!((number(&from[0]["value"]) - born).abs() < 1e-9);
+    let doubling = 1.680507876014799;
+    assert!((number(&from[0]["value"]) - doubling).abs() < 1e-9);
     assert_eq!(branch["ends"][0]["because"], "the period doubling");
     let points = branch["points"].as_array().unwrap();
     let first = number(&points[0]["multipliers"][0][0]);
@@ -57,7 +57,7 @@ fn a_branch_goes_over_at_a_doubling() {
         let pairs = point["section"].as_array().unwrap().iter();
         let pairs = pairs.zip(from[0]["state"].as_array().unwrap());
         let square: f64 = pairs.map(|(a, b)| (number(a) - number(b)).powi(2)).sum();
-        ratios.push((number(&point["value"]) - born) / square);
+        ratios.push((number(&point["value"]) - doubling) / square);
     }
     assert!(ratios[0] > 0.0, "{ratios:?}");
     assert!((ratios[1] / ratios[0] - 1.0).abs() < 0.1, "{ratios:?}");

@@ -94,7 +94,7 @@ fn the_direction_of_waves_is_reported() {
 #[test]
 fn bad_input_is_reported_with_exit_status_2() {
     let room = room();
-    for (set, says) in [
+    for (set, expected) in [
         ("wave.hieght=2", "did you mean height?"),
         ("body.mass=200000", "sinks"),
         ("line.length=9", "shorten the lines"),
@@ -104,7 +104,7 @@ fn bad_input_is_reported_with_exit_status_2() {
             .args(["assess", "cylinder.toml", "--set", set])
             .assert()
             .code(2)
-            .stderr(contains(says));
+            .stderr(contains(expected));
     }
     snapload(room.path())
         .args(["assess"])

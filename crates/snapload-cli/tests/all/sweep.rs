@@ -359,7 +359,7 @@ fn pictures_are_lines_and_maps() {
 }
 
 #[test]
-fn slips_are_refused_before_anything_is_run() {
+fn invalid_axes_and_lists_are_refused_before_anything_is_run() {
     let d = directory();
     fs::write(d.path().join("c.csv"), "f_o,omgea\n1,2\n").unwrap();
     for (args, expected) in [

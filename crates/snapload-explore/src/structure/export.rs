@@ -25,7 +25,7 @@ pub(crate) enum File {
 pub(crate) struct Request {
     case: CaseRequest,
     /// Whether to report the progress, line by line.
-    #[serde(default, rename = "told")]
+    #[serde(default)]
     pub(crate) progress: bool,
 }
 

@@ -34,7 +34,7 @@ pub(crate) struct Request {
     #[serde(default)]
     window: Option<[f64; 2]>,
     /// Whether to report the progress, line by line.
-    #[serde(default, rename = "told")]
+    #[serde(default)]
     pub(crate) progress: bool,
 }
 

@@ -336,14 +336,14 @@ fn an_answer_that_comes_in_lines_is_the_same() {
     let server = serve();
     let case = json!({ "set": ["wave.height=2.3", "run.duration=60"] });
     let path = "/api/structure/export/note.html";
-    let answer = lines(&server, path, json!({ "case": case, "told": true }));
+    let answer = lines(&server, path, json!({ "case": case, "progress": true }));
     let last = answer.last().unwrap();
     let plain = server.post(path, &json!({ "case": case }));
     assert_eq!(
         last["answer"].as_str().unwrap(),
         std::str::from_utf8(&plain.body).unwrap()
     );
-    let bad = json!({ "case": { "set": ["wave.height=60"] }, "told": true });
+    let bad = json!({ "case": { "set": ["wave.height=60"] }, "progress": true });
     let refused = lines(&server, path, bad.clone());
     assert_eq!(refused[0]["error"]["key"], "wave.height");
     let refused = lines(&server, "/api/structure/run", bad);

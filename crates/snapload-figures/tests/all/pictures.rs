@@ -2,20 +2,20 @@
 
 use proptest::prelude::*;
 use snapload_figures::{
-    Axis, Cell, Colour, FigureError, Layer, Leg, Map, Mark, Mode, Picture, Plot, Point, Range,
+    Axis, Cell, Colour, FigureError, Layer, Map, Mark, Mode, PathPart, Picture, Plot, Point, Range,
     Shape, Stroke, TickStyle, Width, draw, energy, rotation, snap_velocities, tensions, trajectory,
 };
 
 /// The five figures, all from the same points.
 fn figures(points: &[Point], horizon: Option<f64>) -> Vec<Plot> {
-    let legs: Vec<Leg> = [
+    let parts: Vec<PathPart> = [
         Mode::Slack,
         Mode::Sliding,
         Mode::Rocking,
         Mode::BeyondHorizon,
     ]
     .into_iter()
-    .map(|mode| Leg {
+    .map(|mode| PathPart {
         mode,
         points: points.to_vec(),
     })
@@ -32,7 +32,7 @@ fn figures(points: &[Point], horizon: Option<f64>) -> Vec<Plot> {
         .map(<[Point]>::to_vec)
         .collect();
     vec![
-        trajectory(&legs, [points, points], &marks),
+        trajectory(&parts, [points, points], &marks),
         rotation(points, horizon),
         snap_velocities([points, points], horizon),
         tensions([&pieces, &pieces], horizon),
@@ -82,7 +82,7 @@ fn assert_contains_texts(plot: Plot, words: &[&str]) {
 fn what_lies_past_the_horizon_is_grey_and_nothing_else_is() {
     let grey = |mode| {
         let points = vec![[0.0, 0.0], [1.0, 2.0], [2.0, 1.0]];
-        let plot = trajectory(&[Leg { mode, points }], [&[], &[]], &[]);
+        let plot = trajectory(&[PathPart { mode, points }], [&[], &[]], &[]);
         picture(plot).svg().contains("#999")
     };
     assert!(grey(Mode::BeyondHorizon));
@@ -101,12 +101,12 @@ fn every_figure_contains_its_labels() {
         .collect();
     let up: Vec<Point> = vec![[0.0, 1.0], [3.0, 3.0]];
     let down: Vec<Point> = vec![[6.0, 3.0], [10.0, 1.0]];
-    let legs = [
-        Leg {
+    let parts = [
+        PathPart {
             mode: Mode::Slack,
             points: wave.clone(),
         },
-        Leg {
+        PathPart {
             mode: Mode::Rocking,
             points: up.clone(),
         },
@@ -121,7 +121,7 @@ fn every_figure_contains_its_labels() {
         mark("G", [5.001, 2.0]),
     ];
     assert_contains_texts(
-        trajectory(&legs, [&up, &down], &marks),
+        trajectory(&parts, [&up, &down], &marks),
         &[
             "x (L)",
             "y (L)",
@@ -350,7 +350,7 @@ fn a_hundred_thousand_points_stay_small() {
         }
     }
     let path = trajectory(
-        &[Leg {
+        &[PathPart {
             mode: Mode::Slack,
             points: spiral,
         }],

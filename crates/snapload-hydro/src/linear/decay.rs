@@ -188,11 +188,11 @@ fn turns(decay: &Decay, freedom: usize) -> Vec<(f64, f64)> {
         let turns = (here - before) * (after - here) <= 0.0 && here != before;
         (turns && here != 0.0).then(|| {
             // The vertex of the parabola through three points.
-            let bend = before - 2.0 * here + after;
-            let shift = if bend == 0.0 {
+            let second_difference = before - 2.0 * here + after;
+            let shift = if second_difference == 0.0 {
                 0.0
             } else {
-                0.5 * (before - after) / bend
+                0.5 * (before - after) / second_difference
             };
             let height = here - 0.25 * (before - after) * shift;
             ((k as f64 + shift) * (second_s - first_s), height)

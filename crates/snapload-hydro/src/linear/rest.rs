@@ -255,14 +255,14 @@ impl RestProblem<'_> {
             }
             settled = if part < ROUNDING { settled + 1 } else { 0 };
             if settled == 2 {
-                return self.judged(taut, q, &tension);
+                return self.accepted(taut, q, &tension);
             }
         }
         // Rounding may keep the last step slightly above the bound.
         let geometries: Vec<LineGeometry> =
             taut.iter().map(|line| self.geometry(*line, &q)).collect();
         let (_, right) = self.newton(taut, &geometries, &q, &tension);
-        (right.amax() < 1e-11).then(|| self.judged(taut, q, &tension))?
+        (right.amax() < 1e-11).then(|| self.accepted(taut, q, &tension))?
     }
 
     /// Newton's matrix and right side, lengths in units of the longest line (the rotation in
@@ -303,7 +303,7 @@ impl RestProblem<'_> {
     }
 
     /// The position, if it is accepted as one of rest.
-    fn judged(&self, taut: &[usize], q: Vector3<f64>, tension: &[f64]) -> Option<Rest> {
+    fn accepted(&self, taut: &[usize], q: Vector3<f64>, tension: &[f64]) -> Option<Rest> {
         if tension.iter().any(|tension| *tension <= 1e-9 * self.force) {
             return None;
         }

@@ -218,15 +218,15 @@ fn the_ball_on_a_table_has_its_multipliers() {
 }
 
 #[test]
-fn the_ball_on_a_table_is_born_and_doubles_where_it_must() {
+fn the_ball_on_a_table_exists_and_doubles_where_expected() {
     for row in reference()["closed_forms"]["table"].as_array().unwrap() {
         let (e, n) = (number(&row["e"]), row["n"].as_u64().unwrap() as u32);
-        let [born, doubles] = ["existence", "period_doubling"].map(|key| number(&row[key]));
+        let [existence, doubles] = ["existence", "period_doubling"].map(|key| number(&row[key]));
         // A cable so long that the transverse motion stays stable.
         let family = table(400.0, 3.0);
-        let orbit = bouncing(&family, [0.5 * (born + doubles), e], n);
+        let orbit = bouncing(&family, [0.5 * (existence + doubles), e], n);
         let options = BranchOptions {
-            range: [0.5 * born, 1.1 * doubles],
+            range: [0.5 * existence, 1.1 * doubles],
             step: 0.02,
             most: 400,
         };
@@ -238,7 +238,7 @@ fn the_ball_on_a_table_is_born_and_doubles_where_it_must() {
                 .fold(f64::INFINITY, f64::min)
         };
         let off = [
-            located(Kind::Fold, born),
+            located(Kind::Fold, existence),
             located(Kind::PeriodDoubling, doubles),
         ];
         println!("e = {e}, n = {n}: {off:?}");

@@ -33,18 +33,21 @@ fn curve<F: Family>(family: &F, event: &BranchEvent, ranges: [[f64; 2]; 2], step
 /// The Γ from which one bounce in each n periods exists, and at which it doubles its period (P. J.
 /// Holmes, *J. Sound Vib.* 84 (1982) 173; J. M. Luck & A. Mehta, *Phys. Rev. E* 48 (1993) 3988).
 fn of_the_table(e: f64, n: u32) -> [f64; 2] {
-    let born = f64::from(n) * PI * (1.0 - e) / (1.0 + e);
-    [born, born.hypot(2.0 * (1.0 + e * e) / (1.0 + e).powi(2))]
+    let existence = f64::from(n) * PI * (1.0 - e) / (1.0 + e);
+    [
+        existence,
+        existence.hypot(2.0 * (1.0 + e * e) / (1.0 + e).powi(2)),
+    ]
 }
 
 #[test]
 fn the_ball_on_a_table_has_its_curves() {
     let family = table(4000.0, 3.0);
     let (e, n) = (0.5, 1);
-    let [born, doubles] = of_the_table(e, n);
-    let orbit = bouncing(&family, [0.5 * (born + doubles), e], n);
+    let [existence, doubles] = of_the_table(e, n);
+    let orbit = bouncing(&family, [0.5 * (existence + doubles), e], n);
     let options = BranchOptions {
-        range: [0.5 * born, 1.1 * doubles],
+        range: [0.5 * existence, 1.1 * doubles],
         step: 0.02,
         most: 400,
     };
@@ -81,10 +84,10 @@ fn the_ball_on_a_table_has_its_curves() {
 fn coefficients_are_those_of_the_branches() {
     let family = table(20.0, 3.0);
     let e = 0.5;
-    let [born, doubles] = of_the_table(e, 1);
-    let orbit = bouncing_from(&family, [0.5 * (born + doubles), e], 1, 0.5);
+    let [existence, doubles] = of_the_table(e, 1);
+    let orbit = bouncing_from(&family, [0.5 * (existence + doubles), e], 1, 0.5);
     let mut options = BranchOptions {
-        range: [0.5 * born, 1.1 * doubles],
+        range: [0.5 * existence, 1.1 * doubles],
         step: 0.002,
         most: 2000,
     };

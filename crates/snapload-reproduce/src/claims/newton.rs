@@ -73,7 +73,7 @@ pub(super) struct Moment {
 /// The solution for a held body: the multiplier of each gap, 0 if the cable is slack, and the
 /// acceleration.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Held {
+pub(super) struct Constrained {
     pub(super) lambda: [f64; 2],
     pub(super) acceleration: [f64; 3],
 }
@@ -132,7 +132,7 @@ impl Moment {
     }
 
     /// The solution with these cables taut.
-    pub(super) fn held(&self, taut: TautSet) -> Held {
+    pub(super) fn with_taut(&self, taut: TautSet) -> Constrained {
         let mut lambda = [0.0; 2];
         let c = BOTH.map(|side| self.opening(side));
         let w = |p, q| self.coupling(p, q);
@@ -155,14 +155,14 @@ impl Moment {
             acceleration[1] += lambda * g[1];
             acceleration[2] += lambda * g[2] / self.sizes.i;
         }
-        Held {
+        Constrained {
             lambda,
             acceleration,
         }
     }
 
-    pub(super) fn held_by_both(&self) -> Held {
-        self.held(BOTH.into_iter().collect())
+    pub(super) fn with_both_taut(&self) -> Constrained {
+        self.with_taut(BOTH.into_iter().collect())
     }
 }
 
@@ -180,7 +180,7 @@ pub(super) fn tension_residual(run: &Trajectory, taut: usize) -> (f64, usize) {
             let part = (k as f64 + 0.5) / TIMES as f64;
             let now = playback.at(mode.t_start + part * (mode.t_end - mode.t_start));
             let moment = Moment::of(run, &now);
-            let lambda = moment.held(now.taut).lambda;
+            let lambda = moment.with_taut(now.taut).lambda;
             let residual = |cable| now.tensions[cable] + 2.0 * lambda[cable] * moment.sizes.r;
             residuals.extend(now.taut.iter().map(residual));
         }

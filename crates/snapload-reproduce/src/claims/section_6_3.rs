@@ -180,7 +180,7 @@ mod tests {
     }
 
     #[test]
-    fn a_table_without_slips_is_reproduced_and_a_slip_is_seen() {
+    fn a_table_without_misprints_is_reproduced_and_a_misprint_is_found() {
         let series_e = |mut table: Table| {
             table.rows.retain(|row| row[0] == "e");
             table

@@ -109,28 +109,28 @@ const CHECKS: &Checks<fn(&Material) -> Checked> = &[
             .list("slack", slack))
     }),
     ("6.5.2.2-12", |of| {
-        let begins = of.rocking_begins();
+        let starts = of.rocking_starts();
         Ok(of
-            .with_counts(Finding::robust(&begins, |of| of.long > 0))
-            .list("long", begins.iter().map(|of| of.long as f64))
-            .list("short", begins.iter().map(|of| of.short as f64))
-            .list("all", begins.iter().map(|of| of.all as f64))
+            .with_counts(Finding::robust(&starts, |of| of.long > 0))
+            .list("long", starts.iter().map(|of| of.long as f64))
+            .list("short", starts.iter().map(|of| of.short as f64))
+            .list("all", starts.iter().map(|of| of.all as f64))
             .value("shortest", SHORTEST))
     }),
     ("6.5.2.2-16", |of| {
-        let begins = of.rocking_begins();
+        let starts = of.rocking_starts();
         Ok(of
-            .with_counts(Finding::robust(&begins, Begins::usually_settle))
-            .list("settling", begins.iter().map(|of| of.settling as f64))
-            .list("all", begins.iter().map(|of| of.all as f64))
+            .with_counts(Finding::robust(&starts, RockingStarts::usually_settle))
+            .list("settling", starts.iter().map(|of| of.settling as f64))
+            .list("all", starts.iter().map(|of| of.all as f64))
             .values("low shortest", [LOW, SHORTEST]))
     }),
     ("6.5.2.2-17", |of| {
-        let begins = of.rocking_begins();
+        let starts = of.rocking_starts();
         Ok(of
-            .with_counts(Finding::robust(&begins, Begins::in_two_ways))
-            .list("neither", begins.iter().map(|of| of.neither() as f64))
-            .list("all", begins.iter().map(|of| of.all as f64))
+            .with_counts(Finding::robust(&starts, RockingStarts::in_two_ways))
+            .list("neither", starts.iter().map(|of| of.neither() as f64))
+            .list("all", starts.iter().map(|of| of.all as f64))
             .values("low shortest", [LOW, SHORTEST])
             .value("few", 100.0 * FEW_OTHERS))
     }),
@@ -195,7 +195,7 @@ const FEW_OTHERS: f64 = 0.2;
 
 /// The beginning of a rocking motion.
 #[derive(Clone, Copy, Debug)]
-struct Begin {
+struct RockingStart {
     /// How long the body slid just before; 0 if it did not.
     slid: f64,
     /// The height of its centre.
@@ -204,7 +204,7 @@ struct Begin {
 
 /// The counts of the ways in which the rocking of many runs begins.
 #[derive(Clone, Copy, Debug, Default)]
-struct Begins {
+struct RockingStarts {
     all: usize,
     /// After a slide, and after a slide too short to be visible.
     long: usize,
@@ -213,9 +213,9 @@ struct Begins {
     settling: usize,
 }
 
-impl Begins {
-    fn of(begins: impl Iterator<Item = Begin>) -> Self {
-        begins.fold(Self::default(), |of, Begin { slid, y }| Self {
+impl RockingStarts {
+    fn of(starts: impl Iterator<Item = RockingStart>) -> Self {
+        starts.fold(Self::default(), |of, RockingStart { slid, y }| Self {
             all: of.all + 1,
             long: of.long + usize::from(slid >= SHORTEST),
             short: of.short + usize::from(slid > 0.0 && slid < SHORTEST),
@@ -241,25 +241,25 @@ impl Begins {
 
 impl Material<'_> {
     /// The ways in which each rocking of all shapes and amplitudes begins, by start.
-    fn rocking_begins(&self) -> Vec<Begins> {
+    fn rocking_starts(&self) -> Vec<RockingStarts> {
         let of_run = |run: &Trajectory| {
             let mut playback = Playback::new(run);
             let pairs = run
                 .modes()
                 .windows(2)
                 .filter(|pair| kind(&pair[1]) == "rocking");
-            let begins = pairs.map(|pair| Begin {
+            let starts = pairs.map(|pair| RockingStart {
                 slid: match kind(&pair[0]) {
                     "sliding" => pair[0].t_end - pair[0].t_start,
                     _ => 0.0,
                 },
                 y: playback.at(pair[1].t_start).state.y,
             });
-            begins.collect::<Vec<_>>()
+            starts.collect::<Vec<_>>()
         };
         let sweeps = self.sweeps.iter();
         sweeps
-            .map(|runs| Begins::of(runs.iter().flat_map(of_run)))
+            .map(|runs| RockingStarts::of(runs.iter().flat_map(of_run)))
             .collect()
     }
 }
@@ -325,9 +325,9 @@ mod tests {
 
     #[test]
     fn a_slide_of_no_length_is_none() {
-        let begin = |slid, y| Begin { slid, y };
-        let of = |begins: &[Begin]| Begins::of(begins.iter().copied());
-        let [slid, settled, high] = [begin(0.01, 0.02), begin(1e-4, 0.02), begin(0.0, 0.2)];
+        let start = |slid, y| RockingStart { slid, y };
+        let of = |starts: &[RockingStart]| RockingStarts::of(starts.iter().copied());
+        let [slid, settled, high] = [start(0.01, 0.02), start(1e-4, 0.02), start(0.0, 0.2)];
         let all = of(&[slid, settled, high]);
         assert_eq!(
             (all.long, all.short, all.settling, all.neither()),

@@ -136,8 +136,8 @@ impl Sliding {
             velocity: now.map(|z| z[1]),
             force,
         };
-        let held = moment.held(TautSet::only(side));
-        let [ax, ay, atheta] = held.acceleration;
+        let constrained = moment.with_taut(TautSet::only(side));
+        let [ax, ay, atheta] = constrained.acceleration;
         // θ̈ gives β̈; the remaining part of ẍ and ÿ is α̈ times the derivative of the position by
         // α.
         let bdd = if side == LEFT { atheta } else { -atheta };
@@ -152,7 +152,7 @@ impl Sliding {
             bd,
             add: ((ax - x) * dx + (ay - y) * dy) / (m.r * m.r),
             bdd,
-            lambda: held.lambda[side],
+            lambda: constrained.lambda[side],
             moment,
         }
     }

@@ -52,7 +52,7 @@ const CHECKS: &Checks<fn(&Material) -> Checked> = &[
         /// The least number of intervals that no simple rule explains, and the number of shapes
         /// that may have fewer.
         const SCATTERED: usize = 2;
-        const BUT: usize = 2;
+        const EXCEPTIONS: usize = 2;
         let all = shapes.len();
         let scattered = |start: usize| {
             let of_shapes = shapes.iter().map(|s| s.counts[start][1]);
@@ -64,14 +64,14 @@ const CHECKS: &Checks<fn(&Material) -> Checked> = &[
         let intervals = shapes
             .iter()
             .flat_map(|s| s.counts.iter().map(|counts| counts[1]));
-        Ok(
-            Finding::robust(&scattered, |count| count + BUT >= all && all > BUT)
-                .list("intervals", intervals.map(|count| count as f64))
-                .list("scattered", scattered.iter().map(|count| *count as f64))
-                .values("shapes several but", [all, SCATTERED, BUT]),
-        )
+        Ok(Finding::robust(&scattered, |count| {
+            count + EXCEPTIONS >= all && all > EXCEPTIONS
+        })
+        .list("intervals", intervals.map(|count| count as f64))
+        .list("scattered", scattered.iter().map(|count| *count as f64))
+        .values("shapes several but", [all, SCATTERED, EXCEPTIONS]))
     }),
-    ("6.5.1.2-04", |_| dying_snaps()),
+    ("6.5.1.2-04", |_| decaying_snaps()),
     ("6.5.1.2-16", ends),
 ];
 
@@ -144,7 +144,7 @@ fn sliding(slides: &[bool]) -> [usize; 2] {
     ]
 }
 
-fn dying_snaps() -> Checked {
+fn decaying_snaps() -> Checked {
     /// A difference of times that is not visible in a plot.
     const SAME: f64 = 1e-3;
     /// Two velocities below which a cable is taken to stick. If the snaps die out, the result does

@@ -55,7 +55,7 @@ const CHECKS: &Checks<fn(&Material) -> Checked> = &[
     ("6.5.2.1-04", |of| {
         identity(&of.rocking, |state| {
             let ([_, _, theta], [_, _, rate]) = (state.place, state.velocity);
-            let [_, _, newton] = state.held_by_both().acceleration;
+            let [_, _, newton] = state.with_both_taut().acceleration;
             let printed = eq_6_63_second(&state.sizes, theta, rate, state.force);
             [(printed - newton) / (1.0 + newton.abs())]
         })
@@ -69,7 +69,7 @@ const CHECKS: &Checks<fn(&Material) -> Checked> = &[
     }),
     ("6.5.2.1-06", |of| {
         let compression = over(&of.rocking, |state| {
-            let lambda = state.held_by_both().lambda;
+            let lambda = state.with_both_taut().lambda;
             let factors = eq_6_66_factors(&state.sizes, state.place);
             // The residual relative to the size of the force, which is unbounded where the cables
             // are nearly in line.
@@ -116,8 +116,8 @@ fn eq_6_61_place(m: &Sizes, theta: Jet) -> [Jet; 2] {
 fn eq_6_63_second(m: &Sizes, theta: f64, rate: f64, force: [f64; 2]) -> f64 {
     let [[_, dx, ddx], [_, dy, ddy]] = eq_6_61_place(m, jet([theta, 1.0, 0.0])).map(derivatives);
     let generalized = force[0] * dx + force[1] * dy;
-    let bend = rate * rate * (dx * ddx + dy * ddy);
-    (generalized - dy - bend) / (m.i + dx * dx + dy * dy)
+    let velocity_term = rate * rate * (dx * ddx + dy * ddy);
+    (generalized - dy - velocity_term) / (m.i + dx * dx + dy * dy)
 }
 
 /// The factors of λ1 and λ2 in 6.66, 6.67, 6.68.
@@ -174,7 +174,7 @@ fn cross(p: [f64; 3], q: [f64; 3]) -> [f64; 3] {
 
 /// The cables that stay taut by the signs of λ1 and λ2.
 fn by_signs(state: &Moment) -> TautSet {
-    let lambda = state.held_by_both().lambda;
+    let lambda = state.with_both_taut().lambda;
     BOTH.into_iter()
         .filter(|side| lambda[*side] < 0.0)
         .collect()
@@ -186,7 +186,7 @@ fn complementary(state: &Moment) -> TautSet {
     let w = |p, q| state.coupling(p, q);
     let opening = BOTH.map(|side| state.opening(side));
     let failure = |taut: TautSet| {
-        let lambda = state.held(taut).lambda;
+        let lambda = state.with_taut(taut).lambda;
         let fails = BOTH.map(|side| {
             if taut.contains(side) {
                 lambda[side] * w(side, side)
@@ -206,16 +206,16 @@ fn complementary(state: &Moment) -> TautSet {
 /// The same state under the wave force for which the tension of one cable is just below zero.
 fn at_loss(state: &Moment, side: usize) -> Option<Moment> {
     /// λ of a cable that has just lost its tension.
-    const JUST: f64 = 1e-6;
+    const LAMBDA_AT_LOSS: f64 = 1e-6;
     let [_, fy] = state.force;
     let with = |fx| Moment {
         force: [fx, fy],
         ..*state
     };
-    let of = |moment: &Moment| moment.held_by_both().lambda;
+    let of = |moment: &Moment| moment.with_both_taut().lambda;
     let start = of(&with(0.0))[side];
     let slope = of(&with(1.0))[side] - start;
-    let lost = with((JUST - start) / slope);
+    let lost = with((LAMBDA_AT_LOSS - start) / slope);
     // The other one must pull by more than rounding.
     (slope.abs() > 1e-3 && of(&lost)[1 - side] < -1e-3).then_some(lost)
 }

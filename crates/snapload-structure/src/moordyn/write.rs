@@ -1,7 +1,7 @@
 //! From a structure to a file that MoorDyn v2 loads.
 
 use crate::options::{SEGMENTS, check};
-use crate::physics::elastic::springs;
+use crate::physics::elastic::elastic_lines;
 use crate::physics::model_at_rest::ModelAtRest;
 use crate::structure::{BodySi, Outline, Site, SpectrumShape, Structure, Water};
 use askama::Template;
@@ -95,9 +95,9 @@ pub fn write(name: &str, structure: &Structure, segments: u32) -> Result<String,
 fn types(prepared: &ModelAtRest, segments: u32) -> Result<Vec<[f64; 4]>, CaseError> {
     let (structure, scales) = (&prepared.structure, &prepared.model.scales);
     let unit = scales.force_n / scales.length_m * scales.time_s;
-    let springs = springs(prepared, 1.0)?;
-    let lines = (1..).zip(structure.lines.iter().zip(&springs));
-    let one = |(number, (line, spring)): (usize, (&crate::LineSi, &crate::Spring))| {
+    let elastic_lines = elastic_lines(prepared, 1.0)?;
+    let lines = (1..).zip(structure.lines.iter().zip(&elastic_lines));
+    let one = |(number, (line, elastic_line)): (usize, (&crate::LineSi, &crate::ElasticLine))| {
         let needed = |value: Option<f64>, key: &str, what: &str| {
             value.ok_or_else(|| {
                 let allowed = format!("a {what}, which a line of MoorDyn needs");
@@ -109,7 +109,7 @@ fn types(prepared: &ModelAtRest, segments: u32) -> Result<Vec<[f64; 4]>, CaseErr
         let mass = needed(line.mass_per_length_kg_m, "mass_per_length", "mass in kg/m")?;
         let diameter = (4.0 * mass / (PI * structure.site.water_density_kg_m3)).sqrt();
         let damping = match segments {
-            1 => spring.damping * unit * line.length_m,
+            1 => elastic_line.damping * unit * line.length_m,
             _ => -SEGMENT_DAMPING,
         };
         Ok([diameter, mass, stiffness, damping])

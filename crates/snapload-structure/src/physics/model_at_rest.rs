@@ -82,7 +82,7 @@ impl ModelAtRest {
     /// do not stretch would distribute the load differently.
     fn distribute_by_stiffness(&mut self) {
         let elastic_case =
-            undamped(self, 1.0).and_then(|springs| self.with_elastic_lines(&springs));
+            undamped(self, 1.0).and_then(|elastic_lines| self.with_elastic_lines(&elastic_lines));
         let Ok(elastic_case) = elastic_case else {
             return;
         };

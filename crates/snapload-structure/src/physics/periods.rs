@@ -11,7 +11,7 @@
 //! follow ω² and the mode v (L. Meirovitch, *Elements of Vibration Analysis* (1986), section 4.3).
 
 use super::afloat::TautMode;
-use super::elastic::{Spring, undamped};
+use super::elastic::{ElasticLine, undamped};
 use super::equilibrium::SmallMotions;
 use super::model_at_rest::ModelAtRest;
 use crate::structure::Afloat;
@@ -52,9 +52,9 @@ impl NaturalPeriods {
         if prepared.structure.afloat.is_some() {
             return None;
         }
-        let elastic = undamped(prepared, 1.0).ok().and_then(|springs| {
-            let elastic_case = prepared.with_elastic_lines(&springs).ok()?;
-            Some(modes_with_springs(&elastic_case, &springs))
+        let elastic = undamped(prepared, 1.0).ok().and_then(|elastic_lines| {
+            let elastic_case = prepared.with_elastic_lines(&elastic_lines).ok()?;
+            Some(modes_with_elastic_lines(&elastic_case, &elastic_lines))
         });
         Some(Self {
             inextensible: modes_on_inextensible_lines(prepared),
@@ -81,9 +81,9 @@ fn afloat_modes_on_elastic_lines(
     prepared: &ModelAtRest,
     afloat: &Afloat,
 ) -> Result<Vec<TautMode>, HydroError> {
-    let elastic_case = undamped(prepared, 1.0).and_then(|springs| {
-        let elastic_case = prepared.with_elastic_lines(&springs)?;
-        Ok(elastic_case.stiffness_on(&springs))
+    let elastic_case = undamped(prepared, 1.0).and_then(|elastic_lines| {
+        let elastic_case = prepared.with_elastic_lines(&elastic_lines)?;
+        Ok(elastic_case.stiffness_on(&elastic_lines))
     });
     let Ok(stiffness) = elastic_case else {
         return Ok(Vec::new());
@@ -115,8 +115,11 @@ fn modes_on_inextensible_lines(prepared: &ModelAtRest) -> Vec<NaturalMode> {
     modes(prepared, &motions.curvature, &motions.basis())
 }
 
-fn modes_with_springs(elastic_case: &ModelAtRest, springs: &[Spring]) -> Vec<NaturalMode> {
-    let stiffness = elastic_case.stiffness_on(springs);
+fn modes_with_elastic_lines(
+    elastic_case: &ModelAtRest,
+    elastic_lines: &[ElasticLine],
+) -> Vec<NaturalMode> {
+    let stiffness = elastic_case.stiffness_on(elastic_lines);
     modes(elastic_case, &stiffness, &DMatrix::identity(3, 3))
 }
 

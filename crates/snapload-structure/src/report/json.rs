@@ -200,8 +200,9 @@ impl ElasticComparison {
     /// All results; `name` is that of the case.
     pub fn to_json(&self, name: &str) -> Value {
         let structure = &self.prepared.structure;
-        let lines = self.springs.iter().enumerate().map(|(index, spring)| {
-            let [rate, damping] = self.si(spring);
+        let elastic_lines = self.elastic_lines.iter().enumerate();
+        let lines = elastic_lines.map(|(index, elastic_line)| {
+            let [rate, damping] = self.si(elastic_line);
             let judged = !self.outcome.is_unjudged();
             json!({
                 "line": index + 1,

@@ -1,7 +1,7 @@
 //! The answers in a few lines of text.
 
 use super::verdict::end_text;
-use crate::physics::elastic::{Pull, Spring, damping_ratio};
+use crate::physics::elastic::{ElasticLine, Pull, damping_ratio};
 use crate::physics::equilibrium::Equilibrium;
 use crate::physics::model::Scales;
 use crate::physics::model_at_rest::ModelAtRest;
@@ -135,10 +135,13 @@ impl Seas {
 
 impl ElasticComparison {
     /// Spring rate \[N/m\] and damping \[N s/m\] of an elastic line.
-    pub fn si(&self, spring: &Spring) -> [f64; 2] {
+    pub fn si(&self, elastic_line: &ElasticLine) -> [f64; 2] {
         let scales = &self.prepared.model.scales;
         let unit = scales.force_n / scales.length_m;
-        [spring.rate * unit, spring.damping * unit * scales.time_s]
+        [
+            elastic_line.rate * unit,
+            elastic_line.damping * unit * scales.time_s,
+        ]
     }
 
     /// The answer in a few lines, with the first pulls and snaps side by side; `name` is that of
@@ -153,8 +156,9 @@ impl ElasticComparison {
             format!("{left:<47}{right}")
         };
         let all = pulls.len().max(snaps.len());
-        let lines = self.springs.iter().enumerate().map(|(line, spring)| {
-            let [rate, damping] = self.si(spring);
+        let elastic_lines = self.elastic_lines.iter().enumerate();
+        let lines = elastic_lines.map(|(line, elastic_line)| {
+            let [rate, damping] = self.si(elastic_line);
             let (slack, peak) = (
                 self.elastic.slack_fraction(line),
                 self.elastic.peaks_n[line],

@@ -159,7 +159,7 @@ enum EarlyLoad {
 }
 
 impl Early {
-    /// The largest early load of each line, held taut or in a snap, if tensions are known.
+    /// The largest early load of each line, while taut or in a snap, if tensions are known.
     fn taut_or_snap<'a>(
         structure: &'a Structure,
         outcome: &'a Outcome,

@@ -3,7 +3,7 @@
 use super::design::{Check, checks};
 use super::outcome::{Outcome, add_slack};
 use crate::options::{STIFFER, check};
-use crate::physics::elastic::{ElasticRun, Spring, run_elastic, springs};
+use crate::physics::elastic::{ElasticLine, ElasticRun, elastic_lines, run_elastic};
 use crate::physics::model_at_rest::ModelAtRest;
 use crate::physics::snap::{Snap, snaps_of_step};
 use crate::physics::warnings::{Warning, limits_afloat, phase_warning, turning_warning, warnings};
@@ -19,7 +19,7 @@ pub struct ElasticComparison {
     /// The factor by which the lines' stiffness was multiplied.
     pub stiffer: f64,
     /// The elastic lines.
-    pub springs: Vec<Spring>,
+    pub elastic_lines: Vec<ElasticLine>,
     /// The same about its position of rest on these lines.
     pub elastic_case: ModelAtRest,
     /// The motion on them.
@@ -57,10 +57,10 @@ pub fn compare_elastic(
     on_progress: OnProgress,
 ) -> Result<ElasticComparison, Unfinished> {
     check(&STIFFER, stiffer)?;
-    let springs = springs(&prepared, stiffer)?;
+    let elastic_lines = elastic_lines(&prepared, stiffer)?;
     let clock = Instant::now();
-    let elastic_case = prepared.with_elastic_lines(&springs)?;
-    let elastic = run_elastic(&elastic_case, &springs, every_s, on_progress)?;
+    let elastic_case = prepared.with_elastic_lines(&elastic_lines)?;
+    let elastic = run_elastic(&elastic_case, &elastic_lines, every_s, on_progress)?;
     let elastic_took_s = clock.elapsed().as_secs_f64();
     let inextensible = match prepared.starts_within_reach() {
         true => Some(Inextensible::of(&prepared)?),
@@ -70,7 +70,7 @@ pub fn compare_elastic(
         outcome: Outcome::of_pulls(&elastic_case, &elastic),
         prepared,
         stiffer,
-        springs,
+        elastic_lines,
         elastic_case,
         elastic,
         elastic_took_s,

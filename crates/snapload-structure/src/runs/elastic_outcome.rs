@@ -1,7 +1,7 @@
 //! The outcome of one run on elastic lines.
 
 use super::outcome::{LineOutcome, Outcome};
-use crate::physics::elastic::{ElasticRun, run_elastic, springs};
+use crate::physics::elastic::{ElasticRun, elastic_lines, run_elastic};
 use crate::physics::model_at_rest::ModelAtRest;
 use crate::physics::snap::SLOWEST_M_S;
 use snapload::Stop;
@@ -18,9 +18,9 @@ impl Outcome {
         prepared: &ModelAtRest,
         on_progress: OnProgress,
     ) -> Result<(ModelAtRest, Self), Unfinished> {
-        let springs = springs(prepared, 1.0)?;
-        let elastic_case = prepared.with_elastic_lines(&springs)?;
-        let run = run_elastic(&elastic_case, &springs, f64::INFINITY, on_progress)?;
+        let elastic_lines = elastic_lines(prepared, 1.0)?;
+        let elastic_case = prepared.with_elastic_lines(&elastic_lines)?;
+        let run = run_elastic(&elastic_case, &elastic_lines, f64::INFINITY, on_progress)?;
         let outcome = Self::of_pulls(&elastic_case, &run);
         Ok((elastic_case, outcome))
     }

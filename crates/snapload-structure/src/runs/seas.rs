@@ -4,7 +4,7 @@ use super::design::{Check, RecordsCheck, checks};
 use super::outcome::Outcome;
 use super::quantile::sorted;
 use crate::options::{SEEDS, check};
-use crate::physics::elastic::springs;
+use crate::physics::elastic::elastic_lines;
 use crate::physics::gumbel::Gumbel;
 use crate::physics::model_at_rest::ModelAtRest;
 use crate::physics::warnings::{
@@ -77,7 +77,7 @@ pub fn seas(
     // For elastic lines, the position of rest on them is reported.
     let reported = match lines {
         Lines::Inextensible => prepared.clone(),
-        Lines::Elastic => prepared.with_elastic_lines(&springs(&prepared, 1.0)?)?,
+        Lines::Elastic => prepared.with_elastic_lines(&elastic_lines(&prepared, 1.0)?)?,
     };
     let mut warnings = warnings(&reported);
     // Rules that are decided by elastic lines do not apply to them.

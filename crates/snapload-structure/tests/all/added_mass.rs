@@ -4,7 +4,7 @@ use crate::verdicts::source;
 use snapload::analysis::no_progress;
 use snapload::{Playback, Stop};
 use snapload_structure::{
-    ElasticRun, ModelAtRest, Structure, assess, compare_elastic, note, run_elastic, springs,
+    ElasticRun, ModelAtRest, Structure, assess, compare_elastic, elastic_lines, note, run_elastic,
 };
 use std::f64::consts::PI;
 
@@ -104,7 +104,7 @@ fn each_freedom_swings_with_its_own_mass() {
             ..structure.clone()
         };
         let mut prepared = ModelAtRest::new(structure).unwrap();
-        let law = springs(&prepared, 1.0).unwrap();
+        let law = elastic_lines(&prepared, 1.0).unwrap();
         // Lines that stretch let it start higher than those that do not.
         prepared.structure.start_m = Some(start);
         let prepared = prepared.with_elastic_lines(&law).unwrap();

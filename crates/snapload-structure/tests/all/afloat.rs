@@ -8,7 +8,8 @@ use snapload::{
 };
 use snapload_hydro::{Given, Line, Report, Request, Weight, read, response_of_the_memory};
 use snapload_structure::{
-    Lines, ModelAtRest, Outcome, STRUCTURE, Structure, assess, note, run_elastic, seas, springs,
+    Lines, ModelAtRest, Outcome, STRUCTURE, Structure, assess, elastic_lines, note, run_elastic,
+    seas,
 };
 use std::f64::consts::PI;
 use std::path::{Path, PathBuf};
@@ -201,7 +202,7 @@ fn slack_lines_leave_the_response_of_the_frequency_domain() {
         }
     }
     assert!(compared > 50);
-    let law = springs(&prepared, 1.0).unwrap();
+    let law = elastic_lines(&prepared, 1.0).unwrap();
     let elastic = run_elastic(&prepared, &law, 0.5, &no_progress).unwrap();
     let stiff = snapload::Trajectory::record(prepared.begin(1.0).unwrap());
     let mut playback = Playback::new(&stiff);
@@ -227,7 +228,7 @@ fn slack_lines_leave_the_response_of_the_frequency_domain() {
 fn stretched_lines_share_the_load_with_the_water() {
     let text = case(-0.2, 2.0, 9.666, "", "duration = 5");
     let prepared = ModelAtRest::new(structure(&text)).unwrap();
-    let law = springs(&prepared, 1.0).unwrap();
+    let law = elastic_lines(&prepared, 1.0).unwrap();
     let elastic_case = prepared.with_elastic_lines(&law).unwrap();
     let rise = elastic_case.rest.place_m[1] + 0.2;
     // The surplus of buoyancy falls by ρ g A per metre of rise.

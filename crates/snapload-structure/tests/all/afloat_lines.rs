@@ -5,7 +5,7 @@ use crate::afloat::{by_hand, case, parsed, structure};
 use nalgebra::{Complex, Matrix3, Vector3};
 use serde_json::Value;
 use snapload::analysis::no_progress;
-use snapload_structure::{ModelAtRest, VerdictKind, assess, run_elastic, springs};
+use snapload_structure::{ModelAtRest, VerdictKind, assess, elastic_lines, run_elastic};
 use std::f64::consts::PI;
 use std::path::Path;
 
@@ -17,9 +17,9 @@ fn by_its_line(anchor: [f64; 2], r: [f64; 2], centre: [f64; 2]) -> (Vector3<f64>
     let n = span.map(|part| part / length);
     let row = Vector3::new(n[0], n[1], n[0] * r[1] - n[1] * r[0]);
     let j = nalgebra::Matrix2x3::new(1.0, 0.0, r[1], 0.0, 1.0, -r[0]);
-    let mut bend = (j.transpose() * j - row * row.transpose()) / length;
-    bend[(2, 2)] -= n[0] * r[0] + n[1] * r[1];
-    (row, bend)
+    let mut hessian = (j.transpose() * j - row * row.transpose()) / length;
+    hessian[(2, 2)] -= n[0] * r[0] + n[1] * r[1];
+    (row, hessian)
 }
 
 /// On stretched lines that stay taut surge, heave and pitch are, for small waves, the linear answer
@@ -29,7 +29,7 @@ fn by_its_line(anchor: [f64; 2], r: [f64; 2], centre: [f64; 2]) -> (Vector3<f64>
 /// (C + K − ω² (M + A) − iω (B + D)) Z = F,    K = Σ k G Gᵀ + T ∇G,    D = Σ c G Gᵀ
 /// ```
 #[test]
-fn taut_springs_answer_small_waves_as_the_frequency_domain_does() {
+fn taut_elastic_lines_answer_small_waves_as_the_frequency_domain_does() {
     let height = 0.01;
     let (hydro, omega, k) = {
         let (report, _) = by_hand();
@@ -47,7 +47,7 @@ fn taut_springs_answer_small_waves_as_the_frequency_domain_does() {
     let afloat = structure.afloat.clone().unwrap();
     let lines = structure.lines.clone();
     let prepared = ModelAtRest::new(structure).unwrap();
-    let law = springs(&prepared, 1.0).unwrap();
+    let law = elastic_lines(&prepared, 1.0).unwrap();
     let elastic_case = prepared.with_elastic_lines(&law).unwrap();
 
     let rest = &elastic_case.rest;
@@ -55,12 +55,12 @@ fn taut_springs_answer_small_waves_as_the_frequency_domain_does() {
     let scales = &elastic_case.model.scales;
     let (mut stiffness, mut damping) = (afloat.body.stiffness, afloat.body.damping);
     let (sine, cosine) = (-rest.theta_rad).sin_cos();
-    for ((line, spring), tension) in lines.iter().zip(&law).zip(&rest.tension_n) {
+    for ((line, elastic_line), tension) in lines.iter().zip(&law).zip(&rest.tension_n) {
         let [x, z] = [line.fairlead_m[0], line.fairlead_m[1] + 0.2];
         let r = [x * cosine + z * sine, -x * sine + z * cosine];
-        let (row, bend) = by_its_line(line.anchor_m, r, rest.place_m);
-        let c = spring.damping * scales.force_n * scales.time_s / scales.length_m;
-        stiffness += row * row.transpose() * (2e7 / line.length_m) + bend * *tension;
+        let (row, hessian) = by_its_line(line.anchor_m, r, rest.place_m);
+        let c = elastic_line.damping * scales.force_n * scales.time_s / scales.length_m;
+        stiffness += row * row.transpose() * (2e7 / line.length_m) + hessian * *tension;
         damping += row * row.transpose() * c;
     }
     let fit = &afloat.report.fit;
@@ -152,7 +152,7 @@ fn a_body_without_a_file_has_the_water_of_its_section() {
     // At rest waterplane and line balance the surplus of buoyancy.
     let lift = (1025.0 * 96.0 - 90000.0) * 9.81;
     let elastic_case = prepared
-        .with_elastic_lines(&springs(&prepared, 1.0).unwrap())
+        .with_elastic_lines(&elastic_lines(&prepared, 1.0).unwrap())
         .unwrap();
     let rise = lift / (c33 + k);
     assert!((elastic_case.rest.place_m[1] + 0.2 - rise).abs() < 1e-9);
@@ -338,7 +338,7 @@ fn a_memory_is_carried_to_the_centre() {
 /// In waves, with snaps on elastic lines and with the memory, the pontoon's lines pull at the
 /// times and with the tensions that another program computed.
 #[test]
-fn snaps_on_springs_are_those_of_another_program() {
+fn snaps_on_elastic_lines_are_those_of_another_program() {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR"));
     let known = include_str!("../data/pontoon-pulls.json");
     let known: Value = serde_json::from_str(known).unwrap();
@@ -354,7 +354,7 @@ fn snaps_on_springs_are_those_of_another_program() {
         2.0 * PI / number(&known["omega_rad_s"])
     );
     let prepared = ModelAtRest::new(structure(&text)).unwrap();
-    let law = springs(&prepared, 1.0).unwrap();
+    let law = elastic_lines(&prepared, 1.0).unwrap();
     let elastic_case = prepared.with_elastic_lines(&law).unwrap();
     let run = run_elastic(&elastic_case, &law, f64::INFINITY, &no_progress).unwrap();
     let known = known["pulls"].as_array().unwrap();

@@ -2,7 +2,7 @@
 
 use snapload::Playback;
 use snapload::analysis::no_progress;
-use snapload_structure::{ModelAtRest, Structure, assess, springs};
+use snapload_structure::{ModelAtRest, Structure, assess, elastic_lines};
 
 const EXAMPLE: &str = include_str!("../../../../docs/examples/cylinder.toml");
 
@@ -29,7 +29,7 @@ fn a_current_leans_the_line() {
         assert!((structure.drag_of_current_n() + push - along).abs() < 1e-9);
         let pull = along.hypot(up);
         let prepared = ModelAtRest::new(structure).unwrap();
-        let law = springs(&prepared, 1.0).unwrap();
+        let law = elastic_lines(&prepared, 1.0).unwrap();
         let elastic_case = prepared.with_elastic_lines(&law).unwrap();
         for (rest, length) in [
             (&prepared.rest, 15.0),

@@ -4,7 +4,7 @@ use crate::verdicts::{source, structure};
 use snapload::analysis::no_progress;
 use snapload_structure::{
     Answer, Assessment, Criterion, Lines, ModelAtRest, NaturalPeriods, assess, compare_elastic,
-    seas, springs,
+    elastic_lines, seas,
 };
 use std::f64::consts::TAU;
 
@@ -100,9 +100,9 @@ fn the_cylinder_swings_as_others_found() {
         "{elastic:?}"
     );
     // In heave both lines act alike, each with k n_z² + (T/l) n_x².
-    let springs = springs(&prepared, 1.0).expect("springs");
+    let elastic_lines = elastic_lines(&prepared, 1.0).expect("elastic lines");
     let elastic_case = prepared
-        .with_elastic_lines(&springs)
+        .with_elastic_lines(&elastic_lines)
         .expect("a place of rest");
     let line = &prepared.structure.lines[0];
     let centre = prepared.structure.body.position_m;
@@ -239,7 +239,7 @@ fn factors_that_go_together_are_given_together() {
 /// The checks of elastic lines, recomputed from their tensions, and those of many records,
 /// each of which has the checks of its own run.
 #[test]
-fn springs_and_records_are_checked_by_the_same_rule() {
+fn elastic_lines_and_records_are_checked_by_the_same_rule() {
     let rule = "[design]\npretension_factor = 1.2\nenvironment_factor = 1.5\nstrength_factor = 0.95\n\
                 least_share = 0.05\n";
     let case = structure(&format!("{CYLINDER}\nduration = 120\n{rule}"));

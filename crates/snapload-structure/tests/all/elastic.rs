@@ -4,8 +4,8 @@ use serde_json::Value;
 use snapload::Limit;
 use snapload::analysis::no_progress;
 use snapload_structure::{
-    ElasticRun, ModelAtRest, STRUCTURE, Spring, Structure, VerdictKind, compare_elastic,
-    damping_ratio, run_elastic, springs,
+    ElasticLine, ElasticRun, ModelAtRest, STRUCTURE, Structure, VerdictKind, compare_elastic,
+    damping_ratio, elastic_lines, run_elastic,
 };
 
 /// A body straight above its anchor on two equal lines that lie on each other, so that it moves up
@@ -35,8 +35,8 @@ fn structure(text: &str, set: &[&str]) -> Structure {
 
 const CYLINDER: &str = include_str!("../../../../docs/examples/cylinder.toml");
 
-fn run(prepared: &ModelAtRest, springs: &[Spring]) -> ElasticRun {
-    run_elastic(prepared, springs, 0.05, &no_progress).expect("a run")
+fn run(prepared: &ModelAtRest, elastic_lines: &[ElasticLine]) -> ElasticRun {
+    run_elastic(prepared, elastic_lines, 0.05, &no_progress).expect("a run")
 }
 
 /// The state is kept at the times that one writes, whatever steps the integrator makes, and at the
@@ -44,7 +44,7 @@ fn run(prepared: &ModelAtRest, springs: &[Spring]) -> ElasticRun {
 #[test]
 fn samples_are_at_the_requested_times() {
     let prepared = vertical(1.0, -6.0);
-    let law = springs(&prepared, 1.0).expect("springs");
+    let law = elastic_lines(&prepared, 1.0).expect("elastic lines");
     let rise = prepared.structure.net_buoyancy_n() / 800.0;
     for (every, written) in [(0.3, "3.9"), (0.07, "3.99"), (0.5, "3.5")] {
         let motion = run_elastic(&prepared, &law, every, &no_progress).expect("a run");
@@ -77,7 +77,7 @@ fn a_spring_stops_a_body_as_its_energy_requires() {
     let prepared = vertical(1.0, -6.0);
     let (rate, mass) = (2.0 * 3e6 / 15.0, 800.0);
     let force = prepared.structure.net_buoyancy_n();
-    let law = springs(&prepared, 1.0).expect("springs");
+    let law = elastic_lines(&prepared, 1.0).expect("elastic lines");
     let motion = run(&prepared, &law);
     let speed = (2.0 * force * 1.0 / mass).sqrt();
     let rise = speed / (force / mass);
@@ -110,12 +110,12 @@ fn the_damper_gives_the_restitution() {
         let mut last = f64::INFINITY;
         for stiffer in [1e2, 1e4, 1e6] {
             // Both lines stop the body together, so that each stops half of its mass.
-            let law: Vec<Spring> = springs(&prepared, stiffer)
-                .expect("springs")
+            let law: Vec<ElasticLine> = elastic_lines(&prepared, stiffer)
+                .expect("elastic lines")
                 .into_iter()
-                .map(|spring| Spring {
-                    damping: spring.damping / 2.0_f64.sqrt(),
-                    ..spring
+                .map(|line| ElasticLine {
+                    damping: line.damping / 2.0_f64.sqrt(),
+                    ..line
                 })
                 .collect();
             let mut short = prepared.clone();
@@ -166,7 +166,8 @@ fn stiff_lines_are_lines_that_do_not_stretch() {
     prepared.model.rules.t_end = (snaps[2].1 + 1e-3) / time;
     let mut last = f64::INFINITY;
     for stiffer in [1e2, 1e4, 1e6] {
-        let motion = run(&prepared, &springs(&prepared, stiffer).expect("springs"));
+        let law = elastic_lines(&prepared, stiffer).expect("elastic lines");
+        let motion = run(&prepared, &law);
         let mut worst = 0.0_f64;
         for (pull, (line, t, v)) in motion.pulls.iter().zip(&snaps) {
             assert_eq!(pull.line, *line, "{:?} {snaps:?}", motion.pulls);
@@ -189,16 +190,16 @@ fn energy_is_kept_or_lost() {
             &CYLINDER.replace("restitution = 0.5", &format!("restitution = {e}")),
             &set,
         );
-        let law = springs(&prepared, 1.0).expect("springs");
+        let law = elastic_lines(&prepared, 1.0).expect("elastic lines");
         let motion = run(&prepared, &law);
         let energy = |state: &snapload::State| {
             let stored = law
                 .iter()
                 .zip(&prepared.model.system.cables)
-                .map(|(spring, cable)| {
+                .map(|(line, cable)| {
                     let [u, v] = cable.span(state).components();
                     let stretch = (u.hypot(v) - cable.length()).max(0.0);
-                    0.5 * spring.rate * stretch * stretch
+                    0.5 * line.rate * stretch * stretch
                 });
             prepared.model.system.energy(state) + stored.sum::<f64>()
         };
@@ -228,7 +229,7 @@ fn energy_is_kept_or_lost() {
 #[test]
 fn a_body_at_rest_stays() {
     let prepared = prepared(CYLINDER, &["wave.height=0", "run.duration=30"]);
-    let motion = run(&prepared, &springs(&prepared, 1e3).expect("springs"));
+    let motion = run(&prepared, &elastic_lines(&prepared, 1e3).expect("lines"));
     assert!((motion.end_s - 30.0).abs() < 1e-9, "{} s", motion.end_s);
     assert_eq!(motion.samples.len() / 100, 6, "{}", motion.samples.len());
     for (line, at_rest) in prepared.rest.tension_n.iter().enumerate() {
@@ -241,13 +242,13 @@ fn a_body_at_rest_stays() {
 /// balance the buoyancy: each of two equal lines carries half of it, over the cosine of their
 /// slope.
 #[test]
-fn it_begins_where_it_rests_on_springs() {
+fn it_begins_where_it_rests_on_elastic_lines() {
     let still = CYLINDER
         .replace("height = 2 ", "height = 0 ")
         .replace("[wave]\nheight = 2\nperiod = 6\n", "");
     for stiffer in [0.1, 1.0, 100.0] {
         let prepared = prepared(&still, &["run.duration=20", "run.transient=0"]);
-        let law = springs(&prepared, stiffer).expect("springs");
+        let law = elastic_lines(&prepared, stiffer).expect("elastic lines");
         let elastic_case = prepared.with_elastic_lines(&law).expect("a place of rest");
         let motion = run(&elastic_case, &law);
         let (rest, scales) = (&elastic_case.rest, &elastic_case.model.scales);
@@ -297,7 +298,7 @@ fn lines_share_what_they_hold_by_their_stiffness() {
             lines.concat()
         );
         let prepared = prepared(&text, &[]);
-        let law = springs(&prepared, 1.0).expect("springs");
+        let law = elastic_lines(&prepared, 1.0).expect("elastic lines");
         prepared.with_elastic_lines(&law).expect("a place of rest")
     };
     let (even, short) = (case(0.0), case(3e-5));
@@ -320,7 +321,7 @@ fn a_slack_line_has_the_damper_of_its_mass() {
             CYLINDER,
             &[&format!("line.2.length={length}"), "line.1.length=6"],
         );
-        let law = springs(&prepared, 1.0).expect("springs");
+        let law = elastic_lines(&prepared, 1.0).expect("elastic lines");
         let rest = prepared
             .model
             .at_rest(prepared.rest.place_m, prepared.rest.theta_rad);
@@ -353,7 +354,7 @@ fn the_floor_ends_a_run() {
         &CYLINDER.replace("restitution = 0.5", "restitution = 1"),
         &waves,
     );
-    let law = springs(&prepared, 1.0).expect("springs");
+    let law = elastic_lines(&prepared, 1.0).expect("elastic lines");
     let motion = run(&prepared, &law);
     let stop = motion.stop.expect("an end before the time");
     assert!(stop.exceeds() && motion.end_s < 200.0, "{stop:?}");
@@ -379,7 +380,7 @@ fn the_floor_ends_a_run() {
 fn it_may_start_where_the_lines_have_stretched() {
     let still = CYLINDER.replace("[wave]\nheight = 2\nperiod = 6\n", "");
     let at_rest = prepared(&still, &["run.duration=20"]);
-    let law = springs(&at_rest, 1.0).expect("springs");
+    let law = elastic_lines(&at_rest, 1.0).expect("elastic lines");
     let [x, z] = at_rest.with_elastic_lines(&law).expect("rest").rest.place_m;
     let start = format!("run.start=[{x}, {z}]");
     let case = structure(&still, &["run.duration=20", &start]);

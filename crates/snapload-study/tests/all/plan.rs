@@ -41,7 +41,7 @@ fn random_points_stay_in_the_box() {
 }
 
 #[test]
-fn slips_are_refused_in_words() {
+fn invalid_axes_are_refused_with_reasons() {
     let words = |error: StudyError| error.to_string();
     let grid = |a: &str, b: &str, n| Grid::new(a, b, n).unwrap();
     let error = Axis::even("e", grid("0.5", "1.5", 3)).unwrap_err();

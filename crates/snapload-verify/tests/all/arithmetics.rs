@@ -55,27 +55,27 @@ fn components<T: Real>(s: &State<T>) -> [T; 6] {
 /// digits reproduces every one.
 #[test]
 fn many_digits_reproduce_the_oracle() {
-    for truth in oracle("cases.json") {
-        let id = truth["id"].as_str().unwrap_or_default();
-        let listed = truth["impacts"].as_array().expect("impacts");
-        let simulation = case(&truth).simulation_over(|_, number| Digits::from_decimal(number));
+    for reference in oracle("cases.json") {
+        let id = reference["id"].as_str().unwrap_or_default();
+        let listed = reference["impacts"].as_array().expect("impacts");
+        let simulation = case(&reference).simulation_over(|_, number| Digits::from_decimal(number));
         let ours = impacts(simulation.expect("a legal start"), listed.len());
         assert_eq!(ours.len(), listed.len(), "{id}");
         let mut worst = 0.0_f64;
-        for (k, (ours, truth)) in ours.iter().zip(listed).enumerate() {
+        for (k, (ours, reference)) in ours.iter().zip(listed).enumerate() {
             let text = |value: &Json| value.as_str().expect("a decimal").to_owned();
             assert_eq!(
                 ours.cable as u64 + 1,
-                truth["cable"].as_u64().unwrap_or(0),
+                reference["cable"].as_u64().unwrap_or(0),
                 "{id} {k}"
             );
             let mut differences = vec![
-                ours.t - exact(&text(&truth["t"])),
-                ours.v_n - exact(&text(&truth["vn"])),
+                ours.t - exact(&text(&reference["t"])),
+                ours.v_n - exact(&text(&reference["vn"])),
             ];
             for (state, list) in [
-                (&ours.before, &truth["before"]),
-                (&ours.after, &truth["after"]),
+                (&ours.before, &reference["before"]),
+                (&ours.after, &reference["after"]),
             ] {
                 let list = list.as_array().expect("six");
                 differences.extend(

@@ -21,7 +21,7 @@ pub fn number(value: &Value) -> f64 {
 }
 
 /// The keys of a case of the oracle's files.
-pub fn keys_of_oracle(truth: &Value) -> impl Iterator<Item = (&'static str, snapload::Value)> {
+pub fn keys_of_oracle(reference: &Value) -> impl Iterator<Item = (&'static str, snapload::Value)> {
     let keys = [
         ("r", "r"),
         ("e", "e"),
@@ -32,7 +32,7 @@ pub fn keys_of_oracle(truth: &Value) -> impl Iterator<Item = (&'static str, snap
         ("omega", "Om"),
     ];
     keys.into_iter().filter_map(|(ours, theirs)| {
-        let value = truth["params"].get(theirs)?;
+        let value = reference["params"].get(theirs)?;
         Some((ours, snapload::Value::Number(number(value))))
     })
 }

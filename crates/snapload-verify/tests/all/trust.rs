@@ -22,8 +22,8 @@ fn case(entries: impl IntoIterator<Item = (&'static str, Value)>) -> Case {
 }
 
 /// The oracle's case; it ends where sliding begins.
-fn of_oracle(truth: &Json) -> Case {
-    case(keys_of_oracle(truth).chain([("stop_when_sliding", Value::Bool(true))]))
+fn of_oracle(reference: &Json) -> Case {
+    case(keys_of_oracle(reference).chain([("stop_when_sliding", Value::Bool(true))]))
 }
 
 /// The impact at which trust ends, counted from 1; where it does not within the part of the run
@@ -79,10 +79,11 @@ fn horizons_are_where_they_were_predicted() {
 
 #[test]
 fn horizons_are_where_the_oracle_has_them() {
-    oracle("cases.json").par_iter().for_each(|truth| {
-        let id = truth["id"].as_str().unwrap_or_default();
-        let found = verify(&of_oracle(truth), 60, TOLERANCE, &no_progress).expect("a legal start");
-        let theirs = truth["horizon_double"]["first_impact_rel_gt_1e_6"].as_u64();
+    oracle("cases.json").par_iter().for_each(|reference| {
+        let id = reference["id"].as_str().unwrap_or_default();
+        let found =
+            verify(&of_oracle(reference), 60, TOLERANCE, &no_progress).expect("a legal start");
+        let theirs = reference["horizon_double"]["first_impact_rel_gt_1e_6"].as_u64();
         let theirs = theirs.map_or(found.impacts.len() + 1, |impact| impact as usize);
         println!(
             "{id}: predicted {}, first_wrong {}, oracle {theirs}",
@@ -197,8 +198,8 @@ fn a_crowd_of_neighbours_spreads_as_predicted() {
 /// known whether the cable snaps, and trust ends there; with a smaller one it is.
 #[test]
 fn a_graze_ends_trust_where_the_doubt_is_larger() {
-    for truth in oracle("grazing.json") {
-        let id = truth["id"].as_str().unwrap_or_default();
+    for reference in oracle("grazing.json") {
+        let id = reference["id"].as_str().unwrap_or_default();
         let peak: f64 = id
             .rsplit("touch")
             .next()
@@ -213,9 +214,9 @@ fn a_graze_ends_trust_where_the_doubt_is_larger() {
             .expect("a peak in the name");
         let start = START_KEYS
             .iter()
-            .zip(truth["start"].as_array().expect("six"))
+            .zip(reference["start"].as_array().expect("six"))
             .map(|(key, value)| (*key, Value::Number(number(value))));
-        let case = case(keys_of_oracle(&truth).chain(start));
+        let case = case(keys_of_oracle(&reference).chain(start));
         let cause = |uncertainty: f64| {
             let (_, trust) = trusted_run(
                 &case,

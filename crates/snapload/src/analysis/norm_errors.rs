@@ -161,15 +161,16 @@ impl Along {
             speeds: [0.0; 2],
         };
         playback.each_piece(span, |piece| {
-            let (ends, bends, width) = (piece.ends(), piece.bends(), piece.width);
+            let (ends, accelerations, width) =
+                (piece.ends(), piece.acceleration_bounds(), piece.width);
             let values = ends.map(|state| [state.y, state.theta.abs()]);
             let speeds = ends.map(|state| [state.vy.abs(), state.vtheta.abs()]);
             along.speeds = speeds[1];
             for k in 0..2 {
                 let top = values[0][k].max(values[1][k]);
-                let speed = speeds[0][k].max(speeds[1][k]) + bends[k] * width * 0.5;
+                let speed = speeds[0][k].max(speeds[1][k]) + accelerations[k] * width * 0.5;
                 along.reached[k] = along.reached[k].max(top);
-                along.bound[k] = along.bound[k].max(top + bends[k] * width * width * 0.125);
+                along.bound[k] = along.bound[k].max(top + accelerations[k] * width * width * 0.125);
                 along.path_lengths[k] += speed * width;
             }
         });

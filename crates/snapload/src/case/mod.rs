@@ -147,13 +147,13 @@ impl Outcome {
         Self::after(case.simulation())
     }
 
-    /// The outcome of a case, as long as `watch`, which receives the motion after every step, lets
-    /// it continue; none if `watch` ended it early.
+    /// The outcome of a case, as long as `on_step`, which receives the motion after every step,
+    /// lets it continue; none if `on_step` ended it early.
     pub fn of_while(
         case: &Case,
-        watch: impl FnMut(&Simulation) -> ControlFlow<()>,
+        on_step: impl FnMut(&Simulation) -> ControlFlow<()>,
     ) -> Option<Self> {
-        Self::after_while(case.simulation(), watch)
+        Self::after_while(case.simulation(), on_step)
     }
 }
 

@@ -137,14 +137,14 @@ impl<L: Lane> Push<L> {
         }
     }
 
-    /// Drift and gain a little later, to the third order, where `bend` is f̈.
+    /// Drift and gain a little later, to the third order, where `second` is f̈.
     #[inline(always)]
-    pub(crate) fn later(&self, s: L, bend: Vector2<L>) -> [Vector2<L>; 2] {
+    pub(crate) fn later(&self, s: L, second: Vector2<L>) -> [Vector2<L>; 2] {
         let (force, rate) = (self.force, self.rate.scaled(s));
         let half = L::from_f64(0.5);
         let drift = force.scaled(half).plus_scaled(rate, L::sixth());
         let gain = force.plus_scaled(rate, half);
-        let gain = gain.plus_scaled(bend, s * s * L::sixth());
+        let gain = gain.plus_scaled(second, s * s * L::sixth());
         [
             self.drift.plus_scaled(self.gain.plus_scaled(drift, s), s),
             self.gain.plus_scaled(gain, s),

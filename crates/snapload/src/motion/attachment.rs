@@ -120,12 +120,12 @@ impl<L: Lane> Attachment<L> {
 
             let two = L::from_f64(2.0);
             let linear = self.gap_rate * s;
-            let bend = self.span.dot(remainder);
+            let along_span = self.span.dot(remainder);
             let square = moved.dot(moved);
             let size = self.gap.abs() + linear.abs() + square;
             let noise = (self.length * self.bounds[0] * 16.0).mul_add(s * s, size * 4.0);
             GapJet {
-                value: self.gap + bend.mul_add(two, linear + square),
+                value: self.gap + along_span.mul_add(two, linear + square),
                 rate: (moved.dot(self.velocity) + span.dot(gain)).mul_add(two, self.gap_rate),
                 accel: (velocity.dot(velocity) + span.dot(accel)) * 2.0,
                 jerk: velocity
@@ -173,14 +173,14 @@ impl<L: Lane> Attachment<L> {
     /// start, with the force and its derivatives there: P̈ = f − θ̇²ρ, P⃛ = ḟ − θ̇³ k×ρ, P⁗ = f̈ +
     /// θ̇⁴ρ.
     #[inline(always)]
-    pub(crate) fn bends_at_start(&self, force: [Vector2<L>; 3], spin: L) -> [L; 3] {
+    pub(crate) fn gap_derivatives_at_start(&self, force: [Vector2<L>; 3], spin: L) -> [L; 3] {
         let square = spin * spin;
-        let [force, rate, bend] = force;
+        let [force, rate, second] = force;
         let three = L::from_f64(3.0);
         let (span, velocity) = (self.span, self.velocity);
         let accel = force.plus_scaled(self.lever, -square);
         let jerk = rate.plus_scaled(self.lever.quarter_turn(), -(square * spin));
-        let snap = bend.plus_scaled(self.lever, square * square);
+        let snap = second.plus_scaled(self.lever, square * square);
         let fourth = accel.dot(accel).mul_add(three, span.dot(snap));
         [
             (velocity.dot(velocity) + span.dot(accel)) * 2.0,
@@ -194,7 +194,7 @@ impl<L: Lane> Instant<L> {
     /// The state, from that at the start.
     #[inline(always)]
     pub(crate) fn state(&self, start: &State<L>, s: L) -> State<L> {
-        flown(start, s, [self.push.drift, self.push.gain])
+        advanced(start, s, [self.push.drift, self.push.gain])
     }
 
     /// The effect a time `s` into a flight with angular velocity `spin` under a constant force;
@@ -221,7 +221,11 @@ impl<L: Lane> Instant<L> {
 /// The state a time `s` after `start`, from the drift of position and the gain of velocity by the
 /// forces.
 #[inline(always)]
-pub(crate) fn flown<L: Lane>(start: &State<L>, s: L, [drift, gain]: [Vector2<L>; 2]) -> State<L> {
+pub(crate) fn advanced<L: Lane>(
+    start: &State<L>,
+    s: L,
+    [drift, gain]: [Vector2<L>; 2],
+) -> State<L> {
     State {
         x: start.x + start.vx.mul_add(s, drift.x),
         y: start.y + start.vy.mul_add(s, drift.y),
@@ -252,8 +256,8 @@ impl<L: Lane> GapJet<L> {
     /// The increase of the cubic in a time `s`, given a sixth of the third derivative.
     #[inline(always)]
     fn rise(&self, s: L, sixth: L) -> L {
-        let bend = sixth.mul_add(s, self.accel * 0.5);
-        bend.mul_add(s, self.rate) * s
+        let quadratic = sixth.mul_add(s, self.accel * 0.5);
+        quadratic.mul_add(s, self.rate) * s
     }
 
     /// An approximation to the time until the cubic is zero, by reversion of its series to the
@@ -263,9 +267,9 @@ impl<L: Lane> GapJet<L> {
         let sixth = self.jerk * L::sixth();
         let per_rate = L::ONE / self.rate;
         let u = -(self.value * per_rate);
-        let (bend, cubic) = (self.accel * 0.5 * per_rate, sixth * per_rate);
-        let third = (bend * 2.0).mul_add(bend, -cubic);
-        let s = u.mul_add(third, -bend).mul_add(u, L::ONE) * u;
+        let (quadratic, cubic) = (self.accel * 0.5 * per_rate, sixth * per_rate);
+        let third = (quadratic * 2.0).mul_add(quadratic, -cubic);
+        let s = u.mul_add(third, -quadratic).mul_add(u, L::ONE) * u;
         let s = (-per_rate).mul_add(self.value + self.rise(s, sixth), s);
         (s, self.value + self.rise(s, sixth))
     }

@@ -231,7 +231,7 @@ fn rises_above<L: Lane>(
 /// translation, so that its rotation stays known; for so little the metric does not matter. Returns
 /// the cable's normal and the state.
 #[inline(always)]
-fn put_back<L: Lane>(
+fn project<L: Lane>(
     struck: &Cable<L>,
     state: &State<L>,
     rotation: &Rotation<L>,
@@ -263,7 +263,7 @@ fn impact_after_flight<L: Lane>(
         let rotation = Rotation::by(state.theta);
         let struck = Cable::select(second, &two_cables.cables[1], &two_cables.cables[0]);
         let reach = L::select(second, two_cables.reach[1], two_cables.reach[0]);
-        let (normal, before) = put_back(&struck, state, &rotation);
+        let (normal, before) = project(&struck, state, &rotation);
         let v_n = normal.velocity(&before);
         let w = normal.coupling(&normal, two_cables.inverse_inertia);
         let Snap { impulse, v_after } = two_cables.contact.snap(v_n, w);

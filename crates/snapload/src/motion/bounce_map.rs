@@ -222,15 +222,15 @@ impl<L: Lane> BounceMap<L> {
         let Normal { n, arm } = self.normal;
         let [tx, ty, ttheta] = self.turn;
         let [by_velocity, ..] = self.gains;
-        let [by_kappa, by_slip] = self.closing;
+        let [by_kappa, by_relative_turn] = self.closing;
         let mut all = [L::ZERO; N];
         for k in 0..N {
             let [x, y, theta, vx, vy, vtheta, _] = column(rows, k);
             let kappa = tx.mul_add(x, ty.mul_add(y, ttheta * theta));
             let along = n.x.mul_add(vx, n.y.mul_add(vy, arm * vtheta));
-            let slip = kappa - theta;
-            all[k] = by_kappa.mul_add(kappa, by_slip.mul_add(slip, along));
-            let change = self.law_of_turning(along * by_velocity, kappa, slip);
+            let relative_turn = kappa - theta;
+            all[k] = by_kappa.mul_add(kappa, by_relative_turn.mul_add(relative_turn, along));
+            let change = self.law_of_turning(along * by_velocity, kappa, relative_turn);
             rows[3][k] = vx + change[0];
             rows[4][k] = vy + change[1];
             rows[5][k] = vtheta + change[2];
@@ -239,14 +239,14 @@ impl<L: Lane> BounceMap<L> {
     }
 
     /// δ(ẋ, ẏ, θ̇) after the impact, where the impulse changes by `along` in addition, the normal
-    /// turns by κ, and `slip` is κ − δθ.
+    /// turns by κ, and `relative_turn` is κ − δθ.
     #[inline(always)]
-    pub(crate) fn law_of_turning(&self, along: L, kappa: L, slip: L) -> [L; 3] {
-        let [_, by_turning, by_slip] = self.gains;
+    pub(crate) fn law_of_turning(&self, along: L, kappa: L, relative_turn: L) -> [L; 3] {
+        let [_, by_turning, by_relative_turn] = self.gains;
         let Normal { n, arm } = self.normal;
-        let dp = by_turning.mul_add(kappa, by_slip.mul_add(slip, along));
+        let dp = by_turning.mul_add(kappa, by_relative_turn.mul_add(relative_turn, along));
         let aside = self.impulse * kappa;
-        let spin = arm.mul_add(dp, self.impulse_arm * slip) * self.inverse_inertia;
+        let spin = arm.mul_add(dp, self.impulse_arm * relative_turn) * self.inverse_inertia;
         [
             n.y.mul_add(aside, -(n.x * dp)),
             -(n.x.mul_add(aside, n.y * dp)),

@@ -45,7 +45,7 @@ struct CablePair<T: Real> {
     /// T n turned back by a quarter, (T n_y, −T n_x): ρ times this adds up to the moment ρ × T n.
     turned_pull: VectorSeries<T, 4>,
     /// The part of the gaps' latest coefficients that does not depend on the latest of d.
-    bend: [T; 2],
+    known_gap: [T; 2],
 }
 
 /// All cables of a system.
@@ -70,7 +70,7 @@ impl<T: Real> CableSeries<T> {
                 ] {
                     *series = VectorSeries::default();
                 }
-                pair.bend = [T::ZERO; 2];
+                pair.known_gap = [T::ZERO; 2];
                 for (place, cable) in cables.iter().enumerate() {
                     let fairlead = cable.fairlead();
                     put(&mut pair.fairleads[0], place, fairlead);
@@ -204,12 +204,14 @@ impl<T: Real> CableSeries<T> {
     /// Coefficients of order k of the gaps of a pair, |d|² − r², once d is known to that order.
     #[inline(always)]
     pub(crate) fn gaps(&self, pair: usize, k: usize) -> [T; 2] {
-        let CablePair { span, bend, .. } = &self.pairs[pair];
+        let CablePair {
+            span, known_gap, ..
+        } = &self.pairs[pair];
         let (first, last) = (span[0], span[k]);
         let twice = quad!(|w| first[w] * last[w] * 2.0);
         [
-            bend[0] + (twice[0] + twice[1]),
-            bend[1] + (twice[2] + twice[3]),
+            known_gap[0] + (twice[0] + twice[1]),
+            known_gap[1] + (twice[2] + twice[3]),
         ]
     }
 }
@@ -222,15 +224,15 @@ impl<T: Real> CablePair<T> {
         apart!(T, {
             let orders = T::from_f64(((k + 1) * (k + 2)) as f64);
             let square = self.span.convolve(&self.span, k + 2);
-            self.bend = [square[0] + square[1], square[2] + square[3]];
+            self.known_gap = [square[0] + square[1], square[2] + square[3]];
             let lever = self.turned(sine, cosine);
             let centre = [accel[0], accel[1], accel[0], accel[1]];
             let along = quad!(|w| self.normal[w] * lever[w].mul_add(orders, centre[w]));
             let mut load = [along[0] + along[1], along[2] + along[3]];
             for (place, load) in load.iter_mut().enumerate() {
-                let bend = self.bend[place] * self.half_per_length[place];
+                let known = self.known_gap[place] * self.half_per_length[place];
                 let turning = self.arm[place] * accel[2];
-                *load = bend.mul_add(orders, *load + turning);
+                *load = known.mul_add(orders, *load + turning);
             }
             load
         })

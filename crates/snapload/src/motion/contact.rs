@@ -1,4 +1,4 @@
-//! The gap of each cable at the start of a stretch of motion, with its error.
+//! The gap of each cable at the start of a segment of motion, with its error.
 
 use crate::arithmetic::real::Real;
 use crate::model::state::State;

@@ -73,21 +73,21 @@ impl<T: Real> Jet<T> {
     }
 }
 
-/// The most functions that a motion can watch: a gap or a tension of each cable, and those of the
+/// The most event functions of a motion: a gap or a tension of each cable, and those of the
 /// limits.
-const MAX_WATCHES: usize = MAX_CABLES + LIMIT_FUNCTIONS;
+const MAX_EVENT_FUNCTIONS: usize = MAX_CABLES + LIMIT_FUNCTIONS;
 
-/// The jets of all watched functions at one instant.
+/// The jets of all event functions at one instant.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Jets<T> {
-    list: [Option<Jet<T>>; MAX_WATCHES],
+    list: [Option<Jet<T>>; MAX_EVENT_FUNCTIONS],
     count: usize,
 }
 
 impl<T: Real> Jets<T> {
     pub(crate) fn new() -> Self {
         Self {
-            list: [None; MAX_WATCHES],
+            list: [None; MAX_EVENT_FUNCTIONS],
             count: 0,
         }
     }
@@ -136,7 +136,7 @@ impl Reached {
     }
 }
 
-/// The first instant in (0, horizon] after time `t` at which a watched function reaches zero from
+/// The first instant in (0, horizon] after time `t` at which an event function reaches zero from
 /// below, or `None`.
 ///
 /// The error of the crossing is (rounding of f)/ḟ plus a rounding of s. Functions whose intervals

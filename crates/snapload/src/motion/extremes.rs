@@ -23,20 +23,20 @@ impl<T: Real> Extremes<T> {
         }
     }
 
-    /// Takes in a stretch of motion of duration `s` from `first` to `last`, on which ÿ ≤ `up`, |ÿ|
-    /// ≤ `y_bend` and |θ̈| ≤ `theta_bend`. `state` gives the state within.
+    /// Takes in a segment of motion of duration `s` from `first` to `last`, on which ÿ ≤ `up`, |ÿ|
+    /// ≤ `y_accel` and |θ̈| ≤ `theta_accel`. `state` gives the state within.
     #[inline(always)]
     pub(crate) fn cover(
         &mut self,
         state: impl Fn(T) -> State<T>,
         s: T,
         [first, last]: [&State<T>; 2],
-        [up, y_bend, theta_bend]: [T; 3],
+        [up, y_accel, theta_accel]: [T; 3],
     ) {
         apart!(T, {
             let bulge = s * s * 0.125;
-            let y = first.y.max(last.y) + y_bend * bulge;
-            let theta = first.theta.abs().max(last.theta.abs()) + theta_bend * bulge;
+            let y = first.y.max(last.y) + y_accel * bulge;
+            let theta = first.theta.abs().max(last.theta.abs()) + theta_accel * bulge;
             if y <= self.y_max && theta <= self.theta_max {
                 return;
             }
@@ -44,33 +44,40 @@ impl<T: Real> Extremes<T> {
                 let now = state(s);
                 (now.y, now.vy)
             };
-            self.y_max = highest(&height, s, up, y_bend, self.y_max);
+            self.y_max = highest(&height, s, up, y_accel, self.y_max);
             for side in [T::ONE, -T::ONE] {
                 let rotation = |s: T| {
                     let now = state(s);
                     (side * now.theta, side * now.vtheta)
                 };
-                self.theta_max = highest(&rotation, s, theta_bend, theta_bend, self.theta_max);
+                self.theta_max = highest(&rotation, s, theta_accel, theta_accel, self.theta_max);
             }
         })
     }
 }
 
-/// Whether a function with |f̈| ≤ `bend` has a maximum above zero inside \[0, s\].
+/// Whether a function with |f̈| ≤ `bound` has a maximum above zero inside \[0, s\].
 #[inline(always)]
-pub(crate) fn rises_above_zero<T: Real>(f: &impl Fn(T) -> (T, T), s: T, bend: T) -> bool {
+pub(crate) fn rises_above_zero<T: Real>(f: &impl Fn(T) -> (T, T), s: T, bound: T) -> bool {
     let mut record = T::ZERO;
-    search(f, (T::ZERO, f(T::ZERO)), (s, f(s)), bend, bend, &mut record);
+    search(
+        f,
+        (T::ZERO, f(T::ZERO)),
+        (s, f(s)),
+        bound,
+        bound,
+        &mut record,
+    );
     record > T::ZERO
 }
 
 /// The larger of `record` and the maximum over \[0, s\] of a function given with its derivative, by
-/// bisecting the intervals on which, with f̈ ≤ `up` and |f̈| ≤ `bend`, the record could be
+/// bisecting the intervals on which, with f̈ ≤ `up` and |f̈| ≤ `bound`, the record could be
 /// exceeded.
-pub(crate) fn highest<T: Real>(f: &impl Fn(T) -> (T, T), s: T, up: T, bend: T, record: T) -> T {
+pub(crate) fn highest<T: Real>(f: &impl Fn(T) -> (T, T), s: T, up: T, bound: T, record: T) -> T {
     let (first, last) = (f(T::ZERO), f(s));
     let mut record = record.max(first.0).max(last.0);
-    search(f, (T::ZERO, first), (s, last), up, bend, &mut record);
+    search(f, (T::ZERO, first), (s, last), up, bound, &mut record);
     record
 }
 
@@ -79,7 +86,7 @@ fn search<T: Real>(
     left: (T, (T, T)),
     right: (T, (T, T)),
     up: T,
-    bend: T,
+    bound: T,
     record: &mut T,
 ) {
     let width = right.0 - left.0;
@@ -91,7 +98,7 @@ fn search<T: Real>(
     }
     // The maximum exceeds the values at the ends by at most the effect of the curvature over the
     // width, or of the rate at one end and its possible increase.
-    let bulge = bend * width * width * 0.125;
+    let bulge = bound * width * width * 0.125;
     let gain = up.max(T::ZERO) * width * 0.5;
     let from_left = left.1.0 + ((left.1.1 + gain) * width).max(T::ZERO);
     let from_right = right.1.0 + ((gain - right.1.1) * width).max(T::ZERO);
@@ -111,8 +118,8 @@ fn search<T: Real>(
     }
     let centre = (middle, f(middle));
     *record = record.max(centre.1.0);
-    search(f, left, centre, up, bend, record);
-    search(f, centre, right, up, bend, record);
+    search(f, left, centre, up, bound, record);
+    search(f, centre, right, up, bound, record);
 }
 
 #[cfg(test)]

@@ -70,12 +70,12 @@ pub(crate) trait Along<T> {
     fn derivative_bound(&self, n: usize, coordinate: usize) -> T;
 }
 
-/// A bound on how much a quantity whose second derivative is at most `bend` exceeds its values at
+/// A bound on how much a quantity whose second derivative is at most `accel` exceeds its values at
 /// the ends of [`EVALUATIONS`] parts of a step.
 #[inline(always)]
-fn between_evaluations<T: Real>(step: &impl Along<T>, bend: T) -> T {
+fn between_evaluations<T: Real>(step: &impl Along<T>, accel: T) -> T {
     let width = step.duration() / EVALUATIONS as f64;
-    bend * width * width * 0.125
+    accel * width * width * 0.125
 }
 
 /// A bound on |θ|. In a flight it is largest at an end.
@@ -83,36 +83,36 @@ fn between_evaluations<T: Real>(step: &impl Along<T>, bend: T) -> T {
 fn farthest_turned<T: Real>(step: &impl Along<T>, floor: T) -> T {
     let [start, end] = step.ends();
     let ends = start.theta.abs().max(end.theta.abs());
-    let bend = step.derivative_bound(2, 2);
-    if bend == T::ZERO {
+    let accel = step.derivative_bound(2, 2);
+    if accel == T::ZERO {
         return ends;
     }
     let s = step.duration();
-    let rough = ends + bend * s * s * 0.125;
+    let rough = ends + accel * s * s * 0.125;
     if rough < floor {
         return rough;
     }
     ends.max(step.largest_seen(EVALUATIONS, |state| state.theta.abs()))
-        + between_evaluations(step, bend)
+        + between_evaluations(step, accel)
 }
 
 /// A bound on y of the highest point of the body.
 #[inline(always)]
 fn highest<T: Real>(system: &System<T>, step: &impl Along<T>, floor: T) -> T {
     let ([start, end], s) = (step.ends(), step.duration());
-    let y_bend = step.derivative_bound(2, 1);
-    let theta_bend = step.derivative_bound(2, 2);
+    let y_accel = step.derivative_bound(2, 1);
+    let theta_accel = step.derivative_bound(2, 2);
     let reach = system.body.reach();
-    let rough = start.y.max(end.y) + y_bend * s * s * 0.125 + reach;
+    let rough = start.y.max(end.y) + y_accel * s * s * 0.125 + reach;
     if rough < floor {
         return rough;
     }
-    let spin = start.vtheta.abs() + theta_bend * s;
-    let bend = y_bend + (spin * spin + theta_bend) * reach;
+    let spin = start.vtheta.abs() + theta_accel * s;
+    let accel = y_accel + (spin * spin + theta_accel) * reach;
     start
         .y
         .max(step.largest_seen(EVALUATIONS, |state| system.top(state)))
-        + between_evaluations(step, bend)
+        + between_evaluations(step, accel)
 }
 
 /// The bounds with which flights side by side compare.
@@ -180,7 +180,7 @@ pub(crate) struct TautMotion<'a, T> {
 
 /// An event function that may be reached within a step, as a power series.
 #[derive(Clone, Debug)]
-pub(crate) struct Watched<T> {
+pub(crate) struct EventSeries<T> {
     pub(crate) function: EventFunction,
     pub(crate) series: Polynomial<T>,
     /// The last order that is known.
@@ -189,7 +189,7 @@ pub(crate) struct Watched<T> {
     pub(crate) left_out: T,
 }
 
-impl<T: Real> Watched<T> {
+impl<T: Real> EventSeries<T> {
     /// Whether it provably stays below zero.
     #[inline(always)]
     pub(crate) fn stays_negative(&self, step: T) -> bool {
@@ -252,17 +252,21 @@ impl<T: Real> Limits<T> {
         }
     }
 
-    /// Adds their event functions in taut motion, as power series, to those that are watched; those
+    /// Adds their event functions in taut motion, as power series, to those of the step; those
     /// that provably are not reached within the step are left out.
     #[inline(always)]
-    pub(crate) fn watch_series(&self, motion: &TautMotion<T>, watched: &mut Vec<Watched<T>>) {
+    pub(crate) fn add_event_series(
+        &self,
+        motion: &TautMotion<T>,
+        events: &mut Vec<EventSeries<T>>,
+    ) {
         let [_, y, theta] = motion.place;
         for (limit, bound) in self.bounds.iter() {
             match limit {
                 Limit::Rotation => {
                     for mut side in [*theta, theta.negated()] {
                         side[0] -= bound;
-                        watch(limit, side, motion.left_out, motion.step, watched);
+                        add_event(limit, side, motion.left_out, motion.step, events);
                     }
                 }
                 Limit::UpperBound => {
@@ -273,7 +277,7 @@ impl<T: Real> Limits<T> {
                             top[k] = y[k] + px * sine + py * cosine;
                         }
                         top[0] = top[0] + self.radius - bound;
-                        watch(limit, top, motion.left_out, motion.step, watched);
+                        add_event(limit, top, motion.left_out, motion.step, events);
                     }
                 }
             }
@@ -283,21 +287,21 @@ impl<T: Real> Limits<T> {
 
 /// Adds an event function that is known to the last order, if it may be reached within the step.
 #[inline(always)]
-fn watch<T: Real>(
+fn add_event<T: Real>(
     limit: Limit,
     series: Polynomial<T>,
     left_out: T,
     step: T,
-    watched: &mut Vec<Watched<T>>,
+    events: &mut Vec<EventSeries<T>>,
 ) {
-    let event = Watched {
+    let event = EventSeries {
         function: EventFunction::Limit(limit),
         series,
         order: ORDER,
         left_out,
     };
     if !event.stays_negative(step) {
-        watched.push(event);
+        events.push(event);
     }
 }
 

@@ -44,16 +44,16 @@ impl Outcome {
         outcome.ended(&simulation)
     }
 
-    /// The same as long as `watch`, which receives the motion after every step, lets it continue;
-    /// none if `watch` ended it early.
+    /// The same as long as `on_step`, which receives the motion after every step, lets it continue;
+    /// none if `on_step` ended it early.
     pub(crate) fn after_while(
         mut simulation: Simulation,
-        mut watch: impl FnMut(&Simulation) -> ControlFlow<()>,
+        mut on_step: impl FnMut(&Simulation) -> ControlFlow<()>,
     ) -> Option<Self> {
         let mut outcome = Self::at_start(&simulation);
         while let Some(step) = simulation.step() {
             outcome.take(&step);
-            if watch(&simulation).is_break() {
+            if on_step(&simulation).is_break() {
                 return None;
             }
         }

@@ -9,7 +9,7 @@ use crate::motion::contact::Contact;
 use crate::motion::extremes::Extremes;
 use crate::motion::flight::Flight;
 use crate::motion::segments::Segment;
-use crate::motion::simulation::within::{StateAt, Stretch};
+use crate::motion::simulation::within::{SegmentMotion, StateAt};
 use crate::motion::taut_series::Series;
 use crate::motion::trajectory::Trajectory;
 use crate::motion::waves::Waves;
@@ -63,7 +63,7 @@ impl Kernel for Reaching<'_, '_> {
 }
 
 impl Piece<'_, '_> {
-    fn stretch(&self) -> Stretch<'_, f64> {
+    fn segment_motion(&self) -> SegmentMotion<'_, f64> {
         let Playback {
             run,
             reached,
@@ -73,31 +73,33 @@ impl Piece<'_, '_> {
         } = self.playback;
         let taut = reached.as_ref().map(|(_, segment)| segment.active.taut);
         if taut.is_some_and(|taut| run.system().has_closed_form(taut)) {
-            Stretch::Closed(Cow::Borrowed(flight))
+            SegmentMotion::Closed(Cow::Borrowed(flight))
         } else {
-            Stretch::Expanded(series)
+            SegmentMotion::Expanded(series)
         }
     }
 
     /// The states at its start and at its end, before the event there.
     pub(crate) fn ends(&self) -> [State; 2] {
-        let motion = self.stretch();
+        let motion = self.segment_motion();
         [0.0, self.width].map(|s| dispatch(StateAt(&motion, self.begun + s)))
     }
 
     /// Bounds on |ÿ| and |θ̈| along it.
-    pub(crate) fn bends(&self) -> [f64; 2] {
-        let [_, y, theta] = self.stretch().bends(self.playback.run.system());
+    pub(crate) fn acceleration_bounds(&self) -> [f64; 2] {
+        let [_, y, theta] = self
+            .segment_motion()
+            .acceleration_bounds(self.playback.run.system());
         [y, theta]
     }
 
     /// Includes it in the extremes.
     pub(crate) fn cover(&self, extremes: &mut Extremes<f64>) {
-        let motion = self.stretch();
+        let motion = self.segment_motion();
         let within = |s: f64| dispatch(StateAt(&motion, self.begun + s));
         let [first, last] = self.ends();
-        let bends = motion.bends(self.playback.run.system());
-        extremes.cover(within, self.width, [&first, &last], bends);
+        let acceleration_bounds = motion.acceleration_bounds(self.playback.run.system());
+        extremes.cover(within, self.width, [&first, &last], acceleration_bounds);
     }
 }
 

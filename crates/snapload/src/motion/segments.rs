@@ -1,4 +1,4 @@
-//! The stretches of a run, from which its motion can be computed again, in limited memory.
+//! The segments of a run, from which its motion can be computed again, in limited memory.
 //!
 //! Motion without a closed form is a chain of Taylor series: where one ends without an event, the
 //! next begins at its last state. So the first of a chain is enough to compute all that follow, to
@@ -18,7 +18,7 @@ use crate::motion::simulation::{Simulation, Step};
 use crate::motion::taut_series::Series;
 use crate::motion::waves::Waves;
 
-/// A stretch of motion with one taut set, from which the state at any time in it is computed.
+/// A segment of motion with one taut set, from which the state at any time in it is computed.
 #[derive(Clone, Debug)]
 pub(crate) struct Segment {
     pub(crate) t: f64,
@@ -35,7 +35,7 @@ pub(crate) struct Segment {
 /// The most expansions that are kept although they could be computed from an earlier one: 25 MB.
 const MOST_LINKS: usize = 1 << 18;
 
-/// The stretches of a run.
+/// The segments of a run.
 #[derive(Clone, Debug)]
 pub(crate) struct Segments {
     kept: Vec<Segment>,
@@ -43,7 +43,7 @@ pub(crate) struct Segments {
     stride: u64,
     /// The number of links kept.
     links: usize,
-    /// The latest stretch, if no event ended it.
+    /// The latest segment, if no event ended it.
     unbroken: Option<Segment>,
 }
 
@@ -104,7 +104,7 @@ impl Segments {
         &self.kept
     }
 
-    /// The stretch of a step.
+    /// The segment of a step.
     pub(crate) fn take(&mut self, simulation: &Simulation, step: &Step) {
         let system = simulation.system();
         let mut segment = Segment {
@@ -131,7 +131,7 @@ impl Segments {
         self.unbroken = Some(segment).filter(|_| eventless);
     }
 
-    /// The end of the run, which is a stretch of no length.
+    /// The end of the run, which is a segment of no length.
     pub(crate) fn end(&mut self, simulation: &Simulation) {
         let taut = simulation.taut();
         self.keep(Segment {

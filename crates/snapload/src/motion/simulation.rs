@@ -40,7 +40,7 @@ const CONVERGING: u32 = 5;
 
 /// A motion in progress.
 ///
-/// It allocates memory only when it is made and at its first stretch without a closed form; it uses
+/// It allocates memory only when it is made and at its first segment without a closed form; it uses
 /// no random numbers and no clock: the same system, rules and start give the same bits.
 #[derive(Clone, Debug)]
 pub struct Simulation<T: Real = f64> {
@@ -64,7 +64,7 @@ pub struct Simulation<T: Real = f64> {
     flight: Flight<T>,
     /// The sums over all sinusoids.
     waves: Waves<T>,
-    /// Made for the first stretch without a closed form: it is large, and most runs have none.
+    /// Made for the first segment without a closed form: it is large, and most runs have none.
     series: Option<Box<Series<T>>>,
     extremes: Extremes<T>,
     impacts: u64,
@@ -73,7 +73,7 @@ pub struct Simulation<T: Real = f64> {
     /// Snaps in a row that were slower than `v_stick`, and their cables.
     slow_snaps: u32,
     slow_cables: TautSet,
-    /// When the latest stretch began.
+    /// When the latest segment began.
     begun: T,
     last: LastImpacts<T>,
     stop: Option<Stop>,
@@ -95,10 +95,10 @@ pub(crate) struct Progress<T> {
     pub(crate) last: LastImpacts<T>,
 }
 
-/// One step: a stretch of motion with one taut set, and the event at its end.
+/// One step: a segment of motion with one taut set, and the event at its end.
 #[derive(Clone, Copy, Debug)]
 pub struct Step<T: Real = f64> {
-    /// When the stretch began.
+    /// When the segment began.
     pub t_start: T,
     /// The state at its start.
     pub start: State<T>,
@@ -120,7 +120,7 @@ pub struct Step<T: Real = f64> {
     result: Option<ImpactResult<T>>,
 }
 
-/// The event at the end of a stretch, before its law is applied.
+/// The event at the end of a segment, before its law is applied.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct Event {
     /// What was reached.
@@ -132,7 +132,7 @@ pub(crate) struct Event {
 }
 
 impl<T: Real> Step<T> {
-    /// The impacts at the end of the stretch: one for each cable with an impulse.
+    /// The impacts at the end of the segment: one for each cable with an impulse.
     pub fn impacts(&self) -> impl Iterator<Item = Impact<T>> + '_ {
         self.result.iter().flat_map(|result| {
             result.pulling.iter().map(|cable| {
@@ -374,9 +374,9 @@ impl<T: Real> Simulation<T> {
                 crossing.reached == Reached::default() && s >= self.rules.t_end - self.t;
             let state = motion.state(s);
             let mut extremes = self.extremes;
-            let bends = motion.bends(&self.system);
+            let acceleration_bounds = motion.acceleration_bounds(&self.system);
             let within = |s| dispatch_over::<T, _>(StateAt(&motion, s));
-            extremes.cover(within, s, [&self.state, &state], bends);
+            extremes.cover(within, s, [&self.state, &state], acceleration_bounds);
             let mut contacts = self.contacts;
             for (cable, contact) in contacts[..self.system.cables.len()].iter_mut().enumerate() {
                 if self.active.taut.contains(cable) {

@@ -152,7 +152,7 @@ impl Tangent {
         dispatch(Mapping(self, simulation, step))
     }
 
-    /// Φ along the stretch of a step.
+    /// Φ along the segment of a step.
     #[inline(always)]
     fn flow(&self, simulation: &Simulation, step: &Step) -> Flow {
         let system = simulation.system();

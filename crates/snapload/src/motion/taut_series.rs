@@ -56,7 +56,7 @@ use crate::motion::cable_series::CableSeries;
 use crate::motion::complementarity::Factored;
 use crate::motion::contact::{Contact, Contacts};
 use crate::motion::extremes::rises_above_zero;
-use crate::motion::limits::{Limits, Watched};
+use crate::motion::limits::{EventSeries, Limits};
 use crate::motion::water_series::WaterSeries;
 use crate::motion::waves::sinusoids::Expanded;
 
@@ -104,7 +104,7 @@ pub(crate) struct Series<T: Real> {
     limits: Limits<T>,
     step: T,
     /// The event functions that may be reached within the step, except the gaps of `lines`.
-    watched: Vec<Watched<T>>,
+    event_series: Vec<EventSeries<T>>,
 }
 
 impl<T: Real> Series<T> {
@@ -133,7 +133,7 @@ impl<T: Real> Series<T> {
             left_out: [T::ZERO; MAX_CABLES],
             limits: Limits::of(system, rules),
             step: T::ZERO,
-            watched: Vec::new(),
+            event_series: Vec::new(),
         }
     }
 
@@ -190,7 +190,7 @@ impl<T: Real> Series<T> {
                 .iter()
                 .filter(|&cable| self.holds(cable))
                 .collect();
-            self.choose_watched();
+            self.choose_event_series();
         })
     }
 
@@ -405,7 +405,7 @@ impl<T: Real> Series<T> {
     }
 
     /// Bound on |g̈| of a slack cable over the step.
-    pub(crate) fn gap_bend(&self, cable: usize) -> T {
+    pub(crate) fn gap_acceleration_bound(&self, cable: usize) -> T {
         self.lines[cable].gap.derivative_bound(2, self.step, ORDER)
     }
 

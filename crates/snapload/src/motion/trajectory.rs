@@ -9,7 +9,7 @@ use crate::motion::segments::{Segment, Segments};
 use crate::motion::simulation::{Simulation, Step};
 use std::ops::ControlFlow;
 
-/// A stretch of time with one set of taut cables.
+/// An interval of time with one set of taut cables.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ModeInterval {
     /// The taut cables.
@@ -69,13 +69,13 @@ impl Trajectory {
         Self::record_until(simulation, |_, _| ControlFlow::Continue(())).0
     }
 
-    /// The same, as long as `watch`, which receives the simulation and the step after every step,
-    /// lets it continue; none if `watch` ended it early.
+    /// The same, as long as `on_step`, which receives the simulation and the step after every step,
+    /// lets it continue; none if `on_step` ended it early.
     pub fn record_while(
         simulation: Simulation,
-        watch: impl FnMut(&Simulation, &Step) -> ControlFlow<()>,
+        on_step: impl FnMut(&Simulation, &Step) -> ControlFlow<()>,
     ) -> Option<Self> {
-        match Self::record_until(simulation, watch) {
+        match Self::record_until(simulation, on_step) {
             (run, ControlFlow::Continue(())) => Some(run),
             (_, ControlFlow::Break(())) => None,
         }
@@ -83,7 +83,7 @@ impl Trajectory {
 
     fn record_until(
         mut simulation: Simulation,
-        mut watch: impl FnMut(&Simulation, &Step) -> ControlFlow<()>,
+        mut on_step: impl FnMut(&Simulation, &Step) -> ControlFlow<()>,
     ) -> (Self, ControlFlow<()>) {
         let mut run = Self {
             system: simulation.system().clone(),
@@ -96,7 +96,7 @@ impl Trajectory {
         // Borrowed, because a step is large.
         while let Some(step) = &simulation.step() {
             run.take(&simulation, step);
-            if watch(&simulation, step).is_break() {
+            if on_step(&simulation, step).is_break() {
                 return (run, ControlFlow::Break(()));
             }
         }

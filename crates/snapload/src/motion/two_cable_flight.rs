@@ -6,7 +6,7 @@ use crate::arithmetic::plane::Vector2;
 use crate::arithmetic::processor::apart;
 use crate::model::forcing::Harmonic;
 use crate::model::state::State;
-use crate::motion::attachment::{Attachment, GapJet, INFLATION, Instant, flown};
+use crate::motion::attachment::{Attachment, GapJet, INFLATION, Instant, advanced};
 use crate::motion::limits::NEVER;
 use crate::motion::two_cables::{AfterImpact, TwoCableSystem};
 
@@ -99,7 +99,7 @@ fn with_slopes<L: Lane>(number: L, slopes: L) -> L {
 pub(crate) struct TwoCableFlight<L> {
     pub(crate) attachments: [Attachment<L>; 2],
     /// g̈, g⃛ and g⁗ there.
-    bends: [[L; 3]; 2],
+    gap_derivatives: [[L; 3]; 2],
     /// The wave, relative to the start.
     wave: Harmonic<L>,
     constant: Vector2<L>,
@@ -121,15 +121,15 @@ impl<L: Lane> TwoCableFlight<L> {
             attachment(two_cables, from, 0),
             attachment(two_cables, from, 1),
         ];
-        let force_bend = wave.cosine.scaled(-(wave.omega * wave.omega));
-        let forces = [force, force_rate, force_bend];
-        let bends = [
-            attachments[0].bends_at_start(forces, spin),
-            attachments[1].bends_at_start(forces, spin),
+        let force_second_derivative = wave.cosine.scaled(-(wave.omega * wave.omega));
+        let forces = [force, force_rate, force_second_derivative];
+        let gap_derivatives = [
+            attachments[0].gap_derivatives_at_start(forces, spin),
+            attachments[1].gap_derivatives_at_start(forces, spin),
         ];
         Self {
             attachments,
-            bends,
+            gap_derivatives,
             wave,
             constant: two_cables.constant,
             force_at_start: force,
@@ -162,7 +162,7 @@ impl<L: Lane> TwoCableFlight<L> {
         let [first, other] = &self.attachments;
         let gap = L::select(second, other.gap, first.gap);
         let rate = L::select(second, other.gap_rate, first.gap_rate);
-        let [[a, b, c], [d, e, f]] = self.bends;
+        let [[a, b, c], [d, e, f]] = self.gap_derivatives;
         let accel = L::select(second, d, a) * 0.5;
         let jerk = L::select(second, e, b) * (1.0 / 6.0);
         let fourth = L::select(second, f, c) * (1.0 / 24.0);
@@ -177,7 +177,7 @@ impl<L: Lane> TwoCableFlight<L> {
     /// The first root of g + ġs + g̈s²/2.
     #[inline(always)]
     fn parabola(&self, i: usize) -> Parabola<L> {
-        let (attachment, [accel, ..]) = (&self.attachments[i], self.bends[i]);
+        let (attachment, [accel, ..]) = (&self.attachments[i], self.gap_derivatives[i]);
         let (gap, rate) = (attachment.gap, attachment.gap_rate);
         let discriminant = rate.mul_add(rate, accel * gap * -2.0);
         let slope = discriminant.positive().sqrt();
@@ -199,11 +199,11 @@ impl<L: Lane> TwoCableFlight<L> {
     /// does not cross zero is taken to stay open.
     #[inline(always)]
     fn root_of_cubic(&self, i: usize, parabola: &Parabola<L>, per_slope: L) -> (L, L) {
-        let [_, jerk, _] = self.bends[i];
+        let [_, jerk, _] = self.gap_derivatives[i];
         let s = parabola.s;
-        let bend = jerk * s * s;
-        let per_slope = reciprocal(per_slope, bend.mul_add(L::from_f64(0.5), parabola.slope));
-        let step = bend * s * (1.0 / 6.0) * per_slope;
+        let cubic = jerk * s * s;
+        let per_slope = reciprocal(per_slope, cubic.mul_add(L::from_f64(0.5), parabola.slope));
+        let step = cubic * s * (1.0 / 6.0) * per_slope;
         let stepped = within_twice(s, s - step);
         let never = L::from_f64(NEVER);
         (L::select(parabola.crosses, stepped, never), per_slope)
@@ -300,10 +300,13 @@ impl<L: Lane> TwoCableFlight<L> {
     fn after(&self, trial: &Trial<L>, later: L, from: &AfterImpact<L>) -> FlightEnd<L> {
         let s = trial.s + later;
         let [jet, other] = &trial.jets;
-        let push = trial.now.push.later(later, self.force_bend(&trial.now));
+        let push = trial
+            .now
+            .push
+            .later(later, self.force_second_derivative(&trial.now));
         FlightEnd {
             s,
-            state: flown(&from.state, s, push),
+            state: advanced(&from.state, s, push),
             jets: [
                 jet.later(later, trial.fourths[0]),
                 other.later(later, trial.fourths[1]),
@@ -314,7 +317,7 @@ impl<L: Lane> TwoCableFlight<L> {
 
     /// f̈ = −Ω² (f − f₀), where f₀ is constant.
     #[inline(always)]
-    fn force_bend(&self, now: &Instant<L>) -> Vector2<L> {
+    fn force_second_derivative(&self, now: &Instant<L>) -> Vector2<L> {
         let square = -(self.wave.omega * self.wave.omega);
         (now.push.force - self.constant).scaled(square)
     }
@@ -346,7 +349,7 @@ impl<L: Lane> TwoCableFlight<L> {
         end: &GapJet<L>,
         end_value: L,
     ) -> Openness<L> {
-        let (attachment, [accel, jerk, _]) = (&self.attachments[i], self.bends[i]);
+        let (attachment, [accel, jerk, _]) = (&self.attachments[i], self.gap_derivatives[i]);
         let (early, late) = (s * EARLY, s * (1.0 - EARLY));
         let (third, fourth) = (
             attachment.third(s) * INFLATION,

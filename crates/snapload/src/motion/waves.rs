@@ -1,7 +1,7 @@
 //! The sums over all sinusoids that act on a body, as polynomials of time if they are many.
 //!
 //! A sea has some hundred sinusoids, and a motion needs their sums many times within a small part
-//! of the shortest period. So they are summed up once for each stretch of time of length 2h, with h
+//! of the shortest period. So they are summed up once for each time interval of length 2h, with h
 //! = 2/Ω and Ω the largest frequency, as a Taylor polynomial about its middle t_m in u = (t −
 //! t_m)/h:
 //!
@@ -11,11 +11,11 @@
 //!
 //! with c' and d' the amplitudes relative to t_m. The truncation error is at most (Ωs)^36/36! of
 //! the amplitudes a time s from the middle, 4e-19 at Ωs = 4.4: that is a step of a Taylor series
-//! with Ωs = 2.4 beyond an end of the stretch. A wave with a larger Ωs on a step causes a similar
+//! with Ωs = 2.4 beyond an end of the interval. A wave with a larger Ωs on a step causes a similar
 //! truncation error in the series of the motion, (Ωs)^29/29! of its amplitude, and the step is so
 //! long only if that is below rounding because the wave is small. The rounding error is that of Σ
 //! (ωh)^k/k! ≤ e² amplitudes; it is the same in the series about another time, which is the same
-//! polynomial. The stretches do not depend on the order of the calls, so that the same case gives
+//! polynomial. The intervals do not depend on the order of the calls, so that the same case gives
 //! the same numbers, and up to eight frequencies are summed up directly each time, with the same
 //! bits as without this file.
 
@@ -23,26 +23,26 @@ use crate::arithmetic::processor::dispatch_over;
 use crate::arithmetic::real::Real;
 use crate::model::surroundings::Surroundings;
 use crate::model::system::System;
-use crate::motion::waves::sinusoids::{Expanded, Sinusoids, Stretch, Summing};
+use crate::motion::waves::sinusoids::{Expanded, Sinusoids, Summing, TimeInterval};
 use std::sync::Arc;
 
 pub(crate) mod sinusoids;
 
-/// The number of stretches kept: a step overlaps three at most.
+/// The number of intervals kept: a step overlaps three at most.
 const KEPT: usize = 4;
 
 /// The sums over all sinusoids of a system.
 #[derive(Clone, Debug)]
 pub struct Waves<T: Real = f64> {
     /// None if the sinusoids are few, or the numbers are not doubles.
-    stretches: Option<Box<Stretches<T>>>,
+    intervals: Option<Box<Intervals<T>>>,
 }
 
-/// The latest stretches of time.
+/// The latest time intervals.
 #[derive(Clone, Debug)]
-struct Stretches<T> {
+struct Intervals<T> {
     sinusoids: Arc<Sinusoids<T>>,
-    kept: [Stretch<T>; KEPT],
+    kept: [TimeInterval<T>; KEPT],
     /// The index of the one that is replaced next.
     oldest: usize,
 }
@@ -50,29 +50,29 @@ struct Stretches<T> {
 impl<T: Real> Waves<T> {
     /// The sums for a system.
     pub fn new(system: &System<T>) -> Self {
-        let stretches = Sinusoids::of(system).map(|sinusoids| {
-            Box::new(Stretches {
+        let intervals = Sinusoids::of(system).map(|sinusoids| {
+            Box::new(Intervals {
                 sinusoids: Arc::new(sinusoids),
-                kept: [Stretch::empty(); KEPT],
+                kept: [TimeInterval::empty(); KEPT],
                 oldest: 0,
             })
         });
-        Self { stretches }
+        Self { intervals }
     }
 
     /// Prepares the sums for all times from one to another; if the span is long, for its last part.
     #[inline(always)]
     pub fn cover(&mut self, from: T, to: T) {
-        if let Some(stretches) = &mut self.stretches {
-            stretches.cover(from, to);
+        if let Some(intervals) = &mut self.intervals {
+            intervals.cover(from, to);
         }
     }
 
     /// The external forces at a time; if it is not covered, each sinusoid is evaluated.
     #[inline(always)]
     pub fn at(&self, system: &System<T>, t: T) -> Surroundings<T> {
-        match self.stretch(t) {
-            Some((stretch, half)) => stretch.at(half, t),
+        match self.interval(t) {
+            Some((interval, half)) => interval.at(half, t),
             None => system.surroundings(t),
         }
     }
@@ -80,31 +80,31 @@ impl<T: Real> Waves<T> {
     /// Its series about a time.
     #[inline(always)]
     pub(crate) fn expanded(&self, system: &System<T>, t: T) -> Expanded<T> {
-        match self.stretch(t) {
-            Some((stretch, half)) => stretch.expanded(half, t),
+        match self.interval(t) {
+            Some((interval, half)) => interval.expanded(half, t),
             None => Expanded::of(system, t),
         }
     }
 
-    /// The stretch in which a time lies, and h.
+    /// The interval in which a time lies, and h.
     #[inline(always)]
-    fn stretch(&self, t: T) -> Option<(&Stretch<T>, T)> {
-        let stretches = self.stretches.as_ref()?;
-        let half = stretches.sinusoids.half;
+    fn interval(&self, t: T) -> Option<(&TimeInterval<T>, T)> {
+        let intervals = self.intervals.as_ref()?;
+        let half = intervals.sinusoids.half;
         let index = Some(index_of(half, t));
-        let mut kept = stretches.kept.iter();
-        kept.find(|stretch| stretch.index == index)
-            .map(|stretch| (stretch, half))
+        let mut kept = intervals.kept.iter();
+        kept.find(|interval| interval.index == index)
+            .map(|interval| (interval, half))
     }
 }
 
-/// Which stretch a time lies in.
+/// Which interval a time lies in.
 #[inline(always)]
 fn index_of<T: Real>(half: T, t: T) -> i64 {
     (t.to_f64() / (2.0 * half.to_f64())).floor() as i64
 }
 
-impl<T: Real> Stretches<T> {
+impl<T: Real> Intervals<T> {
     #[inline(always)]
     fn cover(&mut self, from: T, to: T) {
         let [first, last] = [from, to].map(|t| index_of(self.sinusoids.half, t));
@@ -190,7 +190,7 @@ mod tests {
     }
 
     /// The sums agree with those computed one by one, at any time and in any order, at the ends of
-    /// stretches and at times that are not covered.
+    /// intervals and at times that are not covered.
     #[test]
     fn many_waves_are_what_they_are_one_by_one() {
         bodies().iter().for_each(sums_are_right);
@@ -198,7 +198,7 @@ mod tests {
 
     fn sums_are_right(system: &System) {
         let mut waves = Waves::new(system);
-        assert!(waves.stretches.is_some());
+        assert!(waves.intervals.is_some());
         let quickest = 0.07 * 70.0;
         for k in 0..4000_u32 {
             let t = match k % 3 {
@@ -208,7 +208,7 @@ mod tests {
             };
             if k % 5 > 0 {
                 waves.cover(t - 0.3, t);
-                assert!(waves.stretch(t).is_some());
+                assert!(waves.interval(t).is_some());
             }
             let known = numbers(&system.surroundings(t));
             let found = numbers(&waves.at(system, t));
@@ -275,7 +275,7 @@ mod tests {
         }
         let mut waves = Waves::new(&system);
         waves.cover(0.3, 0.9);
-        assert!(waves.stretches.is_none());
+        assert!(waves.intervals.is_none());
         assert_eq!(waves.at(&system, 0.7), system.surroundings(0.7));
     }
 }

@@ -26,7 +26,7 @@ fn every_impact_agrees_up_to_the_horizon() {
         let mut worst = 0.0_f64;
         let mut running = 0.0_f64;
         let mut compared = 0;
-        for (k, truth) in listed.iter().enumerate() {
+        for (k, reference) in listed.iter().enumerate() {
             if first_wrong.is_some_and(|first| k as u64 + 1 >= first) {
                 break;
             }
@@ -38,14 +38,14 @@ fn every_impact_agrees_up_to_the_horizon() {
                 .unwrap_or_else(|| panic!("{id}: no impact {k}"));
             assert_eq!(
                 ours.cable + 1,
-                truth["cable"].as_u64().unwrap_or(0) as usize,
+                reference["cable"].as_u64().unwrap_or(0) as usize,
                 "{id} {k}"
             );
             let off = [
-                (ours.t - number(&truth["t"])).abs(),
-                (ours.v_n - number(&truth["vn"])).abs(),
-                distance(&ours.before, &state(&truth["before"])),
-                distance(&ours.after, &state(&truth["after"])),
+                (ours.t - number(&reference["t"])).abs(),
+                (ours.v_n - number(&reference["vn"])).abs(),
+                distance(&ours.before, &state(&reference["before"])),
+                distance(&ours.after, &state(&reference["after"])),
             ]
             .into_iter()
             .fold(0.0, f64::max);
@@ -86,7 +86,7 @@ fn grazes_are_neither_missed_nor_invented() {
     for case in oracle("grazing.json") {
         let id = case["id"].as_str().unwrap_or_default();
         let run = breakwater(&case).run();
-        let truth = case["impacts"].as_array().expect("impacts");
+        let reference = case["impacts"].as_array().expect("impacts");
         println!(
             "{id}: {:?} {:?}",
             run.impacts()
@@ -95,10 +95,10 @@ fn grazes_are_neither_missed_nor_invented() {
                 .collect::<Vec<_>>(),
             run.end()
         );
-        assert_eq!(run.impacts().len(), truth.len(), "{id}");
-        for (ours, truth) in run.impacts().iter().zip(truth) {
-            let v_n = number(&truth["vn"]);
-            let t_error = (ours.t - number(&truth["t"])).abs();
+        assert_eq!(run.impacts().len(), reference.len(), "{id}");
+        for (ours, reference) in run.impacts().iter().zip(reference) {
+            let v_n = number(&reference["vn"]);
+            let t_error = (ours.t - number(&reference["t"])).abs();
             assert!(
                 t_error <= 1e-13 + 1e-15 / v_n,
                 "{id}: {t_error:e} at v_n = {v_n:e}"
@@ -155,12 +155,12 @@ fn taut_motion_agrees() {
             let mut off = distance(&motion.state, &state(&row["state"]));
             for cable in 0..2 {
                 let tension = &row[["T1", "T2"][cable]];
-                let truth = if tension.is_null() {
+                let reference = if tension.is_null() {
                     0.0
                 } else {
                     number(tension)
                 };
-                off = off.max((motion.tensions[cable] - truth).abs());
+                off = off.max((motion.tensions[cable] - reference).abs());
             }
             assert!(off < 1e-12, "{id}: off by {off:e} at t = {t}");
             worst = worst.max(off);

@@ -85,18 +85,18 @@ fn every_printed_row_agrees_but_for_the_known_slips() {
             }
         }
     }
-    let slip = |series, code, key, printed| (series, code, key, printed);
+    let misprint = |series, code, key, printed| (series, code, key, printed);
     assert_eq!(
         slips,
         [
-            slip("r", "1921001000-359", "h", 1.200), // a = 0.2 gives 1.269
-            slip("a=b (square)", "1911001000-359", "f_o", 0.5), // six rows print 0.5 under codes of 0.3
-            slip("a=b (square)", "1922001000-359", "f_o", 0.5),
-            slip("a=b (square)", "1933001000-359", "f_o", 0.5),
-            slip("a>b (rectangle)", "1911001000-359", "f_o", 0.5),
-            slip("a>b (rectangle)", "1921001000-359", "f_o", 0.5),
-            slip("a>b (rectangle)", "1931001000-359", "f_o", 0.5),
-            slip("Ω", "1910001000-3515", "h", 2.332), // r = 1.5 gives 1.200
+            misprint("r", "1921001000-359", "h", 1.200), // a = 0.2 gives 1.269
+            misprint("a=b (square)", "1911001000-359", "f_o", 0.5), // six rows print 0.5 under codes of 0.3
+            misprint("a=b (square)", "1922001000-359", "f_o", 0.5),
+            misprint("a=b (square)", "1933001000-359", "f_o", 0.5),
+            misprint("a>b (rectangle)", "1911001000-359", "f_o", 0.5),
+            misprint("a>b (rectangle)", "1921001000-359", "f_o", 0.5),
+            misprint("a>b (rectangle)", "1931001000-359", "f_o", 0.5),
+            misprint("Ω", "1910001000-3515", "h", 2.332), // r = 1.5 gives 1.200
         ]
     );
 }

@@ -285,7 +285,7 @@ fn h_is_derived_and_never_given() {
 
 #[test]
 fn misspelt_keys_get_the_nearest() {
-    for (slip, meant) in [
+    for (typo, meant) in [
         ("omgea", "omega"),
         ("Omega", "omega"),
         ("Ω", "omega"),
@@ -300,26 +300,26 @@ fn misspelt_keys_get_the_nearest() {
         ("stop_when_slidng", "stop_when_sliding"),
         ("θ", "theta"),
     ] {
-        let error = given(&[(slip, 0.5.into())]).unwrap_err();
+        let error = given(&[(typo, 0.5.into())]).unwrap_err();
         assert_eq!(
             error.fault,
             Fault::UnknownKey {
                 nearest: Some(meant)
             },
-            "{slip}"
+            "{typo}"
         );
         let shown = error.to_string();
         let parts = [
-            slip,
+            typo,
             "0.5",
             &format!("did you mean {meant}?"),
             "stop_when_settled",
         ];
         assert!(parts.iter().all(|part| shown.contains(part)), "{shown}");
     }
-    for slip in ["", "zzz", "friction_coefficient", "__"] {
-        let error = given(&[(slip, 0.5.into())]).unwrap_err();
-        assert_eq!(error.fault, Fault::UnknownKey { nearest: None }, "{slip}");
+    for typo in ["", "zzz", "friction_coefficient", "__"] {
+        let error = given(&[(typo, 0.5.into())]).unwrap_err();
+        assert_eq!(error.fault, Fault::UnknownKey { nearest: None }, "{typo}");
     }
 }
 

@@ -35,7 +35,7 @@ pub struct FloatingCase {
     pub system: System,
     pub start: State,
     pub v_stick: f64,
-    truth: &'static Value,
+    reference: &'static Value,
 }
 
 impl FloatingCase {
@@ -43,8 +43,8 @@ impl FloatingCase {
         Self::of(&ORACLE["runs"][name])
     }
 
-    fn of(truth: &'static Value) -> Self {
-        let case = &truth["case"];
+    fn of(reference: &'static Value) -> Self {
+        let case = &reference["case"];
         let (rigid, added) = (
             matrix(&case["mass_matrix"]),
             matrix(&case["added_mass_inf"]),
@@ -84,7 +84,7 @@ impl FloatingCase {
             v_stick: case["v_stick"].as_f64().expect("a speed") / units.speed_m_s(),
             units,
             system,
-            truth,
+            reference,
         }
     }
 
@@ -103,7 +103,7 @@ impl FloatingCase {
     }
 
     fn rows(&self) -> &'static Vec<Value> {
-        self.truth["impacts"].as_array().expect("impacts")
+        self.reference["impacts"].as_array().expect("impacts")
     }
 }
 
@@ -162,19 +162,19 @@ const RUNS: [&str; 4] = [
 ];
 
 /// The distance of two lists, relative to a scale.
-fn apart<const N: usize>(ours: [f64; N], truth: [f64; N], scale: [f64; N]) -> f64 {
+fn apart<const N: usize>(ours: [f64; N], reference: [f64; N], scale: [f64; N]) -> f64 {
     (0..N)
-        .map(|i| (ours[i] - truth[i]).abs() / scale[i])
+        .map(|i| (ours[i] - reference[i]).abs() / scale[i])
         .fold(0.0, f64::max)
 }
 
 /// One row of a run: the largest difference, in s, m, rad, and relative to the body's weight and
 /// that times a metre for forces and moments.
-fn difference(case: &FloatingCase, ours: &Impact, pull: [f64; 3], truth: &Value) -> f64 {
+fn difference(case: &FloatingCase, ours: &Impact, pull: [f64; 3], reference: &Value) -> f64 {
     let units = &case.units;
     let weight = units.force_n;
     let momentum = units.mass_kg * units.speed_m_s();
-    let number = |key: &str| truth[key].as_f64().expect("a number");
+    let number = |key: &str| reference[key].as_f64().expect("a number");
     let scalars = apart(
         [
             ours.t * units.time_s,
@@ -188,11 +188,11 @@ fn difference(case: &FloatingCase, ours: &Impact, pull: [f64; 3], truth: &Value)
     let [place, before] = units.displacement_and_velocity(&ours.before);
     let force = units.generalised_force_si(pull);
     scalars
-        .max(apart(place, numbers(&truth["q"]), [1.0; 3]))
-        .max(apart(before, numbers(&truth["v_before"]), [1.0; 3]))
+        .max(apart(place, numbers(&reference["q"]), [1.0; 3]))
+        .max(apart(before, numbers(&reference["v_before"]), [1.0; 3]))
         .max(apart(
             force.map(|f| -f),
-            numbers(&truth["memory_force"]),
+            numbers(&reference["memory_force"]),
             [weight; 3],
         ))
 }
@@ -202,7 +202,7 @@ fn difference(case: &FloatingCase, ours: &Impact, pull: [f64; 3], truth: &Value)
 #[test]
 fn runs_agree_with_the_independent_ones() {
     let varied = VARIED["runs"].as_object().expect("runs").iter();
-    let varied = varied.map(|(name, truth)| (name.as_str(), FloatingCase::of(truth)));
+    let varied = varied.map(|(name, reference)| (name.as_str(), FloatingCase::of(reference)));
     let runs = RUNS.map(|name| (name, FloatingCase::named(name)));
     for (name, case) in runs.into_iter().chain(varied) {
         let rows = case.rows();
@@ -229,10 +229,10 @@ fn runs_agree_with_the_independent_ones() {
             }
             if impacts > 0 {
                 let after = case.units.displacement_and_velocity(&step.after)[1];
-                let truth = numbers(&rows[compared - 1]["v_after"]);
+                let reference = numbers(&rows[compared - 1]["v_after"]);
                 assert!(
-                    apart(after, truth, [1.0; 3]) < 1e-9,
-                    "{name}: {after:?} {truth:?}"
+                    apart(after, reference, [1.0; 3]) < 1e-9,
+                    "{name}: {after:?} {reference:?}"
                 );
             }
             if impacts > 0 || step.taut != step.taut_after {
@@ -241,19 +241,19 @@ fn runs_agree_with_the_independent_ones() {
         }
         println!("{name}: {compared} rows within {worst:.1e}");
         assert_eq!(compared, rows.len(), "{name}");
-        for (ours, truth) in modes
+        for (ours, reference) in modes
             .iter()
-            .zip(case.truth["modes"].as_array().expect("modes"))
+            .zip(case.reference["modes"].as_array().expect("modes"))
         {
-            let lines = truth[1].as_array().expect("lines").iter();
+            let lines = reference[1].as_array().expect("lines").iter();
             let taut = lines.map(|line| line.as_u64().expect("a line") as usize - 1);
             assert_eq!(ours.1, taut.collect(), "{name} at {}", ours.0);
             assert!(
-                (ours.0 - truth[0].as_f64().expect("a time")).abs() < 1e-9,
+                (ours.0 - reference[0].as_f64().expect("a time")).abs() < 1e-9,
                 "{name}"
             );
         }
-        assert!(modes.len() >= case.truth["modes"].as_array().expect("modes").len());
+        assert!(modes.len() >= case.reference["modes"].as_array().expect("modes").len());
     }
 }
 
@@ -265,7 +265,7 @@ const DISPLACED_KG: f64 = 261_799.387_799_1;
 #[test]
 fn a_sphere_let_go_decays_as_known() {
     let mut case = FloatingCase::named("sphere-one-line");
-    let added = case.truth["case"]["added_mass_inf"][1][1]
+    let added = case.reference["case"]["added_mass_inf"][1][1]
         .as_f64()
         .expect("kg");
     let mass = (DISPLACED_KG + added) / case.units.mass_kg;
@@ -282,11 +282,11 @@ fn a_sphere_let_go_decays_as_known() {
     let last = times.last().and_then(Value::as_f64).expect("a time");
     let run = Trajectory::record(case.simulation(last));
     let mut playback = Playback::new(&run);
-    for (t, truth) in times.iter().zip(heave) {
-        let (t, truth) = (t.as_f64().expect("s"), truth.as_f64().expect("m"));
+    for (t, reference) in times.iter().zip(heave) {
+        let (t, reference) = (t.as_f64().expect("s"), reference.as_f64().expect("m"));
         let state = playback.at(t / case.units.time_s).state;
         let ours = case.units.displacement_and_velocity(&state)[0][1];
-        assert!((ours - truth).abs() < 1e-10, "{t}: {ours} {truth}");
+        assert!((ours - reference).abs() < 1e-10, "{t}: {ours} {reference}");
     }
     assert!(times.len() > 100);
 }

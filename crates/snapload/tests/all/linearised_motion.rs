@@ -62,7 +62,7 @@ fn follow(
     system: &System,
     state: State,
     most: usize,
-    mut watch: impl FnMut(&Simulation, &Step, &Matrix),
+    mut on_step: impl FnMut(&Simulation, &Step, &Matrix),
 ) {
     let tangent = Tangent::new(system);
     let rules = Rules::until(40.0);
@@ -73,7 +73,7 @@ fn follow(
             break;
         }
         let map = matrix(&tangent.of_step(&simulation, &step));
-        watch(&simulation, &step, &map);
+        on_step(&simulation, &step, &map);
     }
 }
 

@@ -283,7 +283,7 @@ fn work_that_may_be_ended_is_the_same_or_nothing() -> Result<(), Unfinished> {
 
 /// All long work reports its progress, which only grows, and ends when it is cancelled.
 #[test]
-fn all_long_work_can_be_watched_and_cancelled() -> Result<(), Unfinished> {
+fn all_long_work_reports_progress_and_can_be_cancelled() -> Result<(), Unfinished> {
     let long = Parameters {
         f_o: 0.1,
         t_end: 60.0,

@@ -171,19 +171,19 @@ fn rocks_while_settling() -> Checked {
 fn slides_for_a_while(table_runs: &TableRuns) -> Checked {
     const CODE: &str = "1921001000-559";
     /// The shortest time that is visible in a plot.
-    const WHILE: f64 = 0.1;
+    const SHORTEST_SLIDE: f64 = 0.1;
     let runs = near(&case(table_runs.study, CODE)?.parameters, MANY, run)?;
     let slide = |run: &Trajectory| {
         let first = run.modes().iter().find(|mode| mode.taut.len() == 1);
         first.map(|mode| (mode.t_start, mode.t_end))
     };
-    let long = |run: &Trajectory| slide(run).is_some_and(|(from, to)| to - from > WHILE);
+    let long = |run: &Trajectory| slide(run).is_some_and(|(from, to)| to - from > SHORTEST_SLIDE);
     let slides: Vec<(f64, f64)> = runs.iter().filter_map(slide).collect();
     Ok(Finding::robust(&runs, long)
         .value("case", CODE.to_owned())
         .list("from", slides.iter().map(|slide| slide.0))
         .list("to", slides.iter().map(|slide| slide.1))
-        .value("while", WHILE))
+        .value("while", SHORTEST_SLIDE))
 }
 
 fn initial_spin() -> Checked {

@@ -16,8 +16,8 @@ pub(super) const FREQUENCIES: [&str; 5] = [
     "1910001000-3520",
 ];
 type Runs<'a> = [&'a RoundedRun; 5];
-/// The figures among these that have stretches of one mark.
-const STRETCHES: [usize; 3] = [0, 2, 4];
+/// The figures among these that have sequences of one mark.
+const WITH_ONE_CABLE: [usize; 3] = [0, 2, 4];
 /// The figures that the chapter compares with braids.
 const BRAIDS: [usize; 2] = [1, 2];
 
@@ -37,7 +37,7 @@ pub(super) const CHECKS: &Checks<fn(&[Runs]) -> Checked> = &[
         /// The least snap velocity that is easy to see in a plot.
         const PLAIN: f64 = 3.0 * CLEAR;
         let longer = |runs: &Runs, above| {
-            let with = STRETCHES.map(|k| longest(runs[k], above));
+            let with = WITH_ONE_CABLE.map(|k| longest(runs[k], above));
             with.iter().min() > [1, 3].map(|k| longest(runs[k], above)).iter().max()
         };
         let lengths = |above: f64| {
@@ -81,14 +81,17 @@ pub(super) const CHECKS: &Checks<fn(&[Runs]) -> Checked> = &[
             .values("near clear", [NEAR, CLEAR]))
     }),
     ("6.4.1-33", |members| {
-        let braided = measured("rates", members, crossing_rate, braids);
-        Ok(braided.values("often more clear", [OFTEN, MORE, CLEAR]))
+        let braided = measured("rates", members, crossing_rate, cross_more_often);
+        Ok(braided.values(
+            "often more clear",
+            [LEAST_CROSSING_RATE, LEAST_RATIO, CLEAR],
+        ))
     }),
     ("6.4.1-34", towards_the_boundary),
 ];
 
 /// Sequences of impacts above some velocity on one cable.
-fn stretches(run: &RoundedRun, above: f64) -> Vec<Vec<&Impact>> {
+fn on_one_cable(run: &RoundedRun, above: f64) -> Vec<Vec<&Impact>> {
     let hits: Vec<&Impact> = run.impacts().iter().filter(|hit| hit.v_n > above).collect();
     hits.chunk_by(|p, q| p.cable == q.cable)
         .map(<[_]>::to_vec)
@@ -96,16 +99,16 @@ fn stretches(run: &RoundedRun, above: f64) -> Vec<Vec<&Impact>> {
 }
 
 fn longest(run: &RoundedRun, above: f64) -> usize {
-    let lengths = stretches(run, above).into_iter().map(|hits| hits.len());
+    let lengths = on_one_cable(run, above).into_iter().map(|hits| hits.len());
     lengths.max().unwrap_or(0)
 }
 
-/// The least number of snaps in a stretch.
+/// The least number of snaps in a sequence.
 const SEVERAL: usize = 5;
 
-/// The rise of the body over each stretch of clear snaps.
+/// The rise of the body over each sequence of clear snaps.
 fn rises(run: &RoundedRun) -> Vec<f64> {
-    let long = stretches(run, CLEAR)
+    let long = on_one_cable(run, CLEAR)
         .into_iter()
         .filter(|hits| hits.len() >= SEVERAL);
     long.map(|hits| hits[hits.len() - 1].before.y - hits[0].before.y)
@@ -115,13 +118,13 @@ fn rises(run: &RoundedRun) -> Vec<f64> {
 fn down_a_boundary(members: &[Runs]) -> Checked {
     /// The least rise that is visible in a plot.
     const SEEN: f64 = 0.05;
-    // The body falls in more of these stretches than it rises in.
+    // The body falls in more of these sequences than it rises in.
     let all = by_case(members, |run| {
         let rises = rises(run);
         2 * rises.iter().filter(|rise| **rise < 0.0).count() > rises.len()
     });
-    let verdicts = STRETCHES.map(|k| all[k]);
-    let own = STRETCHES.map(|k| rises(members[0][k]));
+    let verdicts = WITH_ONE_CABLE.map(|k| all[k]);
+    let own = WITH_ONE_CABLE.map(|k| rises(members[0][k]));
     let up = max(own.iter().flatten().copied());
     Ok(Finding::new(Verdict::families(verdicts))
         .value("rises", own.map(|rises| list(&rises, 3)).join("; "))
@@ -176,13 +179,13 @@ fn nears_and_parts(difference: &[f64]) -> bool {
 
 /// Lines count as braids if they cross at least this often per T, and this many times as often as
 /// the others.
-const OFTEN: f64 = 0.5;
-const MORE: f64 = 2.0;
+const LEAST_CROSSING_RATE: f64 = 0.5;
+const LEAST_RATIO: f64 = 2.0;
 
 /// Whether the crossing rates of the braids exceed those of the other figures.
-fn braids(rates: &[f64; 5]) -> bool {
+fn cross_more_often(rates: &[f64; 5]) -> bool {
     let least = min(BRAIDS.map(|k| rates[k]));
-    least >= OFTEN && least > MORE * max([0, 3, 4].map(|k| rates[k]))
+    least >= LEAST_CROSSING_RATE && least > LEAST_RATIO * max([0, 3, 4].map(|k| rates[k]))
 }
 
 /// Crossings of the two lines per unit time.
@@ -294,7 +297,10 @@ mod tests {
 
     #[test]
     fn lines_that_cross_as_often_elsewhere_are_no_braids() {
-        assert!(braids(&[0.3, 1.0, 0.8, 0.0, 0.1]));
-        assert!(!braids(&[0.5, 1.0, 0.8, 0.0, 0.1]) && !braids(&[0.0, 1.0, 0.4, 0.0, 0.0]));
+        assert!(cross_more_often(&[0.3, 1.0, 0.8, 0.0, 0.1]));
+        assert!(
+            !cross_more_often(&[0.5, 1.0, 0.8, 0.0, 0.1])
+                && !cross_more_often(&[0.0, 1.0, 0.4, 0.0, 0.0])
+        );
     }
 }

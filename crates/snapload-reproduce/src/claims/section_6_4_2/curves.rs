@@ -47,7 +47,7 @@ fn points_in_table(curve: &CriticalCurve, reading: Reading) -> Points {
 /// above it, if they have enough points for a trend.
 fn parts(curve: &CriticalCurve) -> Vec<[f64; 2]> {
     /// The least number of points for a trend.
-    const ENOUGH: usize = 10;
+    const LEAST_POINTS: usize = 10;
     let [from, to] = of_table_6_1(curve.key);
     let values = || curve.points.chapter.iter().map(|p| p.0);
     let (below, above) = (|v: &f64| *v < from - 1e-9, |v: &f64| *v > to + 1e-9);
@@ -55,7 +55,9 @@ fn parts(curve: &CriticalCurve) -> Vec<[f64; 2]> {
         values().filter(below).collect(),
         values().filter(above).collect(),
     ];
-    let rest = rest.iter().filter(|part: &&Vec<f64>| part.len() >= ENOUGH);
+    let rest = rest
+        .iter()
+        .filter(|part: &&Vec<f64>| part.len() >= LEAST_POINTS);
     let rest = rest.map(|part| [part[0], part[part.len() - 1]]);
     std::iter::once([from, to]).chain(rest).collect()
 }
@@ -226,7 +228,7 @@ fn local_extremes(study: &Study) -> Checked {
 fn jumps(study: &Study) -> Checked {
     /// The least change of the critical force that counts as large: a third of that of the standard
     /// case.
-    const MUCH: f64 = 0.1;
+    const LEAST_RISE: f64 = 0.1;
     let rise = |pair: &[(f64, f64)]| {
         let known = pair.iter().all(|p| p.1 < NEVER);
         if known {
@@ -248,10 +250,10 @@ fn jumps(study: &Study) -> Checked {
     members.push(pair.clone());
     let typical = mean(all.iter().map(|(_, pair)| rise(pair)));
     let of = |k: usize| shown_span(members.iter().map(|pair| pair[k].1));
-    Ok(Finding::robust(&members, |pair| rise(pair) >= MUCH)
+    Ok(Finding::robust(&members, |pair| rise(pair) >= LEAST_RISE)
         .values("key before after", [symbol(curve), of(0), of(1)])
         .values("from to r mean", [p.0, q.0, curve.r, typical])
-        .value("much", MUCH))
+        .value("much", LEAST_RISE))
 }
 
 #[cfg(test)]

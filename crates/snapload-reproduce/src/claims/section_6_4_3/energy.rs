@@ -60,9 +60,9 @@ fn optimum(sweeps: &Sweeps) -> Checked {
 
 /// Energy counts as dissipated if at least this part is gone of what the body has at the start
 /// above its lowest position.
-const GONE: f64 = 0.9;
+const DISSIPATED_PART: f64 = 0.9;
 /// The time by which it has to be gone, and the end of the runs.
-const SOON: f64 = 10.0;
+const DISSIPATION_TIME: f64 = 10.0;
 
 /// The time at which a run exceeds, if it does, and its mechanical energy at t = 10.
 type Left = (Option<f64>, f64);
@@ -71,18 +71,19 @@ type Left = (Option<f64>, f64);
 fn without_stops(case: &Parameters) -> Result<Left, CaseError> {
     let case = Parameters {
         stop_when_sliding: false,
-        t_end: 2.0 * SOON,
+        t_end: 2.0 * DISSIPATION_TIME,
         ..past_settling(*case)
     };
     let run = run(&case)?;
     let exceeds = run.end().reason.exceeds().then_some(run.end().t);
-    Ok((exceeds, Playback::new(&run).at(SOON).energy))
+    Ok((exceeds, Playback::new(&run).at(DISSIPATION_TIME).energy))
 }
 
 /// Whether a run has dissipated its energy by t = 10: it has not exceeded until then, and has
 /// little of its first energy left.
 fn is_dissipated((exceeds, energy): &Left) -> bool {
-    exceeds.is_none_or(|t| t > SOON) && *energy <= (1.0 - GONE) * Parameters::STANDARD.y
+    exceeds.is_none_or(|t| t > DISSIPATION_TIME)
+        && *energy <= (1.0 - DISSIPATED_PART) * Parameters::STANDARD.y
 }
 
 fn dissipated(sweeps: &Sweeps) -> Checked {
@@ -102,7 +103,7 @@ fn dissipated(sweeps: &Sweeps) -> Checked {
         let spans = |holds: &dyn Fn(&Left) -> bool| {
             span(starts.iter().map(|runs| count(runs, holds) as f64), 0)
         };
-        let exceed = spans(&|run| run.0.is_some_and(|t| t <= SOON));
+        let exceed = spans(&|run| run.0.is_some_and(|t| t <= DISSIPATION_TIME));
         format!(
             "{} of {} ({exceed} exceed the limits before)",
             spans(&is_dissipated),
@@ -111,14 +112,17 @@ fn dissipated(sweeps: &Sweeps) -> Checked {
     });
     let soon = |sweep: &Sweep| {
         count(below_critical(sweep), |run| {
-            run.reason == Stop::Settled && run.t < SOON
+            run.reason == Stop::Settled && run.t < DISSIPATION_TIME
         }) as f64
     };
     let stopped = [&sweeps.short, &sweeps.long].map(|starts| span(starts.iter().map(soon), 0));
     Ok(Finding::new(Verdict::families(verdicts))
         .values("short long", words)
         .value("stopped", stopped.join(" and "))
-        .values("gone usual soon", [100.0 * GONE, 100.0 * USUAL, SOON]))
+        .values(
+            "gone usual soon",
+            [100.0 * DISSIPATED_PART, 100.0 * USUAL, DISSIPATION_TIME],
+        ))
 }
 
 #[cfg(test)]

@@ -51,7 +51,7 @@ pub(super) const CHECKS: &Checks<fn(&Material) -> Checked> = &[
         let forces: Vec<Forces> = of.weak.iter().map(Forces::of).collect();
         Ok(Finding::robust(&forces, |of| of.wave_is_horizontal())
             .list("ratio", forces.iter().map(|of| of.vertical / of.horizontal))
-            .value("little", LITTLE))
+            .value("little", NEGLIGIBLE_RATIO))
     }),
     ("6.5.2.2-15", |of| {
         let forces: Vec<Forces> = of.weak.iter().map(Forces::of).collect();
@@ -217,7 +217,7 @@ impl Forces {
 
     /// Whether the horizontal component of the wave dominates the vertical one.
     fn wave_is_horizontal(self) -> bool {
-        self.vertical < LITTLE * self.horizontal
+        self.vertical < NEGLIGIBLE_RATIO * self.horizontal
     }
 
     /// Whether the horizontal force also dominates the weight.
@@ -227,7 +227,7 @@ impl Forces {
 }
 
 /// The largest ratio at which a force is negligible.
-const LITTLE: f64 = 0.2;
+const NEGLIGIBLE_RATIO: f64 = 0.2;
 
 /// Radius of the circle x² + y² = 2my + c nearest to the arc, and its largest distance from the arc
 /// as a part of the radius. The arc is symmetric, so the centre has x = 0.

@@ -1,24 +1,24 @@
 //! A body on elastic lines: the forces of the lines at a state, and the acceleration.
 
-use super::law::Spring;
+use super::law::ElasticLine;
 use snapload::{State, System, TautSet, Waves};
 use std::cell::RefCell;
 
 /// A body on elastic lines.
 pub(super) struct BodyOnElasticLines<'a> {
     pub(super) system: &'a System,
-    pub(super) springs: &'a [Spring],
+    pub(super) elastic_lines: &'a [ElasticLine],
     waves: RefCell<Waves>,
 }
 
 /// The state of one line.
-pub(super) struct Stretch {
+pub(super) struct Elongation {
     /// Unit vector along the line.
     n: [f64; 2],
     /// Lever arm.
     arm: f64,
     /// δ.
-    stretch: f64,
+    elongation: f64,
     /// δ̇.
     pub(super) rate: f64,
     /// k δ + c δ̇.
@@ -26,15 +26,15 @@ pub(super) struct Stretch {
 }
 
 impl<'a> BodyOnElasticLines<'a> {
-    pub(super) fn new(system: &'a System, springs: &'a [Spring]) -> Self {
+    pub(super) fn new(system: &'a System, elastic_lines: &'a [ElasticLine]) -> Self {
         Self {
             system,
-            springs,
+            elastic_lines,
             waves: RefCell::new(Waves::new(system)),
         }
     }
 
-    pub(super) fn stretch(&self, line: usize, state: &State) -> Stretch {
+    pub(super) fn elongation(&self, line: usize, state: &State) -> Elongation {
         let cable = &self.system.cables[line];
         let span = cable.span(state).components();
         let reach = span[0].hypot(span[1]);
@@ -43,43 +43,47 @@ impl<'a> BodyOnElasticLines<'a> {
         let lever = cable.lever(sine, cosine).components();
         let arm = lever[0] * n[1] - lever[1] * n[0];
         // From the gap |d|² − r², which is free of cancellation.
-        let stretch = cable.gap(state) / (reach + cable.length());
+        let elongation = cable.gap(state) / (reach + cable.length());
         let rate = n[0] * state.vx + n[1] * state.vy + arm * state.vtheta;
-        Stretch {
+        Elongation {
             n,
             arm,
-            stretch,
+            elongation,
             rate,
-            force: self.springs[line].force(stretch, rate),
+            force: self.elastic_lines[line].force(elongation, rate),
         }
     }
 
-    /// The row (n, s) of a line and its stretch δ.
+    /// The row (n, s) of a line and its elongation δ.
     pub(super) fn row(&self, line: usize, state: &State) -> ([f64; 3], f64) {
-        let Stretch {
+        let Elongation {
             n: [x, y],
             arm,
-            stretch,
+            elongation,
             ..
-        } = self.stretch(line, state);
-        ([x, y, arm], stretch)
+        } = self.elongation(line, state);
+        ([x, y, arm], elongation)
     }
 
     /// The lines that pull at a state.
     pub(super) fn pulling(&self, state: &State) -> TautSet {
         let pulls = |line: &usize| {
-            let Stretch { stretch, force, .. } = self.stretch(*line, state);
-            stretch > 0.0 && force > 0.0
+            let Elongation {
+                elongation, force, ..
+            } = self.elongation(*line, state);
+            elongation > 0.0 && force > 0.0
         };
-        (0..self.springs.len()).filter(pulls).collect()
+        (0..self.elastic_lines.len()).filter(pulls).collect()
     }
 
     /// The event function of a line: positive as long as it continues to pull, or not to pull.
     pub(super) fn until_change(&self, line: usize, state: &State, pulls: bool) -> f64 {
-        let Stretch { stretch, force, .. } = self.stretch(line, state);
-        match (pulls, stretch <= 0.0) {
+        let Elongation {
+            elongation, force, ..
+        } = self.elongation(line, state);
+        match (pulls, elongation <= 0.0) {
             (true, _) => force,
-            (false, true) => -stretch,
+            (false, true) => -elongation,
             (false, false) => -force,
         }
     }
@@ -88,8 +92,9 @@ impl<'a> BodyOnElasticLines<'a> {
     pub(super) fn quickest(&self, state: &State, pulling: TautSet) -> f64 {
         let body = &self.system.body;
         pulling.iter().fold(1.0, |quickest: f64, line| {
-            let inverse_mass = body.largest_inverse_effective_mass(self.stretch(line, state).arm);
-            quickest.max((self.springs[line].rate * inverse_mass).sqrt())
+            let inverse_mass =
+                body.largest_inverse_effective_mass(self.elongation(line, state).arm);
+            quickest.max((self.elastic_lines[line].rate * inverse_mass).sqrt())
         })
     }
 
@@ -106,7 +111,7 @@ impl<'a> BodyOnElasticLines<'a> {
         let around = waves.at(self.system, t);
         let free = self.system.free_acceleration(&around, state, memory_force);
         pulling.iter().fold(free, |[x, y, theta], line| {
-            let Stretch { n, arm, force, .. } = self.stretch(line, state);
+            let Elongation { n, arm, force, .. } = self.elongation(line, state);
             let pull = [force * n[0], force * n[1], force * arm];
             let [by_x, by_y, by_theta] = self.system.body.moved_by(pull);
             [x - by_x, y - by_y, theta - by_theta]

@@ -9,24 +9,24 @@ const LEAST_RESTITUTION: f64 = 0.01;
 
 /// A line as spring and damper, in the engine's units.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Spring {
+pub struct ElasticLine {
     /// k \[F/L\].
     pub rate: f64,
     /// c \[F T/L\].
     pub damping: f64,
 }
 
-impl Spring {
-    /// The force of spring and damper at the stretch δ = |P − A| − r:
+impl ElasticLine {
+    /// The force of spring and damper at the elongation δ = |P − A| − r:
     ///
     /// ```text
     /// T = k δ + c δ̇,    with which the line pulls while δ > 0 and T > 0
     /// ```
     ///
     /// The linear dashpot of T. Schwager and T. Pöschel, *Granular Matter* 9 (2007) 465, which
-    /// releases when the force returns to zero; with a damper that is before the stretch does.
-    pub fn force(&self, stretch: f64, rate: f64) -> f64 {
-        self.rate * stretch + self.damping * rate
+    /// releases when the force returns to zero; with a damper that is before the elongation does.
+    pub fn force(&self, elongation: f64, rate: f64) -> f64 {
+        self.rate * elongation + self.damping * rate
     }
 }
 
@@ -74,7 +74,7 @@ pub fn damping_ratio(restitution: f64) -> f64 {
 ///
 /// # Errors
 /// A [`CaseError`] if a line has no stiffness, or the restitution is too small.
-pub fn springs(prepared: &ModelAtRest, stiffer: f64) -> Result<Vec<Spring>, CaseError> {
+pub fn elastic_lines(prepared: &ModelAtRest, stiffer: f64) -> Result<Vec<ElasticLine>, CaseError> {
     let restitution = prepared.structure.restitution;
     if restitution < LEAST_RESTITUTION {
         let shown = restitution;
@@ -84,12 +84,15 @@ pub fn springs(prepared: &ModelAtRest, stiffer: f64) -> Result<Vec<Spring>, Case
         ));
     }
     let ratio = damping_ratio(restitution);
-    let damped = |(line, spring): (usize, Spring)| {
-        let damping = 2.0 * ratio * (spring.rate * prepared.mass_along(line)).sqrt();
-        Spring { damping, ..spring }
+    let damped = |(line, elastic_line): (usize, ElasticLine)| {
+        let damping = 2.0 * ratio * (elastic_line.rate * prepared.mass_along(line)).sqrt();
+        ElasticLine {
+            damping,
+            ..elastic_line
+        }
     };
-    let springs = undamped(prepared, stiffer)?.into_iter();
-    Ok(springs.enumerate().map(damped).collect())
+    let elastic_lines = undamped(prepared, stiffer)?.into_iter();
+    Ok(elastic_lines.enumerate().map(damped).collect())
 }
 
 impl ModelAtRest {
@@ -115,20 +118,23 @@ impl ModelAtRest {
 pub(in crate::physics) fn undamped(
     prepared: &ModelAtRest,
     stiffer: f64,
-) -> Result<Vec<Spring>, CaseError> {
+) -> Result<Vec<ElasticLine>, CaseError> {
     let scales = &prepared.model.scales;
     let unit = scales.force_n / scales.length_m;
-    let spring = |(number, line): (usize, &LineSi)| {
+    let elastic_line = |(number, line): (usize, &LineSi)| {
         let rate = line.spring_rate_n_m().ok_or_else(|| {
             let key = format!("line.{number}.stiffness");
             let allowed = "a stiffness, which an elastic line needs";
             CaseError::value(&key, "(left out)", allowed)
                 .with_hint("give stiffness (EA in N), spring_rate, or a type and diameter")
         })?;
-        Ok(Spring {
+        Ok(ElasticLine {
             rate: rate * stiffer / unit,
             damping: 0.0,
         })
     };
-    (1..).zip(&prepared.structure.lines).map(spring).collect()
+    (1..)
+        .zip(&prepared.structure.lines)
+        .map(elastic_line)
+        .collect()
 }

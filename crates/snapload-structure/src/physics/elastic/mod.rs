@@ -7,6 +7,6 @@ mod record;
 mod rest;
 
 pub(super) use law::undamped;
-pub use law::{Spring, damping_ratio, springs};
+pub use law::{ElasticLine, damping_ratio, elastic_lines};
 pub use motion::run_elastic;
 pub use record::{ElasticRun, Pull, Sample};

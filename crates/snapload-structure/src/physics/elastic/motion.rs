@@ -10,7 +10,7 @@
 //! integrator is used.
 
 use super::body::BodyOnElasticLines;
-use super::law::Spring;
+use super::law::ElasticLine;
 use super::record::{ElasticRun, PullRecorder};
 use crate::physics::model_at_rest::ModelAtRest;
 use differential_equations::ode::OrdinaryNumericalMethod;
@@ -132,7 +132,7 @@ impl<'a, const N: usize> Phase<'a, N> {
     /// A line that no longer behaves as the phase assumes. `fresh` are lines that have just started
     /// or ceased to pull, and whose force is zero up to rounding.
     fn changed(&self, state: &State, fresh: &mut TautSet) -> Option<usize> {
-        for line in 0..self.body.springs.len() {
+        for line in 0..self.body.elastic_lines.len() {
             let left = self.until_change(line, state);
             if left > 0.0 {
                 *fresh = fresh.without(line);
@@ -240,16 +240,16 @@ impl<M: Method<N>, const N: usize> Steps<'_, M, N> {
 /// [`Unfinished::Cancelled`].
 pub fn run_elastic(
     prepared: &ModelAtRest,
-    springs: &[Spring],
+    elastic_lines: &[ElasticLine],
     every_s: f64,
     on_progress: OnProgress,
 ) -> Result<ElasticRun, Unfinished> {
     let model = &prepared.model;
-    if springs.len() != model.system.cables.len() {
-        let shown = springs.len().to_string();
+    if elastic_lines.len() != model.system.cables.len() {
+        let shown = elastic_lines.len().to_string();
         return Err(CaseError::value("springs", shown, "one for each line").into());
     }
-    let body = BodyOnElasticLines::new(&model.system, springs);
+    let body = BodyOnElasticLines::new(&model.system, elastic_lines);
     match model.system.memory_at_rest().len() {
         0 => run::<STATE_WITHOUT_MEMORY>(prepared, &body, every_s, on_progress),
         1..=USUAL_MEMORY => run::<STATE_WITH_MEMORY>(prepared, &body, every_s, on_progress),

@@ -22,7 +22,7 @@ pub struct Pull {
     pub from_s: f64,
     /// When it ceased to pull, or the run ended \[s\].
     pub to_s: f64,
-    /// The rate of its stretch when it became taut \[m/s\].
+    /// The rate of its elongation when it became taut \[m/s\].
     pub speed_m_s: f64,
     /// The rate of its contraction when it ceased to pull; none if it pulls to the end \[m/s\].
     pub rebound_m_s: Option<f64>,
@@ -123,12 +123,12 @@ impl<'a> PullRecorder<'a> {
             transient_s: prepared.structure.transient_s,
             run: ElasticRun {
                 waterline: Waterline::before(&prepared.structure),
-                peaks_n: vec![0.0; body.springs.len()],
-                least_n: vec![None; body.springs.len()],
+                peaks_n: vec![0.0; body.elastic_lines.len()],
+                least_n: vec![None; body.elastic_lines.len()],
                 ..ElasticRun::default()
             },
             waves: WavesOfTension::of_lines(&prepared.rest),
-            open: vec![None; body.springs.len()],
+            open: vec![None; body.elastic_lines.len()],
         })
     }
 
@@ -155,7 +155,7 @@ impl<'a> PullRecorder<'a> {
 
     /// The tension of a line that pulls \[N\].
     fn tension_n(&self, line: usize, state: &State) -> f64 {
-        self.scales.force_n * self.body.stretch(line, state).force.max(0.0)
+        self.scales.force_n * self.body.elongation(line, state).force.max(0.0)
     }
 
     /// Records a state along the motion.
@@ -193,7 +193,7 @@ impl<'a> PullRecorder<'a> {
     pub(super) fn change(&mut self, t: f64, state: &State, before: TautSet, after: TautSet) {
         let t_s = t * self.scales.time_s;
         for line in 0..self.open.len() {
-            let speed = self.body.stretch(line, state).rate * self.scales.speed_m_s();
+            let speed = self.body.elongation(line, state).rate * self.scales.speed_m_s();
             match (before.contains(line), after.contains(line)) {
                 (false, true) => {
                     self.open[line] = Some(self.run.pulls.len());

@@ -14,7 +14,7 @@
 //! second derivatives, large enough for the energy to decrease.
 
 use super::body::BodyOnElasticLines;
-use super::law::Spring;
+use super::law::ElasticLine;
 use crate::physics::equilibrium::{Equilibrium, check_submerged, moved};
 use crate::physics::model::Model;
 use crate::physics::model_at_rest::ModelAtRest;
@@ -39,9 +39,9 @@ impl ModelAtRest {
     ///
     /// # Errors
     /// A [`CaseError`] if it has no position of rest on them.
-    pub fn with_elastic_lines(&self, springs: &[Spring]) -> Result<Self, CaseError> {
+    pub fn with_elastic_lines(&self, elastic_lines: &[ElasticLine]) -> Result<Self, CaseError> {
         let still = self.model.still();
-        let body = BodyOnElasticLines::new(&still, springs);
+        let body = BodyOnElasticLines::new(&still, elastic_lines);
         let rest = self.model.at_rest(self.rest.place_m, self.rest.theta_rad);
         let rest = least_energy(&body, rest)?;
         if rest.theta.abs() >= FRAC_PI_2 {
@@ -55,10 +55,11 @@ impl ModelAtRest {
         if self.structure.afloat.is_none() {
             check_submerged(&self.structure, place_m, rest.theta)?;
         }
-        let tension = |line: usize| body.stretch(line, &rest).force.max(0.0);
-        let tension_n = (0..springs.len()).map(|line| tension(line) * self.model.scales.force_n);
+        let tension = |line: usize| body.elongation(line, &rest).force.max(0.0);
+        let tension_n =
+            (0..elastic_lines.len()).map(|line| tension(line) * self.model.scales.force_n);
         let tension_n: Vec<f64> = tension_n.collect();
-        let taut = (0..springs.len()).filter(|&line| tension_n[line] > 0.0);
+        let taut = (0..elastic_lines.len()).filter(|&line| tension_n[line] > 0.0);
         let rest = Equilibrium {
             place_m,
             theta_rad: -rest.theta,
@@ -89,8 +90,8 @@ impl ModelAtRest {
     /// The derivative of the force on a body at rest on elastic lines, as by
     /// [`ModelAtRest::with_elastic_lines`], with respect to its position: the second derivatives of
     /// V over (x, y, θ), in the engine's units.
-    pub(in crate::physics) fn stiffness_on(&self, springs: &[Spring]) -> Matrix3<f64> {
-        let body = BodyOnElasticLines::new(&self.model.system, springs);
+    pub(in crate::physics) fn stiffness_on(&self, elastic_lines: &[ElasticLine]) -> Matrix3<f64> {
+        let body = BodyOnElasticLines::new(&self.model.system, elastic_lines);
         let at = self.model.at_rest(self.rest.place_m, self.rest.theta_rad);
         curvature(&body, &at)
     }
@@ -108,36 +109,36 @@ fn energy(body: &BodyOnElasticLines, at: &State) -> (f64, Vector3<f64>) {
         energy += 0.5 * q.dot(&(stiffness * q)) - constant.dot(&q);
         gradient += stiffness * q - constant;
     }
-    for (line, spring) in body.springs.iter().enumerate() {
-        let (row, stretch) = body.row(line, at);
-        if stretch > 0.0 {
-            energy += 0.5 * spring.rate * stretch * stretch;
-            gradient += Vector3::from(row) * (spring.rate * stretch);
+    for (line, elastic_line) in body.elastic_lines.iter().enumerate() {
+        let (row, elongation) = body.row(line, at);
+        if elongation > 0.0 {
+            energy += 0.5 * elastic_line.rate * elongation * elongation;
+            gradient += Vector3::from(row) * (elastic_line.rate * elongation);
         }
     }
     (energy, gradient)
 }
 
 /// The second derivatives of V, Σ k_i ((n_i, s_i)ᵀ(n_i, s_i) + δ_i ∇(n_i, s_i)) over the stretched
-/// lines. Only the rows are differentiated numerically, as the stretch of a line may be smaller
+/// lines. Only the rows are differentiated numerically, as the elongation of a line may be smaller
 /// than the step of the differences.
 fn curvature(body: &BodyOnElasticLines, at: &State) -> Matrix3<f64> {
     let water = body.system.floating.as_ref();
     let mut curvature = water.map_or(Matrix3::zeros(), |water| Matrix3::from(water.stiffness));
-    for (line, spring) in body.springs.iter().enumerate() {
-        let (row, stretch) = body.row(line, at);
-        if stretch <= 0.0 {
+    for (line, elastic_line) in body.elastic_lines.iter().enumerate() {
+        let (row, elongation) = body.row(line, at);
+        if elongation <= 0.0 {
             continue;
         }
         let row = Vector3::from(row);
-        curvature += row * row.transpose() * spring.rate;
+        curvature += row * row.transpose() * elastic_line.rate;
         for k in 0..3 {
             let mut step = Vector3::zeros();
             step[k] = DIFFERENCE;
             let [ahead, behind] = [step, -step].map(|step| body.row(line, &moved(at, &step)).0);
             let slope = (Vector3::from(ahead) - Vector3::from(behind)) / (2.0 * DIFFERENCE);
             let mut column = curvature.column_mut(k);
-            column += slope * (spring.rate * stretch);
+            column += slope * (elastic_line.rate * elongation);
         }
     }
     (curvature + curvature.transpose()) * 0.5
@@ -148,7 +149,11 @@ fn least_energy(body: &BodyOnElasticLines, start: State) -> Result<State, CaseEr
     let [mut damping, most] = DAMPING;
     let (mut least, mut gradient) = energy(body, &at);
     for _ in 0..STEPS {
-        let scale = body.springs.iter().map(|spring| spring.rate).sum::<f64>();
+        let scale = body
+            .elastic_lines
+            .iter()
+            .map(|elastic_line| elastic_line.rate)
+            .sum::<f64>();
         let second = curvature(body, &at);
         if gradient.amax() <= BALANCED * scale.max(1.0) {
             // A last Newton step reduces the error to rounding.

@@ -267,10 +267,10 @@ fn location<L: Lane>(bounced: &Bounced<L>, slant: L, moved: [L; 3]) -> L {
     // An error of the cable's direction displaces its end; but a cable that was closed at the start
     // has its end where the body is.
     let speed = before.velocity().length_bound();
-    let flown = before.vtheta.abs().mul_add(reach, speed) * s;
+    let travelled = before.vtheta.abs().mul_add(reach, speed) * s;
     let place = before.x.abs() + before.y.abs();
     let away = before.theta.abs().mul_add(reach, place);
-    let swung = (slant - 1.0) * L::select(L::ZERO.at_most(gap), flown, away);
+    let swung = (slant - 1.0) * L::select(L::ZERO.at_most(gap), travelled, away);
     let offs = [moved[0] * n.x, moved[1] * n.y, moved[2] * arm, swung];
     let known = gap_error * per_length * BOUND_OF_GAP;
     let mut square = known * known;
@@ -410,8 +410,8 @@ impl<L: Lane> Reach<L> {
         let turned = start.theta.abs().larger(end.theta.abs());
         let left = two_cables.rotation_limit - turned;
         let turns = L::ZERO.below(left) & (self.theta * SQUARE).below(left * left);
-        let bend = two_cables.vertical_acceleration_bound * s * s * 0.125;
-        let left = two_cables.level - (start.y.larger(end.y) + bend);
+        let bulge = two_cables.vertical_acceleration_bound * s * s * 0.125;
+        let left = two_cables.level - (start.y.larger(end.y) + bulge);
         let outline = two_cables.outline;
         let top = (outline * outline).mul_add(self.theta, self.height) * 2.0;
         turns & L::ZERO.below(left) & (top * SQUARE).below(left * left)

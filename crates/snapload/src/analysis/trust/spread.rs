@@ -131,7 +131,7 @@ impl Kernel for Carrying<'_> {
 }
 
 /// A bounce that some neighbours may not have, and the parts of their spread just before it.
-struct Asking<'a> {
+struct NeighbourCheck<'a> {
     monitor: &'a mut SpreadMonitor,
     simulation: &'a Simulation,
     step: &'a Step,
@@ -139,12 +139,12 @@ struct Asking<'a> {
     map: &'a BounceMap<f64>,
 }
 
-impl Kernel for Asking<'_> {
+impl Kernel for NeighbourCheck<'_> {
     type Output = ();
     #[inline(always)]
     fn run(self) {
         self.monitor
-            .ask_for_cause(self.simulation, self.step, self.before, self.map);
+            .check_neighbours(self.simulation, self.step, self.before, self.map);
     }
 }
 
@@ -305,7 +305,7 @@ impl SpreadMonitor {
         let through = followed.carry(bounced, map);
         if !through.within_tolerance && self.horizon.is_none() {
             let before = self.followed().before(bounced, map);
-            dispatch(Asking {
+            dispatch(NeighbourCheck {
                 monitor: self,
                 simulation,
                 step,
@@ -315,12 +315,12 @@ impl SpreadMonitor {
         }
         self.covariance.parts = followed.parts;
         let after = squares(&followed.parts.rows);
-        self.judge(step, &[through.met, after])
+        self.error_at_event(step, &[through.met, after])
     }
 
     /// Whether neighbours may have another event than a bounce, given the parts just before it.
     #[inline(always)]
-    fn ask_for_cause(
+    fn check_neighbours(
         &mut self,
         simulation: &Simulation,
         step: &Step,
@@ -381,12 +381,12 @@ impl SpreadMonitor {
         let squares = [squared(neighbours.met.sizes), squared(after.sizes())];
         self.covariance = after;
         self.too_large = self.covariance.exceeds_limit();
-        self.judge(step, &squares)
+        self.error_at_event(step, &squares)
     }
 
     /// The error at an event, from the variances just before and just after it.
     #[inline(always)]
-    fn judge(&mut self, step: &Step, [before, after]: &[Deviation; 2]) -> f64 {
+    fn error_at_event(&mut self, step: &Step, [before, after]: &[Deviation; 2]) -> f64 {
         let largest = larger(
             relative(before, &step.before, step.t_end),
             relative(after, &step.after, step.t_end),

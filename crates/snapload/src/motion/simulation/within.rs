@@ -21,8 +21,8 @@ use std::borrow::Cow;
 /// The number of instants along a step at which tensions are evaluated.
 const INSTANTS: usize = 17;
 
-/// The motion along a stretch.
-pub(in crate::motion) enum Stretch<'a, T: Real> {
+/// The motion along a segment.
+pub(in crate::motion) enum SegmentMotion<'a, T: Real> {
     /// In closed form: slack, under few sinusoids.
     Closed(Cow<'a, Flight<T>>),
     /// By a series: with taut cables, drag, afloat, with a mass other than the unit one, or under
@@ -30,8 +30,8 @@ pub(in crate::motion) enum Stretch<'a, T: Real> {
     Expanded(&'a Series<T>),
 }
 
-/// A gap to be looked at, by the best instructions for it.
-struct GapAndRate<'a, T: Real>(&'a Stretch<'a, T>, usize, T);
+/// A gap to be evaluated, by the best instructions for it.
+struct GapAndRate<'a, T: Real>(&'a SegmentMotion<'a, T>, usize, T);
 
 impl<T: Real> Kernel for GapAndRate<'_, T> {
     type Output = (T, T);
@@ -41,7 +41,7 @@ impl<T: Real> Kernel for GapAndRate<'_, T> {
     }
 }
 
-/// Tensions to be looked at, likewise.
+/// Tensions to be evaluated, likewise.
 struct TensionsWithin<'a, T: Real>(&'a Simulation<T>, &'a Step<T>, T);
 
 impl<T: Real> Kernel for TensionsWithin<'_, T> {
@@ -63,9 +63,9 @@ impl<T: Real> Kernel for TensionRanges<'_, T> {
     }
 }
 
-/// A state to be looked at, likewise.
+/// A state to be evaluated, likewise.
 pub(in crate::motion) struct StateAt<'a, T: Real>(
-    pub(in crate::motion) &'a Stretch<'a, T>,
+    pub(in crate::motion) &'a SegmentMotion<'a, T>,
     pub(in crate::motion) T,
 );
 
@@ -77,7 +77,7 @@ impl<T: Real> Kernel for StateAt<'_, T> {
     }
 }
 
-impl<T: Real> Stretch<'_, T> {
+impl<T: Real> SegmentMotion<'_, T> {
     /// The state a time `s` into it.
     #[inline(always)]
     pub(super) fn state(&self, s: T) -> State<T> {
@@ -107,7 +107,7 @@ impl<T: Real> Stretch<'_, T> {
 
     /// Bounds on ÿ, |ÿ| and |θ̈| along it.
     #[inline(always)]
-    pub(in crate::motion) fn bends(&self, system: &System<T>) -> [T; 3] {
+    pub(in crate::motion) fn acceleration_bounds(&self, system: &System<T>) -> [T; 3] {
         let forcing = &system.forcing;
         match self {
             Self::Closed(_) => [
@@ -162,7 +162,7 @@ impl<T: Real> Along<T> for LatestStep<'_, T> {
 }
 
 impl<T: Real> Simulation<T> {
-    /// The state a time `s` into the stretch that the latest step made.
+    /// The state a time `s` into the segment that the latest step made.
     #[inline(always)]
     pub(crate) fn within(&self, step: &Step<T>, s: T) -> State<T> {
         self.motion(step.taut).state(s)
@@ -178,7 +178,7 @@ impl<T: Real> Simulation<T> {
         memory
     }
 
-    /// The force of the water's memory a time `s` into the stretch that the latest step made.
+    /// The force of the water's memory a time `s` into the segment that the latest step made.
     #[inline(always)]
     pub(crate) fn memory_force_within(&self, step: &Step<T>, s: T) -> [T; 3] {
         match self.expanded(step.taut) {
@@ -193,16 +193,16 @@ impl<T: Real> Simulation<T> {
         self.waves.at(&self.system, t)
     }
 
-    /// The motion of the latest stretch.
+    /// The motion of the latest segment.
     #[inline(always)]
-    pub(super) fn motion(&self, taut: TautSet) -> Stretch<'_, T> {
+    pub(super) fn motion(&self, taut: TautSet) -> SegmentMotion<'_, T> {
         match self.expanded(taut) {
-            Some(series) => Stretch::Expanded(series),
-            None => Stretch::Closed(self.flown()),
+            Some(series) => SegmentMotion::Expanded(series),
+            None => SegmentMotion::Closed(self.latest_flight()),
         }
     }
 
-    /// The series of the latest stretch; none if that has a closed form.
+    /// The series of the latest segment; none if that has a closed form.
     #[inline(always)]
     fn expanded(&self, taut: TautSet) -> Option<&Series<T>> {
         let series = self.series.as_deref();
@@ -211,7 +211,7 @@ impl<T: Real> Simulation<T> {
 
     /// The flight of the latest step.
     #[inline(always)]
-    fn flown(&self) -> Cow<'_, Flight<T>> {
+    fn latest_flight(&self) -> Cow<'_, Flight<T>> {
         let Some(from) = &self.bounce_start else {
             return Cow::Borrowed(&self.flight);
         };
@@ -273,13 +273,13 @@ impl<T: Real> Simulation<T> {
         if s <= T::ZERO {
             return false;
         }
-        let bend = match self.expanded(step.taut) {
+        let acceleration = match self.expanded(step.taut) {
             Some(series) if series.gap_opens_from_rest(cable, s) => return false,
-            Some(series) => series.gap_bend(cable),
-            None => self.gap_bend(step, cable),
+            Some(series) => series.gap_acceleration_bound(cable),
+            None => self.gap_acceleration_bound(step, cable),
         };
         let first = self.contact_at_start(step, cable).gap;
-        if first.max(self.contacts[cable].gap) + margin + bend * s * s * 0.125 < T::ZERO {
+        if first.max(self.contacts[cable].gap) + margin + acceleration * s * s * 0.125 < T::ZERO {
             return false;
         }
         let (offset, slope) = if first < T::ZERO {
@@ -292,12 +292,12 @@ impl<T: Real> Simulation<T> {
             let (gap, rate) = dispatch_over::<T, _>(GapAndRate(&motion, cable, s));
             (gap + offset + slope * s, rate + slope)
         };
-        rises_above_zero(&nearness, s, bend)
+        rises_above_zero(&nearness, s, acceleration)
     }
 
     /// Bound on |g̈| = 2 |Ṗ² + d·P̈| along a flight.
     #[inline(always)]
-    fn gap_bend(&self, step: &Step<T>, cable: usize) -> T {
+    fn gap_acceleration_bound(&self, step: &Step<T>, cable: usize) -> T {
         let tether = &self.system.cables[cable];
         let (start, reach) = (&step.start, tether.fairlead().length());
         let spin = start.vtheta.abs();
@@ -322,8 +322,8 @@ impl<T: Real> Simulation<T> {
         let mut jets = Jets::new();
         let s = step.t_end - step.t_start;
         match self.motion(step.taut) {
-            Stretch::Closed(flight) => flight.jets_at(s, &mut jets),
-            Stretch::Expanded(series) => series.jets_at(s, &mut jets),
+            SegmentMotion::Closed(flight) => flight.jets_at(s, &mut jets),
+            SegmentMotion::Expanded(series) => series.jets_at(s, &mut jets),
         }
         let of_limit = jets
             .iter()

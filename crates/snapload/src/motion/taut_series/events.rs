@@ -4,7 +4,7 @@ use crate::arithmetic::polynomial::{ORDER, Polynomial};
 use crate::arithmetic::real::Real;
 use crate::motion::active_set::ActiveSet;
 use crate::motion::events::{EventFunction, HasEvents, Jet, Jets};
-use crate::motion::limits::{TautMotion, Watched};
+use crate::motion::limits::{EventSeries, TautMotion};
 use crate::motion::taut_series::Series;
 
 /// A tension that stays below this along a whole step counts as zero \[F\].
@@ -25,22 +25,22 @@ impl<T: Real> Series<T> {
 
     /// Chooses the event functions of the step; those that provably are not reached are left out.
     #[inline(always)]
-    pub(super) fn choose_watched(&mut self) {
+    pub(super) fn choose_event_series(&mut self) {
         let step = self.step;
-        self.watched.clear();
+        self.event_series.clear();
         let ActiveSet { taut, carrying } = self.active;
         let idle = |cable: usize| taut.contains(cable) && !carrying.contains(cable);
         for cable in (0..self.lines.len()).filter(|&cable| !idle(cable)) {
             let line = &self.lines[cable];
             let event = if carrying.contains(cable) {
-                Watched {
+                EventSeries {
                     function: EventFunction::Tension(cable),
                     series: line.tension.negated(),
                     order: ORDER - 2,
                     left_out: T::ZERO,
                 }
             } else {
-                Watched {
+                EventSeries {
                     function: EventFunction::Gap(cable),
                     series: line.gap,
                     order: ORDER,
@@ -53,7 +53,7 @@ impl<T: Real> Series<T> {
                 && event.series.derivative_bound(0, step, event.order)
                     <= T::from_decimal(ZERO_TENSION);
             if !nothing && !event.stays_negative(step) {
-                self.watched.push(event);
+                self.event_series.push(event);
             }
         }
         let motion = TautMotion {
@@ -62,7 +62,8 @@ impl<T: Real> Series<T> {
             step,
             left_out: self.left_out_of_motion(step),
         };
-        self.limits.watch_series(&motion, &mut self.watched);
+        self.limits
+            .add_event_series(&motion, &mut self.event_series);
     }
 
     #[inline(always)]
@@ -104,7 +105,7 @@ impl<T: Real> Series<T> {
 impl<T: Real> HasEvents<T> for Series<T> {
     #[inline(always)]
     fn jets_at(&self, s: T, jets: &mut Jets<T>) {
-        for event in &self.watched {
+        for event in &self.event_series {
             jets.push(match event.function {
                 EventFunction::Gap(cable) => self.gap_jet(cable, s),
                 other => {

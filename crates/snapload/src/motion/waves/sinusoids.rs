@@ -1,4 +1,4 @@
-//! The sinusoids of a system, each frequency once, and their sums over one stretch of time.
+//! The sinusoids of a system, each frequency once, and their sums over one time interval.
 
 use crate::arithmetic::polynomial::{ORDER, Polynomial};
 use crate::arithmetic::processor::Kernel;
@@ -43,10 +43,10 @@ pub(super) struct Sinusoids<T> {
     pub(super) half: T,
 }
 
-/// One stretch: the polynomial in u.
+/// One interval: the polynomial in u.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Stretch<T> {
-    /// The number of the stretch, counted from time zero; none before it is summed up.
+pub(super) struct TimeInterval<T> {
+    /// The number of the interval, counted from time zero; none before it is summed up.
     pub(super) index: Option<i64>,
     /// t_m.
     middle: T,
@@ -145,13 +145,13 @@ fn merged<T: Real>(mut each: Vec<Sinusoid<T>>) -> Vec<Sinusoid<T>> {
     each
 }
 
-/// A stretch to be summed up, by the best instructions for it.
+/// An interval to be summed up, by the best instructions for it.
 pub(super) struct Summing<'a, T>(pub(super) &'a Sinusoids<T>, pub(super) i64);
 
 impl<T: Real> Kernel for Summing<'_, T> {
-    type Output = Stretch<T>;
+    type Output = TimeInterval<T>;
     #[inline(always)]
-    fn run(self) -> Stretch<T> {
+    fn run(self) -> TimeInterval<T> {
         let Self(sinusoids, index) = self;
         let middle = sinusoids.half * ((index as f64 + 0.5) * 2.0);
         let mut terms = [[[T::ZERO; 4]; TERMS]; 2];
@@ -168,7 +168,7 @@ impl<T: Real> Kernel for Summing<'_, T> {
                 add(waves, quad, &turned, terms);
             }
         }
-        Stretch {
+        TimeInterval {
             index: Some(index),
             middle,
             quads: sinusoids.quads,
@@ -222,8 +222,8 @@ const SHARES: [f64; TERMS] = {
     shares
 };
 
-impl<T: Real> Stretch<T> {
-    /// A stretch that is not summed up yet.
+impl<T: Real> TimeInterval<T> {
+    /// An interval that is not summed up yet.
     pub(super) fn empty() -> Self {
         Self {
             index: None,
