@@ -61,7 +61,9 @@ def test_the_cells_are_those_of_the_command(command_json, tmp_path):
     assert np.repeat(basin.x.values, 8).tolist() == frame.x.tolist()
     assert basin.outcome.values.ravel().tolist() == frame.outcome.fillna("").tolist()
     np.testing.assert_array_equal(basin.t.values.ravel(), frame.t)
-    assert basin.decided.values.ravel().tolist() == frame.decided.tolist()
+    legal = basin.legal.values.ravel()
+    assert basin.decided.values.ravel()[legal].tolist() == frame.decided[legal].tolist()
+    assert frame.decided[~legal].isna().all()
     assert basin.trusted.values.ravel().tolist() == frame.trusted.tolist()
     meanings = dict(zip(basin.outcome_code.flag_values, basin.outcome_code.flag_meanings.split(), strict=True))
     assert [meanings[code].replace("not_legal", "") for code in basin.outcome_code.values.ravel()] == (

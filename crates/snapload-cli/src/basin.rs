@@ -165,7 +165,9 @@ fn cells(basin: &Basin) -> Vec<(&'static str, Values)> {
     let key = |axis: usize| numbers((0..count).map(|k| window.at(k)[axis]));
     let cells = || basin.cells.iter();
     let flags = |flag: fn(&snapload_orbits::Cell) -> bool| {
-        let of = |cell| basin.neighbours_run.then(|| flag(cell));
+        let of = |cell: &snapload_orbits::Cell| {
+            (basin.neighbours_run && cell.end.is_some()).then(|| flag(cell))
+        };
         Values::Flags(cells().map(of).collect())
     };
     vec![

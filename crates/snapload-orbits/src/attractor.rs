@@ -46,7 +46,7 @@ pub fn of_attractor(
         let exponent = exponent_text(largest.unwrap_or([f64::NAN; 2]));
         return Ok(Err(NoOrbit(format!(
             "the motion from this start repeats itself after no number of periods of the forcing up to \
-             {LONGEST_PERIOD}, judged by {ATTRACTOR_PERIODS} of them (largest Lyapunov exponent \
+             {LONGEST_PERIOD}, as its first {ATTRACTOR_PERIODS} show (largest Lyapunov exponent \
              {exponent}); search for unstable orbits with --find N, or look at snapload section"
         ))));
     };

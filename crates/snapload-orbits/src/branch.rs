@@ -131,12 +131,16 @@ impl Branch {
                 .min_by(|a, b| a.arclength.abs().total_cmp(&b.arclength.abs())),
         };
         found.ok_or_else(|| {
-            let name = kind.name().replace('_', " ");
+            let name = match kind {
+                Kind::NeimarkSacker => "Neimark-Sacker point".to_owned(),
+                other => other.name().replace('_', " "),
+            };
+            let wanted = number.map_or(String::new(), |number| format!(" number {number}"));
             let values: Vec<String> = all.iter().map(|e| format!("{:.6}", e.value[0])).collect();
             NoOrbit(match values.len() {
-                0 => format!("the branch has no {name} in its range; widen it"),
+                0 => format!("the branch has no {name} in its range; use a wider range"),
                 count => format!(
-                    "the branch has {count} of the kind {name} in its range, at {}",
+                    "there is no {name}{wanted}: the branch has {count} in its range, at {}",
                     values.join(", ")
                 ),
             })

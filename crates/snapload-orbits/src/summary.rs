@@ -361,7 +361,9 @@ pub fn attraction_summary(found: &Attraction) -> String {
             "Attractor {number}: {} cells, {}, {}",
             attractor.cells,
             periods(attractor.period),
-            symbol.unwrap_or_else(|| "orbit not found".to_owned())
+            symbol.map_or("orbit not found".to_owned(), |symbol| format!(
+                "symbol {symbol}"
+            ))
         );
     }
     let others = found

@@ -100,12 +100,12 @@ impl Probability {
     pub fn in_words(&self, text: &mut String) {
         let Passes { p05, p50, p95 } = self.passes;
         let from = |f_o: Option<f64>| match f_o {
-            Some(f_o) => format!("first at f_o = {f_o}"),
-            None => "nowhere".to_owned(),
+            Some(f_o) => f_o.to_string(),
+            None => "none".to_owned(),
         };
         let _ = writeln!(
             text,
-            "Ensemble  {} at each f_o; 5 % of them exceed a limit {}, 50 % {}, 95 % {}",
+            "Ensemble  {} at each f_o; the first f_o at which 5 % exceed a limit: {}, 50 %: {}, 95 %: {}",
             neighbours(self.members as usize),
             from(p05),
             from(p50),

@@ -29,7 +29,7 @@ Examples:
             "1",
             Kind::Count(1, MOST_DIGITS as u64),
             DefaultValue::Count(60),
-            "decimal digits to compute with, at least",
+            "decimal digits to compute with, at least: 76, 153 or 307 are",
         )
         .symbol("N"),
         TOLERANCE,
@@ -199,7 +199,8 @@ impl Verified {
 fn digits_left_in_words(found: &Verification) -> String {
     let (digits, left) = (found.digits, found.digits_left);
     if left >= 1.0 {
-        return format!("{left:.0} of the {digits} digits are left at the end");
+        let end = found.t;
+        return format!("{left:.0} of the {digits} digits are left at t = {end:.4}");
     }
     let needed = f64::from(digits) - left + 10.0;
     let advice = if needed <= f64::from(MOST_DIGITS) {

@@ -78,7 +78,7 @@ fn a_branch_begins_with_the_period_of_the_attractor() {
 
 #[test]
 fn a_doubling_that_is_not_there_is_refused() {
-    let one = "the branch has 1 of the kind period doubling in its range, at 1.680508";
+    let one = "the branch has 1 in its range, at 1.680508";
     for (switches, code, why) in [
         (&["fold"][..], 2, "write period_doubling"),
         (&["period_doubling:0"], 2, "write period_doubling"),
@@ -191,7 +191,7 @@ fn a_curve_that_can_not_be_is_refused() {
         (
             ["--follow", "fold:2", "--along", "f_o=1:2,e"],
             1,
-            "the branch has 1 of the kind fold",
+            "there is no fold number",
         ),
         (
             ["--follow", "ns", "--along", "f_o=1:2,e"],
