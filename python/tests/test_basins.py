@@ -64,7 +64,7 @@ def test_the_cells_are_those_of_the_command(command_json, tmp_path):
     legal = basin.legal.values.ravel()
     assert basin.decided.values.ravel()[legal].tolist() == frame.decided[legal].tolist()
     assert frame.decided[~legal].isna().all()
-    assert basin.trusted.values.ravel().tolist() == frame.trusted.tolist()
+    assert basin.trusted.values.ravel()[legal].tolist() == frame.trusted[legal].tolist()
     meanings = dict(zip(basin.outcome_code.flag_values, basin.outcome_code.flag_meanings.split(), strict=True))
     assert [meanings[code].replace("not_legal", "") for code in basin.outcome_code.values.ravel()] == (
         basin.outcome.values.ravel().tolist()

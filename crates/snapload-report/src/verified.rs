@@ -202,11 +202,12 @@ fn digits_left_in_words(found: &Verification) -> String {
         let end = found.t;
         return format!("{left:.0} of the {digits} digits are left at t = {end:.4}");
     }
-    let needed = f64::from(digits) - left + 10.0;
-    let advice = if needed <= f64::from(MOST_DIGITS) {
-        format!("use --digits {needed:.0}")
+    // The next of the sizes that numbers have.
+    let next = (2 * digits + 1).min(MOST_DIGITS);
+    let advice = if next > digits {
+        format!("use --digits {next}")
     } else {
-        format!("{needed:.0} are needed, and at most {MOST_DIGITS} are possible")
+        format!("more than {MOST_DIGITS} are not possible")
     };
     format!("the {digits} digits are lost before the end; {advice}")
 }

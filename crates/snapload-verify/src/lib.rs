@@ -14,6 +14,7 @@
 //! # Ok::<(), Unfinished>(())
 //! ```
 
+mod digits_left;
 mod many_digits;
 mod verify;
 

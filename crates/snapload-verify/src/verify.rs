@@ -1,9 +1,8 @@
 //! Verification by more digits: the same motion again in multi-precision.
 
+use crate::digits_left::{Neighbour, difference, numbers, relative};
 use snapload::analysis::{OnProgress, Progress, Trust, Uncertainty, Unfinished, trusted_run};
-use snapload::{
-    Case, CaseError, Impact, Precise, Real, Simulation, State, Stop, Trajectory, Value,
-};
+use snapload::{Case, CaseError, Impact, Precise, Real, Simulation, Stop, Trajectory, Value};
 
 /// The most digits that [`verify`] can compute with.
 pub const MOST_DIGITS: u32 = Precise::<16>::DIGITS;
@@ -13,7 +12,8 @@ pub const MOST_DIGITS: u32 = Precise::<16>::DIGITS;
 pub struct Verification {
     /// Decimal digits with which the second run was computed.
     pub digits: u32,
-    /// The digits of these that are still right at its end, after its own growth of errors.
+    /// The digits of these that are still right at its end, as a neighbour shows that differs in
+    /// the last digits of its coefficients.
     pub digits_left: f64,
     /// The ordinary run.
     pub run: Trajectory,
@@ -93,21 +93,23 @@ fn with_words<const WORDS: usize>(
     let mut differences = Vec::new();
     let mut first_wrong = None;
     let mut impacts = Vec::new();
-    let mut decimals = Decimals::of(&trust, Precise::<WORDS>::DIGITS);
+    let mut neighbour = Neighbour::<WORDS>::new(case, &trust);
     let t_end = case.parameters().t_end;
     while let Some(step) = simulation.step() {
         let stuck = simulation.stop().is_none() && !step.taut_after.is_empty();
         for exact in step.impacts() {
             match run.impacts().get(impacts.len()) {
                 Some(ours) if ours.cable == exact.cable => {
-                    differences.push(difference(ours, &exact))
+                    let ours = numbers(ours).map(Precise::from_f64);
+                    differences.push(difference(ours, numbers(&exact)));
                 }
                 _ => {
                     first_wrong.get_or_insert(impacts.len() + 1);
                 }
             }
-            let left = decimals.at(impacts.len(), exact.t.to_f64());
-            impacts.push(ExactImpact::new(&exact, left));
+            // Two digits are kept in reserve for the roundings on the way.
+            let decimals = (neighbour.compare(&exact) - 2.0).max(0.0) as usize;
+            impacts.push(ExactImpact::new(&exact, decimals));
         }
         let t = simulation.time().to_f64();
         Progress::new("computing with many digits", t, t_end).report(on_progress)?;
@@ -125,7 +127,7 @@ fn with_words<const WORDS: usize>(
     }
     Ok(Verification {
         digits: Precise::<WORDS>::DIGITS,
-        digits_left: decimals.digits_left(impacts.len(), simulation.time().to_f64()),
+        digits_left: neighbour.left(),
         run,
         trust,
         differences,
@@ -146,53 +148,9 @@ fn ends_otherwise<T: Real>(
 ) -> bool {
     let ours = run.end();
     exact.stop().is_some_and(|stop| {
-        let alike = stop == ours.reason && relative(ours.t, exact.time()) <= tolerance;
+        let alike = stop == ours.reason && relative(T::from_f64(ours.t), exact.time()) <= tolerance;
         run.impacts().len() != impacts || !alike
     })
-}
-
-/// The number of decimals of a run with many digits that remain after the growth of errors.
-struct Decimals<'a> {
-    trust: &'a Trust,
-    digits: f64,
-    /// The digits that are lost.
-    lost: f64,
-    /// The digits that the ordinary run loses per unit of time, up to the last impact at which its
-    /// error is known.
-    rate: f64,
-}
-
-impl<'a> Decimals<'a> {
-    fn of(trust: &'a Trust, digits: u32) -> Self {
-        Self {
-            trust,
-            digits: f64::from(digits),
-            lost: 0.0,
-            rate: 0.0,
-        }
-    }
-
-    /// The digits that remain at an impact, by its index, or at a time after the last one: those
-    /// that the ordinary run has lost up to there are also lost in the run with many digits. After
-    /// the ordinary one has lost all, errors grow as fast as they did until then, or by its mean
-    /// exponent if that is larger.
-    fn digits_left(&mut self, impact: usize, t: f64) -> f64 {
-        let errors = &self.trust.errors;
-        let known = errors.get(impact).filter(|error| error.is_finite());
-        let known = known.map(|error| (error / f64::EPSILON).log10());
-        if let Some(growth) = known.filter(|_| t > 0.0) {
-            self.rate = growth / t;
-        }
-        let mean = self.trust.exponents[0] * std::f64::consts::LOG10_E;
-        let growth = known.unwrap_or(self.rate * t);
-        self.lost = self.lost.max(growth).max(mean * t);
-        self.digits - self.lost
-    }
-
-    /// The number of decimals at an impact.
-    fn at(&mut self, impact: usize, t: f64) -> usize {
-        (self.digits_left(impact, t) - 2.0).max(0.0) as usize
-    }
 }
 
 impl ExactImpact {
@@ -204,21 +162,6 @@ impl ExactImpact {
             impulse: impact.impulse.to_decimals(decimals),
         }
     }
-}
-
-fn difference<T: Real>(ours: &Impact, exact: &Impact<T>) -> f64 {
-    let states = |ours: &State, exact: &State<T>| {
-        let pairs = ours.components().into_iter().zip(exact.components());
-        pairs.map(|(a, b)| relative(a, b)).fold(0.0, f64::max)
-    };
-    relative(ours.t, exact.t)
-        .max(states(&ours.before, &exact.before))
-        .max(states(&ours.after, &exact.after))
-}
-
-fn relative<T: Real>(ours: f64, exact: T) -> f64 {
-    let difference = (T::from_f64(ours) - exact).to_f64().abs();
-    difference / exact.to_f64().abs().max(1.0)
 }
 
 #[cfg(test)]

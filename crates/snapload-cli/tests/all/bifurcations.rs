@@ -196,7 +196,7 @@ fn a_curve_that_can_not_be_is_refused() {
         (
             ["--follow", "ns", "--along", "f_o=1:2,e"],
             1,
-            "along f_o: the branch has no neimark sacker",
+            "along f_o: the branch has no Neimark-Sacker point",
         ),
     ] {
         let d = directory();
