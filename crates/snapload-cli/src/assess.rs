@@ -8,6 +8,7 @@ use crate::structure_input::{ReadStructure, StructureArgs};
 use snapload::analysis::Progress;
 use snapload_structure::note::{self, Source};
 use snapload_structure::{DEFAULT_NEIGHBOURS, NEIGHBOURS, STRUCTURE, assess};
+use std::fmt::Write;
 use std::path::PathBuf;
 
 const EXAMPLES: &str = include_str!("../help/assess.txt").trim_ascii_end();
@@ -57,7 +58,10 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
             false => note::scan(structure, &on_progress)?,
         };
         drop(bar);
-        let command = args.input.command("assess");
+        let mut command = args.input.command("assess");
+        if args.neighbours != DEFAULT_NEIGHBOURS {
+            let _ = write!(command, " --neighbours {}", args.neighbours);
+        }
         let source = Source {
             name: &name,
             command: &command,

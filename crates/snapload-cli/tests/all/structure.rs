@@ -48,7 +48,7 @@ fn assess_answers_in_a_few_lines_a_page_and_json() {
     assert!(
         page.contains("Assumptions")
             && page.contains("<svg")
-            && page.contains("--set 'run.duration=120'")
+            && page.contains("--set 'run.duration=120' --neighbours 4")
     );
     assert!(!page.contains("http://www.w3.org/1999/xlink") && !page.contains("<script"));
     let json: serde_json::Value =
