@@ -18,7 +18,7 @@ mod operations;
 /// the heap and are cloned, so that every formula of the motion would be full of clones; here they
 /// are kept in an array of fixed size, so that this type is copied as a double is. Sums, products,
 /// comparisons and quotients by doubles, of which a motion mostly consists, are computed in the
-/// array itself: a run takes a third of the time that it takes with those of the crate.
+/// array itself: a run takes a quarter of the time that it takes with those of the crate.
 ///
 /// Libraries considered: `rug` (MPFR) is faster but needs a C compiler and the LGPL; `f256` is
 /// limited to 71 digits; `astro-float` has had no release for a long time. `dashu-float` is plain
