@@ -181,8 +181,12 @@ impl Verified {
             ),
             None => writeln!(
                 text,
-                "Compared  correct to {tolerance:e} at all {} impacts",
-                found.differences.len()
+                "Compared  correct to {tolerance:e} at {}",
+                match found.differences.len() {
+                    0 => "the end, without impacts".to_owned(),
+                    1 => "the only impact".to_owned(),
+                    count => format!("all {count} impacts"),
+                }
             ),
         };
         let _ = writeln!(

@@ -58,3 +58,17 @@ pub fn labelled_row(label: &str, text: &str) -> String {
 pub(crate) fn kilo_or_not_known(newtons: &Option<f64>) -> String {
     newtons.map_or("not known".to_owned(), |newtons| kilo(&newtons, 0))
 }
+
+#[cfg(test)]
+mod tests {
+    use super::ratio;
+
+    #[test]
+    fn a_ratio_is_written_on_its_side_of_one() {
+        let written = [0.74, 0.996, 0.9977, 0.99999, 1.0, 1.001].map(|value| ratio(&value));
+        assert_eq!(
+            written,
+            ["0.74", "0.996", "0.998", "0.99999", "1.00", "1.00"]
+        );
+    }
+}

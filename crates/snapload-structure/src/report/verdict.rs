@@ -29,7 +29,7 @@ pub enum VerdictKind {
     /// A tension or a breaking load is not known.
     Unknown,
     /// A rule is violated on which the tensions depend, so that another command has to decide. Or a
-    /// line would break only before the judged time.
+    /// line would break only before the judged time, or only in neighbours of the run.
     Open,
 }
 
@@ -327,10 +327,7 @@ impl Assessment {
             return verdict;
         }
         let structure = &self.prepared.structure;
-        let fails = |outcome: &Outcome| {
-            let parts = outcome.utilisations(structure);
-            outcome.stop.exceeds() || parts.into_iter().flatten().any(|part| part >= 1.0)
-        };
+        let fails = |outcome: &Outcome| outcome.fails(structure) == Some(true);
         let failing = self.neighbours.iter().filter(|n| fails(n)).count();
         if failing > 0 {
             verdict.standing = VerdictKind::Open;

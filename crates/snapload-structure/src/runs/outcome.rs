@@ -122,6 +122,13 @@ impl Outcome {
         })
     }
 
+    /// Whether a line breaks in the judged time, the body turns over or touches the floor; none if
+    /// a tension or a breaking load is not known.
+    pub(crate) fn fails(&self, structure: &Structure) -> Option<bool> {
+        let all: Option<Vec<f64>> = self.utilisations(structure).into_iter().collect();
+        Some(self.stop.exceeds() || all?.into_iter().any(|part| part >= 1.0))
+    }
+
     /// The largest tension of each line divided by its breaking load, if that is known.
     pub fn utilisations(&self, structure: &Structure) -> Vec<Option<f64>> {
         let one = |(outcome, line): (&LineOutcome, &crate::structure::LineSi)| {

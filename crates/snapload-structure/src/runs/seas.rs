@@ -214,18 +214,15 @@ impl Seas {
     /// The share of records in which a line's breaking load is reached, or the body turns over or
     /// touches the floor; none if tensions or breaking loads are not known.
     pub fn failing(&self) -> Option<Share> {
-        let failed: Option<Vec<bool>> = self.outcomes().map(|one| self.fails(one)).collect();
+        let failed: Option<Vec<bool>> = self
+            .outcomes()
+            .map(|one| one.fails(&self.prepared.structure))
+            .collect();
         failed.map(|failed| Share {
             count: failed.iter().filter(|failed| **failed).count(),
             of: self.records.len(),
             clear: false,
         })
-    }
-
-    fn fails(&self, outcome: &Outcome) -> Option<bool> {
-        let all = outcome.utilisations(&self.prepared.structure).into_iter();
-        let all: Option<Vec<f64>> = all.collect();
-        Some(outcome.stop.exceeds() || all?.into_iter().any(|u| u >= 1.0))
     }
 
     /// The number of records in which a line would break before the judged time, and none after
@@ -234,7 +231,7 @@ impl Seas {
         let structure = &self.prepared.structure;
         self.outcomes()
             .filter(|outcome| outcome.breaks_early(structure))
-            .filter(|outcome| self.fails(outcome) == Some(false))
+            .filter(|outcome| outcome.fails(&self.prepared.structure) == Some(false))
             .count()
     }
 
