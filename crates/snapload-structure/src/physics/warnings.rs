@@ -22,7 +22,8 @@ const URSELL: f64 = 26.0;
 const KEULEGAN: f64 = 5.0;
 /// A body larger than this part of the wave length scatters the waves.
 const DIFFRACTION: f64 = 0.2;
-/// Lines with more than this part of the moving mass are not massless.
+/// Lines with more than this part of the moving mass are not massless, and lines whose weight is more
+/// than this part of the net buoyancy are not weightless.
 const LIGHT: f64 = 0.1;
 /// The largest plausible ratio of the body's length across the plane and its width, or the reverse.
 const PROPORTION: f64 = 100.0;
@@ -107,13 +108,19 @@ pub fn warnings(prepared: &ModelAtRest) -> Vec<Warning> {
     found.into_iter().flatten().collect()
 }
 
-/// The warning that the mass of lines is not negligible.
+/// The warning that the mass of lines, or their weight in air, is not negligible.
 fn heavy_lines(structure: &Structure) -> Option<Warning> {
     let lines = structure.lines.iter();
     let masses = lines.filter_map(|line| Some(line.mass_per_length_kg_m? * line.length_m));
+    let mass = masses.sum::<f64>();
     let [along, up] = structure.body.moving_mass_kg();
-    let part = masses.sum::<f64>() / along.min(up);
-    warning_if_above(LIGHT, part, "light lines", "")
+    let of_mass = mass / along.min(up);
+    // A body that floats on its own leaves the lines slack at rest.
+    let buoyancy_n = Some(structure.net_buoyancy_n()).filter(|newtons| *newtons > 0.0);
+    let of_buoyancy =
+        buoyancy_n.map_or(0.0, |newtons| mass * structure.site.gravity_m_s2 / newtons);
+    let is = of_mass > LIGHT || of_buoyancy > LIGHT;
+    warning_if(is, "light lines", [of_mass, of_buoyancy], "")
 }
 
 /// The rules of a floating body: those of its coefficients, of its position of rest, of the waves

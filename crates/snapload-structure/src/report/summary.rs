@@ -16,7 +16,7 @@ use crate::runs::outcome::Outcome;
 use crate::runs::quantile::{quantile, slack_part};
 use crate::runs::seas::{Lines, Seas};
 use crate::structure::{Structure, Water};
-use crate::text_layout::{count, decimals, kilo, lay_out, ratio, tenths};
+use crate::text_layout::{count, decimals, digits, kilo, lay_out, ratio, tenths};
 use askama::Template;
 
 /// The number of pulls and snaps that are listed; JSON has them all.
@@ -215,7 +215,7 @@ fn troughs_text(sorted_n: &[f64]) -> String {
 fn pull_text(pull: &Pull) -> String {
     let rebound = pull
         .rebound_m_s
-        .map_or("-".to_owned(), |speed| format!("{speed:.2}"));
+        .map_or("-".to_owned(), |speed| digits(&speed, 2));
     format!(
         // A blank before each column, so that long numbers do not run together.
         "  {:>4} {:>7.3} {:>7.3} {:>7} {:>7} {rebound:>9}",

@@ -97,7 +97,8 @@ struct TrustText<'a> {
     horizon_s: Option<f64>,
     /// The unit of length, L.
     length_m: f64,
-    spread_kn: Option<[f64; 3]>,
+    /// The quantiles of the neighbours' largest tensions, as they are shown.
+    spread_kn: Option<[String; 3]>,
     /// Whether no line snaps in any of the neighbours.
     snapless: bool,
     /// Whether the neighbours' peaks differ by more than rounding.
@@ -359,7 +360,7 @@ impl Assessment {
             snapless: spread.is_some() && self.neighbours.iter().all(|n| n.peak_n().is_none()),
             horizon_s: self.horizon_s(),
             length_m: self.prepared.model.scales.length_m,
-            spread_kn: spread.map(|spread| spread.map(|newtons| newtons / 1e3)),
+            spread_kn: spread.map(|spread| spread.map(|newtons| kilo(&newtons, 0))),
             count: self.neighbours.len(),
             failing: self.neighbours.iter().filter(|n| n.stop.exceeds()).count(),
             irregular: matches!(self.prepared.structure.water, Water::Sea(_)),

@@ -113,6 +113,11 @@ impl Outcome {
         self.lines.iter().map(|line| line.snaps).sum()
     }
 
+    /// Whether snaps of other lines load a line while it is taut.
+    pub(crate) fn has_impacts_while_taut(&self) -> bool {
+        self.lines.iter().any(|line| line.impacts_while_taut > 0)
+    }
+
     /// Whether a line would break before the judged time.
     pub fn breaks_early(&self, structure: &Structure) -> bool {
         let mut lines = self.lines.iter().zip(&structure.lines);

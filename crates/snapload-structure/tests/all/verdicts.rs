@@ -377,3 +377,33 @@ fn elastic_lines_hold_the_body_under_water() {
         "{message}"
     );
 }
+
+/// The weight of lines is compared with the buoyancy, by hand: 2 lines of 6 m and 1500 kg/m.
+#[test]
+fn lines_whose_weight_matters_are_warned_of() {
+    let text = EXAMPLE.replace("[[line]]", "[[line]]\nmass_per_length = 1500");
+    assert!(!rules(EXAMPLE).contains(&"light lines"));
+    let assessment = assess(structure(&text), 0, &no_progress).unwrap();
+    let warning = assessment.warnings.iter().find(|w| w.rule == "light lines");
+    let mass = 2.0 * 6.0 * 1500.0;
+    let of_mass = 100.0 * mass / (72452.0 + 144904.0);
+    let of_buoyancy = 100.0 * mass / (1025.0 * 141.37 - 72452.0);
+    let message = &warning.unwrap().message;
+    for part in [format!("{of_mass:.2} %"), format!("{of_buoyancy:.0} %")] {
+        assert!(message.contains(&part), "{message}");
+    }
+}
+
+/// Neighbours that agree to the digits shown have one peak, not a range of equal ends.
+#[test]
+fn equal_peaks_of_neighbours_are_one_number() {
+    for count in [2, 12] {
+        let assessment = assess(structure(EXAMPLE), count, &no_progress).unwrap();
+        let peaks = assessment.neighbours.iter().map(|n| n.peak_n().unwrap());
+        let all: Vec<String> = peaks.map(|peak| format!("{:.0}", peak / 1e3)).collect();
+        assert!(all.iter().all(|peak| *peak == all[0]), "{all:?}");
+        let words = assessment.trust_text();
+        assert!(words.contains(&format!("{} kN", all[0])), "{words}");
+        assert!(!words.contains(&format!("{} to", all[0])), "{words}");
+    }
+}
