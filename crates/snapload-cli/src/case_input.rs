@@ -108,6 +108,14 @@ pub(crate) fn add_case_defaults(entries: &mut Entries, code: &str) -> Result<(),
 
 fn read_file(schema: &'static Schema, path: &Path) -> Result<Entries, Failure> {
     let (text, shown) = (read_text(path)?, path.display().to_string());
+    if snapload::table_names(&text)
+        .iter()
+        .any(|name| name == "vary")
+    {
+        let what = "this is the file of a study, as it has [vary]";
+        let hint = format!("write snapload sweep {shown} --out study.parquet");
+        return Err(CaseError::syntax(what).with_hint(hint).at(shown).into());
+    }
     #[cfg(feature = "structure")]
     if snapload_structure::is_structure(&text) {
         let what = "this is the case of a structure in metres and kilograms";

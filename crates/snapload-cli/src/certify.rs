@@ -172,9 +172,14 @@ fn run_check(args: &Args, path: &Path) -> Result<(), Failure> {
     let mut pending = PendingOutputs::default();
     let json = args.json.open(&mut pending)?;
     let begun = Instant::now();
+    let shown = path.display().to_string();
     let verdict = match read_up_to(path, LARGEST, "larger than 1 GiB") {
         Ok(text) => check(&text),
-        Err(Failure::BadInput(why)) => Verdict::Malformed(why),
+        Err(Failure::BadInput(why)) => {
+            // The words below name the file, too.
+            let why = why.strip_prefix(&format!("{shown}: ")).unwrap_or(&why);
+            Verdict::Malformed(why.to_owned())
+        }
         Err(other) => return Err(other),
     };
     let seconds = begun.elapsed().as_secs_f64();
@@ -187,7 +192,6 @@ fn run_check(args: &Args, path: &Path) -> Result<(), Failure> {
         Verdict::Undecided(why) => ("undecided", None, None, Some(why.as_str())),
         Verdict::Malformed(why) => ("no certificate", None, None, Some(why.as_str())),
     };
-    let shown = path.display();
     let row = Row {
         verdict: word,
         impacts,

@@ -39,6 +39,10 @@ fn bad_files_are_refused_with_the_line() {
             b"[run]\nr = 1.5\n",
             &["bad.toml, line 1", "leave out the line [run]"],
         ),
+        (
+            b"r = 1.5\n[vary]\ne = [0.1, 0.2]\n",
+            &["bad.toml", "study", "snapload sweep bad.toml"],
+        ),
         (b"h = 1.2\n", &["bad.toml, line 1", "derived"]),
         (
             b"a = 0.2\nr = 0.8\n",

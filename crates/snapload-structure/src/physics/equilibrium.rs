@@ -121,6 +121,15 @@ impl Equilibrium {
         self.tension_n.iter().map(known).collect()
     }
 
+    /// The tension of each inextensible line at rest, with which the motion on them is computed
+    /// \[N\].
+    pub(crate) fn inextensible_tensions_n(&self) -> &[f64] {
+        match &self.by_stiffness {
+            Some(by_stiffness) => &by_stiffness.inextensible_n,
+            None => &self.tension_n,
+        }
+    }
+
     /// Distributes the load of a floating body that is held by more lines than necessary with the
     /// least sum of squares, as for a submerged one.
     pub(super) fn distribute_by_least_squares(&mut self, model: &Model) {

@@ -106,7 +106,7 @@ fn modes_on_inextensible_lines(prepared: &ModelAtRest) -> Vec<NaturalMode> {
     let (rest, model) = (&prepared.rest, &prepared.model);
     let at = model.at_rest(rest.place_m, rest.theta_rad);
     let pulls: Vec<f64> = rest
-        .tension_n
+        .inextensible_tensions_n()
         .iter()
         .map(|tension| tension / model.scales.force_n)
         .collect();

@@ -17,9 +17,9 @@ pub(crate) struct WavesOfTension {
 }
 
 impl WavesOfTension {
-    /// For every line of a body at rest.
+    /// For every line of a body at rest, by the tensions about which the motion goes.
     pub(crate) fn of_lines(rest: &Equilibrium) -> Vec<Self> {
-        rest.tension_n
+        rest.inextensible_tensions_n()
             .iter()
             .map(|rest_n| Self::new(*rest_n))
             .collect()

@@ -242,13 +242,10 @@ struct Tensions {
 
 impl Tensions {
     fn new(prepared: &ModelAtRest, outcome: &Outcome, line: usize) -> Self {
-        let of_line = &outcome.lines[line];
+        let (of_line, rest) = (&outcome.lines[line], &prepared.rest);
         Self {
-            // Both of inextensible lines, if those would share the load differently.
-            rest_n: match &prepared.rest.by_stiffness {
-                Some(by_stiffness) => Some(by_stiffness.inextensible_n[line]),
-                None => prepared.rest.known_tensions_n()[line],
-            },
+            // Of inextensible lines, like the tensions of the run.
+            rest_n: rest.rests.then(|| rest.inextensible_tensions_n()[line]),
             largest_n: of_line.largest_n(),
             least_n: of_line.least_n,
         }

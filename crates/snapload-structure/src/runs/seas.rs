@@ -161,10 +161,15 @@ impl Seas {
         self.outcomes().map(Outcome::speed_m_s).collect()
     }
 
-    /// The number of records in which no line snaps.
+    /// The number of records that ended before the judged time, of which nothing is known.
+    pub(crate) fn unjudged(&self) -> usize {
+        self.outcomes().filter(|one| one.is_unjudged()).count()
+    }
+
+    /// The number of judged records in which no line snaps.
     pub(crate) fn without_snaps(&self) -> usize {
-        let speeds = self.speeds_m_s();
-        speeds.iter().filter(|speed| **speed == 0.0).count()
+        let judged = self.outcomes().filter(|one| !one.is_unjudged());
+        judged.filter(|one| one.speed_m_s() == 0.0).count()
     }
 
     /// The distribution of the largest tension in three hours, if all records are long enough to

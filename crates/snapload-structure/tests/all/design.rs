@@ -130,6 +130,33 @@ fn the_cylinder_swings_as_others_found() {
     assert!((taut.expect("a period") / slowest.expect("a period") - 1.0).abs() < 1e-5);
 }
 
+/// Where elastic lines share the load differently, the periods on inextensible lines are still
+/// those of inextensible lines: N^T K N - ω² N^T M N with their tensions and their place of rest, in
+/// NumPy, gives 8.178 s. They do not depend on the stiffness.
+#[test]
+fn periods_on_inextensible_lines_do_not_depend_on_their_stiffness() {
+    let lines = "[[line]]\nanchor = [6, -20]\nfairlead = [1, -7]\nlength = 13.93\nstiffness = 6e6\n\
+        [[line]]\nanchor = [-1, -20]\nfairlead = [-1, -7]\nlength = 13.2\nstiffness = 4e5\n\
+        [site]\ndepth = 20\n[run]\nrestitution = 0.5\n";
+    let (body, _) = CYLINDER.split_once("[[line]]").expect("lines");
+    let text = body.replace("[0, -3.5]", "[0, -6]") + lines;
+    let mut structure = structure(&text);
+    let soft = ModelAtRest::new(structure.clone()).expect("a start");
+    assert!(soft.rest.by_stiffness.is_some());
+    for line in &mut structure.lines {
+        line.stiffness_n = None;
+    }
+    let unknown = ModelAtRest::new(structure).expect("a start");
+    for prepared in [&soft, &unknown] {
+        let found = NaturalPeriods::of(prepared).expect("submerged");
+        let [period] = periods_s(&found.inextensible)[..] else {
+            panic!("two lines leave one freedom: {found:?}");
+        };
+        let period = period.expect("a period");
+        assert!((period - 8.178).abs() < 5e-4, "{period}");
+    }
+}
+
 fn assessed(design: &str) -> Assessment {
     let text = format!("{CYLINDER}\nduration = 120\n[design]\n{design}\n");
     assess(structure(&text), 2, &no_progress).expect("an answer")
