@@ -41,7 +41,8 @@ pub use runs::elastic_comparison::{ElasticComparison, Inextensible, compare_elas
 pub use runs::motion::MotionSi;
 pub use runs::outcome::{LineOutcome, Outcome};
 pub use runs::quantile::quantile;
-pub use runs::seas::{Lines, SeaOutcome, Seas, seas};
+pub use runs::seas::{Failing, Lines, SeaOutcome, Seas, seas};
+pub use runs::three_hours::NoDistribution;
 pub use schema::{STRUCTURE, is_structure};
 pub use snapload_hydro::wave_number;
 pub use structure::{

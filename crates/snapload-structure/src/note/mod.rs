@@ -14,12 +14,13 @@ use crate::physics::model_at_rest::ModelAtRest;
 use crate::physics::periods::periods_text;
 use crate::physics::snap::Snap;
 use crate::physics::warnings::Warning;
-use crate::report::{Verdict, VerdictKind, end_text};
+use crate::report::{Verdict, end_text};
 use crate::runs::assess::Assessment;
 use crate::runs::design::Check;
 use crate::runs::seas::{Lines, Seas};
+use crate::runs::three_hours::NoDistribution;
 use crate::structure::Structure;
-use crate::text_layout::{digits, kilo, kilo_or_not_known, tenths};
+use crate::text_layout::{digits, kilo, kilo_or_not_known, ratio, tenths};
 use askama::Template;
 use inputs::resistance;
 use snapload_figures::{FigureError, Picture};
@@ -123,11 +124,7 @@ pub fn page(
         layout: layout::of(prepared)?,
         prepared,
         elastic: false,
-        class: match verdict.standing {
-            VerdictKind::Holds => "holds",
-            VerdictKind::Breaks | VerdictKind::Exceeds => "fails",
-            VerdictKind::Unknown | VerdictKind::Open => "open",
-        },
+        class: verdict.standing.class(),
         note: assessment,
         structure: &prepared.structure,
         verdict,
@@ -185,12 +182,7 @@ pub fn seas_page(source: Source<'_>, seas: &Seas) -> Result<String, FigureError>
         layout: layout::of(&seas.prepared)?,
         prepared: &seas.prepared,
         elastic: seas.lines == Lines::Elastic,
-        class: match seas.failing() {
-            _ if seas.is_open() => "open",
-            None => "open",
-            Some(share) if share.count > 0 => "fails",
-            Some(_) => "holds",
-        },
+        class: seas.standing().class(),
         seas,
         structure: &seas.prepared.structure,
         slack: seas.slack_fractions(),
@@ -216,17 +208,21 @@ impl askama::filters::Escaper for Escaper {
 }
 
 fn part_or_not_known(part: &Option<f64>) -> String {
-    part.map_or("not known".to_owned(), |part| format!("{part:.2}"))
+    part.map_or("not known".to_owned(), |part| ratio(&part))
+}
+
+fn value_or_not_known(value: &Option<f64>) -> String {
+    value.map_or("not known".to_owned(), |value| format!("{value:.3}"))
 }
 
 /// The mean and the values that 50, 90 and 99 % stay below.
-fn expected(fit: Option<Gumbel>, unit: f64, digits: usize) -> [String; 4] {
+fn expected(fit: Result<Gumbel, NoDistribution>, unit: f64, digits: usize) -> [String; 4] {
     let cell = |estimate: Estimate| estimate.text_with_error(unit, digits);
     match fit {
-        Some(fit) => {
+        Ok(fit) => {
             let [half, most, nearly_all] = [0.5, 0.9, 0.99].map(|p| cell(fit.quantile(p)));
             [cell(fit.mean()), half, most, nearly_all]
         }
-        None => ["not known", "", "", ""].map(str::to_owned),
+        Err(_) => ["not known", "", "", ""].map(str::to_owned),
     }
 }

@@ -305,15 +305,16 @@ pub(super) fn of_seas(seas: &Seas) -> Result<[Picture; 2], FigureError> {
     let peaks = seas.largest_n();
     let (all, fit, unit, label) = match &peaks {
         Some(_) => {
-            let fit = seas.peak_in_three_hours();
+            let fit = seas.peak_in_three_hours().ok();
             (seas.all_peaks_n(), fit, 1e3, "tension (kN)")
         }
         None => {
-            let fit = seas.speed_in_three_hours();
+            let fit = seas.speed_in_three_hours().ok();
             (seas.all_speeds_m_s(), fit, 1.0, "speed of the snap (m/s)")
         }
     };
-    let largest = sorted(peaks.unwrap_or_else(|| seas.speeds_m_s()).into_iter());
+    let largest = peaks.unwrap_or_else(|| seas.speeds_m_s());
+    let largest = sorted(largest.into_iter().flatten());
     let count = largest.len() as f64;
     let on_paper = |(rank, value): (usize, &f64)| {
         let below = (rank as f64 + 0.56) / (count + 0.12);

@@ -254,6 +254,7 @@ pub(super) fn rest_afloat(
                 taut: Vec::new(),
                 indeterminate: false,
                 by_stiffness: None,
+                not_on_elastic_lines: false,
                 elastic_tension_n: None,
             };
             return Ok((equilibrium, Vec::new()));
@@ -275,6 +276,7 @@ pub(super) fn rest_afloat(
         tension_n: place.tension_n,
         indeterminate: false,
         by_stiffness: None,
+        not_on_elastic_lines: false,
         elastic_tension_n: None,
     };
     Ok((equilibrium, natural.into_iter().zip(modes).collect()))

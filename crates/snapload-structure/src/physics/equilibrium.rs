@@ -49,6 +49,8 @@ pub struct Equilibrium {
     /// The tensions of a floating body's elastic lines, if their sum differs and the lines
     /// share it in the same proportions \[N\].
     pub elastic_tension_n: Option<Vec<f64>>,
+    /// Whether the body has no such place on elastic lines of the stiffness given.
+    pub not_on_elastic_lines: bool,
 }
 
 /// The tensions on inextensible lines, and the position on elastic lines.
@@ -92,6 +94,7 @@ pub fn equilibrium(structure: &Structure) -> Result<Equilibrium, CaseError> {
         rests: true,
         indeterminate: dependent(system, &taut, &best),
         by_stiffness: None,
+        not_on_elastic_lines: false,
         elastic_tension_n: None,
         taut,
     })

@@ -81,9 +81,11 @@ impl ModelAtRest {
     /// Takes the tensions at rest from the stiffness of the lines if that is known and lines that
     /// do not stretch would distribute the load differently.
     fn distribute_by_stiffness(&mut self) {
-        let elastic_case =
-            undamped(self, 1.0).and_then(|elastic_lines| self.with_elastic_lines(&elastic_lines));
-        let Ok(elastic_case) = elastic_case else {
+        let Ok(elastic_lines) = undamped(self, 1.0) else {
+            return;
+        };
+        let Ok(elastic_case) = self.with_elastic_lines(&elastic_lines) else {
+            self.rest.not_on_elastic_lines = true;
             return;
         };
         let by_stiffness = elastic_case.rest.tension_n;

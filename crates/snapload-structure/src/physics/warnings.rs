@@ -49,14 +49,18 @@ pub struct Warning {
     /// The command that decides, if the tensions of inextensible lines are not reliable.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub decided_by: Option<&'static str>,
+    /// Whether they are not, so that the verdict is open.
+    #[serde(skip)]
+    pub leaves_open: bool,
 }
 
-/// The command that decides if a rule is violated on which the tensions of inextensible lines
-/// depend.
-fn decided_by(rule: &str) -> Option<&'static str> {
+/// Whether a rule is violated on which the tensions of inextensible lines depend, and the command
+/// that decides, if one does.
+fn decided_by(rule: &str) -> (bool, Option<&'static str>) {
     match rule {
-        "instant snap" | "shared loads" => Some("snapload elastic"),
-        _ => None,
+        "instant snap" | "shared loads" => (true, Some("snapload elastic")),
+        "rest on elastic lines" => (true, None),
+        _ => (false, None),
     }
 }
 
@@ -72,10 +76,12 @@ struct Message<'a> {
 /// The warning of a rule with its two numbers and its text, if it is violated.
 fn warning_if(is: bool, rule: &'static str, [a, b]: [f64; 2], words: &str) -> Option<Warning> {
     let message = Message { rule, a, b, words };
+    let (leaves_open, decided_by) = decided_by(rule);
     is.then(|| Warning {
         rule,
         message: paragraph(&message),
-        decided_by: decided_by(rule),
+        decided_by,
+        leaves_open,
     })
 }
 
@@ -96,6 +102,8 @@ pub fn warnings(prepared: &ModelAtRest) -> Vec<Warning> {
     let half = body.height_m / 2.0;
     let mut found = vec![
         distribution_warning(rest),
+        no_elastic_rest(rest),
+        soft_lines_in_still_water(prepared),
         warning_if(top > 0.0, "submergence", [top, 0.0], ""),
         warning_if(top <= 0.0 && -top < half, "free surface", [-top, 0.0], ""),
         warning_if(above_floor < half, "floor", [above_floor, 0.0], ""),
@@ -132,6 +140,7 @@ fn warnings_afloat(prepared: &ModelAtRest, afloat: &Afloat) -> Vec<Warning> {
         rule: warning.what,
         message: warning.message.clone(),
         decided_by: None,
+        leaves_open: false,
     });
     let body = &structure.body;
     let heave = rest.place_m[1] - body.position_m[1];
@@ -148,6 +157,8 @@ fn warnings_afloat(prepared: &ModelAtRest, afloat: &Afloat) -> Vec<Warning> {
     };
     let mut found = vec![
         distribution_warning(rest),
+        no_elastic_rest(rest),
+        soft_lines_in_still_water(prepared),
         stretch_at_rest(rest),
         warning_if(elsewhere, "place of rest", [heave, degrees], again),
         warning_if(deep, "deep water", [structure.site.depth_m, 0.0], ""),
@@ -214,6 +225,22 @@ fn distribution_warning(rest: &Equilibrium) -> Option<Warning> {
     });
     let is = rest.indeterminate || words.is_some();
     warning_if(is, "shared loads", [0.0; 2], &words.unwrap_or_default())
+}
+
+/// The warning that elastic lines of the stiffness given hold the body nowhere at rest.
+fn no_elastic_rest(rest: &Equilibrium) -> Option<Warning> {
+    let is = rest.not_on_elastic_lines;
+    warning_if(is, "rest on elastic lines", [0.0; 2], "")
+}
+
+/// The warning that lines are too soft for a motion in still water, by the scale of its time, 2πT.
+fn soft_lines_in_still_water(prepared: &ModelAtRest) -> Option<Warning> {
+    let structure = &prepared.structure;
+    let moves = structure.start_m.is_some() && matches!(structure.water, Water::Still);
+    let scale_s = 2.0 * PI * prepared.model.scales.time_s;
+    let soft = soft_lines(prepared, scale_s);
+    let is = moves && !soft.is_empty();
+    warning_if(is, "instant snap", [scale_s, 1.0], &soft)
 }
 
 /// The warning that the lines of a floating body carry a different load if they are elastic.
@@ -300,8 +327,8 @@ fn in_waves(
 }
 
 /// The engine's snap takes no time; a line of spring rate k takes half a period, π sqrt(m/k) with
-/// the effective mass m that it stops. Lists the lines for which that is more than a tenth of the
-/// waves' period.
+/// the effective mass m that it stops. Lists the lines for which that is more than a tenth of a
+/// period.
 fn soft_lines(prepared: &ModelAtRest, period_s: f64) -> String {
     let lines = prepared.structure.lines.iter().enumerate();
     let soft = lines.filter_map(|(index, line)| {

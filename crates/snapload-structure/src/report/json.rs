@@ -11,7 +11,7 @@ use crate::runs::assess::Assessment;
 use crate::runs::elastic_comparison::ElasticComparison;
 use crate::runs::outcome::Outcome;
 use crate::runs::quantile::{quantile, slack_part};
-use crate::runs::seas::{SeaOutcome, Seas};
+use crate::runs::seas::Seas;
 use crate::structure::Structure;
 use serde_json::{Value, json};
 use snapload::Stop;
@@ -155,10 +155,6 @@ impl Seas {
                 "quantile_90": fit.quantile(0.9),
             })
         };
-        let fastest = |record: &SeaOutcome| {
-            let outcome = &record.outcome;
-            (!outcome.is_unjudged()).then(|| outcome.speed_m_s())
-        };
         let [crests, troughs] = self.crests_and_troughs_n();
         let quantiles = |sorted: &[f64]| {
             let at = |part| quantile(sorted, part);
@@ -176,9 +172,9 @@ impl Seas {
             "lines": self.lines,
             "records": self.records.len(),
             "words": self.words(),
-            "peak_tension_in_three_hours_n": self.peak_in_three_hours().map(gumbel),
-            "fastest_snap_in_three_hours_m_s": self.speed_in_three_hours().map(gumbel),
-            "probability": self.failing().map(|share| json!({
+            "peak_tension_in_three_hours_n": self.peak_in_three_hours().ok().map(gumbel),
+            "fastest_snap_in_three_hours_m_s": self.speed_in_three_hours().ok().map(gumbel),
+            "probability": self.probability().map(|share| json!({
                 "failing": share.count, "of": share.of, "part": share.part(),
                 "interval_95": share.interval(),
             })),
@@ -191,7 +187,7 @@ impl Seas {
             "troughs_n": troughs_row,
             "largest_tensions_n": self.largest_n(),
             "peaks_n": self.records.iter().map(|record| record.outcome.peak_n()).collect::<Vec<_>>(),
-            "fastest_m_s": self.records.iter().map(fastest).collect::<Vec<_>>(),
+            "fastest_m_s": self.speeds_m_s(),
         })
     }
 }

@@ -15,6 +15,7 @@ use crate::runs::elastic_comparison::ElasticComparison;
 use crate::runs::outcome::Outcome;
 use crate::runs::quantile::{quantile, slack_part};
 use crate::runs::seas::{Lines, Seas};
+use crate::runs::three_hours::NoDistribution;
 use crate::structure::{Structure, Water};
 use crate::text_layout::{count, decimals, digits, kilo, lay_out, ratio, tenths};
 use askama::Template;

@@ -1,19 +1,16 @@
 //! The verdict in words, and how far it can be trusted.
 
-use crate::physics::gumbel::Gumbel;
 use crate::physics::snap::SLOWEST_M_S;
 use crate::physics::warnings::Warning;
 use crate::runs::assess::Assessment;
 use crate::runs::elastic_comparison::ElasticComparison;
 use crate::runs::outcome::{LineOutcome, Outcome};
-use crate::runs::quantile::{quantile, sorted};
-use crate::runs::seas::Seas;
 use crate::structure::{Structure, Water};
 use crate::text_layout::{digits, kilo, paragraph, ratio, tenths};
 use askama::Template;
 use serde::Serialize;
 use snapload::Stop;
-use snapload::analysis::{HorizonCause, Share, Trust};
+use snapload::analysis::{HorizonCause, Trust};
 use std::cmp::Ordering;
 
 /// The kind of verdict.
@@ -42,6 +39,15 @@ impl VerdictKind {
             Self::Exceeds => "fails",
             Self::Unknown => "not known",
             Self::Open => "open",
+        }
+    }
+
+    /// The class of its colour on a page.
+    pub(crate) fn class(self) -> &'static str {
+        match self {
+            Self::Holds => "holds",
+            Self::Breaks | Self::Exceeds => "fails",
+            Self::Unknown | Self::Open => "open",
         }
     }
 }
@@ -83,8 +89,8 @@ struct VerdictText<'a> {
     worst: (usize, f64),
     transient_s: f64,
     early: Option<Early>,
-    /// The violated rules that leave the verdict open, and the command that decides.
-    open: Option<(String, &'static str)>,
+    /// The violated rules that leave the verdict open.
+    open: Option<OpenRules>,
     /// Whether the run ended before the judged time.
     unjudged: bool,
     elastic: bool,
@@ -108,37 +114,16 @@ struct TrustText<'a> {
     irregular: bool,
 }
 
-#[derive(Template)]
-#[template(path = "seas-words.txt")]
-struct SeasVerdictText {
-    /// The number of records in which a line would break only in the time that is not judged.
-    early: usize,
-    transient_s: f64,
-    fit: Option<Gumbel>,
-    exceeding: usize,
-    cut_short: usize,
-    /// The number of records in which no line snaps.
-    without_snaps: usize,
-    records: usize,
-    length_s: f64,
-    max_snaps: u64,
-    tensions_known: bool,
-    fastest_m_s: f64,
-    median_m_s: f64,
-    failing: Option<Share>,
-    /// The violated rules that leave the verdict open, and the command that decides.
-    open: Option<(String, &'static str)>,
-    /// Whether there are too few records for a fit, whatever their values.
-    few: bool,
-}
+/// The violated rules on which tensions depend, and the command that decides, if one does.
+pub(super) type OpenRules = (String, Option<&'static str>);
 
-/// The violated rules on which tensions depend, and the command that decides.
-fn undecided_by(warnings: &[Warning]) -> Option<(String, &'static str)> {
-    let deciding = warnings
-        .iter()
-        .filter_map(|w| Some((w.rule, w.decided_by?)));
-    let (rules, commands): (Vec<_>, Vec<_>) = deciding.unzip();
-    Some((rules.join(" and "), *commands.first()?))
+/// The violated rules that leave a verdict open.
+pub(super) fn undecided_by(warnings: &[Warning]) -> Option<OpenRules> {
+    let open = warnings.iter().filter(|warning| warning.leaves_open);
+    let (rules, commands): (Vec<_>, Vec<_>) = open.map(|w| (w.rule, w.decided_by)).unzip();
+    let all: Option<Vec<_>> = commands.into_iter().collect();
+    let command = all.and_then(|all| all.first().copied());
+    (!rules.is_empty()).then(|| (rules.join(" and "), command))
 }
 
 /// A load within the transient, which is not judged.
@@ -321,30 +306,49 @@ impl Assessment {
         self.with_neighbours_in(alone)
     }
 
-    /// A verdict that no line breaks does not stand if a line breaks in a neighbour, and says with
-    /// which restitution one would.
+    /// A verdict that no line breaks does not stand if a line breaks in a neighbour, and any verdict
+    /// says with which restitution the answer would be another.
     fn with_neighbours_in(&self, mut verdict: Verdict) -> Verdict {
-        if verdict.standing != VerdictKind::Holds {
-            return verdict;
-        }
+        let fails = match verdict.standing {
+            VerdictKind::Holds => false,
+            VerdictKind::Open if undecided_by(&self.warnings).is_none() => false,
+            VerdictKind::Breaks | VerdictKind::Exceeds => true,
+            VerdictKind::Open | VerdictKind::Unknown => return verdict,
+        };
         let structure = &self.prepared.structure;
-        let fails = |outcome: &Outcome| outcome.fails(structure) == Some(true);
-        let failing = self.neighbours.iter().filter(|n| fails(n)).count();
-        if failing > 0 {
-            verdict.standing = VerdictKind::Open;
+        let otherwise = |outcome: &Outcome| outcome.fails(structure) == Some(!fails);
+        let (in_neighbours, with_restitution) = match fails {
+            false => (
+                "a line would break or the mooring fail",
+                "a line would break or the mooring fail",
+            ),
+            true => (
+                "no line breaks and the mooring holds",
+                "no line would break and the mooring would hold",
+            ),
+        };
+        let differing = self.neighbours.iter().filter(|n| otherwise(n)).count();
+        if differing > 0 {
+            let so = match verdict.standing {
+                VerdictKind::Holds => {
+                    verdict.standing = VerdictKind::Open;
+                    ", so the verdict is open"
+                }
+                _ => "",
+            };
             verdict.words += &format!(
-                " In {failing} of {} neighbours a line would break or the mooring fail, so the verdict is open.",
+                " In {differing} of {} neighbours {in_neighbours}{so}.",
                 self.neighbours.len()
             );
         }
         let others = self
             .restitutions
             .iter()
-            .filter(|(_, outcome)| fails(outcome));
+            .filter(|(_, outcome)| otherwise(outcome));
         let others: Vec<String> = others.map(|(e, _)| format!("{e:.2}")).collect();
         if !others.is_empty() {
             verdict.words += &format!(
-                " With a restitution of {} a line would break or the mooring fail; the restitution must be known.",
+                " With a restitution of {} {with_restitution}; the restitution must be known.",
                 others.join(" or ")
             );
         }
@@ -364,44 +368,6 @@ impl Assessment {
             count: self.neighbours.len(),
             failing: self.neighbours.iter().filter(|n| n.stop.exceeds()).count(),
             irregular: matches!(self.prepared.structure.water, Water::Sea(_)),
-        })
-    }
-}
-
-impl Seas {
-    /// Whether a rule is violated on which tensions depend.
-    pub fn is_open(&self) -> bool {
-        undecided_by(&self.warnings).is_some()
-    }
-
-    /// The judged time, as the beginning of a sentence.
-    pub(crate) fn judged_text(&self) -> String {
-        let from = self.prepared.structure.transient_s;
-        match self.records.len() {
-            1 => format!("in the one record from {from:.0} s on"),
-            count => format!("in all {count} records from {from:.0} s on"),
-        }
-    }
-
-    /// The answer in a sentence or two.
-    pub fn words(&self) -> String {
-        let speeds = sorted(self.speeds_m_s().into_iter());
-        paragraph(&SeasVerdictText {
-            early: self.breaking_only_early(),
-            transient_s: self.prepared.structure.transient_s,
-            fit: self.peak_in_three_hours(),
-            exceeding: self.exceeding(),
-            cut_short: self.cut_short(),
-            without_snaps: self.without_snaps(),
-            records: self.records.len(),
-            length_s: self.prepared.structure.duration_s,
-            max_snaps: self.prepared.structure.max_snaps,
-            tensions_known: self.prepared.structure.tensions_known(),
-            fastest_m_s: speeds.last().copied().unwrap_or(0.0),
-            median_m_s: quantile(&speeds, 0.5).unwrap_or(0.0),
-            failing: self.failing(),
-            open: undecided_by(&self.warnings),
-            few: self.records.len() < Gumbel::FEWEST,
         })
     }
 }

@@ -295,10 +295,7 @@ impl Assessment {
 
     /// The checks by the rule of the case, and the neighbours that agree with each.
     pub fn checks(&self) -> Vec<(Check, usize)> {
-        let open = self
-            .warnings
-            .iter()
-            .any(|warning| warning.decided_by.is_some());
+        let open = self.warnings.iter().any(|warning| warning.leaves_open);
         let of = |outcome: &Outcome| checks(&self.prepared, outcome, open);
         let neighbours: Vec<Vec<Check>> = self.neighbours.iter().map(of).collect();
         let own = of(&self.outcome).into_iter().enumerate();

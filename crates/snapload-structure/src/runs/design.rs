@@ -18,7 +18,7 @@ use super::quantile::{quantile, sorted};
 use crate::physics::model_at_rest::ModelAtRest;
 use crate::structure::{Structure, Water};
 use serde::Serialize;
-use snapload::Harmonic;
+use snapload::{Harmonic, Stop};
 
 /// The criterion of a check.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
@@ -53,18 +53,21 @@ impl Criterion {
     }
 }
 
-/// The result of a check.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+/// The result of a check, the best first.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Answer {
     /// It passes.
     Passes,
-    /// It fails.
-    Fails,
-    /// A rule of thumb is violated on which the tensions depend.
-    Open,
+    /// It passes up to the end of a run that ended early, after which it might fail.
+    #[serde(rename = "unknown")]
+    Unfinished,
     /// A tension, a strength or a force is not known, or there is no judged time.
     Unknown,
+    /// A rule of thumb is violated on which the tensions depend.
+    Open,
+    /// It fails.
+    Fails,
 }
 
 impl Answer {
@@ -75,6 +78,7 @@ impl Answer {
             Self::Fails => "fails",
             Self::Open => "open",
             Self::Unknown => "not known",
+            Self::Unfinished => "not known, as the run ended early",
         }
     }
 
@@ -83,7 +87,7 @@ impl Answer {
         match self {
             Self::Passes => "holds",
             Self::Fails => "fails",
-            Self::Open | Self::Unknown => "open",
+            Self::Open | Self::Unknown | Self::Unfinished => "open",
         }
     }
 }
@@ -126,6 +130,14 @@ impl Check {
             answer,
         }
     }
+
+    /// The same of a run that ended so.
+    fn within(mut self, stop: Stop) -> Self {
+        if self.answer == Answer::Passes && stop != Stop::EndTime {
+            self.answer = Answer::Unfinished;
+        }
+        self
+    }
 }
 
 /// The checks of the lines and of the waves' force, from the outcome of a run.
@@ -137,13 +149,16 @@ pub(crate) fn checks(prepared: &ModelAtRest, outcome: &Outcome, open: bool) -> V
 /// One criterion over many records.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct RecordsCheck {
-    /// The check of the record with the worst value.
+    /// The check of the record with the worst result, and among those with the worst value.
     #[serde(flatten)]
     pub worst: Check,
     /// The median of its values over all records.
     pub median: Option<f64>,
     /// The number of records in which it passes.
     pub passing: usize,
+    /// The number of records of which it is not known whether it passes.
+    #[serde(skip)]
+    unknown: usize,
     /// The number of all records.
     pub of: usize,
 }
@@ -157,11 +172,19 @@ impl RecordsCheck {
 
     /// The words that are shown.
     pub(crate) fn words(&self) -> String {
+        let Self {
+            passing,
+            unknown,
+            of,
+            ..
+        } = self;
         match self.worst.answer {
-            Answer::Open | Answer::Unknown => self.worst.answer.words().to_owned(),
-            Answer::Passes | Answer::Fails => {
-                format!("passes in {} of {} records", self.passing, self.of)
+            Answer::Open => self.worst.answer.words().to_owned(),
+            _ if unknown == of => self.worst.answer.words().to_owned(),
+            _ if *unknown > 0 => {
+                format!("passes in {passing} of {of} records, not known in {unknown}")
             }
+            _ => format!("passes in {passing} of {of} records"),
         }
     }
 
@@ -171,20 +194,21 @@ impl RecordsCheck {
         let high = matches!(worst.criterion, Criterion::Strength | Criterion::WaveForce);
         for check in all() {
             let is_worse = match (worst.value, check.value) {
-                (None, _) => false,
-                (Some(_), None) => true,
                 (Some(before), Some(now)) if high => now > before,
                 (Some(before), Some(now)) => now < before,
+                _ => false,
             };
-            if is_worse {
+            if check.answer > worst.answer || check.answer == worst.answer && is_worse {
                 worst = check.clone();
             }
         }
         let known: Option<Vec<f64>> = all().map(|check| check.value).collect();
+        let count = |answers: &[Answer]| all().filter(|c| answers.contains(&c.answer)).count();
         Self {
             worst,
+            unknown: count(&[Answer::Unknown, Answer::Unfinished]),
             median: known.and_then(|known| quantile(&sorted(known.into_iter()), 0.5)),
-            passing: all().filter(|check| check.answer == Answer::Passes).count(),
+            passing: count(&[Answer::Passes]),
             of: records.len(),
         }
     }
@@ -198,8 +222,10 @@ pub(crate) fn line_checks(prepared: &ModelAtRest, outcome: &Outcome, open: bool)
     let of_line = |line: usize| {
         let tensions = Tensions::new(prepared, outcome, line);
         let load_n = structure.lines[line].breaking_load_n;
-        let check =
-            |criterion, value, limit| Check::new(criterion, Some(line + 1), value, limit, open);
+        let check = |criterion, value, limit| {
+            let check = Check::new(criterion, Some(line + 1), value, limit, open);
+            check.within(outcome.stop)
+        };
         let least = tensions.least_part();
         let strength = rule.strength.map(|factors| {
             check(

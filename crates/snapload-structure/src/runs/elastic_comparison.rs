@@ -100,7 +100,7 @@ impl ElasticComparison {
                 run.waterline.as_ref(),
                 run.turned_rad,
             ))
-            .filter(|warning| warning.decided_by.is_none())
+            .filter(|warning| !warning.leaves_open)
             .collect()
     }
 }

@@ -10,3 +10,4 @@ pub(crate) mod outcome;
 pub(crate) mod quantile;
 pub(crate) mod scan;
 pub(crate) mod seas;
+pub(crate) mod three_hours;

@@ -128,10 +128,16 @@ impl Outcome {
     }
 
     /// Whether a line breaks in the judged time, the body turns over or touches the floor; none if
-    /// a tension or a breaking load is not known.
+    /// no line is known to break, and the run ended early or a tension or a breaking load is not
+    /// known.
     pub(crate) fn fails(&self, structure: &Structure) -> Option<bool> {
-        let all: Option<Vec<f64>> = self.utilisations(structure).into_iter().collect();
-        Some(self.stop.exceeds() || all?.into_iter().any(|part| part >= 1.0))
+        let parts = self.utilisations(structure);
+        let breaks = parts.iter().flatten().any(|part| *part >= 1.0);
+        if breaks || self.stop.exceeds() {
+            return Some(true);
+        }
+        let whole = self.stop == Stop::EndTime && parts.iter().all(Option::is_some);
+        whole.then_some(false)
     }
 
     /// The largest tension of each line divided by its breaking load, if that is known.

@@ -5,7 +5,6 @@ use super::outcome::Outcome;
 use super::quantile::sorted;
 use crate::options::{SEEDS, check};
 use crate::physics::elastic::elastic_lines;
-use crate::physics::gumbel::Gumbel;
 use crate::physics::model_at_rest::ModelAtRest;
 use crate::physics::warnings::{
     Warning, limits_afloat, phase_warning, short_records, turning_warning, warnings,
@@ -38,6 +37,15 @@ pub struct Seas {
     pub lines: Lines,
     /// The outcomes in the order of the seeds.
     pub records: Vec<SeaOutcome>,
+}
+
+/// The numbers of records that fail, and of which that is not known.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Failing {
+    /// A line's breaking load is reached, or the body turns over or touches the floor.
+    pub count: usize,
+    /// They ended early, or a tension or a breaking load is not known.
+    pub unknown: usize,
 }
 
 /// The model of the lines.
@@ -81,8 +89,8 @@ pub fn seas(
     };
     let mut warnings = warnings(&reported);
     // Rules that are decided by elastic lines do not apply to them.
-    warnings.retain(|warning| lines == Lines::Inextensible || warning.decided_by.is_none());
-    let open = warnings.iter().any(|warning| warning.decided_by.is_some());
+    warnings.retain(|warning| lines == Lines::Inextensible || !warning.leaves_open);
+    let open = warnings.iter().any(|warning| warning.leaves_open);
     let counter = Counter::new("records", 0, count.into(), on_progress);
     let records = in_parallel(count as usize, |index| {
         let seed = sea.seed + index as u64;
@@ -144,99 +152,78 @@ impl Seas {
     }
 
     /// The outcome of every record.
-    fn outcomes(&self) -> impl Iterator<Item = &Outcome> {
+    pub(crate) fn outcomes(&self) -> impl Iterator<Item = &Outcome> {
         self.records.iter().map(|record| &record.outcome)
     }
 
-    /// The largest tension of each record, in a snap or while taut; none if tensions of snaps are
-    /// not known \[N\].
-    pub fn largest_n(&self) -> Option<Vec<f64>> {
-        let largest = self.outcomes().map(Outcome::largest_n);
+    /// The largest tension of each record, in a snap or while taut, and none for one that ended
+    /// before the judged time; none at all if tensions of snaps are not known \[N\].
+    pub fn largest_n(&self) -> Option<Vec<Option<f64>>> {
         let known = self.prepared.structure.tensions_known();
-        known.then(|| largest.collect())
+        known.then(|| self.of_judged(Outcome::largest_n))
     }
 
-    /// The fastest snap of each record \[m/s\].
-    pub fn speeds_m_s(&self) -> Vec<f64> {
-        self.outcomes().map(Outcome::speed_m_s).collect()
+    /// The fastest snap of each record; none for one that ended before the judged time \[m/s\].
+    pub fn speeds_m_s(&self) -> Vec<Option<f64>> {
+        self.of_judged(Outcome::speed_m_s)
     }
 
-    /// The number of records that ended before the judged time, of which nothing is known.
+    fn of_judged(&self, value: fn(&Outcome) -> f64) -> Vec<Option<f64>> {
+        let of = |one: &Outcome| (!one.is_unjudged()).then(|| value(one));
+        self.outcomes().map(of).collect()
+    }
+
+    /// The number of records that ended before the judged time.
     pub(crate) fn unjudged(&self) -> usize {
         self.outcomes().filter(|one| one.is_unjudged()).count()
     }
 
     /// The number of judged records in which no line snaps.
     pub(crate) fn without_snaps(&self) -> usize {
-        let judged = self.outcomes().filter(|one| !one.is_unjudged());
-        judged.filter(|one| one.speed_m_s() == 0.0).count()
+        let speeds = self.speeds_m_s();
+        speeds.iter().filter(|speed| **speed == Some(0.0)).count()
     }
 
-    /// The distribution of the largest tension in three hours, if all records are long enough to
-    /// have snaps, or none has any \[N\].
-    ///
-    /// A snap begins at twice the tension at rest. Records with snaps and without them therefore
-    /// have two distributions, to which one fit is of no use.
-    pub fn peak_in_three_hours(&self) -> Option<Gumbel> {
-        let mixed = (1..self.records.len()).contains(&self.without_snaps());
-        if mixed {
-            return None;
-        }
-        self.fit_for_three_hours(&self.largest_n()?)
-    }
-
-    /// The same of the fastest snap \[m/s\].
-    pub fn speed_in_three_hours(&self) -> Option<Gumbel> {
-        self.fit_for_three_hours(&self.speeds_m_s())
-    }
-
-    /// The number of records that ended early, for any reason.
-    pub(crate) fn cut_short(&self) -> usize {
-        self.outcomes()
-            .filter(|outcome| outcome.stop != Stop::EndTime)
-            .count()
+    /// The number of records that ended in one of some ways.
+    pub(crate) fn ended(&self, how: impl Fn(Stop) -> bool) -> usize {
+        self.outcomes().filter(|one| how(one.stop)).count()
     }
 
     /// Records in which the body turned over or touched the floor.
     pub(crate) fn exceeding(&self) -> usize {
-        self.outcomes()
-            .filter(|outcome| outcome.stop.exceeds())
-            .count()
+        self.ended(Stop::exceeds)
     }
 
-    /// A fit to records without snaps would be a fit to zeros, and one to records that ended early
-    /// would be for a shorter time.
-    fn fit_for_three_hours(&self, largest: &[f64]) -> Option<Gumbel> {
+    /// The records in which a line's breaking load is reached, or the body turns over or touches
+    /// the floor, and those of which that is not known.
+    pub fn failing(&self) -> Failing {
         let structure = &self.prepared.structure;
-        let judged = structure.duration_s - structure.transient_s;
-        let snapping = largest.iter().all(|value| *value > 0.0);
-        if judged <= 0.0 || !snapping || self.cut_short() > 0 {
-            return None;
+        let fails: Vec<Option<bool>> = self.outcomes().map(|one| one.fails(structure)).collect();
+        let count = |what: Option<bool>| fails.iter().filter(|fails| **fails == what).count();
+        Failing {
+            count: count(Some(true)),
+            unknown: count(None),
         }
-        Gumbel::fit(largest).map(|fit| fit.over_times(THREE_HOURS_S / judged))
     }
 
-    /// The share of records in which a line's breaking load is reached, or the body turns over or
-    /// touches the floor; none if tensions or breaking loads are not known.
-    pub fn failing(&self) -> Option<Share> {
-        let failed: Option<Vec<bool>> = self
-            .outcomes()
-            .map(|one| one.fails(&self.prepared.structure))
-            .collect();
-        failed.map(|failed| Share {
-            count: failed.iter().filter(|failed| **failed).count(),
+    /// The share of records that fail; none if that is not known of all, or a rule is violated on
+    /// which tensions depend.
+    pub fn probability(&self) -> Option<Share> {
+        let failing = self.failing();
+        (failing.unknown == 0 && !self.is_open()).then_some(Share {
+            count: failing.count,
             of: self.records.len(),
             clear: false,
         })
     }
 
-    /// The number of records in which a line would break before the judged time, and none after
-    /// that.
+    /// The number of records in which a line would break before the judged time, and which do not
+    /// fail after that.
     pub fn breaking_only_early(&self) -> usize {
         let structure = &self.prepared.structure;
         self.outcomes()
             .filter(|outcome| outcome.breaks_early(structure))
-            .filter(|outcome| outcome.fails(&self.prepared.structure) == Some(false))
+            .filter(|outcome| outcome.fails(structure) != Some(true))
             .count()
     }
 

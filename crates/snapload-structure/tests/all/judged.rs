@@ -3,6 +3,7 @@
 
 use crate::verdicts::{source, structure};
 use snapload::analysis::no_progress;
+use snapload::{Limit, State, Stop};
 use snapload_structure::note::{page, seas_page};
 use snapload_structure::{
     Answer, Lines, ModelAtRest, VerdictKind, Warning, assess, compare_elastic, seas,
@@ -377,4 +378,38 @@ fn slack_before_anything_is_judged_is_reported_as_such() {
         words.contains("No line goes slack except in the first 6 s, which are not judged."),
         "{words}"
     );
+}
+
+/// A body on two vertical tendons that the waves press onto the floor: on elastic lines, too, the run
+/// ends where its lower edge reaches the floor, before any sample below it.
+#[test]
+fn a_run_on_elastic_lines_ends_where_the_body_touches_the_floor() {
+    let line = |x: f64| {
+        format!(
+            "[[line]]\nanchor = [{x}, -20]\nfairlead = [{x}, -17]\nlength = 3\nstiffness = 1.2e9\n\
+             breaking_load = 1e7\nmass_per_length = 30\n"
+        )
+    };
+    let text = format!(
+        "[body]\nshape = \"rectangle\"\nwidth = 4\nheight = 3\ndisplaced_volume = 240\nmass = 150000\n\
+         added_mass = [150000, 150000, 300000]\nmoment_of_inertia = 400000\nposition = [0, -18.2]\n\
+         linear_damping = 30000\n{}{}[site]\ndepth = 20\n[wave]\nheight = 1.85\nperiod = 8\n[run]\n\
+         restitution = 0.5\nduration = 60\n",
+        line(2.0),
+        line(-2.0)
+    );
+    let prepared = ModelAtRest::new(structure(&text)).unwrap();
+    let comparison = compare_elastic(prepared, 1.0, 0.01, &no_progress).unwrap();
+    let run = &comparison.elastic;
+    assert_eq!(run.stop, Some(Stop::UpperBound));
+    let model = &comparison.elastic_case.model;
+    let below = |state: &State| {
+        let reached = Limit::UpperBound.quantity(&model.system, state);
+        reached - model.rules.limits.of(Limit::UpperBound).unwrap()
+    };
+    assert!(run.samples.len() > 1000);
+    let deepest = run.samples.iter().map(|sample| below(&sample.state));
+    assert!(deepest.fold(f64::MIN, f64::max) < 1e-9);
+    assert!(below(&run.end).abs() < 1e-9, "{}", below(&run.end));
+    assert_eq!(comparison.verdict().standing, VerdictKind::Exceeds);
 }

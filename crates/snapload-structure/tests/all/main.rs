@@ -16,5 +16,6 @@ mod manual;
 mod moordyn;
 mod moordyn_keys;
 mod physics;
+mod sea_verdicts;
 mod verdicts;
 mod waves;

@@ -84,8 +84,8 @@ fn what_a_line_holds_is_among_the_largest() {
         let each = lines
             .iter()
             .map(|l| l.largest_taut_n.max(l.peak_n.unwrap_or(0.0)));
-        assert_eq!(each.fold(0.0, f64::max), largest);
-        assert!(largest >= record.outcome.peak_n().unwrap_or(0.0));
+        assert_eq!(Some(each.fold(0.0, f64::max)), largest);
+        assert!(largest.unwrap() >= record.outcome.peak_n().unwrap_or(0.0));
     }
     // Without waves that make lines slack there is no snap, and all tensions are held.
     let calm = text.replace("hs = 1.2", "hs = 0.05");
@@ -103,10 +103,10 @@ fn what_a_line_holds_is_among_the_largest() {
             .all(|record| record.outcome.snaps() == 0)
     );
     assert!(
-        held.iter().all(|largest| *largest >= rest),
+        held.iter().all(|largest| largest.unwrap() >= rest),
         "{held:?} {rest}"
     );
-    assert!(calm.peak_in_three_hours().is_some());
+    assert!(calm.peak_in_three_hours().is_ok());
 }
 
 #[test]
@@ -166,7 +166,8 @@ fn a_sea_on_lines_that_stretch_decides() {
         assert_eq!(one.outcome.lines[line].largest_n(), Some(*peak));
     }
     let [crests, troughs] = result.crests_and_troughs_n();
-    let largest = result.largest_n().unwrap().into_iter().fold(0.0, f64::max);
+    let largest = result.largest_n().unwrap().into_iter().flatten();
+    let largest = largest.fold(0.0, f64::max);
     assert!(crests.len() == troughs.len() && crests.len() > 20);
     assert!(*crests.last().unwrap() <= largest && troughs[0] >= 0.0);
 }
@@ -340,32 +341,6 @@ fn a_line_that_breaks_in_a_neighbour_leaves_the_verdict_open() {
     assert!(!verdict.words.contains("is 1.00"), "{}", verdict.words);
 }
 
-/// Records with snaps and without them have two distributions, and one fit to both is refused.
-#[test]
-fn records_with_and_without_snaps_have_no_common_distribution() {
-    let text = SEA
-        .replace("[run]", "[run]\nduration = 240")
-        .replace("hs = 1.2", "hs = 0.35");
-    let result = seas(structure(&text), 12, Lines::Inextensible, &no_progress).unwrap();
-    let still = result
-        .speeds_m_s()
-        .iter()
-        .filter(|speed| **speed == 0.0)
-        .count();
-    assert!((1..12).contains(&still), "{still}");
-    assert!(result.peak_in_three_hours().is_none() && result.speed_in_three_hours().is_none());
-    let words = result.words();
-    assert!(
-        words.contains(&format!("In {still} of 12 records no line snaps")),
-        "{words}"
-    );
-    assert!(
-        result
-            .summary("case")
-            .contains("no distribution, as no line snaps")
-    );
-}
-
 /// Elastic lines on which a body would rest above the water are refused, as inextensible ones are.
 #[test]
 fn elastic_lines_hold_the_body_under_water() {
@@ -406,4 +381,47 @@ fn equal_peaks_of_neighbours_are_one_number() {
         assert!(words.contains(&format!("{} kN", all[0])), "{words}");
         assert!(!words.contains(&format!("{} to", all[0])), "{words}");
     }
+}
+
+/// Lines so soft that the body rises out of the water on them are not computed as inextensible
+/// without a word, in waves or without: the lines of the example carry 392 kN at rest, which is a
+/// stretch of 2.35 m at 1 MN, and the body's top is 2 m below the water.
+#[test]
+fn lines_on_which_the_body_does_not_rest_leave_the_verdict_open() {
+    let soft = EXAMPLE.replace("[[line]]", "[[line]]\nstiffness = 1e6\nbreaking_load = 1e9");
+    let slow = soft.replace("height = 2\nperiod = 6", "height = 0.5\nperiod = 40");
+    let (still, _) = soft.split_once("[wave]").unwrap();
+    let still = format!("{still}[run]\nrestitution = 0.5\nduration = 20\n");
+    for text in [&slow, &still] {
+        let assessment = assess(structure(text), 0, &no_progress).unwrap();
+        let verdict = assessment.verdict();
+        assert_eq!(verdict.standing, VerdictKind::Open);
+        assert!(
+            verdict.words.contains("see rest on elastic lines"),
+            "{}",
+            verdict.words
+        );
+        // The command that would decide refuses the case.
+        assert!(!verdict.words.contains("decides"), "{}", verdict.words);
+        let prepared = ModelAtRest::new(structure(text)).unwrap();
+        let decided = compare_elastic(prepared, 1.0, f64::INFINITY, &no_progress);
+        assert!(decided.is_err());
+    }
+    let stiff = soft.replace("stiffness = 1e6", "stiffness = 1e9");
+    assert!(!rules(&stiff).contains(&"rest on elastic lines"));
+}
+
+/// In still water a snap on soft lines lasts as long as in waves.
+#[test]
+fn soft_lines_are_soft_in_still_water_too() {
+    let start = "[run]\nrestitution = 0.5\nduration = 20\nstart = [0.6, -4.2]\n";
+    let in_still_water = |text: &str| text.split_once("[wave]").unwrap().0.to_owned() + start;
+    let assessment = assess(structure(&in_still_water(&soft(EXAMPLE))), 0, &no_progress).unwrap();
+    let warning = assessment
+        .warnings
+        .iter()
+        .find(|w| w.rule == "instant snap");
+    assert_eq!(warning.unwrap().decided_by, Some("snapload elastic"));
+    assert_eq!(assessment.verdict().standing, VerdictKind::Open);
+    assert!(!rules(&in_still_water(EXAMPLE)).contains(&"instant snap"));
 }

@@ -16,7 +16,7 @@ use crate::physics::model_at_rest::ModelAtRest;
 use differential_equations::ode::OrdinaryNumericalMethod;
 use differential_equations::prelude::{Error, ExplicitRungeKutta, Interpolation, ODE, Status};
 use snapload::analysis::{OnProgress, Progress, Unfinished};
-use snapload::{CaseError, State, Stop, TautSet};
+use snapload::{CaseError, Rules, State, Stop, System, TautSet};
 
 /// Tolerance of a step, relative and absolute, in the engine's units.
 const TOLERANCE: f64 = 1e-11;
@@ -54,9 +54,19 @@ const MOST_MEMORY: usize = 64;
 /// The motion with one set of pulling lines, from `begin` on.
 struct Phase<'a, const N: usize> {
     body: &'a BodyOnElasticLines<'a>,
+    rules: &'a Rules,
     begin: f64,
     pulling: TautSet,
     longest_step: f64,
+}
+
+/// What ends a phase.
+#[derive(Clone, Copy)]
+enum Change {
+    /// A line begins or ceases to pull.
+    Line(usize),
+    /// A limit of the motion is reached.
+    Limit(Stop),
 }
 
 /// The state among the components.
@@ -143,15 +153,29 @@ impl<'a, const N: usize> Phase<'a, N> {
         None
     }
 
-    /// Follows the phase until a line changes, or for a time; returns the time, the components
-    /// there, and the line.
+    /// The change that a state is beyond, if any.
+    fn beyond(&self, state: &State, fresh: &mut TautSet) -> Option<Change> {
+        let line = self.changed(state, fresh).map(Change::Line);
+        line.or_else(|| exceeded(self.body.system, self.rules, state).map(Change::Limit))
+    }
+
+    /// Whether a state is not yet beyond a change.
+    fn is_before(&self, change: Change, state: &State) -> bool {
+        match change {
+            Change::Line(line) => self.until_change(line, state) > 0.0,
+            Change::Limit(_) => exceeded(self.body.system, self.rules, state).is_none(),
+        }
+    }
+
+    /// Follows the phase until a line changes or a limit is reached, or for a time; returns the
+    /// time, the components there, and the change.
     fn follow(
         &self,
         time: f64,
         start: Components<N>,
         fresh: &mut TautSet,
         record: &mut PullRecorder<'_>,
-    ) -> Result<(f64, Components<N>, Option<usize>), CaseError> {
+    ) -> Result<(f64, Components<N>, Option<Change>), CaseError> {
         let mut steps = self.steps([0.0, time], start)?;
         while steps.advance()? {
             let (before, now) = (steps.method.t_prev(), steps.method.t());
@@ -162,12 +186,12 @@ impl<'a, const N: usize> Phase<'a, N> {
                     continue;
                 };
                 let state = state_of(&y);
-                if let Some(line) = self.changed(&state, fresh) {
-                    let s = steps.locate(line, last, s);
+                if let Some(change) = self.beyond(&state, fresh) {
+                    let s = steps.locate(change, last, s);
                     steps.keep_samples(s, record)?;
                     // The dense output is less exact than the steps.
                     let reached = self.at(s, before, steps.method.y_prev())?;
-                    return Ok((s, reached, Some(line)));
+                    return Ok((s, reached, Some(change)));
                 }
                 steps.keep_samples(s, record)?;
                 record.add(self.begin + s, &state, self.pulling);
@@ -216,12 +240,12 @@ impl<M: Method<N>, const N: usize> Steps<'_, M, N> {
         Ok(())
     }
 
-    /// When a line changes, by bisection on the dense output.
-    fn locate(&mut self, line: usize, mut low: f64, mut high: f64) -> f64 {
+    /// When a change occurs, by bisection on the dense output.
+    fn locate(&mut self, change: Change, mut low: f64, mut high: f64) -> f64 {
         while high - low > f64::EPSILON * high.abs().max(1.0) {
             let middle = 0.5 * (low + high);
             let state = self.method.interpolate(middle).map(|y| state_of(&y));
-            if state.is_ok_and(|state| self.phase.until_change(line, &state) > 0.0) {
+            if state.is_ok_and(|state| self.phase.is_before(change, &state)) {
                 low = middle;
             } else {
                 high = middle;
@@ -232,7 +256,7 @@ impl<M: Method<N>, const N: usize> Steps<'_, M, N> {
 }
 
 /// Runs a structure on elastic lines, to the end of its duration or until it is turned by a
-/// quarter. The state is kept at every multiple of `every_s` and at the end, or nowhere if that is
+/// quarter or touches the floor. The state is kept at every multiple of `every_s` and at the end, or nowhere if that is
 /// infinite.
 ///
 /// # Errors
@@ -274,40 +298,47 @@ fn run<const N: usize>(
     let mut pulling = body.pulling(&state);
     record.change(t, &state, TautSet::SLACK, pulling);
     record.add(t, &state, pulling);
-    let end = prepared.model.rules.t_end;
-    while t < end && exceeded(prepared, &state).is_none() {
-        Progress::new("elastic lines", t, end).report(on_progress)?;
+    let (rules, system) = (&prepared.model.rules, &prepared.model.system);
+    let mut stop = exceeded(system, rules, &state);
+    while t < rules.t_end && stop.is_none() {
+        Progress::new("elastic lines", t, rules.t_end).report(on_progress)?;
         let longest_step = STEP / body.quickest(&state, pulling);
-        let until = end.min(t + LONGEST_SLACK_CALL.min(STEPS_PER_CHECK * longest_step));
+        let until = rules
+            .t_end
+            .min(t + LONGEST_SLACK_CALL.min(STEPS_PER_CHECK * longest_step));
         let phase = Phase {
             body,
+            rules,
             begin: t,
             pulling,
             longest_step,
         };
         let (s, reached, changed) = phase.follow(until - t, components, &mut fresh, &mut record)?;
         (components, state) = (reached, state_of(&reached));
-        let Some(line) = changed else {
-            t = until;
-            continue;
-        };
-        let before = pulling;
-        pulling = match pulling.contains(line) {
-            true => pulling.without(line),
-            false => pulling.with(line),
-        };
-        (t, fresh) = (t + s, fresh.with(line));
-        record.add(t, &state, before);
-        record.change(t, &state, before, pulling);
+        t = if changed.is_some() { t + s } else { until };
+        match changed {
+            None => {}
+            Some(Change::Limit(limit)) => {
+                stop = Some(limit);
+                record.add(t, &state, pulling);
+            }
+            Some(Change::Line(line)) => {
+                let before = pulling;
+                pulling = match pulling.contains(line) {
+                    true => pulling.without(line),
+                    false => pulling.with(line),
+                };
+                fresh = fresh.with(line);
+                record.add(t, &state, before);
+                record.change(t, &state, before, pulling);
+            }
+        }
     }
-    let stop = exceeded(prepared, &state);
     Ok(record.finish(t, state, pulling, stop))
 }
 
-/// The limit that a state exceeds, as for inextensible lines. It is checked from time to
-/// time, so that a run may end a little late.
-fn exceeded(prepared: &ModelAtRest, state: &State) -> Option<Stop> {
-    let (system, rules) = (&prepared.model.system, &prepared.model.rules);
+/// The limit that a state reaches, as for inextensible lines.
+fn exceeded(system: &System, rules: &Rules, state: &State) -> Option<Stop> {
     let mut limits = rules.limits.iter();
     let beyond = limits.find(|(limit, bound)| limit.quantity(system, state) >= *bound);
     beyond.map(|(limit, _)| limit.stop())

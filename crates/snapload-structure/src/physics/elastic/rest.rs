@@ -68,6 +68,7 @@ impl ModelAtRest {
             tension_n,
             indeterminate: false,
             by_stiffness: None,
+            not_on_elastic_lines: false,
             elastic_tension_n: None,
         };
         let structure = self.structure.clone();

@@ -1,0 +1,87 @@
+//! The verdict on many records of a sea, in words.
+
+use super::verdict::{OpenRules, VerdictKind, undecided_by};
+use crate::physics::gumbel::Gumbel;
+use crate::runs::outcome::Outcome;
+use crate::runs::quantile::{quantile, sorted};
+use crate::runs::seas::{Failing, Seas};
+use crate::runs::three_hours::NoDistribution;
+use crate::text_layout::{digits, paragraph, tenths};
+use askama::Template;
+use snapload::Stop;
+use snapload::analysis::Share;
+
+#[derive(Template)]
+#[template(path = "seas-words.txt")]
+struct SeasVerdictText {
+    /// The number of records in which a line would break only in the time that is not judged.
+    early: usize,
+    transient_s: f64,
+    fit: Result<Gumbel, NoDistribution>,
+    records: usize,
+    length_s: f64,
+    fastest_m_s: f64,
+    median_m_s: f64,
+    failing: Failing,
+    probability: Option<Share>,
+    /// Whether records ended early of which it is therefore not known whether they fail.
+    cut_short: bool,
+    /// The violated rules that leave the verdict open.
+    open: Option<OpenRules>,
+}
+
+impl Seas {
+    /// Whether a rule is violated on which tensions depend.
+    pub fn is_open(&self) -> bool {
+        undecided_by(&self.warnings).is_some()
+    }
+
+    /// The judged records and time, as a part of a sentence.
+    pub(crate) fn judged_text(&self) -> String {
+        let from = tenths(&self.prepared.structure.transient_s);
+        match (self.records.len(), self.unjudged()) {
+            (1, _) => format!("in the one record from {from} s on"),
+            (count, 0) => format!("in all {count} records from {from} s on"),
+            (count, unjudged) => format!(
+                "in the {} of {count} records that last longer than {from} s, from then on",
+                count - unjudged
+            ),
+        }
+    }
+
+    /// The kind of verdict.
+    pub fn standing(&self) -> VerdictKind {
+        let failing = self.failing();
+        if self.is_open() {
+            VerdictKind::Open
+        } else if failing.count > 0 {
+            VerdictKind::Breaks
+        } else if failing.unknown > 0 {
+            VerdictKind::Unknown
+        } else if self.breaking_only_early() > 0 {
+            VerdictKind::Open
+        } else {
+            VerdictKind::Holds
+        }
+    }
+
+    /// The answer in a sentence or two.
+    pub fn words(&self) -> String {
+        let speeds = sorted(self.speeds_m_s().into_iter().flatten());
+        let structure = &self.prepared.structure;
+        let cut_short = |one: &Outcome| one.fails(structure).is_none() && one.stop != Stop::EndTime;
+        paragraph(&SeasVerdictText {
+            early: self.breaking_only_early(),
+            transient_s: structure.transient_s,
+            fit: self.peak_in_three_hours(),
+            records: self.records.len(),
+            length_s: structure.duration_s,
+            fastest_m_s: speeds.last().copied().unwrap_or(0.0),
+            median_m_s: quantile(&speeds, 0.5).unwrap_or(0.0),
+            failing: self.failing(),
+            probability: self.probability(),
+            cut_short: self.outcomes().any(cut_short),
+            open: undecided_by(&self.warnings),
+        })
+    }
+}

@@ -1,0 +1,155 @@
+//! The distribution of the largest load of a sea in three hours, or why none is given.
+
+use super::seas::Seas;
+use crate::physics::gumbel::Gumbel;
+use crate::structure::THREE_HOURS_S;
+use snapload::Stop;
+use std::fmt;
+
+/// Why no distribution of a largest value in three hours is given.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum NoDistribution {
+    /// The body turns over or touches the floor in so many of the records.
+    Exceeds(usize, usize),
+    /// So many of the records ended after more snaps than allowed.
+    CutShort(usize, usize, u64),
+    /// Tensions of snaps are not known.
+    TensionsUnknown,
+    /// A line snaps in some of the records, and in so many of them none does.
+    SomeWithoutSnaps(usize, usize),
+    /// There are too few records.
+    TooFew(usize),
+    /// No line snaps in any of the records.
+    NoSnaps,
+    /// No line snaps in the records, but one may go slack within three hours, and then snap.
+    MaySnap,
+    /// All records have the same largest value.
+    AllEqual,
+}
+
+impl fmt::Display for NoDistribution {
+    /// The end of a sentence that begins with "no distribution is given, as".
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let longer = "run longer records (run.duration)";
+        match self {
+            Self::Exceeds(count, of) => write!(
+                f,
+                "in {count} of {of} records the body turns over or touches the floor"
+            ),
+            Self::CutShort(count, of, snaps) => write!(
+                f,
+                "{count} of {of} records ended after more than run.max_snaps = {snaps} snaps, before their time"
+            ),
+            Self::TensionsUnknown => f.write_str(
+                "tensions are not known: give each line type and diameter, or stiffness and mass_per_length",
+            ),
+            Self::SomeWithoutSnaps(count, of) => {
+                write!(f, "in {count} of {of} records no line snaps: {longer}")
+            }
+            Self::TooFew(1) => f.write_str("one record is too few: run more (--seeds)"),
+            Self::TooFew(count) => write!(f, "{count} records are too few: run more (--seeds)"),
+            Self::NoSnaps => f.write_str("no line snaps in any of the records"),
+            Self::MaySnap => write!(
+                f,
+                "no line snaps in the records, but within three hours one may go slack and snap: {longer}"
+            ),
+            Self::AllEqual => f.write_str("all records have the same largest value"),
+        }
+    }
+}
+
+impl Seas {
+    /// The distribution of the largest tension in three hours \[N\].
+    ///
+    /// # Errors
+    /// Why there is none.
+    pub fn peak_in_three_hours(&self) -> Result<Gumbel, NoDistribution> {
+        self.check_whole()?;
+        let largest = self.largest_n().ok_or(NoDistribution::TensionsUnknown)?;
+        self.check_snaps()?;
+        if self.without_snaps() == self.records.len() && self.may_snap() {
+            return Err(NoDistribution::MaySnap);
+        }
+        self.fit(&known(&largest))
+    }
+
+    /// The same of the fastest snap \[m/s\].
+    ///
+    /// # Errors
+    /// Why there is none.
+    pub fn speed_in_three_hours(&self) -> Result<Gumbel, NoDistribution> {
+        self.check_whole()?;
+        self.check_snaps()?;
+        if self.without_snaps() == self.records.len() {
+            return Err(NoDistribution::NoSnaps);
+        }
+        self.fit(&known(&self.speeds_m_s()))
+    }
+
+    /// Records that ended early would be records of a shorter time.
+    fn check_whole(&self) -> Result<(), NoDistribution> {
+        let records = self.records.len();
+        let exceeding = self.exceeding();
+        if exceeding > 0 {
+            return Err(NoDistribution::Exceeds(exceeding, records));
+        }
+        match self.ended(|stop| stop != Stop::EndTime) {
+            0 => Ok(()),
+            cut_short => {
+                let most = self.prepared.structure.max_snaps;
+                Err(NoDistribution::CutShort(cut_short, records, most))
+            }
+        }
+    }
+
+    /// A snap begins at twice the tension at rest. Records with snaps and without them therefore
+    /// have two distributions, to which one fit is of no use.
+    fn check_snaps(&self) -> Result<(), NoDistribution> {
+        let (records, without) = (self.records.len(), self.without_snaps());
+        if (1..records).contains(&without) {
+            return Err(NoDistribution::SomeWithoutSnaps(without, records));
+        }
+        if records < Gumbel::FEWEST {
+            return Err(NoDistribution::TooFew(records));
+        }
+        Ok(())
+    }
+
+    /// Whether a line may go slack within three hours although none does in the records: the
+    /// distribution of tensions without snaps ends there. The largest loss of tension of each
+    /// record, as a part of the tension at rest, is extrapolated, and the value that 99 % stay
+    /// below must be less than one by more than two standard errors.
+    fn may_snap(&self) -> bool {
+        let rest_n = self.prepared.rest.inextensible_tensions_n();
+        let losses: Vec<f64> = self
+            .outcomes()
+            .map(|outcome| {
+                let lines = outcome.lines.iter().zip(rest_n);
+                let losses = lines.filter_map(|(line, rest_n)| {
+                    let least_n = line.least_n.filter(|_| *rest_n > 0.0)?;
+                    Some(1.0 - least_n / rest_n)
+                });
+                losses.fold(0.0, f64::max)
+            })
+            .collect();
+        match self.fit(&losses) {
+            Ok(fit) => {
+                let nearly_all = fit.quantile(0.99);
+                nearly_all.value + 2.0 * nearly_all.error >= 1.0
+            }
+            Err(_) => losses.iter().any(|loss| *loss >= 1.0),
+        }
+    }
+
+    fn fit(&self, largest: &[f64]) -> Result<Gumbel, NoDistribution> {
+        let structure = &self.prepared.structure;
+        let judged_s = structure.duration_s - structure.transient_s;
+        let fit = Gumbel::fit(largest).ok_or(NoDistribution::AllEqual)?;
+        Ok(fit.over_times(THREE_HOURS_S / judged_s))
+    }
+}
+
+/// The values of the judged records.
+fn known(values: &[Option<f64>]) -> Vec<f64> {
+    values.iter().copied().flatten().collect()
+}

@@ -1,0 +1,247 @@
+//! What is said of many records of a sea: distributions, probabilities, and what is not known.
+
+use crate::verdicts::{source, structure};
+use snapload::Stop;
+use snapload::analysis::no_progress;
+use snapload_structure::{
+    Assessment, Lines, NoDistribution, Seas, Structure, VerdictKind, Water, assess, note, seas,
+};
+
+const EXAMPLE: &str = include_str!("../../../../docs/examples/cylinder.toml");
+const SEA: &str = include_str!("../../../../docs/examples/cylinder-sea.toml");
+
+/// Records of the sea of the example, with these significant height, duration and further keys of
+/// `[run]`.
+fn records(hs: f64, duration: f64, run: &str, count: u32) -> Seas {
+    let text = SEA
+        .replace("[run]", &format!("[run]\nduration = {duration}\n{run}"))
+        .replace("hs = 1.2", &format!("hs = {hs}"));
+    seas(structure(&text), count, Lines::Inextensible, &no_progress).unwrap()
+}
+
+/// The single run of one record.
+fn alone(seas: &Seas, seed: u64) -> Assessment {
+    let mut structure: Structure = seas.prepared.structure.clone();
+    let Water::Sea(sea) = &mut structure.water else {
+        panic!("a sea");
+    };
+    sea.seed = seed;
+    Assessment::single_run(structure, &no_progress).unwrap()
+}
+
+/// Records with snaps and without them have two distributions, and one fit to both is refused.
+#[test]
+fn records_with_and_without_snaps_have_no_common_distribution() {
+    let text = SEA
+        .replace("[run]", "[run]\nduration = 240")
+        .replace("hs = 1.2", "hs = 0.35");
+    let result = seas(structure(&text), 12, Lines::Inextensible, &no_progress).unwrap();
+    let still = result
+        .speeds_m_s()
+        .iter()
+        .filter(|speed| **speed == Some(0.0))
+        .count();
+    assert!((1..12).contains(&still), "{still}");
+    assert!(result.peak_in_three_hours().is_err() && result.speed_in_three_hours().is_err());
+    let words = result.words();
+    assert!(
+        words.contains(&format!("as in {still} of 12 records no line snaps")),
+        "{words}"
+    );
+    assert!(result.summary("case").contains("no distribution, as in"));
+}
+
+/// Short records without snaps say nothing of three hours in which a line may snap: their fit would
+/// expect the largest tension near 850 kN, and in three hours the first record of the same sea
+/// snaps.
+#[test]
+fn records_without_snaps_are_not_extrapolated_to_snaps() {
+    let short = records(0.15, 1260.0, "transient = 60", 6);
+    assert!(
+        short
+            .records
+            .iter()
+            .all(|record| record.outcome.snaps() == 0)
+    );
+    assert_eq!(short.peak_in_three_hours(), Err(NoDistribution::MaySnap));
+    let words = short.words();
+    assert!(
+        words.contains("within three hours one may go slack and snap"),
+        "{words}"
+    );
+    let long = records(0.15, 10_860.0, "transient = 60", 1);
+    assert!(long.records[0].outcome.largest_n() > 1.1e6);
+}
+
+/// Of records that are cut short it is known that they fail if a line breaks before they end, and
+/// otherwise nothing; a probability needs to know of all.
+#[test]
+fn records_that_end_early_have_no_probability() {
+    let strong = records(1.2, 900.0, "max_snaps = 300", 4);
+    let cut_short = |seas: &Seas| {
+        seas.records
+            .iter()
+            .all(|r| r.outcome.stop == Stop::ImpactLimit)
+    };
+    assert!(cut_short(&strong));
+    let all = strong.largest_n().unwrap().into_iter().flatten();
+    let most = all.fold(0.0, f64::max);
+    let with_load = |load: f64| {
+        let mut seas = strong.clone();
+        for line in &mut seas.prepared.structure.lines {
+            line.breaking_load_n = Some(load);
+        }
+        seas
+    };
+    let (weak, strong) = (with_load(0.999 * most), with_load(1e9));
+    assert_eq!(strong.standing(), VerdictKind::Unknown);
+    assert_eq!((strong.failing().count, strong.failing().unknown), (0, 4));
+    assert_eq!(weak.standing(), VerdictKind::Breaks);
+    assert!(weak.failing().count > 0);
+    for seas in [&strong, &weak] {
+        assert!(seas.probability().is_none() || seas.failing().unknown == 0);
+        let words = seas.words();
+        assert_eq!(
+            words.contains("probability"),
+            seas.probability().is_some(),
+            "{words}"
+        );
+        assert_eq!(
+            words.contains("not known in"),
+            seas.failing().unknown > 0,
+            "{words}"
+        );
+        let json = seas.to_json("case");
+        assert_eq!(json["probability"].is_null(), seas.probability().is_none());
+        let page = note::seas_page(source("case"), seas).unwrap();
+        assert!(!page.contains("verdict holds"), "{words}");
+    }
+    assert!(strong.words().contains("as they ended before their time"));
+}
+
+/// A line that breaks is told although the breaking load of another one is not known.
+#[test]
+fn a_line_that_breaks_fails_the_record_whatever_the_others_do() {
+    let mut seas = records(1.2, 900.0, "", 3);
+    let largest = |line: usize| {
+        let records = seas
+            .records
+            .iter()
+            .map(|record| &record.outcome.lines[line]);
+        records
+            .filter_map(|line| line.largest_n())
+            .fold(0.0, f64::max)
+    };
+    let load = 0.999 * largest(0);
+    seas.prepared.structure.lines[0].breaking_load_n = Some(load);
+    seas.prepared.structure.lines[1].breaking_load_n = None;
+    let failing = seas.failing();
+    assert!(failing.count >= 1 && failing.count + failing.unknown == 3);
+    let words = seas.words();
+    let sentence = format!("In {} of 3 records a line would break", failing.count);
+    assert!(words.contains(&sentence), "{words}");
+    assert!(words.contains("breaking load is not known"), "{words}");
+}
+
+/// A record that ends before the judged time has no largest tension, and it is not one without
+/// snaps.
+#[test]
+fn records_that_end_before_the_judged_time_are_left_out() {
+    let seas = records(3.0, 600.0, "", 6);
+    let unjudged = |record: &&snapload_structure::SeaOutcome| record.outcome.end_s < 60.0;
+    let early: Vec<_> = seas.records.iter().filter(unjudged).collect();
+    assert!(!early.is_empty());
+    for record in &early {
+        let run = alone(&seas, record.seed);
+        assert!(run.snaps.iter().any(|snap| snap.counts()));
+    }
+    let unknown = seas
+        .largest_n()
+        .unwrap()
+        .into_iter()
+        .filter(Option::is_none);
+    assert_eq!(unknown.count(), early.len());
+    let summary = seas.summary("case");
+    assert!(!summary.contains("no line snaps"), "{summary}");
+    let judged = format!("in the {} of 6 records", 6 - early.len());
+    assert!(summary.contains(&judged), "{summary}");
+    let exceeding = seas
+        .records
+        .iter()
+        .filter(|r| r.outcome.stop.exceeds())
+        .count();
+    let reason = NoDistribution::Exceeds(exceeding, 6);
+    assert_eq!(seas.peak_in_three_hours(), Err(reason));
+    assert!(summary.contains(&format!("no distribution, as in {exceeding} of 6 records")));
+}
+
+/// A line that would break only before the judged time leaves the verdict open, as in one run.
+#[test]
+fn a_sea_in_which_a_line_breaks_early_is_open() {
+    let mut seas = records(1.2, 400.0, "", 1);
+    let lines = &seas.records[0].outcome.lines;
+    let early = lines.iter().map(|line| line.early_n).fold(0.0, f64::max);
+    let judged = lines
+        .iter()
+        .filter_map(|line| line.largest_n())
+        .fold(0.0, f64::max);
+    assert!(early > judged);
+    for line in &mut seas.prepared.structure.lines {
+        line.breaking_load_n = Some(0.5 * (early + judged));
+    }
+    assert_eq!(seas.standing(), VerdictKind::Open);
+    assert_eq!(alone(&seas, 1).verdict().standing, VerdictKind::Open);
+    let page = note::seas_page(source("case"), &seas).unwrap();
+    assert!(page.contains("verdict open"));
+}
+
+/// What neighbours and other restitutions would change is said of every verdict: of one that is open
+/// because of the beginning, and of one that a line breaks.
+#[test]
+fn neighbours_that_answer_otherwise_are_counted() {
+    let mut assessment = assess(structure(EXAMPLE), 12, &no_progress).unwrap();
+    assert_eq!(assessment.verdict().standing, VerdictKind::Open);
+    let load = assessment.prepared.structure.lines[0]
+        .breaking_load_n
+        .unwrap();
+    for neighbour in &mut assessment.neighbours[..3] {
+        neighbour.lines[0].peak_n = Some(1.01 * load);
+    }
+    let words = assessment.verdict().words;
+    assert!(
+        words.contains("In 3 of 12 neighbours a line would break"),
+        "{words}"
+    );
+    assessment.outcome.lines[0].peak_n = Some(1.01 * load);
+    let verdict = assessment.verdict();
+    assert_eq!(verdict.standing, VerdictKind::Breaks);
+    let words = verdict.words;
+    assert!(
+        words.contains("In 9 of 12 neighbours no line breaks"),
+        "{words}"
+    );
+    assert!(
+        words.contains("With a restitution of 0.30 or 0.70 no line would break"),
+        "{words}"
+    );
+}
+
+/// A check that passes up to the end of a run that ended early is not known to pass.
+#[test]
+fn a_run_that_ends_early_passes_no_check() {
+    let design =
+        "[design]\npretension_factor = 1.2\nenvironment_factor = 1.5\nstrength_factor = 0.95\n";
+    let text = format!("{EXAMPLE}\ntransient = 5\nmax_snaps = 300\n{design}");
+    let text = text.replace("[[line]]", "[[line]]\nbreaking_load = 1e9");
+    let assessment = assess(structure(&text), 0, &no_progress).unwrap();
+    assert_eq!(assessment.outcome.stop, Stop::ImpactLimit);
+    let json = assessment.to_json("case");
+    let checks = json["checks"].as_array().unwrap();
+    assert!(!checks.is_empty() && checks.iter().all(|check| check["answer"] == "unknown"));
+    let summary = assessment.summary("case");
+    let words = summary.split_whitespace().collect::<Vec<_>>().join(" ");
+    assert!(
+        words.contains("not known, as the run ended early"),
+        "{summary}"
+    );
+}
