@@ -168,6 +168,10 @@ pub(crate) fn horizon_in_words(horizon: Option<Horizon>, tolerance: f64, impacts
             "cable {} snaps there about as slowly as v_stick, and may stick or bounce once more",
             cable + 1
         ),
+        HorizonCause::Tension { cable } => format!(
+            "the tension of cable {} comes so close to zero there that it may or may not go slack",
+            cable + 1
+        ),
         HorizonCause::Simultaneous => {
             "cables snap at the same instant there; which is first decides what follows".to_owned()
         }

@@ -3,7 +3,8 @@
 use crate::calibration::{Digits, compared};
 use snapload::analysis::{HorizonCause, TrustMonitor, Uncertainty, no_progress, trusted_run};
 use snapload::{
-    Case, Limit, LimitBounds, Parameters, Real, Rules, Simulation, Stop, Value, named_case,
+    Body, Cable, Case, Forcing, Limit, LimitBounds, Parameters, Real, Rules, Simulation, State,
+    Stop, System, Value, named_case,
 };
 use snapload_verify::verify;
 
@@ -200,4 +201,88 @@ fn digits_that_short_cables_lose_are_not_claimed() {
             assert!(difference < 3.0 * error, "{difference:e} {error:e}");
         }
     }
+}
+
+/// A point mass at rest on two taut cables carries the tensions T = 3/4 (1/h ± f_o sin ωt) or so: they
+/// are positive as long as |f_o| < 1/h = 0.894. Where the uncertainty of the force reaches beyond, or
+/// comes back from there, some neighbours go slack and others do not.
+#[test]
+fn a_tension_that_neighbours_lose_ends_trust() {
+    let cause = |f_o: f64, size: f64| {
+        let entries = [
+            ("body", Value::Text("point".to_owned())),
+            ("x", Value::Number(0.0)),
+            ("y", Value::Number(0.0)),
+            ("f_o", Value::Number(f_o)),
+            ("nu", Value::Number(0.0)),
+            ("omega", Value::Number(1.0)),
+            ("e", Value::Number(0.9)),
+            ("t_end", Value::Number(10.0)),
+            ("stop_when_settled", Value::Bool(false)),
+        ];
+        let mut uncertainty = Uncertainty::default();
+        uncertainty.set("f_o", size).expect("a key in doubt");
+        let (run, trust) = trusted_run(&case(entries), &uncertainty, &no_progress).expect("legal");
+        let lost = run.impacts().len() > 0;
+        (trust.horizon.map(|horizon| horizon.cause), lost)
+    };
+    for sign in [1.0, -1.0] {
+        // Three standard deviations of ± 0.005 are 0.0087.
+        assert_eq!(cause(sign * 0.88, 0.005), (None, false));
+        let (found, lost) = cause(sign * 0.88, 0.05);
+        assert!(
+            !lost && matches!(found, Some(HorizonCause::Tension { .. })),
+            "{found:?}"
+        );
+        let (found, lost) = cause(sign * 0.9, 0.05);
+        let ends = |cause| {
+            matches!(
+                cause,
+                HorizonCause::Tension { .. } | HorizonCause::Start { .. }
+            )
+        };
+        assert!(lost && found.is_some_and(ends), "{found:?}");
+    }
+}
+
+/// A pendulum that is thrown round has the tension v₀² − 5 at its top, for g = l = 1: it goes round
+/// taut from v₀ = √5 on, and below that it falls from near the top.
+#[test]
+fn a_pendulum_that_all_but_goes_round_ends_trust() {
+    let cause = |above: f64, size: f64| {
+        let system = System {
+            body: Body::point(),
+            cables: vec![Cable::new([0.0, 0.0], [0.0, 0.0], 1.0)],
+            forcing: Forcing {
+                constant: [0.0, -1.0].into(),
+                harmonics: Vec::new(),
+            },
+            drag: None,
+            floating: None,
+            restitution: 1.0,
+        };
+        let start = State {
+            y: -1.0,
+            vx: 5.0_f64.sqrt() + above,
+            ..State::default()
+        };
+        let mut simulation = Simulation::new(system, Rules::until(4.0), 0.0, start).expect("legal");
+        let doubt = [0.0, 0.0, 0.0, size, 0.0, 0.0];
+        let mut monitor = TrustMonitor::new(&simulation, &doubt, 1.0);
+        let mut impacts = 0;
+        while let Some(step) = simulation.step() {
+            monitor.follow(&simulation, &step);
+            impacts += step.impacts().count();
+            if impacts > 3 {
+                break;
+            }
+        }
+        let horizon = monitor.verdict().horizon;
+        (horizon.map(|horizon| horizon.cause), impacts > 0)
+    };
+    let tension = Some(HorizonCause::Tension { cable: 0 });
+    assert_eq!(cause(2e-5, 1e-4), (tension, false));
+    assert_eq!(cause(2e-3, 1e-4), (None, false));
+    assert_eq!(cause(-2e-5, 1e-4), (tension, true));
+    assert_ne!(cause(-2e-2, 1e-4).0, tension);
 }

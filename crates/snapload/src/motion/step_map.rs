@@ -292,7 +292,7 @@ pub(super) fn split(deviation: &Deviation) -> ([f64; 6], f64) {
 }
 
 #[inline(always)]
-pub(super) fn join(w: &[f64; 6], tau: f64) -> Deviation {
+pub(crate) fn join(w: &[f64; 6], tau: f64) -> Deviation {
     [w[0], w[1], w[2], w[3], w[4], w[5], tau]
 }
 

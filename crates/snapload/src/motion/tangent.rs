@@ -24,8 +24,10 @@ use crate::model::floating::Floating;
 use crate::model::state::State;
 use crate::model::surroundings::Surroundings;
 use crate::model::system::System;
-use crate::model::taut_set::TautSet;
-use crate::motion::active_set::{acceleration, response_to_force, slopes_of_acceleration};
+use crate::model::taut_set::{MAX_CABLES, TautSet};
+use crate::motion::active_set::{
+    acceleration, normal_acceleration, response_to_force, slopes_of_acceleration, tensions,
+};
 use crate::motion::impact::{impact, slope_of_impact_alone};
 use crate::motion::projection::{project_position, project_velocity};
 use crate::motion::simulation::{Simulation, Step};
@@ -131,6 +133,29 @@ impl Kernel for Differentiating<'_> {
     }
 }
 
+/// The derivatives of the tensions at both ends of a step, likewise.
+struct DifferentiatingTensions<'a>(&'a Tangent, &'a Simulation, &'a Step);
+
+impl Kernel for DifferentiatingTensions<'_> {
+    type Output = [[[f64; 6]; MAX_CABLES]; 2];
+    #[inline(always)]
+    fn run(self) -> Self::Output {
+        let Self(tangent, simulation, step) = self;
+        let mut ends = [[[0.0; 6]; MAX_CABLES]; 2];
+        let states = [&step.start, &step.before];
+        let times = [0.0, step.t_end - step.t_start];
+        for (slopes, (state, s)) in ends.iter_mut().zip(states.into_iter().zip(times)) {
+            let around = simulation
+                .surroundings(step.t_start + s)
+                .map(Number::constant);
+            let held = simulation.memory_force_within(step, s);
+            let (held, state) = (held.map(Number::constant), variables(state));
+            *slopes = tensions(&tangent.system, &around, &state, held, step.taut).map(|t| t.slope);
+        }
+        ends
+    }
+}
+
 impl Tangent {
     /// The linearised motions of a system.
     pub fn new(system: &System) -> Self {
@@ -147,9 +172,34 @@ impl Tangent {
         state.components().map(|component| component.slope)
     }
 
+    /// The normal acceleration of a closed cable that is slack, at the time reached, and its
+    /// derivatives by (x, y, θ, ẋ, ẏ, θ̇).
+    pub(crate) fn normal_acceleration(
+        &self,
+        simulation: &Simulation,
+        cable: usize,
+    ) -> (f64, [f64; 6]) {
+        let around = simulation.surroundings(simulation.time());
+        let (around, state) = (around.map(Number::constant), variables(simulation.state()));
+        let held = simulation.memory_force().map(Number::constant);
+        let taut = simulation.taut();
+        let found = normal_acceleration(&self.system, &around, &state, held, cable, taut);
+        (found.value, found.slope)
+    }
+
     /// The map of the step that `simulation` has just made.
     pub fn of_step(&self, simulation: &Simulation, step: &Step) -> StepMap {
         dispatch(Mapping(self, simulation, step))
+    }
+
+    /// The derivatives of the tensions by (x, y, θ, ẋ, ẏ, θ̇) at the start and at the end of a step,
+    /// by cable.
+    pub(crate) fn slopes_of_tensions(
+        &self,
+        simulation: &Simulation,
+        step: &Step,
+    ) -> [[[f64; 6]; MAX_CABLES]; 2] {
+        dispatch(DifferentiatingTensions(self, simulation, step))
     }
 
     /// Φ along the segment of a step.

@@ -146,6 +146,19 @@ impl CovarianceFactor {
         squares
     }
 
+    /// The square of the part of the standard deviation of a linear function of state and time that
+    /// the start and rounding cause.
+    #[inline(always)]
+    pub(super) fn variance_of_parts(&self, direction: &Deviation) -> f64 {
+        let mut sum = [0.0; COLUMNS];
+        for (row, factor) in self.parts.rows.iter().zip(direction) {
+            for (sum, entry) in sum.iter_mut().zip(row) {
+                *sum += factor * entry;
+            }
+        }
+        square(&sum)
+    }
+
     /// Standard deviation of a linear function of the state.
     #[inline(always)]
     pub(super) fn along(&self, direction: &[f64; 6]) -> f64 {

@@ -12,10 +12,12 @@ mod bounces;
 mod causes;
 mod certainty;
 mod covariance;
+mod linear_map;
 mod monitor;
 mod parts;
 mod rounding;
 mod spread;
+mod tension;
 mod uncertain_key;
 
 pub use certainty::Certainty;
@@ -29,6 +31,7 @@ use crate::case::key::Key;
 use crate::case::keys::key_named;
 use crate::case::parameters::Parameters;
 use crate::case::value::Value;
+use crate::motion::simulation::Simulation;
 use crate::motion::trajectory::Trajectory;
 
 /// The uncertainties of a run. The motion is computed from the values given; each may be off by up
@@ -153,6 +156,12 @@ pub enum HorizonCause {
         /// The cable.
         cable: usize,
     },
+    /// A taut cable has so little tension that a neighbour may go slack, or loses it so barely that
+    /// a neighbour may stay taut.
+    Tension {
+        /// The cable.
+        cable: usize,
+    },
     /// Several cables snap at one instant: their order, which may differ for neighbours, decides
     /// what follows.
     Simultaneous,
@@ -173,6 +182,7 @@ impl HorizonCause {
             Self::Graze { .. } => "graze",
             Self::NearMiss { .. } => "near_miss",
             Self::Sticking { .. } => "sticking",
+            Self::Tension { .. } => "tension",
             Self::Simultaneous => "simultaneous",
             Self::Start { .. } => "start",
             Self::StopRule => "stop_rule",
@@ -192,6 +202,15 @@ pub struct Horizon {
 }
 
 impl Horizon {
+    /// Where trust ends at the start of a motion.
+    fn at_start(simulation: &Simulation, cause: HorizonCause) -> Self {
+        Self {
+            t: simulation.time(),
+            impact: 1,
+            cause,
+        }
+    }
+
     /// Whether the impact of this number, from 1, is before the horizon.
     pub fn is_after(&self, impact: usize) -> bool {
         impact < self.impact

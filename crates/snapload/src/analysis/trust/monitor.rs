@@ -1,7 +1,8 @@
 //! Follows a run and keeps account of its errors.
 
 use crate::analysis::lyapunov::Frame;
-use crate::analysis::trust::spread::{LinearMap, Observer, SpreadMonitor};
+use crate::analysis::trust::linear_map::{LinearMap, Observer};
+use crate::analysis::trust::spread::SpreadMonitor;
 use crate::analysis::trust::{Graze, Horizon, Trust, Uncertainty};
 use crate::arithmetic::processor::{Kernel, dispatch};
 use crate::case::Case;

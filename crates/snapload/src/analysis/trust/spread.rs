@@ -5,8 +5,10 @@ use crate::analysis::trust::causes::{
     Approach, Closing, Neighbours, Spread, cause, cause_at_start, may_stop_at_start,
 };
 use crate::analysis::trust::covariance::{CovarianceFactor, LARGEST_SPREAD};
+use crate::analysis::trust::linear_map::{LinearMap, Observer};
 use crate::analysis::trust::parts::{COLUMNS, squares};
 use crate::analysis::trust::rounding::{self, Rounding};
+use crate::analysis::trust::tension::{self, TautStep};
 use crate::analysis::trust::uncertain_key::{UncertainKey, uniform};
 use crate::analysis::trust::{Horizon, HorizonCause, Uncertainty};
 use crate::arithmetic::processor::{Kernel, dispatch};
@@ -45,73 +47,6 @@ pub(super) struct SpreadMonitor {
     /// Whether the spread is too large to be carried further.
     too_large: bool,
     pub(super) end_error: f64,
-}
-
-/// The effect of a step on deviations.
-pub(super) enum LinearMap<'a> {
-    /// That of a bounce.
-    Bounce(&'a BounceMap<f64>),
-    /// That of any step.
-    Step(&'a StepMap),
-}
-
-impl LinearMap<'_> {
-    /// See [`StepMap::magnification_squared`].
-    #[inline(always)]
-    pub(super) fn magnification_squared(&self) -> f64 {
-        match self {
-            Self::Bounce(map) => map.magnification_squared(),
-            Self::Step(map) => map.magnification_squared(),
-        }
-    }
-
-    /// Whether it is certain, from these numbers alone, that the closing of the gap does not slow
-    /// down.
-    #[inline(always)]
-    pub(super) fn certainly_accelerates(&self) -> bool {
-        match self {
-            Self::Bounce(map) => map.certainly_accelerates(),
-            Self::Step(_) => false,
-        }
-    }
-
-    #[inline(always)]
-    fn approach(&self) -> Approach {
-        match self {
-            Self::Bounce(map) => Approach {
-                rate: map.rate(),
-                delay: map.delay(),
-            },
-            Self::Step(map) => Approach {
-                rate: *map.rate(),
-                delay: *map.delay(),
-            },
-        }
-    }
-
-    /// How the gap of the cable that snaps closes, if exactly one does.
-    #[inline(always)]
-    pub(super) fn closing(&self, simulation: &Simulation, step: &Step) -> Option<Closing> {
-        Closing::of(simulation, step, &self.approach())
-    }
-}
-
-/// Receives the effect of each step on deviations. It is no closure, because a closure would be
-/// compiled without the processor's own instructions.
-pub(super) trait Observer {
-    /// Receives the effect of a bounce.
-    fn observe_bounce(&mut self, map: &BounceMap<f64>)
-    where
-        Self: Sized;
-    /// Receives the effect of any step. The observer is called through a pointer, so that the
-    /// following of a step is compiled once for all observers.
-    fn observe_step(&mut self, map: &StepMap);
-}
-
-impl Observer for () {
-    #[inline(always)]
-    fn observe_bounce(&mut self, _: &BounceMap<f64>) {}
-    fn observe_step(&mut self, _: &StepMap) {}
 }
 
 /// Any step to be carried through, by the best instructions for it.
@@ -171,15 +106,13 @@ impl SpreadMonitor {
         ));
         // Water that has been at rest has no memory, so that there is nothing uncertain in it.
         covariance.memory = vec![[0.0; COLUMNS]; 2 * simulation.memory().len()];
-        let cause = cause.or_else(|| {
-            may_stop_at_start(simulation, &Spread::of(&covariance))
-                .then_some(HorizonCause::StopRule)
-        });
-        let horizon = cause.map(|cause| Horizon {
-            t: simulation.time(),
-            impact: 1,
-            cause,
-        });
+        let cause = cause
+            .or_else(|| tension::cause_at_start(simulation, &covariance, &[]))
+            .or_else(|| {
+                may_stop_at_start(simulation, &Spread::of(&covariance))
+                    .then_some(HorizonCause::StopRule)
+            });
+        let horizon = cause.map(|cause| Horizon::at_start(simulation, cause));
         Self {
             too_large: covariance.exceeds_limit(),
             tolerance,
@@ -208,6 +141,11 @@ impl SpreadMonitor {
             monitor.keys.push(UncertainKey::new(case, name, *size)?);
         }
         monitor.covariance.columns = monitor.keys.iter().map(|key| key.deviation).collect();
+        if monitor.horizon.is_none() {
+            let start = case.start();
+            let cause = tension::cause_at_start(start, &monitor.covariance, &monitor.keys);
+            monitor.horizon = cause.map(|cause| Horizon::at_start(start, cause));
+        }
         Ok(monitor)
     }
 
@@ -375,6 +313,12 @@ impl SpreadMonitor {
         {
             self.set_horizon(step, cause);
         }
+        if self.horizon.is_none()
+            && !step.taut.is_empty()
+            && let Some(cause) = self.tension_cause(simulation, step, &map, [&before, &along])
+        {
+            self.set_horizon(step, cause);
+        }
         let mut after = met.carried(|w, _| map.carry_through(w), column(2));
         after.add_parts(&rounding.parts);
         let squared = |sizes: Deviation| sizes.map(|size| size * size);
@@ -382,6 +326,28 @@ impl SpreadMonitor {
         self.covariance = after;
         self.too_large = self.covariance.exceeds_limit();
         self.error_at_event(step, &squares)
+    }
+
+    /// Whether neighbours may lose a tension that the run keeps, or keep one that it loses.
+    #[inline(never)]
+    fn tension_cause(
+        &mut self,
+        simulation: &Simulation,
+        step: &Step,
+        map: &StepMap,
+        [before, along]: [&CovarianceFactor; 2],
+    ) -> Option<HorizonCause> {
+        self.tangent(simulation);
+        let taut = TautStep {
+            simulation,
+            step,
+            tangent: self.tangent.as_deref()?,
+            map,
+            before,
+            along,
+            keys: &self.keys,
+        };
+        taut.cause()
     }
 
     /// The error at an event, from the variances just before and just after it.

@@ -5,6 +5,8 @@ use crate::case::Case;
 use crate::case::error::CaseError;
 use crate::case::value::Value;
 use crate::model::state::State;
+use crate::model::taut_set::MAX_CABLES;
+use crate::motion::active_set::normal_acceleration;
 use crate::motion::simulation::Simulation;
 use crate::motion::step_map::{Deviation, StepMap};
 
@@ -16,6 +18,8 @@ pub(super) struct UncertainKey {
     size: f64,
     /// That of (w, τ), at the latest event.
     pub(super) deviation: Deviation,
+    /// Those of the tensions at the start and at the end of the latest step, by cable.
+    pub(super) tensions: [[f64; MAX_CABLES]; 2],
 }
 
 /// The standard deviation of a value that lies anywhere within ± `size`.
@@ -46,7 +50,19 @@ impl UncertainKey {
             simulation,
             size,
             deviation: [w[0], w[1], w[2], w[3], w[4], w[5], 0.0],
+            tensions: [[0.0; MAX_CABLES]; 2],
         })
+    }
+
+    /// The standard deviation of the normal acceleration of a closed cable that is slack, at the
+    /// start, as far as it depends on the parameter.
+    pub(super) fn of_normal_acceleration(&self, cable: usize) -> f64 {
+        let simulation = &self.simulation;
+        let (system, state) = (simulation.system(), simulation.state());
+        let around = simulation.surroundings(simulation.time());
+        let (held, taut) = (simulation.memory_force(), simulation.taut());
+        let found = normal_acceleration(system, &around, state, held, cable, taut);
+        found.slope[0] * self.size
     }
 
     /// The deviation just before the event at the time of the previous one, just before it at its
@@ -62,6 +78,14 @@ impl UncertainKey {
         };
         let met = at(&step.before);
         let along = map.before_meeting(&met, self.deviation[6]);
+        if !step.taut.is_empty() {
+            let simulation = &self.simulation;
+            let ends = [
+                simulation.tensions_at_start(&step),
+                simulation.tensions_at_end(&step),
+            ];
+            self.tensions = ends.map(|ends| ends.map(|tension| tension.slope[0] * self.size));
+        }
         self.deviation = at(&step.after);
         [along, met, self.deviation]
     }

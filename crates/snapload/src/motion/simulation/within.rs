@@ -319,16 +319,23 @@ impl<T: Real> Simulation<T> {
 
     /// The event function of a limit at the end of the latest step, where it was reached.
     pub(crate) fn limit_reached(&self, step: &Step<T>, limit: Limit) -> Option<Jet<T>> {
+        self.reached_at_end(step, EventFunction::Limit(limit))
+    }
+
+    /// Minus the tension of a cable at the end of the latest step, where that was lost.
+    pub(crate) fn tension_lost(&self, step: &Step<T>, cable: usize) -> Option<Jet<T>> {
+        self.reached_at_end(step, EventFunction::Tension(cable))
+    }
+
+    fn reached_at_end(&self, step: &Step<T>, function: EventFunction) -> Option<Jet<T>> {
         let mut jets = Jets::new();
         let s = step.t_end - step.t_start;
         match self.motion(step.taut) {
             SegmentMotion::Closed(flight) => flight.jets_at(s, &mut jets),
             SegmentMotion::Expanded(series) => series.jets_at(s, &mut jets),
         }
-        let of_limit = jets
-            .iter()
-            .filter(|jet| jet.function == EventFunction::Limit(limit));
-        of_limit
+        jets.iter()
+            .filter(|jet| jet.function == function)
             .copied()
             .reduce(|a, b| if b.value > a.value { b } else { a })
     }
@@ -376,6 +383,11 @@ impl<T: Real> Simulation<T> {
     pub fn tensions_at_end(&self, step: &Step<T>) -> [T; MAX_CABLES] {
         let s = step.t_end - step.t_start;
         dispatch_over::<T, _>(TensionsWithin(self, step, s))
+    }
+
+    /// The tension of each cable at the start of the latest step \[F\].
+    pub(crate) fn tensions_at_start(&self, step: &Step<T>) -> [T; MAX_CABLES] {
+        dispatch_over::<T, _>(TensionsWithin(self, step, T::ZERO))
     }
 
     #[inline(always)]
