@@ -8,8 +8,8 @@ use serde::Deserialize;
 use serde_json::{Map, Value};
 use snapload::CaseError;
 use snapload_hydro::{
-    Dataset, FirstColumn, FitOptions, Format, Given, HydroError, Line, Reading, Report, Request,
-    Values, Variable, Weight, from_dataset, read,
+    Dataset, FirstColumn, FitOptions, Format, Given, GivenSource, HydroError, Line, Reading,
+    Report, Request, Values, Variable, Weight, from_dataset, read,
 };
 use std::path::Path;
 
@@ -107,6 +107,7 @@ pub(crate) fn hydro(
         unit_length_m: options.unit_length,
         first_column: first_column(options.first_column.as_deref())?,
         body: options.body,
+        source: GivenSource::Options,
     };
     let line = |[ax, az, fx, fz, length_m]: [f64; 5]| Line {
         anchor_m: [ax, az],

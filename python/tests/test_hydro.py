@@ -66,7 +66,7 @@ def test_memory_is_that_of_the_damping() -> None:
 def test_bad_datasets_are_refused() -> None:
     with xarray.open_dataset(PONTOON) as pontoon, pytest.raises(ValueError, match="positive damping"):
         snapload.Hydro.from_dataset(pontoon.assign(radiation_damping=-pontoon["radiation_damping"]))
-    with pytest.raises(ValueError, match="1025 in the file and 1000"):
+    with pytest.raises(ValueError, match="1025 in the file and 1000 in the options"):
         snapload.Hydro.from_file(PONTOON, density=1000)
     for options, message in (
         ({"centre": (1,)}, r"centre = \[1.0\] is not allowed; allowed: an array of length 2"),

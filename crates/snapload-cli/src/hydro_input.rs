@@ -4,7 +4,8 @@ use crate::case_input::read_text;
 use crate::failure::Failure;
 use crate::option_values::whole_number;
 use snapload_hydro::{
-    FirstColumn, FitOptions, Given, GivenMemory, HydroError, Line, Report, Request, Weight, read,
+    FirstColumn, FitOptions, Given, GivenMemory, GivenSource, HydroError, Line, Report, Request,
+    Weight, read,
 };
 use snapload_structure::PAIRS;
 use std::path::{Path, PathBuf};
@@ -25,7 +26,8 @@ pub(crate) struct HydroArgs {
     /// Depth of the water in m, or inf
     #[arg(long, value_name = "NUMBER", help_heading = "The file")]
     depth: Option<f64>,
-    /// Reference point: the centre of pitch, relative to which the motion is measured
+    /// Reference point: the centre of pitch, relative to which the motion is measured; needed where
+    /// the file does not give it, and has to agree where it does
     #[arg(long, value_name = "X,Z", value_parser = pair, allow_hyphen_values = true, help_heading = "The file")]
     reference: Option<[f64; 2]>,
     /// Length unit ULEN of WAMIT in m
@@ -127,6 +129,7 @@ impl HydroArgs {
                 _ => FirstColumn::Period,
             },
             body: self.body.clone(),
+            source: GivenSource::CommandLine,
         };
         let request = Request {
             weight: Weight {

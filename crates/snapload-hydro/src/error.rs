@@ -1,5 +1,7 @@
 //! Errors in hydrodynamic coefficients, or in their use.
 
+use crate::read::GivenSource;
+
 /// Why coefficients can not be used. The message says what is wrong, where, and how to correct it.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum HydroError {
@@ -42,15 +44,17 @@ pub enum HydroError {
         /// What was found, what was expected, and the probable cause.
         message: String,
     },
-    /// The file and the case contradict each other.
-    #[error("{what} is {file} in the file and {case} in the case; they must agree")]
+    /// The file and a value that is given in addition contradict each other.
+    #[error("{what} is {file} in the file and {given} {source_of_given}; they must agree")]
     Disagreement {
         /// The quantity in which they differ.
         what: &'static str,
         /// The file's value.
         file: f64,
-        /// The case's value.
-        case: f64,
+        /// The given value.
+        given: f64,
+        /// Where it was given.
+        source_of_given: GivenSource,
     },
     /// No result is possible with these numbers.
     #[error("{0}")]

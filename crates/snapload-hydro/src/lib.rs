@@ -33,8 +33,8 @@ pub use memory::{
     added_mass_at_infinity, fit, given,
 };
 pub use read::{
-    Dataset, FirstColumn, Format, Given, Reading, Values, Variable, WamitText, from_dataset,
-    from_nemoh, from_wamit, read,
+    Dataset, FirstColumn, Format, Given, GivenSource, Reading, Values, Variable, WamitText,
+    from_dataset, from_nemoh, from_wamit, read,
 };
 pub use report::{Floating, GivenMemory, Json, Report, Request, page, periods_summary};
 pub use sections::{Place, Shape, added_mass_of_section};

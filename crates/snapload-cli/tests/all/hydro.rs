@@ -191,6 +191,14 @@ fn hydro_refuses_with_reasons() {
             "added_mass_inf",
         ),
         (&["hydro", "pontoon.nc", "--reference", "1"], "2 numbers"),
+        (
+            &["hydro", "pontoon.nc", "--reference", "0,-1"],
+            "reference point's z is 0 in the file and -1 on the command line; they must agree",
+        ),
+        (
+            &["decay", "pontoon.nc", "--depth", "10"],
+            "inf in the file and 10 on the command line",
+        ),
         (&["hydro", "pontoon.nc", "--hs", "1"], "--tp"),
         (
             &["decay", "pontoon.nc", "--from", "0,0,0"],

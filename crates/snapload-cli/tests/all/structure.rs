@@ -308,6 +308,19 @@ fn moordyn_files_are_written_and_read() {
     };
     assert_eq!(verdict("cylinder.toml"), verdict("again.toml"));
     let text = fs::read_to_string(room.path().join("lines.txt")).unwrap();
+    // A fairlead that is moved in the tables is moved, and what it was before is named.
+    fs::write(
+        room.path().join("moved.txt"),
+        text.replace("4  Body1  -1.061  0", "4  Body1  -1.3  0"),
+    )
+    .unwrap();
+    snapload(room.path())
+        .args(["moordyn", "read", "moved.txt", "--out", "moved.toml"])
+        .assert()
+        .success()
+        .stdout(contains("note").and(contains("line.2.fairlead = [-1.061, -4.561]")));
+    let moved = fs::read_to_string(room.path().join("moved.toml")).unwrap();
+    assert!(moved.contains("fairlead = [-1.3, -4.561]"), "{moved}");
     let bare: String = text
         .lines()
         .filter(|line| !line.starts_with("snapload:"))

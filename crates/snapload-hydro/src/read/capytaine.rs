@@ -122,17 +122,21 @@ fn refuse_speed(dataset: &Dataset) -> Result<(), HydroError> {
     }
 }
 
-/// The reference point of the file and of the case, which have to agree to a millimetre.
+/// The reference point of the file and the given one, which have to agree to a millimetre.
 fn reference(file: Option<[f64; 2]>, given: &Given) -> Result<[f64; 2], HydroError> {
     match (file, given.reference_m) {
-        (Some(file), Some(case)) => {
+        (Some(file), Some(asked)) => {
             for (axis, what) in ["the reference point's x", "the reference point's z"]
                 .into_iter()
                 .enumerate()
             {
-                if (file[axis] - case[axis]).abs() > 1e-3 {
-                    let (file, case) = (file[axis], case[axis]);
-                    return Err(HydroError::Disagreement { what, file, case });
+                if (file[axis] - asked[axis]).abs() > 1e-3 {
+                    return Err(HydroError::Disagreement {
+                        what,
+                        file: file[axis],
+                        given: asked[axis],
+                        source_of_given: given.source,
+                    });
                 }
             }
             Ok(file)
@@ -407,7 +411,12 @@ fn hydrostatics(
     let what = "the displaced mass in kg";
     Ok(Hydrostatics {
         stiffness: matrix("hydrostatic_stiffness")?,
-        displaced_mass_kg: agreed(what, displaced, given.displaced_mass_kg, 1e-3)?,
+        displaced_mass_kg: agreed(
+            what,
+            displaced,
+            (given.displaced_mass_kg, given.source),
+            1e-3,
+        )?,
         centre_of_mass_m: point(dataset, "center_of_mass", plane)?.or(given.centre_of_gravity_m),
         centre_of_buoyancy_m: point(dataset, "center_of_buoyancy", plane)?,
         inertia: matrix("inertia_matrix")?,

@@ -42,6 +42,28 @@ impl fmt::Display for Format {
     }
 }
 
+/// Where values are given in addition to the file, for messages.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum GivenSource {
+    /// A case file.
+    #[default]
+    Case,
+    /// The options of a command.
+    CommandLine,
+    /// The options of a function.
+    Options,
+}
+
+impl fmt::Display for GivenSource {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Self::Case => "in the case",
+            Self::CommandLine => "on the command line",
+            Self::Options => "in the options",
+        })
+    }
+}
+
 /// Values that are given in addition to the file. Values that the file has, too, must agree.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Given {
@@ -63,6 +85,8 @@ pub struct Given {
     pub first_column: FirstColumn,
     /// The body, if the file has several.
     pub body: Option<String>,
+    /// Where these values are given.
+    pub source: GivenSource,
 }
 
 /// Coefficients that passed the checks, with warnings.
@@ -167,25 +191,30 @@ fn unreadable(asked: &Path, path: &Path, message: &str) -> HydroError {
     })
 }
 
-/// The value of the file or of the case, if only one of them has it; if both do they have to agree
-/// up to a part.
+/// The value of the file or the given one, if there is only one of them; two have to agree up to a
+/// part.
 fn agreed(
     what: &'static str,
     file: Option<f64>,
-    case: Option<f64>,
+    (given, source_of_given): (Option<f64>, GivenSource),
     part: f64,
 ) -> Result<Option<f64>, HydroError> {
-    if let (Some(file), Some(case)) = (file, case) {
+    if let (Some(file), Some(given)) = (file, given) {
         // A finite depth never agrees with an infinite one.
-        let near = (file - case).abs() <= part * case.abs().min(file.abs());
-        if file != case && !near {
-            return Err(HydroError::Disagreement { what, file, case });
+        let near = (file - given).abs() <= part * given.abs().min(file.abs());
+        if file != given && !near {
+            return Err(HydroError::Disagreement {
+                what,
+                file,
+                given,
+                source_of_given,
+            });
         }
     }
-    Ok(file.or(case))
+    Ok(file.or(given))
 }
 
-/// The water by the file and the case, checked.
+/// The water by the file and the given values, checked.
 fn agreed_water(file: [Option<f64>; 3], given: &Given) -> Result<Water, HydroError> {
     let [density, gravity, depth] = file;
     let need = |what: &'static str, value: Option<f64>| {
@@ -193,13 +222,13 @@ fn agreed_water(file: [Option<f64>; 3], given: &Given) -> Result<Water, HydroErr
         value.ok_or_else(|| HydroError::missing(what, advice))
     };
     let what = "the density of the water in kg/m³";
-    let density = agreed(what, density, given.density_kg_m3, 1e-3)?;
+    let density = agreed(what, density, (given.density_kg_m3, given.source), 1e-3)?;
     let density_kg_m3 = within(what, need(what, density)?, 500.0..=2000.0)?;
     let what = "gravity in m/s²";
-    let gravity = agreed(what, gravity, given.gravity_m_s2, 1e-3)?;
+    let gravity = agreed(what, gravity, (given.gravity_m_s2, given.source), 1e-3)?;
     let gravity_m_s2 = within(what, need(what, gravity)?, 0.1..=100.0)?;
     let what = "the depth of the water in m";
-    let depth = agreed(what, depth, given.depth_m, 1e-2)?;
+    let depth = agreed(what, depth, (given.depth_m, given.source), 1e-2)?;
     let depth_m = within(what, need(what, depth)?, 1e-3..=f64::INFINITY)?;
     Ok(Water {
         density_kg_m3,

@@ -199,7 +199,7 @@ fn the_case_has_to_agree() {
     let words = refusal_given(pontoon(), &with(None, Some(10.0), None));
     assert_message_contains(&words, &["depth", "inf", "10"]);
     let words = refusal_given(pontoon(), &with(None, None, Some([0.0, -0.5])));
-    assert_message_contains(&words, &["reference point's z", "-0.5"]);
+    assert_message_contains(&words, &["reference point's z", "-0.5 in the case"]);
     let same = with(Some(1025.5), Some(f64::INFINITY), Some([0.0, 0.0]));
     assert!(from_dataset(&pontoon().0, &same).is_ok());
 }

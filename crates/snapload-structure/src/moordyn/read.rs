@@ -1,5 +1,6 @@
 //! From a MoorDyn file to the keys of a case.
 
+use super::front::{LineRow, MOORDYN_DEFAULT, Tables};
 use super::planar::{
     Body, Point, PointOf, Points, body, points, refuse_off_plane, refuse_unsupported,
 };
@@ -8,9 +9,6 @@ use crate::schema::STRUCTURE;
 use snapload::{CaseError, Entries, Value};
 use std::f64::consts::PI;
 
-/// Lines of a file's front matter that begin with this are keys of a case that have no equivalent
-/// in MoorDyn.
-const KEY_LINE: &str = "snapload:";
 /// MoorDyn's own defaults \[m/s²\], \[kg/m³\].
 const GRAVITY: f64 = 9.81;
 const WATER_DENSITY: f64 = 1025.0;
@@ -26,8 +24,9 @@ pub struct Reading {
 
 /// Reads a MoorDyn v2 input file as a planar structure; `name` is the file's name in errors.
 ///
-/// The file has no waves, no restitution and no width of the body: [`Entries::missing`] lists what
-/// still has to be given.
+/// The tables have no waves, no restitution and no width of the body: [`Entries::missing`] lists
+/// what still has to be given. Keys in the front matter apply where the tables do not contradict
+/// them; the others are noted.
 ///
 /// # Errors
 /// A [`CaseError`] that names line, object and column, what is allowed there and advice.
@@ -47,7 +46,11 @@ pub fn read(name: &str, text: &str) -> Result<Reading, CaseError> {
     }
     refuse_unsupported(&sections)?;
     let mut reader = Reader {
-        entries: Entries::new(&STRUCTURE),
+        tables: Tables {
+            entries: Entries::new(&STRUCTURE),
+            lines: Vec::new(),
+            starts_where_put: false,
+        },
         notes: Vec::new(),
         water_density: WATER_DENSITY,
     };
@@ -56,7 +59,9 @@ pub fn read(name: &str, text: &str) -> Result<Reading, CaseError> {
     let points = points(&sections, body.as_ref())?;
     let mut used = Vec::new();
     for row in sections.rows(Section::Lines) {
-        used.extend(reader.line(row, &sections, &points)?);
+        let ends = reader.line(row, &sections, &points)?;
+        reader.keep_row(row, ends, body.is_some())?;
+        used.extend(ends);
     }
     refuse_off_plane(body.as_ref(), used.into_iter())?;
     match &body {
@@ -68,29 +73,15 @@ pub fn read(name: &str, text: &str) -> Result<Reading, CaseError> {
     if sections.rows(Section::Other).next().is_some() {
         reader.note("Rows below a header that is not known were left out.");
     }
-    let mut known: Vec<&str> = Vec::new();
-    for (origin, line) in &sections.front {
-        let line = line.trim_start_matches(['#', ' ', '\t']);
-        if let Some(set) = line.strip_prefix(KEY_LINE) {
-            let (key, value) = set.split_once('=').unwrap_or((set, ""));
-            let key = key.trim();
-            if known.contains(&key) {
-                let error = CaseError::value(key, value.trim(), "one value; the file has two");
-                return Err(error.at(origin.as_str()));
-            }
-            known.push(key);
-            let given = reader.entries.set(set.trim());
-            given.map_err(|error| error.at(origin.as_str()))?;
-        }
-    }
-    Ok(Reading {
-        entries: reader.entries,
-        notes: reader.notes,
-    })
+    let Reader {
+        tables, mut notes, ..
+    } = reader;
+    let entries = tables.with_front(&sections, &mut notes)?;
+    Ok(Reading { entries, notes })
 }
 
 struct Reader {
-    entries: Entries,
+    tables: Tables,
     notes: Vec<String>,
     water_density: f64,
 }
@@ -111,7 +102,9 @@ impl Reader {
         value: impl Into<Value>,
     ) -> Result<(), CaseError> {
         let value = value.into();
-        self.entries.give(table, index, key, value, &row.origin)
+        self.tables
+            .entries
+            .give(table, index, key, value, &row.origin)
     }
 
     /// Depth, density and gravity; the other options concern MoorDyn's computation.
@@ -136,6 +129,10 @@ impl Reader {
                     }
                     continue;
                 }
+                "tmaxic" => {
+                    self.tables.starts_where_put = number(word) == Some(0.0);
+                    continue;
+                }
                 _ => continue,
             };
             let value =
@@ -148,8 +145,9 @@ impl Reader {
         }
         for (key, value) in defaults {
             let value = value.into();
-            self.entries
-                .give("site", 0, key, value, "MoorDyn's default")?;
+            self.tables
+                .entries
+                .give("site", 0, key, value, MOORDYN_DEFAULT)?;
         }
         Ok(())
     }
@@ -206,7 +204,7 @@ impl Reader {
             let [x, _, z] = point.place_m;
             [x, z]
         });
-        let index = self.entries.add("line");
+        let index = self.tables.entries.add("line");
         let table = ("line", index);
         self.give(row, table, "anchor", anchor)?;
         self.give(row, table, "fairlead", fairlead)?;
@@ -236,6 +234,22 @@ impl Reader {
             ));
         }
         Ok(ends)
+    }
+
+    /// Keeps what the front matter is compared with, besides the keys.
+    fn keep_row(
+        &mut self,
+        row: &Row<'_>,
+        [_, (fairlead, _)]: Ends<'_>,
+        on_body: bool,
+    ) -> Result<(), CaseError> {
+        let [x, _, z] = fairlead.place(2, ["X", "Y", "Z"])?;
+        self.tables.lines.push(LineRow {
+            id: row.word(0, "ID")?.to_owned(),
+            type_name: row.word(1, "LineType")?.to_owned(),
+            fairlead_on_body_m: on_body.then_some([x, z]),
+        });
+        Ok(())
     }
 
     /// EA, for which MoorDyn has several notations; none if it is in a separate file.

@@ -51,8 +51,8 @@ fn project(structure: &Structure) -> Vec<(&str, String)> {
 /// and have neither drag nor added mass. A line of one segment is then the spring of
 /// `docs/elastic.md`, with the damper of the restitution as BA; in lines of several segments that
 /// damper would be far too stiff for the masses between, and they get MoorDyn's customary 0.8 of
-/// critical instead. Keys without an equivalent in MoorDyn are written into the front matter, from
-/// which [`super::read()`] reads them.
+/// critical instead. Keys without an equivalent in MoorDyn, and those of which its tables have only
+/// a sum, are written into the front matter, from which [`super::read()`] reads them.
 ///
 /// # Errors
 /// A [`CaseError`] unless the segments are of [`SEGMENTS`], if a line has no stiffness or mass, or

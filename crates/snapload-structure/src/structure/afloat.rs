@@ -4,8 +4,8 @@ use super::{BodySi, Outline, Site};
 use nalgebra::Vector3;
 use snapload::{CaseError, Entries, Fields, FromValue};
 use snapload_hydro::{
-    FirstColumn, FitOptions, Format, Given, GivenMemory, HydroError, Reading, Report, Request,
-    SectionBody, Shape, Water, Weight, read,
+    FirstColumn, FitOptions, Format, Given, GivenMemory, GivenSource, HydroError, Reading, Report,
+    Request, SectionBody, Shape, Water, Weight, read,
 };
 use std::path::{Path, PathBuf};
 
@@ -209,6 +209,7 @@ fn given(fields: Fields<'_>, site: &Site) -> Result<Given, CaseError> {
             _ => FirstColumn::Period,
         },
         body: fields.get("name")?,
+        source: GivenSource::Case,
     })
 }
 

@@ -14,6 +14,7 @@ mod equilibrium;
 mod judged;
 mod manual;
 mod moordyn;
+mod moordyn_edits;
 mod moordyn_keys;
 mod physics;
 mod sea_verdicts;
