@@ -29,24 +29,26 @@ class Verification(Result):
     digits : int
         Decimal digits of the run with many digits.
     digits_left : float
-        Number of digits that are still right at the end of that run.
+        Number of digits that are still right at the end of that run; 0 if they are lost before.
     first_wrong : int or None
-        The first impact, from 1, at which the ordinary run is wrong; None if it is right at all of them.
+        The first impact, from 1, at which the ordinary run is wrong; None if it is right at all that are known.
     predicted : int or None
         The impact at which trust ends according to the ordinary run.
     compared : int
-        Number of impacts that both runs have.
+        Number of impacts that both runs have, as far as they are known with many digits.
     end : str or None
-        How the run with many digits ends; None if a cable stayed taut before, where the comparison ends.
-    t : float
-        The time at which that run ends [T].
-    impacts : int
-        Number of impacts of that run.
+        How the run with many digits ends; None if a cable stayed taut before, where the comparison ends, and
+        if its digits are lost before.
+    t : float or None
+        The time at which that run, or the comparison, ends [T]; None if its digits are lost before.
+    impacts : int or None
+        Number of impacts of that run up to there; None if its digits are lost before.
     differences : numpy.ndarray, shape (compared,)
         The largest difference of time and states at each impact, relative where a value is above 1.
     exact : tuple of dict
-        The impacts of the run with many digits: ``t``, ``v_n`` and ``impulse`` as decimals in a str, which
-        `decimal.Decimal` reads, with as many digits as are right; and ``cable``.
+        The impacts of the run with many digits, up to the last one that is known: ``t``, ``v_n`` and
+        ``impulse`` as decimals in a str, which `decimal.Decimal` reads, with as many digits as are right; and
+        ``cable``.
     tolerance : float
         The difference that counts as wrong.
 
@@ -68,8 +70,8 @@ class Verification(Result):
     predicted: int | None
     compared: int
     end: str | None
-    t: float
-    impacts: int
+    t: float | None
+    impacts: int | None
     differences: NDArray[np.float64]
     exact: tuple[dict[str, Any], ...]
     tolerance: float

@@ -101,6 +101,15 @@ def test_the_proof_is_the_same(command_json, command):
     assert str(proof) == command(*args).rstrip("\n")
 
 
+def test_an_end_that_is_not_known_is_none():
+    # With 153 digits this run has 322 impacts.
+    proof = snapload.verify(snapload.cases["1922001000-359"])
+    assert (proof.end, proof.t, proof.impacts, proof.digits_left) == (None, None, None, 0)
+    assert 200 < len(proof.exact) < 322
+    assert proof.first_wrong is not None
+    assert "its end is not" in str(proof)
+
+
 def test_the_file_of_a_study_is_the_same_to_the_byte(command, tmp_path: Path):
     by_package, by_command = tmp_path / "ours.parquet", tmp_path / "theirs.parquet"
     axes = ["--vary", "f_o=0.2:0.5:4", "--vary", "e=0.5,0.9,1.0", "--vary", "body=rigid,point"]

@@ -1,5 +1,5 @@
 //! A run with its proof: what is proved, and where the run of doubles differs from it.
-use crate::digits::digits;
+use crate::digits::{count, digits};
 use serde::Serialize;
 use snapload::analysis::{OnProgress, Progress, digits_within};
 use snapload::{Impact, Trajectory};
@@ -177,7 +177,7 @@ impl Certified {
                 ..
             }) => format!(
                 "the run has the same {}, but a different end",
-                impacts(self.proof.impacts)
+                count(self.proof.impacts, "impact")
             ),
             Some(Departure { impact, differs }) => format!(
                 "the run departs from the proof at impact {impact}, which {}",
@@ -189,7 +189,7 @@ impl Certified {
 
 /// How much is proved and how the run ends, or why the proof stopped.
 pub fn proved_in_words(proof: &Certification) -> String {
-    let (count, t, bits) = (impacts(proof.impacts), &proof.t, proof.bits);
+    let (count, t, bits) = (count(proof.impacts, "impact"), &proof.t, proof.bits);
     match &proof.end {
         Ended::Proved(reason) => {
             let reason = reason.name().replace('_', " ");
@@ -199,11 +199,6 @@ pub fn proved_in_words(proof: &Certification) -> String {
             format!("{count}, up to t = {t} ({bits} bits)\nthen undecided: {what}")
         }
     }
-}
-
-fn impacts(count: usize) -> String {
-    let s = if count == 1 { "" } else { "s" };
-    format!("{count} impact{s}")
 }
 
 fn ended(proof: &Certification) -> Option<Reason> {

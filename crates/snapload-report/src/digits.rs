@@ -17,3 +17,9 @@ pub(crate) fn digits(number: f64) -> String {
         text
     }
 }
+
+/// A number of things, such as `1 impact` or `2 impacts`.
+pub(crate) fn count(number: usize, noun: &str) -> String {
+    let plural = if number == 1 { "" } else { "s" };
+    format!("{number} {noun}{plural}")
+}

@@ -1,5 +1,5 @@
 //! A run in a few lines of text.
-use crate::digits::digits;
+use crate::digits::{count, digits};
 use crate::{Certified, RunWithTrust, outcome_in_words, trust_in_words};
 use serde::Serialize;
 use snapload::analysis::{NormErrors, digits_within};
@@ -272,14 +272,14 @@ fn largest_snap(trusted: &RunWithTrust) -> Option<String> {
 fn modes(intervals: &[ModeInterval]) -> String {
     let sums = Mode::ALL.map(|mode| {
         let of_mode = intervals.iter().filter(|i| i.taut.mode() == mode);
-        let (count, time) =
+        let (number, time) =
             of_mode.fold((0, 0.0), |(n, sum), i| (n + 1, sum + i.t_end - i.t_start));
-        let plural = if count == 1 { "" } else { "s" };
-        (count > 0).then(|| {
+        (number > 0).then(|| {
             format!(
-                "{} {} in {count} interval{plural}",
+                "{} {} in {}",
                 mode.name(),
-                digits(time)
+                digits(time),
+                count(number, "interval")
             )
         })
     });

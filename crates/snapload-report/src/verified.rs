@@ -1,5 +1,6 @@
 //! The same run with many digits, which shows where the ordinary one goes wrong: the question, its
 //! JSON and its words.
+use crate::digits::count;
 use crate::question::{Answer, Options, Question, TOLERANCE};
 use crate::summary::indented;
 use crate::{RunWithTrust, TrustRow, trust_in_words};
@@ -61,8 +62,8 @@ struct VerifiedRow<'a> {
     predicted: Option<usize>,
     compared: usize,
     end: Option<&'static str>,
-    t: f64,
-    impacts: usize,
+    t: Option<f64>,
+    impacts: Option<usize>,
     ordinary: Ordinary,
     differences: &'a [f64],
     exact: Vec<ExactRow<'a>>,
@@ -133,8 +134,8 @@ impl Verified {
             predicted: trust.horizon.map(|horizon| horizon.impact),
             compared: differences.len(),
             end: end.map(Stop::name),
-            t: *t,
-            impacts: impacts.len(),
+            t: t.as_ref().and_then(|t| t.parse().ok()),
+            impacts: t.as_ref().map(|_| impacts.len()),
             exact: impacts.iter().map(ExactRow::new).collect(),
             ordinary: Ordinary {
                 end: run.end().reason.name(),
@@ -152,43 +153,15 @@ impl Verified {
         let mut text = String::new();
         let _ = writeln!(
             text,
-            "Ordinary  {} at t = {:.6}, {} impacts",
+            "Ordinary  {} at t = {:.6}, {}",
             found.run.end().reason.label(),
             found.run.end().t,
-            found.run.impacts().len()
+            count(found.run.impacts().len(), "impact")
         );
-        let end = found.end.map_or_else(
-            || "the comparison ends, as a cable stays taut,".to_owned(),
-            |end| end.label().to_owned(),
-        );
-        let _ = writeln!(
-            text,
-            "{:<9} {end} at t = {:.6}, {} impacts",
-            format!("{} dig.", found.digits),
-            found.t,
-            found.impacts.len()
-        );
+        let label = format!("{} dig.", found.digits);
+        let _ = writeln!(text, "{label:<9} {}", exact_end_in_words(found));
         let tolerance = self.trusted.uncertainty.tolerance;
-        let _ = match found.first_wrong {
-            Some(impact) if impact > found.impacts.len() => writeln!(
-                text,
-                "Compared  correct to {tolerance:e} at all {} impacts, but not at the end",
-                found.impacts.len()
-            ),
-            Some(impact) => writeln!(
-                text,
-                "Compared  wrong by more than {tolerance:e} from impact {impact} on"
-            ),
-            None => writeln!(
-                text,
-                "Compared  correct to {tolerance:e} at {}",
-                match found.differences.len() {
-                    0 => "the end, without impacts".to_owned(),
-                    1 => "the only impact".to_owned(),
-                    count => format!("all {count} impacts"),
-                }
-            ),
-        };
+        let _ = writeln!(text, "Compared  {}", compared_in_words(found, tolerance));
         let _ = writeln!(
             text,
             "Predicted {}",
@@ -199,12 +172,62 @@ impl Verified {
     }
 }
 
+/// How the run with many digits ends, or how far it is known.
+fn exact_end_in_words(found: &Verification) -> String {
+    let impacts = count(found.impacts.len(), "impact");
+    match (&found.t, found.impacts.last()) {
+        (Some(t), _) => {
+            let end = found
+                .end
+                .map_or("the comparison ends, as a cable stays taut,", Stop::label);
+            format!("{end} at t = {}, {impacts}", shortened(t, 6))
+        }
+        (None, Some(last)) => {
+            let t = shortened(&last.t, 6);
+            format!("known for {impacts}, up to t = {t}; its end is not")
+        }
+        (None, None) => "neither its end nor any impact is known".to_owned(),
+    }
+}
+
+/// Where the ordinary run is wrong, among what is known with many digits.
+fn compared_in_words(found: &Verification, tolerance: f64) -> String {
+    let known = found.impacts.len();
+    if let Some(impact) = found.first_wrong.filter(|impact| *impact <= known) {
+        return format!("wrong by more than {tolerance:e} from impact {impact} on");
+    }
+    let place = match (known, &found.t) {
+        (0, None) => return "not possible".to_owned(),
+        (_, None) => format!("the {} that many digits know", count(known, "impact")),
+        (0, _) => "the end, without impacts".to_owned(),
+        (1, _) => "the only impact".to_owned(),
+        _ => format!("all {known} impacts"),
+    };
+    match (found.first_wrong, known) {
+        (None, _) => format!("correct to {tolerance:e} at {place}"),
+        (Some(_), 0) => format!("wrong by more than {tolerance:e} at the end"),
+        (Some(_), _) => format!("correct to {tolerance:e} at {place}, but not at the end"),
+    }
+}
+
+/// A decimal with at most so many places, and no more than it has.
+fn shortened(decimal: &str, most: usize) -> String {
+    let places = decimal
+        .split_once('.')
+        .map_or(0, |(_, places)| places.len());
+    let number = decimal.parse::<f64>();
+    number.map_or_else(
+        |_| decimal.to_owned(),
+        |number| format!("{number:.0$}", places.min(most)),
+    )
+}
+
 /// How many digits are left at the end, or how many would be needed.
 fn digits_left_in_words(found: &Verification) -> String {
     let (digits, left) = (found.digits, found.digits_left);
-    if left >= 1.0 {
-        let end = found.t;
-        return format!("{left:.0} of the {digits} digits are left at t = {end:.4}");
+    if let Some(end) = &found.t {
+        let end = shortened(end, 4);
+        return format!("{left:.0} of the {digits} digits are left at t = {end}");
     }
     // The next of the sizes that numbers have.
     let next = (2 * digits + 1).min(MOST_DIGITS);
@@ -214,4 +237,60 @@ fn digits_left_in_words(found: &Verification) -> String {
         format!("more than {MOST_DIGITS} are not possible")
     };
     format!("the {digits} digits are lost before the end; {advice}")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use serde_json::Value;
+    use snapload::Parameters;
+    use snapload::analysis::no_progress;
+
+    fn answered(parameters: Parameters) -> Result<(String, Value), Unfinished> {
+        let case = Case::new(parameters)?;
+        let answer = VERIFY.ask(&case, [("digits", 60_i64.into()); 1], &no_progress)?;
+        let json = serde_json::from_str(answer.answer.get()).expect("JSON");
+        Ok((answer.words, json))
+    }
+
+    /// With 153 digits this run has 322 impacts.
+    #[test]
+    fn an_end_that_is_not_known_is_not_stated() -> Result<(), Unfinished> {
+        let square = snapload::named_case("1922001000-359")?;
+        let (words, json) = answered(square.parameters)?;
+        for key in ["end", "t", "impacts"] {
+            assert!(json[key].is_null(), "{key}");
+        }
+        assert_eq!(json["digits_left"], 0.0);
+        let known = json["exact"].as_array().map_or(0, Vec::len);
+        assert!((200..322).contains(&known), "{known}");
+        let line = format!("\n76 dig.   known for {known} impacts, up to t = ");
+        assert!(words.contains(&line), "{words}");
+        assert!(words.contains("; its end is not\n"), "{words}");
+        let advice = "the 76 digits are lost before the end; use --digits 153";
+        assert!(words.contains(advice), "{words}");
+        Ok(())
+    }
+
+    #[test]
+    fn one_impact_has_no_plural() -> Result<(), Unfinished> {
+        let (words, json) = answered(Parameters {
+            e: 0.0,
+            f_o: 0.0,
+            x: 0.1,
+            y: 0.5,
+            ..Parameters::STANDARD
+        })?;
+        assert_eq!(json["impacts"], 1);
+        assert!(words.contains(", 1 impact\n"), "{words}");
+        assert!(!words.contains("1 impacts"), "{words}");
+        Ok(())
+    }
+
+    #[test]
+    fn no_more_places_are_printed_than_are_known() {
+        let shown = ["26.1", "28.787654321", "3.0", "100.00000000000"];
+        let shown = shown.map(|decimal| shortened(decimal, 6));
+        assert_eq!(shown, ["26.1", "28.787654", "3.0", "100.000000"]);
+    }
 }

@@ -1,6 +1,6 @@
 //! The same code of the motion, in several arithmetics, gives the same results.
 
-use crate::common::{keys_of_oracle, oracle};
+use crate::common::{exact, keys_of_oracle, oracle};
 use serde_json::Value as Json;
 use snapload::{
     Case, Dual, Impact, Parameters, Precise, Real, Simulation, State, Steps, named_cases,
@@ -23,28 +23,6 @@ fn impacts<T: Steps>(mut simulation: Simulation<T>, most: usize) -> Vec<Impact<T
         }
     }
     all
-}
-
-/// The oracle's decimals, read exactly: digits over a power of ten.
-fn exact(text: &str) -> Digits {
-    let (sign, digits) = text
-        .strip_prefix('-')
-        .map_or((1.0, text), |rest| (-1.0, rest));
-    let (digits, power) = digits.split_once('e').unwrap_or((digits, "0"));
-    let (whole, fraction) = digits.split_once('.').unwrap_or((digits, ""));
-    let mut value = Digits::ZERO;
-    for digit in whole.chars().chain(fraction.chars()) {
-        value = value * 10.0 + f64::from(digit.to_digit(10).expect("a digit"));
-    }
-    let power = power.parse::<i32>().expect("a power") - fraction.len() as i32;
-    for _ in 0..power.abs() {
-        value = if power < 0 {
-            value / 10.0
-        } else {
-            value * 10.0
-        };
-    }
-    value * sign
 }
 
 fn components<T: Real>(s: &State<T>) -> [T; 6] {

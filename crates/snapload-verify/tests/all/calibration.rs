@@ -51,6 +51,15 @@ fn written(number: f64) -> f64 {
     format!("{number:.3e}").parse().expect("a number")
 }
 
+/// A random case of a kind.
+pub fn random_case(index: usize) -> Case {
+    let seed = u64::try_from(index).expect("few");
+    let mut draw = Draw(ChaCha8Rng::seed_from_u64(seed));
+    (0..1000)
+        .find_map(|_| drawn(index % STRATA.len(), &mut draw).ok())
+        .expect("a legal start")
+}
+
 /// A random case of a stratum; an error if its start is not legal.
 fn drawn(stratum: usize, draw: &mut Draw) -> Result<Case, CaseError> {
     let mut e = draw.between(0.6, 1.0);
@@ -124,11 +133,7 @@ struct Judged {
 
 impl Judged {
     fn new(index: usize) -> Self {
-        let seed = u64::try_from(index).expect("few");
-        let mut draw = Draw(ChaCha8Rng::seed_from_u64(seed));
-        let case = (0..1000)
-            .find_map(|_| drawn(index % STRATA.len(), &mut draw).ok())
-            .expect("a legal start");
+        let case = random_case(index);
         let [(run, coarse), (_, fine)] = TOLERANCES.map(|tolerance| {
             let uncertainty = Uncertainty {
                 tolerance,

@@ -1,6 +1,7 @@
 //! The oracle's files, which lie beside the library, as cases.
 
 use serde_json::Value;
+use snapload::{Precise, Real};
 
 pub fn oracle(file: &str) -> Vec<Value> {
     let path = format!(
@@ -35,4 +36,26 @@ pub fn keys_of_oracle(reference: &Value) -> impl Iterator<Item = (&'static str, 
         let value = reference["params"].get(theirs)?;
         Some((ours, snapload::Value::Number(number(value))))
     })
+}
+
+/// A decimal, read exactly: digits over a power of ten.
+pub fn exact<const WORDS: usize>(text: &str) -> Precise<WORDS> {
+    let (sign, digits) = text
+        .strip_prefix('-')
+        .map_or((1.0, text), |rest| (-1.0, rest));
+    let (digits, power) = digits.split_once('e').unwrap_or((digits, "0"));
+    let (whole, fraction) = digits.split_once('.').unwrap_or((digits, ""));
+    let mut value = Precise::ZERO;
+    for digit in whole.chars().chain(fraction.chars()) {
+        value = value * 10.0 + f64::from(digit.to_digit(10).expect("a digit"));
+    }
+    let power = power.parse::<i32>().expect("a power") - fraction.len() as i32;
+    for _ in 0..power.abs() {
+        value = if power < 0 {
+            value / 10.0
+        } else {
+            value * 10.0
+        };
+    }
+    value * sign
 }

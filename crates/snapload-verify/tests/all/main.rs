@@ -7,5 +7,6 @@ mod calibration;
 mod common;
 mod derivatives;
 mod floating;
+mod printed_decimals;
 mod trust;
 mod trust_causes;
