@@ -196,6 +196,19 @@ fn compared_in_words(found: &Verification, tolerance: f64) -> String {
     if let Some(impact) = found.first_wrong.filter(|impact| *impact <= known) {
         return format!("wrong by more than {tolerance:e} from impact {impact} on");
     }
+    // Where a cable stays taut the run with many digits ends, and with it the comparison.
+    if found.t.is_some() && found.end.is_none() {
+        let all = count(found.run.impacts().len(), "impact");
+        return match known {
+            0 => format!(
+                "nothing, as a cable stays taut before any impact; the ordinary run has {all}"
+            ),
+            _ => format!(
+                "correct to {tolerance:e} at {} and not after it; the ordinary run has {all}",
+                count(known, "impact")
+            ),
+        };
+    }
     let place = match (known, &found.t) {
         (0, None) => return "not possible".to_owned(),
         (_, None) => format!("the {} that many digits know", count(known, "impact")),
@@ -251,6 +264,24 @@ mod tests {
         let answer = VERIFY.ask(&case, [("digits", 60_i64.into()); 1], &no_progress)?;
         let json = serde_json::from_str(answer.answer.get()).expect("JSON");
         Ok((answer.words, json))
+    }
+
+    /// Where a cable stays taut nothing is compared, and nothing is said to be correct.
+    #[test]
+    fn what_comes_after_a_cable_stays_taut_is_not_called_correct() -> Result<(), Unfinished> {
+        let (words, json) = answered(Parameters {
+            y: 0.0,
+            f_o: -0.92,
+            nu: 0.0,
+            omega: 1.0,
+            t_end: 10.0,
+            stop_when_settled: false,
+            ..Parameters::STANDARD
+        })?;
+        assert!(json["end"].is_null() && json["compared"] != json["ordinary"]["impacts"]);
+        assert!(words.contains("the ordinary run has"), "{words}");
+        assert!(!words.contains("at the end"), "{words}");
+        Ok(())
     }
 
     /// With 153 digits this run has 322 impacts.
