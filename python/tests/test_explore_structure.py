@@ -2,13 +2,19 @@
 
 from __future__ import annotations
 
+import json
+import os
 import re
+import subprocess
 from collections.abc import Callable, Iterator
 from itertools import groupby
 from pathlib import Path
+from types import SimpleNamespace
 from typing import Any
+from urllib.parse import quote
 
 import pytest
+import snapload
 from explore import DESKTOP, PHONE, ROOT, blameless, comes_true, count, download, exact_time, served, settled
 from playwright.sync_api import Page, expect
 
@@ -95,6 +101,129 @@ def test_a_slider_changes_the_wave_and_a_link_holds_it(open_structure, assessed)
     comes_true(page, lambda: "wave.height=2.6" in page.evaluate("() => location.hash"))
     linked = open_structure(page.evaluate("() => location.hash").removeprefix("#"))
     shows_answer(linked, answer)
+
+
+RANGES = """inputs => inputs.map(({ id, min, max, step, value }) => {
+    const field = document.getElementById(id.replace('slider-', 'field-'));
+    return { id, ends: [min, max, step, value].map(Number), field: field.value };
+})"""
+
+
+def has_sliders(page: Page) -> None:
+    """Every slider has finite ends, shows the value of its field to half a step, and keeps it when it is focused."""
+    page.locator("details.group").evaluate_all("groups => groups.forEach(group => (group.open = true))")
+    ranges = page.locator("input.slider").evaluate_all(RANGES)
+    assert len(ranges) > 5
+    for one in ranges:
+        low, high, step, value = one["ends"]
+        assert low <= value <= high and low < high and 0 < step < high - low, one
+        if one["field"]:
+            assert abs(value - float(one["field"])) <= step / 2 * (1 + 1e-9), one
+
+
+@pytest.mark.parametrize("case", ["docs/examples/pontoon.toml", "docs/examples/cylinder-sea.toml"])
+def test_the_sliders_of_other_structures_have_ends(open_at, case):
+    addresses = served(case)
+    has_sliders(open_at(next(addresses), f"{SHORT}&t=0&elastic=false"))
+    next(addresses, None)
+
+
+def test_all_sliders_have_ends(open_structure, open_page):
+    has_sliders(open_structure(f"{SHORT}&t=0&elastic=false"))
+    has_sliders(open_page("t=0"))
+
+
+def test_the_slider_of_added_mass_begins_at_its_value(open_structure, assessed):
+    page = open_structure(f"{SHORT}&t=0&elastic=false")
+    page.locator("summary", has_text="Body").click()
+    slider = page.locator('[id="slider-body.added_mass"]')
+    field = page.locator('[id="field-body.added_mass"]')
+    for end, least, most in [("Home", 0.49, 0.51), ("End", 1.49, 1.53)]:
+        before = count(page)
+        slider.press(end)
+        settled(page, before)
+        assert least < float(field.input_value()) / 144_904 < most
+        shows_answer(page, assessed(SHORT, f"body.added_mass={field.input_value()}"))
+    three = "[144904, 144904, 0]"
+    field.fill(three)
+    field.press("Enter")
+    shows_answer(page, assessed(SHORT, f"body.added_mass={three}"))
+    # No place on a slider is that of three numbers.
+    expect(slider).to_be_hidden()
+    field.fill("144904")
+    expect(slider).to_be_visible()
+    expect(page.locator("#shell")).not_to_contain_text("added_mass")
+
+
+def test_lists_can_be_edited_in_their_fields(open_structure, assessed):
+    page = open_structure(f"{SHORT}&t=0&elastic=false")
+    page.locator("summary", has_text="Line 1 alone").click()
+    anchor = page.locator('[id="field-line.1.anchor"]')
+    expect(anchor).to_have_value("[3.593, -10]")
+    anchor.fill("[3.6, -10]")
+    anchor.press("Enter")
+    shows_answer(page, assessed(SHORT, "line.1.anchor=[3.6, -10]"))
+
+
+def test_the_lines_to_copy_run_as_they_are(open_at, tmp_path: Path):
+    name = tmp_path / "my pier's; $(touch bad) \\ x.toml"
+    name.write_text((ROOT / CYLINDER).read_text(encoding="utf-8"), encoding="utf-8")
+    addresses = served(str(name), "--set", "wave.height=2.5", "--set", SHORT)
+    text = 'O\'Brien & "Sons"; $(touch bad)'
+    page = open_at(next(addresses), f"project.name={quote(text)}&line.1.anchor={quote('[3.6, -10]')}&t=0&elastic=false")
+    expect(page.locator("#verdict")).to_have_attribute("data-standing", re.compile("."), timeout=30_000)
+    words = page.locator("#message").inner_text()
+    program = Path(os.environ.get("CARGO_TARGET_DIR", ROOT / "target")) / "debug"
+    path = f"{program}{os.pathsep}{os.environ['PATH']}"
+    copied = page.locator("#shell").inner_text()
+    line = f"{copied} --neighbours 0 --json -"
+    run = subprocess.run(["sh", "-c", line], capture_output=True, text=True, cwd=tmp_path, env={"PATH": path})
+    assert run.returncode == 0, run.stderr
+    answer = json.loads(run.stdout)
+    assert answer["verdict"]["words"] == words
+    given: list[tuple[str, dict[str, Any]]] = []
+    structure = SimpleNamespace(
+        from_toml=lambda path, changes: given.append((path, changes)) or SimpleNamespace(assess=list)
+    )
+    copied = page.locator("#python").inner_text().removeprefix("import snapload\n")
+    eval(copied, {"snapload": SimpleNamespace(Structure=structure)})
+    [(path, changes)] = given
+    assert path == str(name)
+    again = snapload.Structure.from_toml(path, changes)
+    assert again.assess(neighbours=0, progress=False).verdict == words
+    # A text of a link is shown as it is, in the pins too.
+    page.locator("#pin").click()
+    expect(page.locator("#pins .back")).to_contain_text(text)
+    assert not (tmp_path / "bad").exists() and not (ROOT / "bad").exists()
+    next(addresses, None)
+
+
+def test_a_utilisation_next_to_1_is_written_on_its_side_of_1(open_structure, assessed):
+    tension = max(line["utilisation"] * line["breaking_load_n"] for line in assessed(SHORT)["lines"])
+    for part, written, factor in [(0.998, "0.998", "1.00"), (1.002, "1.00", "0.998")]:
+        change = f"line.breaking_load={tension / part:.8g}"
+        largest = max(line["utilisation"] for line in assessed(SHORT, change)["lines"])
+        assert largest == pytest.approx(part, rel=1e-6)
+        page = open_structure(f"{SHORT}&{change}&t=0&elastic=false")
+        cells = page.locator("#lines tbody tr").filter(has_text=written).first.locator("td")
+        expect(cells.nth(0)).to_have_text(written)
+        expect(cells.nth(1)).to_have_text(factor)
+        expect(page.locator("#message")).to_contain_text(written)
+        expect(page.locator("#events-body")).to_contain_text(written)
+        page.locator("#pin").click()
+        expect(page.locator("#pins li")).to_contain_text(f"utilisation {written}")
+
+
+def test_numbers_on_either_side_of_1_are_told_apart(code):
+    values = [k * 10.0**-e + 1 for e in range(2, 7) for k in (-7, -2, 0, 2, 7)] + [0.0, 0.63, 12.34]
+    module = "import('./formatting.js')"
+    written = code.evaluate(f"async values => values.map((await {module}).ratio)", values)
+    for value, text in zip(values, written, strict=True):
+        assert (float(text) < 1) == (value < 1), (value, text)
+        # No more decimals than it takes.
+        shorter = text[:-1] if len(text.split(".")[1]) > 2 else None
+        assert shorter is None or float(f"{value:.{len(shorter.split('.')[1])}f}") >= 1 > value
+        assert float(text) == pytest.approx(value, abs=0.005)
 
 
 def test_rigid_and_elastic_lines_stand_side_by_side(open_structure, assessed):

@@ -1,6 +1,7 @@
 //! The case that a command line asks for: built-in or from a file, then changed by `--set`.
 use crate::failure::{Failure, without_number};
 use snapload::{CASE, Case, CaseError, Entries, Parameters, Schema, Value, named_case};
+use snapload_report::shell_command;
 use std::fs::File;
 use std::io::{ErrorKind, Read};
 use std::path::{Path, PathBuf};
@@ -113,14 +114,15 @@ fn read_file(schema: &'static Schema, path: &Path) -> Result<Entries, Failure> {
         .any(|name| name == "vary")
     {
         let what = "this is the file of a study, as it has [vary]";
-        let hint = format!("write snapload sweep {shown} --out study.parquet");
+        let words = ["snapload", "sweep", &shown, "--out", "study.parquet"];
+        let hint = format!("write {}", shell_command(words));
         return Err(CaseError::syntax(what).with_hint(hint).at(shown).into());
     }
     #[cfg(feature = "structure")]
     if snapload_structure::is_structure(&text) {
         let what = "this is the case of a structure in metres and kilograms";
-        let error = CaseError::syntax(what).with_hint(format!("write snapload assess {shown}"));
-        return Err(error.at(shown).into());
+        let hint = format!("write {}", shell_command(["snapload", "assess", &shown]));
+        return Err(CaseError::syntax(what).with_hint(hint).at(shown).into());
     }
     Ok(Entries::parse(schema, &shown, &text)?)
 }

@@ -110,6 +110,7 @@ fn opened(case: &CaseArgs) -> Result<Option<Opened>, Failure> {
     Ok(Some(Opened {
         name,
         entries,
+        changes: case.changes().to_vec(),
         folder,
     }))
 }

@@ -5,6 +5,7 @@ use crate::json::JsonArgs;
 use crate::outputs::Outputs;
 use serde::Serialize;
 use snapload_hydro::{FREEDOMS, Line, Report, page};
+use snapload_report::shell_command;
 use snapload_structure::{IrregularSea, Spectrum, SpectrumShape, labelled_row};
 use std::path::PathBuf;
 
@@ -62,8 +63,8 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
     let report = args.input.report(args.line.clone(), args.force)?;
     let sea = args.sea(&report)?;
     if let Some(out) = out {
-        let words: Vec<String> = std::env::args().skip(1).collect();
-        let command = format!("snapload {}", words.join(" "));
+        let words = crate::given_words();
+        let command = shell_command(words.iter().map(|word| &**word));
         let page = page(&report, &command)
             .map_err(|error| Failure::Failed(format!("can not draw the page: {error}")))?;
         outputs.write(out, |out| out.write_all(page.as_bytes()))?;

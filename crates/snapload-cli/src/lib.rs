@@ -61,6 +61,7 @@ mod uncertainty;
 use clap::error::{ContextKind, ContextValue, ErrorKind};
 use clap::{CommandFactory, FromArgMatches, Parser, Subcommand};
 use snapload::CASE_KEYS;
+use std::borrow::Cow;
 use std::ffi::OsString;
 use std::sync::OnceLock;
 
@@ -153,6 +154,13 @@ enum Verb {
 
 /// The arguments of the command line after the name of the program.
 static WORDS: OnceLock<Vec<OsString>> = OnceLock::new();
+
+/// The command line that is executed, from the name of the program on.
+fn given_words() -> Vec<Cow<'static, str>> {
+    let words = WORDS.get().into_iter().flatten();
+    let words = words.map(|word| word.to_string_lossy());
+    std::iter::once("snapload".into()).chain(words).collect()
+}
 
 /// Executes a command line, whose first word is the name of the program, and returns the exit
 /// status. It acts for the whole process: it handles Ctrl-C, and may end the process itself.

@@ -3,8 +3,8 @@ use crate::case_input::read_text;
 use crate::failure::Failure;
 use sha2::{Digest, Sha256};
 use snapload::{CaseError, Entries};
+use snapload_report::shell_command;
 use snapload_structure::{STRUCTURE, Structure};
-use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
 
 /// A structure that was read.
@@ -51,11 +51,13 @@ impl StructureArgs {
     /// The command line that reads it again.
     pub(crate) fn command(&self, verb: &str) -> String {
         let file = self.file.as_deref().map(|path| path.display().to_string());
-        let mut command = format!("snapload {verb} {}", file.unwrap_or_default());
-        for set in &self.set {
-            let _ = write!(command, " --set '{set}'");
-        }
-        command
+        let sets = self.set.iter().flat_map(|set| ["--set", set]);
+        shell_command(
+            ["snapload", verb]
+                .into_iter()
+                .chain(file.as_deref())
+                .chain(sets),
+        )
     }
 }
 

@@ -6,8 +6,8 @@ use crate::option_values::whole_number;
 use crate::study_input::StudyArgs;
 use crate::study_picture::PictureArgs;
 use crate::study_summary::Summary;
-use clap::CommandFactory;
 use snapload::analysis::{Cancelled, Progress};
+use snapload_report::shell_command;
 use snapload_study::{Identity, Opened, Shard, Store, StudyError, THREADS, sweep, threads_for};
 use std::ops::ControlFlow;
 use std::path::PathBuf;
@@ -130,19 +130,9 @@ fn with_resume_hint(error: StudyError, rows: u64) -> Failure {
 
 /// The command that was given, with --resume.
 fn resume_command() -> String {
-    let words = crate::WORDS.get().into_iter().flatten();
-    let mut words: Vec<String> = words.map(|word| quoted(&word.to_string_lossy())).collect();
+    let mut words = crate::given_words();
     if !words.iter().any(|word| word == "--resume") {
-        words.push("--resume".to_owned());
+        words.push("--resume".into());
     }
-    format!("{} {}", crate::Cli::command().get_name(), words.join(" "))
-}
-
-/// A word, quoted for a shell.
-fn quoted(word: &str) -> String {
-    let plain = |c: char| c.is_ascii_alphanumeric() || "-_./=:,+@%".contains(c);
-    if !word.is_empty() && word.chars().all(plain) {
-        return word.to_owned();
-    }
-    format!("'{}'", word.replace('\'', r"'\''"))
+    shell_command(words.iter().map(|word| &**word))
 }

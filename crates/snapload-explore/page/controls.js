@@ -15,6 +15,15 @@ const GROUPS = [
 /** Texts longer than this do not fit next to their label. */
 const LONG_OPTION = 8;
 
+/** The most characters of an end of a slider that its field shows. */
+const LONGEST_END = 6;
+
+/** Kinds of values that are not always a single number, which need more room and the whole meaning of their key. */
+const ROOMY = ["text", "per_freedom"];
+
+/** Whether a slider can span these ends. */
+export const isRange = (low, high) => [low, high, sliderStep(low, high)].every(Number.isFinite) && low < high;
+
 /** Keys that a point mass can not have, and why. */
 const NOT_OF_A_POINT = {
   a: "a point mass has no size",
@@ -86,7 +95,7 @@ export class Controls {
     if (wordy) name.textContent = key.symbol.replaceAll("_", " ");
     else name.innerHTML = symbolHtml(key.symbol);
     const meaning = element("span", { className: "meaning", id: `meaning-${key.name}` });
-    meaning.textContent = withSymbols(["choice", "text"].includes(key.kind.type) ? key.meaning : key.title);
+    meaning.textContent = withSymbols(["choice", ...ROOMY].includes(key.kind.type) ? key.meaning : key.title);
     label.title = withSymbols(key.meaning) + (key.default_in_words ? `. Default: ${withSymbols(key.default_in_words)}` : "");
     label.append(name, meaning);
     if (unit) meaning.append(element("span", { className: "unit", textContent: ` [${unit}]` }));
@@ -105,11 +114,10 @@ export class Controls {
       title: "Back to the default",
     });
     reset.setAttribute("aria-label", `${key.name}: back to the default`);
-    // Values other than a single number need more room.
-    if (key.kind.type === "text") row.classList.add("key-wide");
+    if (ROOMY.includes(key.kind.type)) row.classList.add("key-wide");
     row.append(this.#label(key), reset, field);
     Object.assign(parts, { field, reset });
-    if (key.usual) row.append(this.#ranged(parts, this.#slider(parts)));
+    if (key.usual && isRange(key.usual.low, key.usual.high)) row.append(this.#ranged(parts, this.#slider(parts)));
     field.addEventListener("input", (event) => {
       // During typing only numbers are applied; other text is applied at the end.
       this.typing = key.name;
@@ -145,14 +153,15 @@ export class Controls {
   }
 
   /** A slider between two ends; the field also accepts values outside them. */
-  #ranged({ key }, slider) {
+  #ranged(parts, slider) {
+    const { key } = parts;
     const ends = ["low", "high"].map((name) => {
       const end = element("input", { type: "text", inputMode: "decimal", className: `end ${name}`, tabIndex: -1 });
       end.setAttribute("aria-label", `${key.name}: ${name} end of the slider`);
       end.title = "End of the slider; it can be edited";
       return end;
     });
-    const show = () => [ends[0].value, ends[1].value] = [fieldText(Number(slider.min)), fieldText(Number(slider.max))];
+    const show = () => [ends[0].value, ends[1].value] = [endText(Number(slider.min)), endText(Number(slider.max))];
     const setEnds = () => {
       const [low, high] = ends.map((end) => readValue(key, end.value));
       const { low: least, high: most } = key.kind;
@@ -167,6 +176,7 @@ export class Controls {
     show();
     const ranged = element("div", { className: "ranged" });
     ranged.append(ends[0], slider, ends[1]);
+    parts.ranged = ranged;
     return ranged;
   }
 
@@ -183,7 +193,7 @@ export class Controls {
   #stepField(parts, event) {
     const direction = { ArrowUp: 1, ArrowDown: -1 }[event.key];
     const value = Number(parts.field.value);
-    if (!direction || !parts.key.usual || !Number.isFinite(value)) return;
+    if (!direction || !parts.slider || !Number.isFinite(value)) return;
     event.preventDefault();
     const step = sliderStep(parts.key.usual.low, parts.key.usual.high) * (event.shiftKey ? 10 : 1);
     parts.field.value = String(Number((value + direction * step).toPrecision(12)));
@@ -224,7 +234,7 @@ export class Controls {
 
   /** Shows the values of the state; text that is being typed stays. `effective` has the derived values. */
   show(effective = {}) {
-    for (const [name, { key, field, slider, reset, why }] of this.rows) {
+    for (const [name, { key, field, slider, ranged, reset, why }] of this.rows) {
       // If a default depends on other keys, its value is known from the run.
       const given = this.state.values[name];
       const follows = given === undefined && key.default_in_words !== "" && effective[name] !== undefined;
@@ -234,6 +244,8 @@ export class Controls {
       if (key.kind.type === "flag") setProperties(field, { checked: value });
       else if (this.typing !== name) setProperties(field, { value: text });
       if (reset) setProperties(reset, { hidden: !(name in this.state.values) });
+      // A slider has one value; three numbers have none that it could show.
+      if (ranged) setProperties(ranged, { hidden: text.startsWith("[") });
       if (slider && document.activeElement !== slider) setProperties(slider, { value: String(value ?? slider.min) });
       if (slider) setAttributes(slider, { "aria-valuetext": `${text} ${unitText(key.unit)}`.trim() });
       // An unavailable key that is given is refused by the server; its field stays enabled so that it can be corrected.
@@ -269,6 +281,12 @@ function rounded(value) {
   if (typeof value !== "number") return fieldText(value);
   const [mantissa, exponent] = value.toExponential(2).split("e");
   return Math.abs(value) < 1e6 ? fieldText(Number(value.toPrecision(6))) : `${Number(mantissa)}e${Number(exponent)}`;
+}
+
+/** An end of a slider, as short as its field is. */
+function endText(value) {
+  const text = fieldText(value);
+  return text.length > LONGEST_END ? value.toExponential().replace("e+", "e") : text;
 }
 
 /** A round step, such that the range has some hundreds of them. */

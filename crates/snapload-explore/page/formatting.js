@@ -21,9 +21,24 @@ export function fixed(value, decimals) {
 /** A number with some digits as engineers write it: a large one as a whole number, without a power of ten. */
 export const round = (value, digits = 3) => (Math.abs(value) >= 1000 ? fixed(value, 0) : number(value, digits));
 
+/**
+ * A utilisation or a safety factor, with two decimals; one next to 1 with as many as show on which side of 1 it is: the
+ * rule of the texts of `snapload assess` (`ratio` in text_layout.rs of snapload-structure).
+ */
+export function ratio(value) {
+  if (value === null || value === undefined) return "–";
+  const decimals = [2, 3, 4, 5, 6].find((k) => (Number(value.toFixed(k)) < 1) === (value < 1));
+  return fixed(value, decimals ?? 2);
+}
+
+/** A text within HTML, also within an attribute. */
+export const escape = (text) =>
+  text.replace(/[&<>"]/g, (c) => ({ "&": "&amp;", "<": "&lt;", ">": "&gt;", '"': "&quot;" })[c]);
+
 /** The text of a number field: all digits, in ASCII, so that it can be edited and sent. */
 export function fieldText(value) {
   if (value === null || value === undefined) return "";
+  if (Array.isArray(value)) return `[${value.map(fieldText).join(", ")}]`;
   return typeof value === "number" && value !== 0 && Math.abs(value) < 1e-3 ? value.toExponential() : String(value);
 }
 

@@ -3,7 +3,7 @@
 import { drawColumn, drawMarks, span } from "./plot.js";
 import { TimeCharts, above, rows } from "./time-charts.js";
 import { lineColour } from "./theme.js";
-import { fixed, number, round } from "./formatting.js";
+import { fixed, number, ratio, round } from "./formatting.js";
 
 const DEGREES = 180 / Math.PI;
 /** The breaking load is drawn if tensions reach this part of it. */
@@ -103,7 +103,7 @@ export function snapWords(run, i) {
   const { t, line: lines, speed, peak, utilisation, jolt } = run.snaps;
   const what = jolt[i] ? "impact while taut of" : "snap of";
   const pulls = peak[i] === null ? "" : ` · about ${round(peak[i])} kN`;
-  const part = utilisation[i] === null ? "" : `, ${fixed(utilisation[i], 2)} of the breaking load`;
+  const part = utilisation[i] === null ? "" : `, ${ratio(utilisation[i])} of the breaking load`;
   return `${what} line ${lines[i]}${pulls}${part} · ${number(speed[i], 3)} m/s · t ${fixed(t[i], 2)} s`;
 }
 

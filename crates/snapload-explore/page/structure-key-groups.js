@@ -1,5 +1,6 @@
 // The keys of a structure in groups, those that are changed most often first.
 
+import { isRange } from "./controls.js";
 import { fieldText } from "./formatting.js";
 
 const WAVES = { wave: "Regular wave", sea: "Irregular sea" };
@@ -42,8 +43,9 @@ export function structureKeyGroups(state) {
 function ranged(state, key) {
   const value = state.value(key.name);
   if (key.kind.type === "count" || key.usual || !(typeof value === "number" && value > 0)) return key;
-  const [low, high] = AROUND.map((part) => Number(Math.min(part * value, key.kind.high).toPrecision(2)));
-  return { ...key, usual: { low, high } };
+  const { low: least, high: most } = key.kind;
+  const [low, high] = AROUND.map((part) => Number(Math.min(Math.max(part * value, least), most).toPrecision(2)));
+  return isRange(low, high) ? { ...key, usual: { low, high } } : key;
 }
 
 /** A button for the next seed: the same sea with other phases. */

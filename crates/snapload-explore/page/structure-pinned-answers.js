@@ -2,7 +2,7 @@
 
 import { $ } from "./dom.js";
 import { changesText } from "./structure-key-groups.js";
-import { fixed, number } from "./formatting.js";
+import { escape, fixed, number, ratio } from "./formatting.js";
 
 const MOST_PINS = 5;
 
@@ -49,18 +49,24 @@ export class PinnedAnswers {
   }
 }
 
+const speed = (value) => fixed(value, 2);
+
+/** How much more or less a number is than the one shown now, in as many decimals as `written` gives either. */
+function compared(value, now, written) {
+  if (now === null) return "not known now";
+  const decimals = [value, now].map((one) => written(one).split(".")[1].length);
+  const far = fixed(Math.abs(value - now), Math.max(...decimals));
+  return Number(far) === 0 ? "the same as now" : `${far} ${value > now ? "more" : "less"} than now`;
+}
+
 function line({ values, water, waterNow, outcome: of, preview }, i, shown) {
   const waters = water === null ? "" : `water: ${waterNow}`;
-  const what = [waters, changesText(values)].filter(Boolean).join(", ") || "the case, unchanged";
-  const compared = of.largest === null ? ["fastest", 2] : ["largest", 2];
-  const [name, digits] = compared;
-  const difference = shown[name] === null ? 0 : of[name] - shown[name];
-  const far = fixed(Math.abs(difference), digits);
-  const more = Number(far) === 0 ? "the same as now" : `${far} ${difference > 0 ? "more" : "less"} than now`;
-  const much = of.largest === null ? `fastest snap ${fixed(of.fastest, 2)} m/s` : `utilisation ${fixed(of.largest, 2)}`;
+  const what = escape([waters, changesText(values)].filter(Boolean).join(", ")) || "the case, unchanged";
+  const more = of.largest === null ? compared(of.fastest, shown.fastest, speed) : compared(of.largest, shown.largest, ratio);
+  const much = of.largest === null ? `fastest snap ${speed(of.fastest)} m/s` : `utilisation ${ratio(of.largest)}`;
   const first = preview ? ", first minutes only" : "";
   const comes = of.judged
-    ? `${much} (${more}), fastest snap ${number(of.fastest, 3)} m/s, slack at most ${fixed(100 * of.slack, 1)} % of the time`
+    ? `${much} (${more}), fastest snap ${number(of.fastest, 3)} m/s, slack at most ${fixed(100 * of.slack, 1)} % of the whole time`
     : "nothing judged";
   return (
     `<li><button type="button" class="back" data-pin="${i}" title="Show this again">${what}</button>: <b>${of.standing}</b>` +

@@ -85,7 +85,7 @@ export class StructureState extends ObservableState {
       // A value for all lines replaces those of the single lines.
       const ending = name.slice("line".length);
       if (ofAll) for (const path of Object.keys(values)) if (path.endsWith(ending)) delete values[path];
-      if (value === null || value === this.given[name]) delete values[name];
+      if (value === null || fieldText(value) === fieldText(this.given[name])) delete values[name];
       else values[name] = value;
     }
     this.set({ values, ...more });

@@ -1,23 +1,24 @@
 // The answer in tables, as in `snapload assess` and its page: lines, checks, warnings, and the hardest snaps.
 
 import { $ } from "./dom.js";
-import { fixed, number, round, sentence } from "./formatting.js";
+import { escape, fixed, number, ratio, round, sentence } from "./formatting.js";
 
 /** The numbers of listed snaps: of the judged ones, and of those in the transient. */
 const [LISTED, EARLY] = [10, 3];
 
+/** The unit of slack; the tensions and snaps beside it are those of the judged time. */
+const WHOLE = "% of whole time";
+
 const kilo = (newtons) => (newtons === null || newtons === undefined ? "–" : round(newtons / 1e3, 4));
 const percent = (part) => (part === null ? "–" : fixed(100 * part, 1));
 const cell = (text, kind = "num") => `<td class="${kind}">${text}</td>`;
-/** @param {string} text */
-const escape = (text) => text.replace(/[&<>]/g, (c) => ({ "&": "&amp;", "<": "&lt;", ">": "&gt;" })[c]);
 
 /** A utilisation as a bar, which is full if the line breaks. */
 function bar(utilisation) {
   if (utilisation === null) return "not known";
   const part = Math.min(utilisation, 1);
   const kind = utilisation >= 1 ? "breaks" : "holds";
-  return `<span class="meter ${kind}"><i style="width:${(100 * part).toFixed(1)}%"></i></span> ${fixed(utilisation, 2)}`;
+  return `<span class="meter ${kind}"><i style="width:${(100 * part).toFixed(1)}%"></i></span> ${ratio(utilisation)}`;
 }
 
 function lineRow(line, elastic) {
@@ -25,7 +26,7 @@ function lineRow(line, elastic) {
   return (
     `<tr><th scope="row"><span class="c${((line.line - 1) % 6) + 1}">${line.line}</span></th>` +
     cell(bar(line.utilisation), "utilised") +
-    cell(line.safety_factor === null ? "–" : fixed(line.safety_factor, 2), "num factor") +
+    cell(ratio(line.safety_factor), "num factor") +
     cell(kilo(line.breaking_load_n)) +
     cell(kilo(line.held_tension_n)) +
     cell(kilo(line.peak_tension_n)) +
@@ -49,7 +50,7 @@ export function showLines(run) {
   $("lines").innerHTML =
     `<thead><tr><th scope="col">Line</th>${head("Utilisation", "", "")}${head("Safety<br>factor", "")}` +
     `${head("Breaking<br>load", "kN")}${head("While<br>taut", "kN")}${head("Snap<br>peak", "kN")}${elasticHead("Peak", "kN")}` +
-    `${head("Slack", "%")}${elasticHead("Slack", "%")}${head("Fastest<br>snap", "m/s")}${head("Snaps", "")}` +
+    `${head("Slack", WHOLE)}${elasticHead("Slack", WHOLE)}${head("Fastest<br>snap", "m/s")}${head("Snaps", "")}` +
     `${head("At rest", "kN")}${head("Least", "kN")}</tr></thead><tbody>` +
     run.lines.map((line, i) => lineRow(line, elastic?.lines[i])).join("") +
     "</tbody>";
@@ -59,8 +60,9 @@ export function showLines(run) {
   const nothing = run.lines.every(({ snaps }) => snaps === null) ? ", so that nothing is judged" : "";
   $("lines-words").textContent =
     `${named}The run ${end.reason}, ${round(end.t_s)} s; judged from ${round(run.transient_s)} s on${nothing}. While taut: the ` +
-    "largest tension as long as a line stays taut; snap peak: estimated; slack: part of the time. Utilisation: the larger of " +
-    "these two tensions over the breaking load; the safety factor is its inverse, and includes no factor of any rule." +
+    "largest tension as long as a line stays taut; snap peak: estimated; slack: part of the whole time, the start that is not " +
+    "judged included. Utilisation: the larger of these two tensions over the breaking load; the safety factor is its inverse, " +
+    "and includes no factor of any rule." +
     (elastic ? " Elastic: the same with elastic lines, as computed by snapload elastic." : "");
 }
 
@@ -91,7 +93,7 @@ export function showSnaps(run) {
     `<tr data-t="${t[i]}"><td><button type="button" class="go" data-t="${t[i]}">${fixed(t[i], 3)}</button></td>` +
     `<td><span class="c${((line[i] - 1) % 6) + 1}">${line[i]}</span>${jolt[i] ? " impact while taut" : ""}</td>` +
     `${cell(fixed(speed[i], 3))}${cell(peak[i] === null ? "–" : round(peak[i], 4))}` +
-    `${cell(utilisation[i] === null ? "–" : fixed(utilisation[i], 2))}` +
+    `${cell(ratio(utilisation[i]))}` +
     `<td>${t[i] < run.transient_s ? "no, in the transient" : "yes"}</td></tr>`;
   $("events-body").innerHTML = hardest.map(row).join("");
   $("events-words").textContent = all ? `${hardest.length} of ${run.snapsInWords} at 1 cm/s or more` : "no snaps at 1 cm/s or more";

@@ -2,7 +2,7 @@
 
 import { fetchLong } from "./api.js";
 import { $ } from "./dom.js";
-import { fixed, number } from "./formatting.js";
+import { fixed, number, ratio } from "./formatting.js";
 
 export class StructureWaves {
   /** `onPick` receives a wave that is to be run. */
@@ -67,7 +67,7 @@ export class StructureWaves {
       const value = cells[i * heights_m.length + j];
       const wave = `data-height="${plainly(heights_m[j])}" data-period="${plainly(periods_s[i])}"`;
       const kind = value === null ? "fails" : !utilisation ? "" : value >= 1 ? "breaks" : value >= 0.5 ? "near" : "";
-      return `<td tabindex="-1" class="${kind}" ${wave}>${value === null ? "×" : fixed(value, 2)}</td>`;
+      return `<td tabindex="-1" class="${kind}" ${wave}>${value === null ? "×" : utilisation ? ratio(value) : fixed(value, 2)}</td>`;
     };
     const rows = heights_m.map((height, j) => {
       const row = periods_s.map((_, i) => cell(i, j)).join("");

@@ -94,7 +94,8 @@ pub(crate) fn kind(key: &Key) -> JsonValue {
         Kind::Count(low, high) => json!({ "type": "count", "low": low, "high": high }),
         Kind::Flag => json!({ "type": "flag" }),
         Kind::Choice(words) => json!({ "type": "choice", "options": words }),
-        Kind::Pair(_) | Kind::PerFreedom(_) | Kind::Text => json!({ "type": "text" }),
+        Kind::PerFreedom(high) => json!({ "type": "per_freedom", "low": 0.0, "high": high }),
+        Kind::Pair(_) | Kind::Text => json!({ "type": "text" }),
     }
 }
 

@@ -12,7 +12,8 @@ pub fn case_file(parameters: &Parameters) -> String {
     text
 }
 
-/// The command that runs this case.
+/// The command that runs this case. Its values are numbers, flags and words of the schema, none of
+/// which needs quotes in a shell.
 pub fn shell_line(parameters: &Parameters) -> String {
     let mut line = "snapload run".to_owned();
     for (key, value) in parameters.differing() {

@@ -7,6 +7,7 @@ mod critical;
 mod digits;
 mod motion;
 mod question;
+mod quoting;
 mod report;
 mod run_with_horizon;
 mod run_with_trust;
@@ -23,6 +24,7 @@ pub use certified::{
 pub use critical::{CriticalRow, Probability};
 pub use motion::{MOTION, MotionRow};
 pub use question::{Answer, Options, Question, TOLERANCE};
+pub use quoting::{python_text, shell_command};
 pub use report::{CaseEcho, EndRow, NormsRow, Report, ValueRow, write_json};
 pub use run_with_horizon::RunWithHorizon;
 pub use run_with_trust::{RunWithTrust, neighbours, outcome_in_words, percent, trust_in_words};

@@ -58,6 +58,51 @@ fn assess_answers_in_a_few_lines_a_page_and_json() {
     assert!((json["units"]["length_m"].as_f64().unwrap() - 3.593).abs() < 1e-12);
 }
 
+/// The words of which a shell makes the command in a note.
+#[cfg(unix)]
+fn words_of_note(room: &Path) -> Vec<String> {
+    let page = fs::read_to_string(room.join("note.html")).unwrap();
+    let (_, from) = page.split_once("with the command</p>\n<p><code>").unwrap();
+    let line = from.split_once("</code>").unwrap().0;
+    let line = line.replace("&quot;", "\"").replace("&lt;", "<");
+    let line = line.replace("&gt;", ">").replace("&amp;", "&");
+    let script = format!("snapload() {{ printf '%s\\0' \"$@\"; }}; {line}");
+    let mut shell = std::process::Command::new("sh");
+    let read = shell.current_dir(room).args(["-c", &script]).output();
+    let read = String::from_utf8(read.unwrap().stdout).unwrap();
+    read.split_terminator('\0').map(str::to_owned).collect()
+}
+
+#[cfg(unix)]
+#[test]
+fn the_command_of_a_note_is_read_by_a_shell_as_it_was_given() {
+    let room = room();
+    let file = |from: &str, to: &str| {
+        fs::copy(Path::new(EXAMPLES).join(from), room.path().join(to)).unwrap();
+    };
+    let pier = "my pier's; $(touch bad).toml";
+    file("cylinder.toml", pier);
+    file("pontoon.nc", "my pontoon.nc");
+    let project = "project.name=O'Brien & \"Sons\"";
+    let assess = ["assess", pier, "--set", project, "--set", "run.duration=40"];
+    let sea = ["seas", "cylinder-sea.toml", "--set", "project.name=O'Brien"];
+    let to_note = ["--out", "note.html"];
+    for (words, kept, left_out) in [
+        (&assess[..], &["--neighbours", "0"][..], &["--no-scan"][..]),
+        (&sea, &["--set", "run.duration=60", "--seeds", "1"], &[]),
+        (&["hydro", "my pontoon.nc"], &to_note, &[]),
+    ] {
+        let mut command = snapload(room.path());
+        command.args(words).args(kept).args(left_out);
+        if words[0] != "hydro" {
+            command.args(to_note);
+        }
+        command.assert().success();
+        assert_eq!(words_of_note(room.path()), [words, kept].concat());
+    }
+    assert!(!listing(room.path()).contains(&"bad".to_owned()));
+}
+
 /// The inputs of a note state the direction of the waves; a headline does so if they travel to −x.
 #[test]
 fn the_direction_of_waves_is_reported() {

@@ -113,7 +113,7 @@ fn an_interruption_prints_how_to_resume() {
     let done = child.wait_with_output().unwrap();
     let stderr = String::from_utf8(done.stderr).unwrap();
     assert_eq!(done.status.code(), Some(130), "{stderr}");
-    let command = "snapload sweep --vary f_o=0.01:0.6:600 --vary omega=0.4:2.4:500 --out map.parquet --resume";
+    let command = "snapload sweep --vary 'f_o=0.01:0.6:600' --vary 'omega=0.4:2.4:500' --out map.parquet --resume";
     assert!(
         stderr.contains("of 300000 rows are saved") && stderr.contains(command),
         "{stderr}"

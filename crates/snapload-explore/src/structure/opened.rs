@@ -1,9 +1,9 @@
 //! The case of a structure in a request of the page: a file with changes.
 use crate::refusal::Refusal;
 use serde::{Deserialize, Serialize};
-use snapload::{CaseError, Entries};
+use snapload::{CaseError, Entries, Value, parse_value};
+use snapload_report::{python_text, shell_command};
 use snapload_structure::{NO_FILES_HERE, STRUCTURE, Structure};
-use std::fmt::Write as _;
 use std::path::PathBuf;
 
 /// The case of a structure with which the program was started, or that was opened on the page.
@@ -11,8 +11,11 @@ use std::path::PathBuf;
 pub struct Opened {
     /// Its name in errors and commands.
     pub name: String,
-    /// Its keys.
+    /// Its keys, changed.
     pub entries: Entries,
+    /// The changes of its file that were made before the page was opened, in the notation of
+    /// `--set`.
+    pub changes: Vec<String>,
     /// The folder of the files that it names; none for a case that was opened on the page.
     pub folder: Option<PathBuf>,
 }
@@ -67,6 +70,7 @@ impl File {
         Ok(Opened {
             name: self.name.clone(),
             entries: Entries::parse(&STRUCTURE, &self.name, &self.text)?,
+            changes: Vec::new(),
             folder: None,
         })
     }
@@ -96,9 +100,9 @@ impl Opened {
         if &*error.allowed != NO_FILES_HERE {
             return error;
         }
-        let name = &self.name;
         error.with_hint(format!(
-            "start the program in the folder of its files: snapload explore {name}"
+            "start the program in the folder of its files: {}",
+            shell_command(["snapload", "explore", &self.name])
         ))
     }
 
@@ -168,38 +172,56 @@ impl CaseRequest {
 }
 
 impl Case {
-    /// The command line that gives the same answer: with changes to the file if these are all that
-    /// is changed, and otherwise with a file that has to be saved first.
-    pub(crate) fn command(&self, verb: &str) -> String {
+    /// The file and the changes that give this case: those of the file with which the program was
+    /// started if these are all that is changed, and otherwise a file that has to be saved first.
+    fn file_and_changes(&self) -> (&str, Vec<&str>) {
         if !self.by_set {
-            return format!("snapload {verb} case.toml");
+            return ("case.toml", Vec::new());
         }
-        let mut command = format!("snapload {verb} {}", self.opened.name);
-        for change in &self.set {
-            // Writing to a string can not fail.
-            let _ = write!(command, " --set '{change}'");
-        }
-        command
+        let changes = self.opened.changes.iter().chain(&self.set);
+        (&self.opened.name, changes.map(String::as_str).collect())
+    }
+
+    /// The command line that gives the same answer.
+    pub(crate) fn command(&self, verb: &str) -> String {
+        let (file, changes) = self.file_and_changes();
+        let sets = changes.into_iter().flat_map(|change| ["--set", change]);
+        shell_command(["snapload", verb, file].into_iter().chain(sets))
     }
 
     /// The same in Python.
     pub(crate) fn python(&self) -> String {
-        let (name, changes) = match self.by_set {
-            true => (self.opened.name.as_str(), &*self.set),
-            false => ("case.toml", &[][..]),
-        };
+        let (file, changes) = self.file_and_changes();
         let changes = changes.iter().filter_map(|change| change.split_once('='));
-        let changes: Vec<String> = changes
-            .map(|(key, value)| match value.parse::<f64>() {
-                Ok(_) => format!("{key:?}: {value}"),
-                Err(_) if value.starts_with(['[', '"']) => format!("{key:?}: {value}"),
-                Err(_) => format!("{key:?}: {value:?}"),
-            })
+        let changes: Vec<(&str, &str)> = changes
+            .map(|(key, value)| (key.trim(), value.trim()))
             .collect();
-        let changes = match changes.is_empty() {
+        // A key that is changed twice keeps its first place in a dictionary, where a change of all
+        // lines in between would replace it; only the last change has an effect.
+        let lasting = changes.iter().enumerate().filter(|(at, (key, _))| {
+            let later = &changes[at + 1..];
+            later.iter().all(|(other, _)| other != key)
+        });
+        let items: Vec<String> = lasting
+            .map(|(_, (key, value))| format!("{}: {}", python_text(key), python_value(value)))
+            .collect();
+        let changes = match items.is_empty() {
             true => String::new(),
-            false => format!(", {{{}}}", changes.join(", ")),
+            false => format!(", {{{}}}", items.join(", ")),
         };
-        format!("import snapload\nsnapload.Structure.from_toml({name:?}{changes}).assess()")
+        format!(
+            "import snapload\nsnapload.Structure.from_toml({}{changes}).assess()",
+            python_text(file)
+        )
+    }
+}
+
+/// A value in the notation of `--set`, in Python. Numbers and lists of numbers are written as they
+/// are; any other text is read by Python's `from_toml` as `--set` reads it.
+fn python_value(value: &str) -> String {
+    match parse_value(value) {
+        Ok(Value::Number(_) | Value::Integer(_)) => value.to_owned(),
+        Ok(list) if list.pair().is_some() || list.triple().is_some() => value.to_owned(),
+        _ => python_text(value),
     }
 }

@@ -22,9 +22,17 @@ pub(crate) fn serve() -> Running {
 
 /// Starts one that begins with the case of a structure.
 pub(crate) fn serve_structure(name: &str, text: &str) -> Running {
+    serve_changed_structure(name, text, &[])
+}
+
+/// The same with changes by `--set`.
+pub(crate) fn serve_changed_structure(name: &str, text: &str, changes: &[&str]) -> Running {
+    let mut entries = Entries::parse(&STRUCTURE, name, text).unwrap();
+    changes.iter().for_each(|set| entries.set(set).unwrap());
     let opened = Opened {
         name: name.to_owned(),
-        entries: Entries::parse(&STRUCTURE, name, text).unwrap(),
+        entries,
+        changes: changes.iter().map(|&change| change.to_owned()).collect(),
         folder: None,
     };
     run(|server| server.opening(opened))

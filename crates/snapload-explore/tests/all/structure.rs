@@ -1,6 +1,6 @@
 //! Structures: the server's answers are those of `snapload assess` and `snapload elastic`.
 
-use crate::common::{Running, serve_structure};
+use crate::common::{Running, serve_changed_structure, serve_structure};
 use serde_json::{Value, json};
 use snapload::Entries;
 use snapload::analysis::no_progress;
@@ -138,6 +138,57 @@ fn elastic_lines_agree_with_elastic() {
         .find(|sample| sample.t_s == t[0]);
     let exact = sample.unwrap().tension_n[0] / 1e3;
     assert!((tension[0].as_f64().unwrap() - exact).abs() < 1e-6 * exact.max(1.0));
+}
+
+/// Names and values are quoted, and changes that were made before the page was opened are included.
+#[test]
+fn the_lines_to_copy_are_those_of_the_whole_case() {
+    let before = ["wave.height=2.5", "line.2.length=6.01"];
+    let server = serve_changed_structure("my pier's; x.toml", CYLINDER, &before);
+    let set = [
+        "line.length=6.02",
+        "line.2.length=6.03",
+        "project.name=O'Brien",
+    ];
+    let answer = ask(
+        &server,
+        "/api/structure/run",
+        json!({ "case": { "set": set } }),
+    );
+    assert_eq!(
+        answer["shell"],
+        "snapload assess \"my pier's; x.toml\" --set 'wave.height=2.5' --set 'line.2.length=6.01' \
+         --set 'line.length=6.02' --set 'line.2.length=6.03' --set \"project.name=O'Brien\""
+    );
+    // Of a key that is given twice the last value counts, after that of all lines.
+    assert_eq!(
+        answer["python"],
+        "import snapload\nsnapload.Structure.from_toml(\"my pier's; x.toml\", {\"wave.height\": 2.5, \
+         \"line.length\": 6.02, \"line.2.length\": 6.03, \"project.name\": \"O'Brien\"}).assess()"
+    );
+    let changes = [&before[..], &set].concat();
+    let direct = assess(structure(&changes), 0, &no_progress).unwrap();
+    assert_eq!(answer["summary"], direct.summary("my pier's; x.toml"));
+}
+
+/// A slider needs finite ends: those of every key that can be one number.
+#[test]
+fn every_key_of_numbers_has_a_finite_range() {
+    let schema = serve().get("/api/structure").json();
+    let tables = schema["tables"].as_array().unwrap().iter();
+    let keys = tables.flat_map(|table| table["keys"].as_array().unwrap());
+    let ranged = keys.filter(|key| {
+        let kind = key["kind"]["type"].as_str().unwrap();
+        ["number", "count", "per_freedom"].contains(&kind)
+    });
+    let names: Vec<&str> = ranged
+        .map(|key| {
+            let [low, high] = ["low", "high"].map(|end| key["kind"][end].as_f64().unwrap());
+            assert!(low < high && high.is_finite(), "{key}");
+            key["name"].as_str().unwrap()
+        })
+        .collect();
+    assert!(names.contains(&"added_mass") && names.contains(&"height"));
 }
 
 #[test]

@@ -8,7 +8,7 @@ use crate::case::schema::{Heading, Schema, Table};
 use crate::case::value::Value;
 
 /// Largest magnitude of a number in a case; all relevant quantities are of order 1 in its units.
-const LARGEST: f64 = 1e3;
+pub(crate) const LARGEST: f64 = 1e3;
 const ANY: Kind = Kind::number(-LARGEST, LARGEST);
 const SIZE: Kind = Kind::number(0.0, LARGEST);
 const POSITIVE: Kind = Kind::positive(LARGEST);

@@ -15,6 +15,7 @@ pub(crate) mod value;
 
 use crate::arithmetic::real::Real;
 use crate::case::error::CaseError;
+use crate::case::keys::LARGEST;
 use crate::case::parameters::{Parameters, natural_inertia};
 use crate::case::value::Value;
 use crate::model::body::{Body, Shape};
@@ -209,7 +210,7 @@ fn explain(error: StartError, p: &Parameters) -> CaseError {
             let allowed = format!(
                 "a body below the upper bound y = {bound:.6}; its highest point is at y = {value:.6}"
             );
-            CaseError::value("y", Value::Number(p.y), allowed).with_hint("lower y")
+            CaseError::value("y", Value::Number(p.y), allowed).with_hint(hint_below_bound(p))
         }
         StartError::BeyondLimit { stop, value, bound } => {
             let (limit, bounded) = (stop.name(), stop.limit().map_or("place", Limit::bounded));
@@ -222,6 +223,105 @@ fn explain(error: StartError, p: &Parameters) -> CaseError {
     }
 }
 
+/// How a start above the upper bound is corrected. Lowering the body helps unless the cables are too
+/// short to reach down to it there.
+fn hint_below_bound(p: &Parameters) -> &'static str {
+    let (x, theta) = (0.0, 0.0);
+    let centred = Parameters { x, theta, ..*p };
+    let on_longest = Parameters {
+        r: LARGEST,
+        ..centred
+    };
+    if is_in_reach_below_bound(p) {
+        "lower y"
+    } else if is_in_reach_below_bound(&centred) {
+        "lower y, and move x and theta towards 0"
+    } else if is_in_reach_below_bound(&on_longest) {
+        "lower a or raise r: at no y is this body both below the bound and within reach of the cables"
+    } else {
+        "lower a: at no y is this body both below the bound and within reach of the cables"
+    }
+}
+
+/// Whether the cables reach the body when it is lowered to just below the upper bound, which is
+/// where they reach it if they do so at any y below the bound.
+fn is_in_reach_below_bound(p: &Parameters) -> bool {
+    let Err(StartError::BeyondLimit {
+        stop: Stop::UpperBound,
+        value,
+        bound,
+    }) = begin(p)
+    else {
+        return true;
+    };
+    // A little lower still, as the difference is rounded.
+    let lowered = Parameters {
+        y: p.y - (value - bound) * (1.0 + 1e-9),
+        ..*p
+    };
+    !matches!(begin(&lowered), Err(StartError::CableTooShort { .. }))
+}
+
 fn place(p: &Parameters) -> String {
     format!("{}, {}, {}", p.x, p.y, p.theta)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{Case, Parameters, natural_inertia};
+
+    fn ring(a: f64, r: f64, y: f64) -> Parameters {
+        Parameters {
+            a,
+            r,
+            y,
+            inertia: natural_inertia(a, 0.0),
+            ..Parameters::STANDARD
+        }
+    }
+
+    fn hint(parameters: Parameters) -> String {
+        let error = Case::new(parameters).expect_err("was accepted");
+        assert!(error.allowed.contains("upper bound"), "{error}");
+        String::from(error.hint.unwrap_or_default())
+    }
+
+    fn is_accepted(parameters: Parameters) -> bool {
+        Case::new(parameters).is_ok()
+    }
+
+    /// Whether any height makes the case legal.
+    fn is_accepted_somewhere(parameters: Parameters) -> bool {
+        let heights = (-4000..4000).map(|k| 0.5 * f64::from(k));
+        heights
+            .chain((0..200).map(|k| 0.01 * f64::from(k)))
+            .any(|y| is_accepted(Parameters { y, ..parameters }))
+    }
+
+    #[test]
+    fn a_start_too_high_is_lowered_where_that_helps() {
+        let high = ring(0.1, 1.5, 5.0);
+        assert_eq!(hint(high), "lower y");
+        assert!(is_accepted(Parameters { y: 0.1, ..high }));
+
+        let aside = Parameters { x: 3.0, ..high };
+        assert_eq!(hint(aside), "lower y, and move x and theta towards 0");
+        assert!(!is_accepted_somewhere(aside));
+        assert!(is_accepted_somewhere(Parameters { x: 0.0, ..aside }));
+    }
+
+    #[test]
+    fn a_body_too_large_for_its_cables_is_said_to_be_so() {
+        for (a, r, ways) in [
+            (500.0, 501.0, "lower a or raise r: "),
+            // There are no longer cables.
+            (1000.0, 1000.0, "lower a: "),
+        ] {
+            let large = ring(a, r, 5.0);
+            assert!(!is_accepted_somewhere(large));
+            assert!(hint(large).starts_with(ways), "{}", hint(large));
+            assert!(is_accepted_somewhere(ring(10.0, r, 5.0)));
+        }
+        assert!(is_accepted_somewhere(ring(500.0, 1000.0, 5.0)));
+    }
 }
