@@ -2,9 +2,12 @@
 
 from __future__ import annotations
 
+import operator
 import warnings
 from collections.abc import Mapping
-from typing import TYPE_CHECKING, SupportsFloat, SupportsIndex, TypeAlias
+from typing import TYPE_CHECKING, Any, SupportsFloat, SupportsIndex, TypeAlias
+
+import numpy as np
 
 from . import _engine
 
@@ -47,11 +50,32 @@ def threads_for(requested: SupportsIndex, callers: int) -> int:
 def number(name: str, value: SupportsFloat) -> float:
     """A number; the engine checks whether it is allowed."""
     try:
-        if not isinstance(value, (str, bytes)):
+        # NumPy's mark of a masked value would give NaN.
+        if not isinstance(value, (str, bytes)) and type(value).__name__ != "MaskedConstant":
             return float(value)
     except (TypeError, ValueError, OverflowError):
         pass
     raise ValueError(f"{name} = {value!r} is not allowed; allowed: a number")
+
+
+def place_of(what: str, place: SupportsIndex, count: int) -> int:
+    """The place of one of so many things, from 0; a negative place counts from the end."""
+    try:
+        number = operator.index(place)
+    except TypeError:
+        raise TypeError(f"{what} = {place!r} is not allowed; allowed: a whole number") from None
+    if not -count <= number < count:
+        raise IndexError(f"there is no {what} {number}; there are {count} of them, from 0")
+    return number % count
+
+
+def unmasked(name: str, values: Any) -> Any:
+    """Values for an array. A masked array has values that are not meant."""
+    if hasattr(values, "compressed") and (count := int(np.sum(values.mask))):
+        masked = "1 masked value" if count == 1 else f"{count} masked values"
+        allowed = "values without a mask; the array's method compressed() leaves out the masked ones"
+        raise ValueError(f"{name} = an array with {masked} is not allowed; allowed: {allowed}")
+    return values
 
 
 def uncertainty_for_engine(uncertainty: Uncertainty) -> dict[str, float] | float | None:

@@ -11,14 +11,17 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from . import _engine
-from ._arguments import number, whole_number
+from ._arguments import number, unmasked, whole_number
+
+#: The most values of an axis that is kept in memory.
+MAX_VALUES = 10**7
 
 
 def axis_values(key: str, values: ArrayLike | str) -> str | NDArray[Any]:
     """The values along one axis: text of a range, or a list."""
     if isinstance(values, str) and ":" in values:
         return values
-    array = np.asarray(values)
+    array = np.asarray(unmasked(key, values))
     if array.ndim > 1:
         shape = " x ".join(map(str, array.shape))
         raise ValueError(
@@ -32,6 +35,7 @@ def range_ends(key: str, ends: Any) -> str | tuple[float, float]:
     """The ends of one side of a box."""
     if isinstance(ends, str):
         return ends
+    unmasked(key, ends)
     try:
         low, high = (float(end) for end in ends)
     except (TypeError, ValueError, OverflowError):
@@ -40,11 +44,10 @@ def range_ends(key: str, ends: Any) -> str | tuple[float, float]:
     return low, high
 
 
-def all_values(values: str | NDArray[Any]) -> NDArray[Any]:
-    """All values along an axis."""
+def all_values(key: str, values: str | NDArray[Any]) -> NDArray[Any]:
+    """All values along an axis, which need not be that of a key of a case."""
     if isinstance(values, str):
-        first, last, count = values.split(":")
-        return evenly(first.strip(), last.strip(), int(count))
+        return np.frombuffer(_engine.range_values(key, values, MAX_VALUES))
     return values
 
 
@@ -60,7 +63,8 @@ def cases_csv(cases: Any) -> bytes:
     columns = []
     for name in map(str, names):
         column = cases[name]
-        values = np.ravel(column.to_numpy() if hasattr(column, "to_numpy") else np.asarray(column)).tolist()
+        # The list of a masked array has None for each masked value.
+        values = np.ravel(column.to_numpy() if hasattr(column, "to_numpy") else np.asanyarray(column)).tolist()
         columns.append([_cell(value, name in counts) for value in values])
     if len({len(column) for column in columns}) > 1:
         lengths = ", ".join(f"{name}: {len(column)}" for name, column in zip(names, columns, strict=True))

@@ -16,7 +16,9 @@ from ._case import Case
 from ._keys import Axes
 from ._lazy_import import LazyModule
 from ._orbit import Orbit
+from ._orbit_base import STATE
 from ._progress import progress_bar
+from ._schema import attributes, attributes_as, attributes_in, units, with_scales
 from ._signature import with_keys
 from ._table import numbers, or_nan
 
@@ -54,7 +56,9 @@ def safe_basin(case: Case, *, trust: bool = True, progress: bool = True, **windo
         ``cell``, the size of a cell. If both keys are start values, there are also ``lim``, the distance of the
         nearest unsafe start from the equilibrium, ``if``, the radius of the largest disc without unsafe starts, and
         ``iim``, the smallest unsafe velocity. They are NaN where there is no such value; ``lim`` and ``iim`` are also
-        NaN where another start key is not 0, because the equilibrium is then not in the plane of the two keys.
+        NaN where another start key is not 0, because the equilibrium is then not in the plane of the two keys. The
+        scale of such an attribute is in another one: ``lim_scale`` is ``L``, but ``L and L/T`` for a window of a
+        position and a velocity, where a distance has no single unit.
 
     Raises
     ------
@@ -91,7 +95,7 @@ def safe_basin(case: Case, *, trust: bool = True, progress: bool = True, **windo
         variables[name] = (
             tuple(coords),
             _column(kind, buffer, words).reshape(shape),
-            {"long_name": _LONG_NAMES[name]},
+            attributes_as("t", "when it ended") if name == "t" else {"long_name": _LONG_NAMES[name]},
         )
     ends: list[str] = next(entry["words"] for entry in _engine.columns() if entry["name"] == "end")
     codes = {word: code for code, word in enumerate(ends)}
@@ -100,9 +104,11 @@ def safe_basin(case: Case, *, trust: bool = True, progress: bool = True, **windo
     code_attributes = flag_attributes(ends)
     code_attributes |= {"long_name": "how the run ended, as a number", "flag_meanings": " ".join(["not_legal", *ends])}
     variables["outcome_code"] = (tuple(coords), code, code_attributes)
-    attrs = {"title": "A safe basin of a body on cables", **COMMON_ATTRIBUTES, **_measure_attributes(data)}
-    attrs["cell"] = np.array([data["cell"][key] for key in data["keys"]])
-    return xarray.Dataset(variables, coords, attrs)
+    measures = _measure_attributes(data) | {"cell": np.array([data["cell"][key] for key in data["keys"]])}
+    scales = {name: scale for name, (scale, _) in _distances(data["keys"]).items()}
+    scales["cell"] = ", ".join(units()[key] or "1" for key in data["keys"])
+    title = {"title": "A safe basin of a body on cables", **COMMON_ATTRIBUTES}
+    return xarray.Dataset(variables, coords, title | with_scales(measures, scales))
 
 
 with_keys(safe_basin, defaults=False)
@@ -224,7 +230,7 @@ def erosion(
         is the last value up to which that fraction never falls below nine tenths of its value at the first one; NaN
         if it never does. The attribute ``knee_between`` has the smallest and the largest possible ``knee``, whatever
         the ends of the undecided cells; NaN stands for one beyond the last value. Without trust all cells count as
-        decided, and ``knee_between`` is absent.
+        decided, and ``knee_between`` is absent. ``knee_scale`` is the scale of the third key, if it has one.
 
     Raises
     ------
@@ -248,7 +254,7 @@ def erosion(
     >>> bool(eroded.gim[2] < eroded.gim[0]), eroded["if"].dims
     (True, ('f_o',))
     """
-    from ._dataset import COMMON_ATTRIBUTES, attributes
+    from ._dataset import COMMON_ATTRIBUTES
 
     engine, axes = engine_case(case), _window_axes(window)
     if not isinstance(over, Mapping) or len(over) != 1:
@@ -262,35 +268,25 @@ def erosion(
     variables: dict[str, Any] = {}
     for point in points:
         point["low"], point["high"] = point["interval95"]
-    for name, meaning in _EROSION_VARIABLES.items():
-        variables[name] = (key, numbers(points, name), {"long_name": meaning})
+    distances = _distances([key for key, _ in axes])
+    for name in _EROSION_VARIABLES:
+        known = attributes_in(*distances[name]) if name in distances else attributes()[name]
+        variables[name] = (key, numbers(points, name), known)
     coords = {key: (key, np.array([point["value"] for point in points], dtype=np.float64), attributes()[key])}
     knees: dict[str, Any] = {"knee": or_nan(data["knee"])}
     if data["knee_between"] is not None:
         knees["knee_between"] = [or_nan(knee) for knee in data["knee_between"]]
-    attrs = {"title": "Erosion of a safe basin of a body on cables", **COMMON_ATTRIBUTES, **knees}
-    return xarray.Dataset(variables, coords, attrs)
+    title = {"title": "Erosion of a safe basin of a body on cables", **COMMON_ATTRIBUTES}
+    return xarray.Dataset(variables, coords, title | with_scales(knees, dict.fromkeys(knees, units()[key])))
 
 
 with_keys(erosion, defaults=False)
 
-#: The variables of an erosion, and their long names.
-_EROSION_VARIABLES = {
-    "gim": "global integrity: safe part",
-    "low": "lower end of its 95 % interval",
-    "high": "upper end of its 95 % interval",
-    "lim": "local integrity: nearest unsafe start",
-    "if": "integrity factor: largest disc",
-    "iim": "impulsive integrity: least unsafe velocity",
-    "legal": "legal cells",
-    "safe": "safe cells",
-    "undecided": "undecided cells",
-    "decided_fraction": "safe part of the decided cells",
-}
+#: The variables of an erosion.
+_EROSION_VARIABLES = ("gim", "low", "high", "lim", "if", "iim", "legal", "safe", "undecided", "decided_fraction")
 
 _LONG_NAMES = {
     "outcome": "how the run ended",
-    "t": "when it ended, in T",
     "legal": "whether the start is legal",
     "safe": "whether it reaches no limit",
     "decided": "whether its neighbours end alike",
@@ -311,6 +307,25 @@ def _axis_coordinates(axes: list[tuple[str, Any]]) -> dict[str, Any]:
     from ._dataset import grid_coordinates
 
     return grid_coordinates(axes)
+
+
+def _distances(keys: list[str]) -> dict[str, tuple[str, str]]:
+    """Scale and long name of the distances in a window.
+
+    In the plane of a length and a velocity a distance has no single unit. Without two start values there are none.
+    """
+    starts = [units()[key] for key in keys] if set(keys) <= set(STATE) else ["L"]
+    distance = " and ".join(dict.fromkeys(starts))
+    velocity = next((units()[key] for key in keys if key in _VELOCITIES), units()["vx"])
+    return {
+        "lim": (distance, "nearest unsafe start"),
+        "if": (distance, "largest disc"),
+        "iim": (velocity, "least unsafe velocity"),
+    }
+
+
+#: The velocities among the start values.
+_VELOCITIES = ("vx", "vy", "vtheta")
 
 
 def _measure_attributes(data: dict[str, Any]) -> dict[str, Any]:

@@ -13,13 +13,14 @@ from numpy.typing import NDArray
 
 from . import _engine
 from ._arguments import number as a_number
-from ._arguments import whole_number
+from ._arguments import place_of, whole_number
 from ._axes import range_ends
 from ._branch_events import events_table
 from ._lazy_import import LazyModule
 from ._orbit import Orbit
 from ._orbit_base import STATE, NoOrbitError, complex_array
 from ._progress import progress_bar
+from ._schema import attributes, attributes_as
 from ._table import Table
 
 if TYPE_CHECKING:
@@ -116,7 +117,7 @@ class Branch:
         >>> points.multipliers.dims, bool(points.stable.any()), bool(points.stable.all())
         (('point', 'multiplier'), True, False)
         """
-        from ._dataset import COMMON_ATTRIBUTES, attributes
+        from ._dataset import COMMON_ATTRIBUTES
 
         rows, key_attributes = self._data["points"], attributes()
 
@@ -126,7 +127,7 @@ class Branch:
 
         states = np.array([row["section"] for row in rows], dtype=np.float64)
         variables: dict[str, Any] = {
-            name: ("point", states[:, place], {**key_attributes[name], "long_name": f"{name} at the section"})
+            name: ("point", states[:, place], attributes_as(name, f"{name} at the section"))
             for place, name in enumerate(STATE)
             if name != self.along
         }
@@ -141,11 +142,11 @@ class Branch:
             "why_not": (["; ".join(row["why_not"]) for row in rows], "why the orbit is not admissible"),
         }
         variables |= {
-            "multipliers": (("point", "multiplier"), multipliers, {"long_name": "Floquet multipliers"}),
-            "largest_multiplier": ("point", np.abs(multipliers).max(axis=1), {"long_name": "largest |multiplier|"}),
+            "multipliers": (("point", "multiplier"), multipliers, key_attributes["multipliers"]),
+            "largest_multiplier": ("point", np.abs(multipliers).max(axis=1), key_attributes["largest_multiplier"]),
             "stable": ("point", np.isin(stability, ("stable", "superstable")), {"long_name": "neighbours converge"}),
             "admissible": ("point", column("admissible", bool), {"long_name": "whether the orbit is admissible"}),
-            "return_error": ("point", column("return_error", np.float64), {"long_name": "error of a simulated lap"}),
+            "return_error": ("point", column("return_error", np.float64), key_attributes["return_error"]),
         }
         variables |= {
             name: ("point", np.array(values, dtype=object), {"long_name": meaning})
@@ -153,7 +154,7 @@ class Branch:
         }
         coords = {
             self.along: ("point", column("value", np.float64), key_attributes[self.along]),
-            "arclength": ("point", column("arclength", np.float64), {"long_name": "length along the branch"}),
+            "arclength": ("point", column("arclength", np.float64), key_attributes["arclength"]),
         }
         title = {"title": "A branch of periodic orbits of a body on cables", **COMMON_ATTRIBUTES}
         return xarray.Dataset(variables, coords, title)
@@ -179,7 +180,7 @@ class Branch:
         >>> events.to_pandas()[["kind", "value"]].round(6).values.tolist()
         [['fold', 1.304034]]
         """
-        return events_table(self._data["events"])
+        return events_table(self.along, self._data["events"])
 
     @property
     def origins(self) -> Table:
@@ -196,7 +197,7 @@ class Branch:
         >>> len(snapload.continuation(orbit, "f_o", (1.3, 1.5)).origins)
         0
         """
-        return events_table(self._data["from"])
+        return events_table(self.along, self._data["from"])
 
     def __len__(self) -> int:
         return len(self._data["points"])
@@ -231,7 +232,7 @@ class Branch:
         >>> last.case.f_o == 1.4, 1.3 < last.case.f_o < 1.5
         (False, True)
         """
-        return self._orbit(self._engine_branch.point(range(len(self))[point]))
+        return self._orbit(self._engine_branch.point(place_of("point", point, len(self))))
 
     def event(self, event: int) -> Orbit:
         """Return the orbit at an event.
@@ -263,7 +264,7 @@ class Branch:
         >>> f"{abs(fold.multipliers[0] - 1):.0e}" < "1e-05"
         True
         """
-        return self._orbit(self._engine_branch.event(range(len(self.events))[event]))
+        return self._orbit(self._engine_branch.event(place_of("event", event, len(self.events))))
 
     def _orbit(self, engine: _engine.Orbit) -> Orbit:
         case = engine.case()

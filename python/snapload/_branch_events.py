@@ -8,13 +8,13 @@ from typing import Any
 import numpy as np
 
 from ._orbit_base import STATE, complex_array
-from ._scales import MOTION_SCALES
+from ._schema import units
 from ._table import Table, numbers
 
 
-def events_table(rows: list[dict[str, Any]]) -> Table:
-    """One row for each event."""
-    column = partial(numbers, rows)
+def events_table(along: str, rows: list[dict[str, Any]]) -> Table:
+    """One row for each event; `along` is the key that varies."""
+    column, scales = partial(numbers, rows), units()
 
     largest = [np.abs(complex_array(row["multipliers"])).max() for row in rows]
     states = np.array([row["state"] for row in rows], dtype=np.float64).reshape(-1, len(STATE))
@@ -25,20 +25,20 @@ def events_table(rows: list[dict[str, Any]]) -> Table:
     return Table._from_columns(
         [
             ("kind", "", "kind of event", np.array([row["kind"] for row in rows], dtype=object)),
-            ("value", "1", "value of the key", column("value")),
+            ("value", scales[along] or "1", "value of the key", column("value")),
             ("arclength", "1", "length along the branch", column("arclength")),
-            *((name, MOTION_SCALES[name], f"{name} at the section", states[:, k]) for k, name in enumerate(STATE)),
+            *((name, scales[name], f"{name} at the section", states[:, k]) for k, name in enumerate(STATE)),
             ("cable", "", "number of the cable, 0 for none", whole_numbers["cable"]),
-            ("t", "T", "time in the lap", column("t")),
+            ("t", scales["t"], "time in the lap", column("t")),
             (
                 "normal_acceleration",
-                "L/T^2",
+                scales["normal_acceleration"],
                 "normal acceleration at a graze",
                 column("normal_acceleration"),
             ),
             (
                 "sqrt_coefficient",
-                "L^(1/2)/T",
+                scales["sqrt_coefficient"],
                 "velocity jump per square root of length",
                 column("sqrt_coefficient"),
             ),

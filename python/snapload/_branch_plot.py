@@ -87,7 +87,7 @@ def draw_branch(branch: Branch, y: str, ax: Axes | None, style: dict[str, Any]) 
 
 def key_label(key: str) -> str:
     """The name of the axis of a key, with its scale."""
-    from ._dataset import attributes
+    from ._schema import attributes
 
     symbols = {"f_o": "$f_o$", "nu": "$\\nu$", "omega": "$\\Omega$", "e": "$e$", "r": "$r$"}
     key_attrs = attributes()[key]

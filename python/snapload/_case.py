@@ -3,14 +3,16 @@
 from __future__ import annotations
 
 import json
+import os
 from collections.abc import Iterator, Mapping
 from functools import cache
 from html import escape
-from os import PathLike, fspath
+from os import PathLike
 from typing import Any, Self, Unpack
 
 from . import _engine
 from ._arguments import Uncertainty, number, uncertainty_for_engine, whole_number
+from ._case_mapping import CaseMapping, UnknownKeyError
 from ._keys import OPTIONAL, PARAMETERS, Keys, KeyValues
 from ._orbit import HasOrbits
 from ._run import Options, Run
@@ -20,7 +22,7 @@ from ._signature import with_keys
 _SHOWN_KEYS = ("r", "e", "a", "b", "f_o", "nu", "omega")
 
 
-class Case(KeyValues, HasOrbits):
+class Case(CaseMapping, KeyValues, HasOrbits):
     """A breakwater moored by two cables: body, cables, waves, start and stop rules.
 
     Parameters
@@ -46,7 +48,7 @@ class Case(KeyValues, HasOrbits):
     anchors; masses in m, the mass of the body; forces in F, its net buoyancy; times in T = sqrt(m L / F).
 
     All values are checked when the case is created. A case is a mapping of all keys in effect: ``case["f_o"]``,
-    ``dict(case)`` and ``Case(**case)`` work.
+    ``case.items()``, ``dict(case)`` and ``Case(**case)`` work.
 
     Examples
     --------
@@ -115,15 +117,16 @@ class Case(KeyValues, HasOrbits):
         """
         import tomllib
 
+        # A path need not be text; what is no letter is shown by a mark.
+        name = os.fsencode(path).decode("utf-8", "replace")
         with open(path, "rb") as file:
-            try:
-                keys = tomllib.load(file)
-            except (tomllib.TOMLDecodeError, UnicodeDecodeError) as error:
-                raise ValueError(f"{fspath(path)}: {error}") from None
+            contents = file.read()
         try:
-            return cls._from_engine(_engine.Case(fspath(path), keys))
+            # Some editors of Windows begin a text with a byte-order mark.
+            return cls._from_engine(_engine.Case(name, tomllib.loads(contents.decode("utf-8-sig"))))
         except ValueError as error:
-            raise ValueError(f"{fspath(path)}: {error}") from None
+            # Errors of TOML and UTF-8 are of this kind, too.
+            raise ValueError(f"{name}: {error}") from None
 
     def to_file(self, path: str | PathLike[str]) -> None:
         """Write the given keys to a TOML file, which :meth:`from_file` and the command line can read.
@@ -211,38 +214,6 @@ class Case(KeyValues, HasOrbits):
         'standard case'
         """
         return self._engine.name
-
-    def keys(self) -> dict[str, Any]:
-        """Return every key in effect with its value.
-
-        Returns
-        -------
-        dict
-            Keys and values in the order of the schema; ``inertia`` is None for a point mass.
-
-        See Also
-        --------
-        replace : Changes some of them.
-
-        Examples
-        --------
-        >>> import snapload
-        >>> snapload.Case(f_o=0.31).keys()["f_o"]
-        0.31
-        """
-        return self._engine.values()
-
-    def __getitem__(self, key: str) -> Any:
-        keys = self.keys()
-        if key not in keys:
-            raise _UnknownKeyError(f"there is no key {key!r}; the keys are {', '.join(keys)}")
-        return keys[key]
-
-    def __iter__(self) -> Iterator[str]:
-        return iter(self.keys())
-
-    def __len__(self) -> int:
-        return len(self.keys())
 
     def run(
         self,
@@ -357,13 +328,6 @@ def _restore(cls: type[Case], name: str, given: dict[str, Any]) -> Case:
     return cls._from_engine(_engine.Case(name, given))
 
 
-class _UnknownKeyError(KeyError):
-    """An unknown key or code; its message has no quotes, which a KeyError would add."""
-
-    def __str__(self) -> str:
-        return Exception.__str__(self)
-
-
 class Cases(Mapping[str, Case]):
     """The built-in cases by code: the cases of Table 6.1 of the thesis and the examples of its section 6.5.
 
@@ -384,10 +348,12 @@ class Cases(Mapping[str, Case]):
         return {code: (description, Case._from_engine(case)) for code, description, case in _engine.named_cases()}
 
     def __getitem__(self, code: str) -> Case:
+        if not isinstance(code, str):
+            raise TypeError(f"code = {code!r} is not allowed; allowed: the code of a built-in case as a str")
         try:
             return Case._from_engine(_engine.named_case(code))
         except ValueError as error:
-            raise _UnknownKeyError(str(error)) from None
+            raise UnknownKeyError(str(error)) from None
 
     def __contains__(self, code: object) -> bool:
         return code in self._all()

@@ -17,6 +17,7 @@ from ._case import Case
 from ._lazy_import import LazyModule
 from ._progress import progress_bar
 from ._result import Result
+from ._schema import attributes
 
 if TYPE_CHECKING:
     import matplotlib.axes
@@ -224,6 +225,9 @@ def critical_force(
     """
     engine, step, largest = engine_case(case), number("step", step), number("largest", largest)
     if over is not None:
+        if not isinstance(over, Mapping):
+            allowed = "a dict of keys with their values, such as {'e': [0.5, 0.9]}"
+            raise ValueError(f"over = {over!r} is not allowed; allowed: {allowed}")
         if members or uncertainty is not None:
             raise ValueError("over runs no neighbours; leave out members and uncertainty, or over")
         return _critical_over_keys(engine, over, step, largest, progress)
@@ -251,7 +255,7 @@ def _critical_over_keys(
     engine: _engine.Case, over: Mapping[str, ArrayLike], step: float, largest: float, progress: bool
 ) -> xarray.Dataset:
     """The result for every combination of some keys."""
-    from ._dataset import COMMON_ATTRIBUTES, attributes, grid_coordinates
+    from ._dataset import COMMON_ATTRIBUTES, grid_coordinates
 
     if "f_o" in over:
         raise ValueError("over = f_o is not allowed, as it is the key that is searched; allowed: other keys")

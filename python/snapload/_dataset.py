@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import math
 import tomllib
-from functools import cache
 from typing import Any
 
 import numpy as np
@@ -15,6 +14,7 @@ from xarray.core import indexing
 
 from . import _engine
 from ._axes import all_values
+from ._schema import attributes
 
 #: Attributes that all datasets have.
 COMMON_ATTRIBUTES = {
@@ -25,28 +25,10 @@ COMMON_ATTRIBUTES = {
 #: The number of rows of a chunk, if its size is not given.
 _CHUNK_ROWS = 1 << 18
 
-#: Pictures of xarray are labelled by long name and unit, in lines of so many letters. A second line lies outside the
-#: picture, so that a longer name gives way to that of the column.
-_MAX_LABEL = 30
-
-
-@cache
-def attributes() -> dict[str, dict[str, str]]:
-    """Long name and units of every key and result after the CF conventions, from the schema."""
-    described = {}
-    for entry in (*_engine.keys(), *_engine.columns()):
-        name, title, meaning, unit = entry["name"], entry["title"], entry["meaning"], dict(entry["cf"])
-        scale = f", in {unit['scale']}" if unit["scale"] else ""
-        long_name = title + scale if len(f"{title}{scale} [{unit['units']}]") <= _MAX_LABEL else name + scale
-        entry_attributes = {"long_name": long_name, **unit, "comment": "" if meaning == long_name else meaning}
-        described[name] = {key: word for key, word in entry_attributes.items() if word}
-    described["error"] = {"long_name": "why there was no run"}
-    return described
-
 
 def grid_coordinates(axes: list[tuple[str, Any]]) -> dict[str, Any]:
     """The coordinates of a grid."""
-    return {key: (key, all_values(values), attributes()[key]) for key, values in axes}
+    return {key: (key, all_values(key, values), attributes()[key]) for key, values in axes}
 
 
 def dataset(

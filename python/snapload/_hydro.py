@@ -162,6 +162,8 @@ class Hydro:
         ------
         ValueError
             If a value is missing, breaks a convention or is not a number; the message says which.
+        TypeError
+            If `dataset` is no dataset.
 
         See Also
         --------
@@ -175,6 +177,8 @@ class Hydro:
         ...     snapload.Hydro.from_dataset(dataset).quality["states"]
         48
         """
+        if not hasattr(dataset, "data_vars"):
+            raise TypeError(f"dataset, a {type(dataset).__name__}, is not allowed; allowed: an xarray.Dataset")
         return cls._analyse("dataset", _variables(dataset), options)
 
     @classmethod

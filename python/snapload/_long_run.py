@@ -20,6 +20,7 @@ from ._lazy_import import LazyModule
 from ._orbit_base import STATE
 from ._progress import progress_bar
 from ._result import Result
+from ._schema import attributes, attributes_as, with_scales
 from ._signature import with_keys
 from ._table import numbers, or_nan
 
@@ -65,7 +66,7 @@ def section(
         standard errors: ``exponent``, minus infinity where a taut cable removes a direction, and ``exponent_se``, NaN
         if fewer than five periods are kept. Attributes: ``period`` of the motion in periods of the forcing (NaN if it
         is not periodic), ``snaps`` per period, ``y_max``, ``theta_max``, and, if the motion stopped at a limit,
-        ``stop`` and ``stop_t``.
+        ``stop`` and ``stop_t``. The scale of an attribute is in another one, such as ``y_max_scale``.
 
     Raises
     ------
@@ -111,24 +112,20 @@ def section(
         states = np.array([point["state"] for point in data["points"]], dtype=np.float64).reshape(-1, len(STATE))
         k_attrs = {"long_name": "number of the period of the forcing"}
         coords = {"k": ("k", np.array([point["k"] for point in data["points"]], dtype=np.int64), k_attrs)}
-        variables |= {name: ("k", states[:, place], state_attributes(name)) for place, name in enumerate(STATE)}
+        variables |= {
+            name: ("k", states[:, place], attributes_as(name, f"{name} at the section"))
+            for place, name in enumerate(STATE)
+        }
     spectrum = _spectrum(data["exponents"])
-    rate = {"units": "1", "scale": "1/T"}
     coords["direction"] = ("direction", np.arange(1, len(spectrum[0]) + 1), {"long_name": "direction"})
-    variables["exponent"] = ("direction", spectrum[0], {"long_name": "Lyapunov exponent, in 1/T", **rate})
-    variables["exponent_se"] = ("direction", spectrum[1], {"long_name": "standard error, in 1/T", **rate})
-    attrs: dict[str, Any] = {
-        "title": "A section of a long motion of a body on cables",
-        **COMMON_ATTRIBUTES,
-        "phase": data["phase"],
-        "period": or_nan(data["period"]),
-        "snaps": or_nan(data["snaps"]),
-        "y_max": data["y_max"],
-        "theta_max": data["theta_max"],
-    }
+    for place, name in enumerate(("exponent", "exponent_se")):
+        variables[name] = ("direction", spectrum[place], attributes()[name])
+    measures = {name: or_nan(data[name]) for name in ("phase", "period", "snaps", "y_max", "theta_max")}
+    attrs: dict[str, Any] = {"title": "A section of a long motion of a body on cables", **COMMON_ATTRIBUTES}
     if data["stop"] is not None:
-        attrs |= {"stop": data["stop"]["reason"], "stop_t": data["stop"]["t"]}
-    return xarray.Dataset(variables, coords, attrs)
+        attrs["stop"] = data["stop"]["reason"]
+        measures["stop_t"] = data["stop"]["t"]
+    return xarray.Dataset(variables, coords, attrs | with_scales(measures))
 
 
 @dataclass(frozen=True, repr=False, eq=False)
@@ -282,7 +279,7 @@ def orbit_diagram(
     >>> found.x.dims, found.period.values.tolist()
     (('f_o', 'k'), [1.0, 1.0, 1.0])
     """
-    from ._dataset import COMMON_ATTRIBUTES, attributes
+    from ._dataset import COMMON_ATTRIBUTES
 
     if len(axis) != 1:
         given = ", ".join(axis) or "none"
@@ -300,14 +297,14 @@ def orbit_diagram(
         points[row, :count] = states[filled : filled + count]
         filled += count
 
-    schema = attributes()
     variables: dict[str, Any] = {
-        name: ((key, "k"), points[:, :, place], state_attributes(name))
+        name: ((key, "k"), points[:, :, place], attributes_as(name, f"{name} at the section"))
         for place, name in enumerate(STATE)
         if name != key
     }
-    for name, meaning in _VALUE_VARIABLES.items():
-        variables[name] = (key, numbers(rows, name), {"long_name": meaning})
+    known = attributes() | {"exponent": attributes_as("exponent", "largest exponent")}
+    for name in ("period", "snaps", "exponent", "exponent_se", "y_max"):
+        variables[name] = (key, numbers(rows, name), known[name])
     all_removed = [row["exponent"] is None and row["exponent_se"] is not None for row in rows]
     variables["exponent"][1][all_removed] = -np.inf
     stops = np.array([row["stop"] or "" for row in rows], dtype=object)
@@ -315,7 +312,7 @@ def orbit_diagram(
     restarted = np.array([row["restarted"] for row in rows], dtype=bool)
     variables["restarted"] = (key, restarted, {"long_name": "started again from the start of the case"})
     coords = {
-        key: (key, numbers(rows, "value"), schema[key]),
+        key: (key, numbers(rows, "value"), attributes()[key]),
         "k": ("k", np.arange(keep + 1), {"long_name": "number of the period that is kept"}),
     }
     title = {"title": "The attractor of a body on cables against a key", **COMMON_ATTRIBUTES}
@@ -323,24 +320,6 @@ def orbit_diagram(
 
 
 with_keys(orbit_diagram, defaults=False)
-
-#: The variables of a diagram over its key, and their long names.
-_VALUE_VARIABLES = {
-    "period": "period, in periods of the forcing",
-    "snaps": "snaps per period of the forcing",
-    "exponent": "largest Lyapunov exponent, in 1/T",
-    "exponent_se": "its standard error, in 1/T",
-    "y_max": "highest y, in L",
-}
-
-
-def state_attributes(name: str) -> dict[str, Any]:
-    """The attributes of a value of the state at a section."""
-    from ._dataset import attributes
-
-    schema = attributes()[name]
-    scale: dict[str, Any] = {key: schema[key] for key in ("units", "scale") if key in schema}
-    return {"long_name": f"{name} at the section", **scale}
 
 
 def _section(case: Case, periods: int, keep: int, phase: float, impacts: bool, progress: bool) -> dict[str, Any]:
@@ -355,26 +334,28 @@ def _section(case: Case, periods: int, keep: int, phase: float, impacts: bool, p
 
 def _impact_variables(rows: list[dict[str, Any]]) -> dict[str, Any]:
     """The impacts one by one, in the columns of the command's table."""
-    variables: dict[str, Any] = {}
-    meanings = {
-        "t": "time, in T",
-        "phase": "phase of the forcing, in periods",
-        "cable": "number of the cable",
-        "v_n": "normal velocity before, in L/T",
-        "impulse": "impulse, in m L/T",
+    known = attributes()
+    columns: dict[str, tuple[Any, dict[str, str]]] = {
+        "t": (np.float64, attributes_as("t", "time")),
+        "phase": (np.float64, known["phase"]),
+        "cable": (np.int64, {"long_name": "number of the cable"}),
+        "v_n": (np.float64, known["v_n"]),
+        "impulse": (np.float64, known["impulse"]),
     }
-    for name, meaning in meanings.items():
-        kind = np.int64 if name == "cable" else np.float64
-        variables[name] = ("impact", np.array([row[name] for row in rows], dtype=kind), {"long_name": meaning})
+    variables: dict[str, Any] = {
+        name: ("impact", np.array([row[name] for row in rows], dtype=kind), attrs)
+        for name, (kind, attrs) in columns.items()
+    }
     before, after = (
         np.array([row[side] for row in rows], dtype=np.float64).reshape(-1, len(STATE)) for side in ("before", "after")
     )
     for place, name in enumerate(STATE):
         if name.startswith("v"):
             for side, states in (("before", before), ("after", after)):
-                variables[f"{name}_{side}"] = ("impact", states[:, place], {"long_name": f"{name} just {side}"})
+                attrs = attributes_as(name, f"{name} just {side}")
+                variables[f"{name}_{side}"] = ("impact", states[:, place], attrs)
         else:
-            variables[name] = ("impact", before[:, place], {"long_name": f"{name} at the impact"})
+            variables[name] = ("impact", before[:, place], attributes_as(name, f"{name} at the impact"))
     return variables
 
 

@@ -12,8 +12,10 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from . import _engine
-from ._arguments import number, whole_number
+from ._arguments import number, unmasked, whole_number
 from ._lazy_import import LazyModule
+from ._motion import Motion
+from ._schema import units
 from ._table import Table
 
 if TYPE_CHECKING:
@@ -141,7 +143,8 @@ class BaseOrbit:
         self.proved: bool = data["proved"]
         self.proof: dict[str, Any] | None = data.get("proof")
         self.modes: tuple[dict[str, Any], ...] = tuple(data["modes"])
-        self.events = _events(data["events"])
+        events = _events(data["events"])
+        self.events = events if self._nondimensional else events._in_own_units()
 
     def _recompute(self) -> tuple[_engine.Orbit | None, str]:
         """Computes the orbit again from its own state."""
@@ -191,7 +194,7 @@ class BaseOrbit:
         records = np.empty(len(rows), dtype=kinds)
         for place, name in enumerate(names):
             records[name] = rows[:, place]
-        return records.view(np.recarray)
+        return Motion.of(records, "scales" if self._nondimensional else "own")
 
     def plot(
         self, x: str = "x", y: str = "y", ax: matplotlib.axes.Axes | None = None, **style: Any
@@ -276,7 +279,7 @@ def start_values(start: Start) -> dict[str, Any]:
     """A start as a dict of its keys."""
     if isinstance(start, Mapping):
         return {str(key): value for key, value in start.items()}
-    values = np.asarray(start)
+    values = np.asarray(unmasked("start", start))
     if values.shape != (len(STATE),) or values.dtype.kind not in "fiu":
         allowed = "some of " + ", ".join(STATE) + " by their names, such as {'x': 0.1}, or all six in this order"
         raise ValueError(f"start = {start!r} is not allowed; allowed: {allowed}")
@@ -306,12 +309,13 @@ def _events(rows: list[dict[str, Any]]) -> Table:
     def column(name: str, dtype: Any = np.float64) -> NDArray[Any]:
         return np.array([row[name] for row in rows], dtype=dtype)
 
+    scales = units()
     return Table._from_columns(
         [
-            ("t", "T", "time", column("t")),
+            ("t", scales["t"], "time", column("t")),
             ("kind", "", "snap, stick or release", column("kind", object)),
             ("cable", "", "number of the cable", column("cable", np.int64)),
-            ("v_n", "L/T", "normal velocity before", column("v_n")),
-            ("impulse", "m L/T", "impulse of the cable", column("impulse")),
+            ("v_n", scales["v_n"], "normal velocity before", column("v_n")),
+            ("impulse", scales["impulse"], "impulse of the cable", column("impulse")),
         ]
     )

@@ -11,10 +11,12 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from . import _engine
-from ._arguments import number
+from ._arguments import number, unmasked
 from ._lazy_import import LazyModule
+from ._motion import Motion
 from ._neighbours import Ensemble, Share
 from ._run_results import End, Norms, Outcome, Trust
+from ._schema import units
 from ._table import Table
 
 if TYPE_CHECKING:
@@ -50,6 +52,9 @@ class BaseRun:
     def _geometry(self) -> Geometry:
         """Cables and outline of the body."""
         raise NotImplementedError
+
+    def _in_its_units(self, table: Table) -> Table:
+        return table if self._nondimensional else table._in_own_units()
 
     @property
     def _engine(self) -> _engine.Run:
@@ -171,7 +176,7 @@ class BaseRun:
         >>> len(impacts), impacts["cable"][:4].tolist()
         (12, [2, 1, 2, 2])
         """
-        return Table(self._engine.impacts())
+        return self._in_its_units(Table(self._engine.impacts()))
 
     @cached_property
     def modes(self) -> Table:
@@ -188,7 +193,7 @@ class BaseRun:
         >>> modes["mode"].tolist(), modes["taut"][1]
         (['slack', 'sliding'], (2,))
         """
-        return Table(self._engine.modes())
+        return self._in_its_units(Table(self._engine.modes()))
 
     @cached_property
     def exponents(self) -> Table:
@@ -207,15 +212,16 @@ class BaseRun:
         >>> snapload.Case(f_o=0.31).run().exponents["direction"].tolist()
         [1, 2, 3, 4, 5, 6]
         """
-        exponents = self.trust.exponents if self._trusted else ()
-        values = np.array([-np.inf if exponent is None else exponent for exponent in exponents], dtype=np.float64)
+        found = self.trust.exponents if self._trusted else ()
+        values = np.array([-np.inf if exponent is None else exponent for exponent in found], dtype=np.float64)
         directions = np.arange(1, len(values) + 1)
-        return Table._from_columns(
+        table = Table._from_columns(
             [
                 ("direction", "", "number of the direction, the one that grows most first", directions),
-                ("exponent", "1/T", "finite-time Lyapunov exponent", values),
+                ("exponent", units()["exponent"], "finite-time Lyapunov exponent", values),
             ]
         )
+        return self._in_its_units(table)
 
     def motion(self, dt: float) -> np.recarray[Any, Any]:
         """Return the motion at the times 0, dt, 2 dt, ... and at the end.
@@ -281,17 +287,17 @@ class BaseRun:
         >>> float(run.at(0.0).y), run.at([0.1, 0.2]).shape
         (0.1, (2,))
         """
-        times = np.asarray(t, dtype=np.float64)
+        times = np.asarray(unmasked("t", t), dtype=np.float64)
         if np.isnan(times).any():
             raise ValueError("t = nan is not allowed; allowed: numbers; those outside the run are clipped to it")
         flat = self._records(self._engine.motion_at(np.ascontiguousarray(times.ravel())))
-        return flat.reshape(times.shape).view(np.recarray)
+        return flat.reshape(times.shape).view(Motion)
 
-    def _records(self, data: bytearray) -> np.recarray[Any, Any]:
+    def _records(self, data: bytearray) -> Motion:
         tensions = [f"T{cable}" for cable in range(1, len(self._geometry().cables) + 1)]
         names = ("t", "x", "y", "theta", "vx", "vy", "vtheta", *tensions, "energy")
         records: NDArray[np.void] = np.frombuffer(data, dtype=[(name, np.float64) for name in names])
-        return records.view(np.recarray)
+        return Motion.of(records, "scales" if self._nondimensional else "own")
 
     def plot(
         self, what: Picture = "trajectory", ax: matplotlib.axes.Axes | None = None, **style: Any

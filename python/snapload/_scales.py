@@ -2,16 +2,17 @@
 
 from __future__ import annotations
 
-import re
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, TypeVar, Unpack
 
 import numpy as np
 
 from . import _engine
+from ._arguments import number
 from ._case import Case
 from ._keys import Keys
 from ._lazy_import import LazyModule
+from ._products import powers
 from ._signature import with_keys
 from ._system_parts import set_fields
 from ._table import Table
@@ -23,21 +24,6 @@ else:
 
 #: What can be converted to SI.
 Convertible = TypeVar("Convertible", Table, "xarray.Dataset", "xarray.DataArray", "np.recarray[Any, Any]")
-
-#: The scales of which products consist, and the SI unit of each.
-_UNITS = {"L": "m", "m": "kg", "F": "N", "T": "s", "rad": "rad"}
-
-#: The scales of the fields of a motion, except tensions.
-MOTION_SCALES = {
-    "t": "T",
-    "x": "L",
-    "y": "L",
-    "theta": "rad",
-    "vx": "L/T",
-    "vy": "L/T",
-    "vtheta": "rad/T",
-    "energy": "F L",
-}
 
 
 @dataclass(frozen=True)
@@ -87,8 +73,6 @@ class Scales:
     force: float
 
     def __post_init__(self) -> None:
-        from ._arguments import number
-
         for name in ("length", "mass", "force"):
             value = number(name, given := getattr(self, name))
             if not 0 < value < np.inf:
@@ -117,7 +101,7 @@ class Scales:
         Parameters
         ----------
         scale : str
-            The product, such as ``"L/T"`` or ``"m L^2"``.
+            The product, such as ``"L/T"``, ``"m L^2"`` or ``"L^(1/2)/T"``.
 
         Returns
         -------
@@ -128,6 +112,8 @@ class Scales:
         ------
         ValueError
             If it is not such a product.
+        TypeError
+            If it is no str.
 
         See Also
         --------
@@ -141,7 +127,7 @@ class Scales:
         """
         sizes = {"L": self.length, "m": self.mass, "F": self.force, "T": self.time}
         value = 1.0
-        for name, power in _powers(scale):
+        for name, power in powers(scale):
             value *= sizes.get(name, 1.0) ** power
         return float(value)
 
@@ -165,6 +151,8 @@ class Scales:
         ------
         ValueError
             As for :class:`snapload.Case`; the message has values in scales.
+        TypeError
+            If `base` is not a case.
 
         See Also
         --------
@@ -176,12 +164,15 @@ class Scales:
         >>> snapload.Scales(length=5.0, mass=800.0, force=1000.0).case(t_end=60.0, e=0.7).t_end
         30.0
         """
+        if base is not None and not isinstance(base, Case):
+            allowed = "a snapload.Case; keys are given by name, such as f_o=310"
+            raise TypeError(f"base = {base!r} is not allowed; allowed: {allowed}")
         units = {key["name"]: key["unit"] for key in _engine.keys()}
         converted: dict[str, Any] = {}
         for key, value in keys.items():
             unit = units.get(key, "")
             has_unit = unit not in ("", "1", "rad") and value is not None
-            converted[key] = float(value) / self.factor(unit) if has_unit else value  # type: ignore[arg-type]
+            converted[key] = number(key, value) / self.factor(unit) if has_unit else value  # type: ignore[arg-type]
         return (Case() if base is None else base).replace(**converted)
 
     def si(self, result: Convertible) -> Convertible:
@@ -196,13 +187,18 @@ class Scales:
         -------
         Table, xarray.Dataset, xarray.DataArray, or numpy.recarray
             The same result with values in m, kg, N, s and rad, and with units in the metadata after the CF conventions.
+            Numbers among the attributes of a dataset, such as ``lim`` of a safe basin, are converted, too: their scale
+            is in another attribute, ``lim_scale``, instead of which there is ``lim_units`` afterwards. What is in SI
+            units already does not change.
 
         Raises
         ------
         TypeError
             If the result is something else.
         ValueError
-            If a column has no single unit, as in the table of :func:`snapload.sensitivities`.
+            If it is a result of a :class:`snapload.System`, which is in your own units; if it has numbers of unknown
+            unit, as those that are computed from results may have; or if numbers have no single unit, as in the table
+            of :func:`snapload.sensitivities`.
 
         See Also
         --------
@@ -220,62 +216,21 @@ class Scales:
         return converted
 
     def _converted(self, result: Any) -> Any:
+        from ._conversion import converted_array, converted_dataset, converted_motion, converted_table
+        from ._motion import Motion
+
         if isinstance(result, Table):
-            return self._table(result)
-        if isinstance(result, np.recarray):
-            return self._motion(result)
+            return converted_table(self, result)
+        if isinstance(result, Motion):
+            return converted_motion(self, result)
+        # xarray is loaded already if the result is one of its own.
         if type(result).__module__.startswith("xarray."):
-            if not hasattr(result, "data_vars"):
-                return result._from_temp_dataset(self._converted(result._to_temp_dataset()))
-            return result.assign({name: self._variable(variable) for name, variable in result.variables.items()})
-        allowed = "a Table, a Dataset or DataArray of xarray, or a motion"
+            if isinstance(result, xarray.Dataset):
+                return converted_dataset(self, result)
+            if isinstance(result, xarray.DataArray):
+                return converted_array(self, result)
+        allowed = "a Table, a Dataset or DataArray of xarray, or a motion of a run or an orbit"
         raise TypeError(f"result, a {type(result).__name__}, is not allowed; allowed: {allowed}")
-
-    def _table(self, table: Table) -> Table:
-        parts = []
-        for name, kind, attrs, values in table._table.parts():
-            if scale := attrs.get("scale"):
-                factor = self.factor(scale)
-                values = bytearray((np.frombuffer(values) * factor).tobytes())
-                attrs = {key: text for key, text in attrs.items() if key != "scale"} | {"units": unit_of(scale)}
-            parts.append((name, kind, attrs, values))
-        return Table(_engine.Table.of(parts))
-
-    def _motion(self, motion: np.recarray[Any, Any]) -> np.recarray[Any, Any]:
-        converted = motion.copy()
-        for name in motion.dtype.names or ():
-            converted[name] *= self.factor(MOTION_SCALES.get(name, "F"))
-        return converted
-
-    def _variable(self, variable: Any) -> Any:
-        scale = variable.attrs.get("scale")
-        if not scale:
-            return variable
-        converted = variable.copy(data=variable.data * self.factor(scale))
-        converted.attrs = {key: text for key, text in variable.attrs.items() if key != "scale"}
-        # Long names end in the scale of the number.
-        name = str(converted.attrs.get("long_name", "")).removesuffix(f", in {scale}")
-        converted.attrs |= {"units": unit_of(scale), "long_name": name}
-        return converted
 
 
 with_keys(Scales.case, defaults=False)
-
-
-def unit_of(scale: str) -> str:
-    """The SI unit of a product of scales, after the CF conventions: ``m s-1``."""
-    return " ".join(f"{_UNITS[name]}{power if power != 1 else ''}" for name, power in _powers(scale)) or "1"
-
-
-def _powers(scale: str) -> list[tuple[str, int]]:
-    """The scales in a product, each with its power."""
-    numerator, _, denominator = scale.partition("/")
-    powers = []
-    for factors, sign in ((numerator, 1), (denominator, -1)):
-        for factor in factors.split():
-            match = re.fullmatch(r"(L|m|F|T|rad|1)(?:\^(\d+))?", factor)
-            if match is None:
-                raise ValueError(f"scale = {scale!r} is not allowed; allowed: a product such as 'L/T' or 'm L^2'")
-            if match[1] != "1":
-                powers.append((match[1], sign * int(match[2] or 1)))
-    return powers

@@ -17,7 +17,7 @@ from ._keys import LIMIT_PARAMETERS, LIMITS, LimitBounds
 from ._lazy_import import LazyModule
 from ._orbit_base import Start
 from ._run_base import BaseRun
-from ._system_keys import in_order, with_key
+from ._system_keys import in_order, with_keys
 from ._system_parts import Body, Cable, Forcing, set_fields, tuple_of_parts, within
 
 if TYPE_CHECKING:
@@ -167,7 +167,8 @@ class System(LimitBounds):
             Any of the parameters; ``mass``, ``inertia`` and ``radius`` of the body; ``force_x`` and ``force_y``, the
             constant force; ``length``, ``anchor_x``, ``anchor_y``, ``fairlead_x`` and ``fairlead_y`` of every cable;
             ``amplitude_x``, ``amplitude_y``, ``omega``, ``phase_x`` and ``phase_y`` of every sinusoid. A key with a
-            number, such as ``length_2``, changes only the cable or sinusoid with that number.
+            number, such as ``length_2``, changes only the cable or sinusoid with that number. No two keys may change
+            the same, as ``length`` and ``length_2`` would.
 
         Returns
         -------
@@ -177,7 +178,8 @@ class System(LimitBounds):
         Raises
         ------
         ValueError
-            If a key is unknown or its value is not allowed.
+            If a key is unknown or its value is not allowed, if the system has no part of its kind, or if two keys
+            change the same.
 
         See Also
         --------
@@ -190,11 +192,7 @@ class System(LimitBounds):
         >>> swing.replace(y=-1, vx=1.9).vx, swing.replace(length=2).cables[0].length
         (1.9, 2.0)
         """
-        system = self
-        parts: dict[str, Any] = {}
-        for key, value in keys.items():
-            parts |= with_key(system, parts, key, value)
-        return dataclasses.replace(system, **parts)
+        return dataclasses.replace(self, **with_keys(self, keys))
 
     def run(self, *, trust: bool = True, uncertainty: Uncertainty = None, tolerance: float = 1e-3) -> SystemRun:
         """Run the system to its end, and compute how far the run can be trusted.
@@ -334,7 +332,7 @@ class System(LimitBounds):
         Raises
         ------
         ValueError
-            If a key is unknown, or none of the systems is legal.
+            If a key is not allowed, as for :meth:`replace`, a range can not be read, or none of the systems is legal.
 
         See Also
         --------

@@ -9,12 +9,15 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 import xarray
+from numpy.typing import ArrayLike, NDArray
 
 from . import _engine
 from ._arguments import threads_for
 from ._axes import all_values, axis_values
-from ._dataset import COMMON_ATTRIBUTES, attributes, flag_attributes
+from ._dataset import COMMON_ATTRIBUTES, flag_attributes
 from ._progress import progress_bar
+from ._schema import attributes
+from ._system_keys import check_keys
 
 if TYPE_CHECKING:
     from ._system import System
@@ -27,7 +30,8 @@ def sweep_systems(
     system: System, axes: Mapping[str, Any], trust: bool, threads: int | None, progress: bool
 ) -> xarray.Dataset:
     """Runs every combination."""
-    values = {key: all_values(axis_values(key, value)) for key, value in axes.items()}
+    check_keys(system, axes)
+    values = {key: _axis(key, value) for key, value in axes.items()}
     shape = tuple(len(axis) for axis in values.values())
     count = math.prod(shape)
     if not 1 <= count <= _MAX_RUNS:
@@ -66,12 +70,23 @@ def sweep_systems(
     return xarray.Dataset(variables, coords, attrs)
 
 
+def _axis(key: str, values: ArrayLike | str) -> NDArray[Any]:
+    """The values of an axis. Those of a range are whole numbers for a count, as in a study of a case."""
+    given = axis_values(key, values)
+    read = all_values(key, given)
+    if key == "max_impacts" and isinstance(given, str) and np.all(read == np.round(read)):
+        return read.astype(np.int64)
+    return read
+
+
 def _attributes_of(name: str) -> dict[str, Any]:
     known = attributes().get(name)
     if known is None:
         return {"long_name": name.replace("_", " of cable ")}
-    attrs = {"long_name": known.get("comment") or known["long_name"]}
+    attrs = {"long_name": known.get("comment") or known["long_name"].removesuffix(f", in {known.get('scale')}")}
     # Units are the user's own.
+    if scale := known.get("scale"):
+        attrs["dimension"] = scale
     return attrs
 
 

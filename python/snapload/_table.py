@@ -77,6 +77,16 @@ class Table:
             parts.append((name, kind, {key: word for key, word in attrs.items() if word}, data))
         return cls(_engine.Table.of(parts))
 
+    def _in_own_units(self) -> Table:
+        """The table of a system, whose scales are dimensions in units of the user."""
+        parts = []
+        for name, kind, attrs, values in self._table.parts():
+            if scale := attrs.get("scale"):
+                attrs = {key: word for key, word in attrs.items() if key not in ("units", "scale")}
+                attrs["dimension"] = scale
+            parts.append((name, kind, attrs, values))
+        return Table(_engine.Table.of(parts))
+
     @property
     def columns(self) -> tuple[str, ...]:
         """The names of the columns.

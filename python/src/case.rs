@@ -134,6 +134,10 @@ pub(crate) fn to_value(name: &str, value: &Bound<'_, PyAny>) -> PyResult<Value> 
 
 /// A value of Python or NumPy as one of the engine; else what is shown of it.
 fn plain_value(value: &Bound<'_, PyAny>) -> PyResult<Result<Value, String>> {
+    // NumPy's mark of a masked value would give 0.
+    if value.get_type().name()? == "MaskedConstant" {
+        return Ok(Err("(a masked value)".to_owned()));
+    }
     // NumPy's scalars, and its arrays without dimensions, give Python's own.
     let plain = value.call_method0(intern!(value.py(), "item")).ok();
     let value = plain.as_ref().unwrap_or(value);

@@ -48,11 +48,13 @@ mod _engine {
     #[pymodule_export]
     use super::run::{Run, ensemble, run, run_alone};
     #[pymodule_export]
-    use super::schema::{columns, keys, named_case, named_cases, stops};
+    use super::schema::{columns, keys, named_case, named_cases, quantities, stops};
     #[pymodule_export]
     use super::structure::{Assessment, Elastic, Structure};
     #[pymodule_export]
-    use super::study::{Store, Study, evenly, identity, merge, read_column, threads_for};
+    use super::study::{
+        Store, Study, evenly, identity, merge, range_values, read_column, threads_for,
+    };
     #[pymodule_export]
     use super::system::{System, run_system, sweep_systems};
     #[pymodule_export]

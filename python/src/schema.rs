@@ -4,7 +4,7 @@ use crate::case::Case;
 use crate::errors::error_of_case;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
-use snapload::{KEYS, Kind, Limit, Parameters, Stop};
+use snapload::{KEYS, Kind, Limit, Parameters, Quantity, Stop};
 use snapload::{named_cases as all_named_cases, title_of};
 
 /// A unit as metadata after CF. A number in units of the case's own scales has no dimension: its
@@ -75,6 +75,24 @@ pub(crate) fn columns(py: Python<'_>) -> PyResult<Vec<Bound<'_, PyDict>>> {
         Ok(entry)
     });
     entries.collect()
+}
+
+/// The quantities of runs, long motions, basins and branches.
+#[pyfunction]
+pub(crate) fn quantities(py: Python<'_>) -> PyResult<Vec<Bound<'_, PyDict>>> {
+    let all = snapload::QUANTITIES.iter();
+    let entries = all.chain(&snapload_orbits::QUANTITIES);
+    let entry = |quantity: &Quantity| {
+        let entry = PyDict::new(py);
+        entry.set_item("name", quantity.name)?;
+        entry.set_item("symbol", quantity.symbol)?;
+        entry.set_item("unit", quantity.unit)?;
+        entry.set_item("cf", in_cf(quantity.unit).to_vec())?;
+        entry.set_item("meaning", quantity.meaning)?;
+        entry.set_item("title", title_of(quantity.meaning))?;
+        Ok(entry)
+    };
+    entries.map(entry).collect()
 }
 
 /// The built-in case of a code.

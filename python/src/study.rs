@@ -10,7 +10,7 @@ use snapload::Value;
 use snapload::analysis::{Cancelled, Progress};
 use snapload_study::{
     Axis, Grid, Identity, List, Opened, Plan, RandomRange, StudyError, Values, check_name,
-    checked_identity, read_rows,
+    checked_identity, read_rows, written_grid,
 };
 use std::collections::HashMap;
 use std::path::PathBuf;
@@ -360,6 +360,29 @@ pub(crate) fn evenly<'py>(
         );
         PyValueError::new_err(words)
     })?;
+    values_of_grid(py, &grid)
+}
+
+/// The values of a range of a key, which need not be one of a case, in the notation
+/// `first:last:n`.
+#[pyfunction]
+pub(crate) fn range_values<'py>(
+    py: Python<'py>,
+    key: &str,
+    text: &str,
+    most: u64,
+) -> PyResult<Bound<'py, PyByteArray>> {
+    let grid = written_grid(key, text).map_err(error_of_study)?;
+    if grid.count() > most {
+        let words =
+            format!("{key} = {text:?} is not allowed; allowed: a range of at most {most} values");
+        return Err(PyValueError::new_err(words));
+    }
+    values_of_grid(py, &grid)
+}
+
+fn values_of_grid<'py>(py: Python<'py>, grid: &Grid) -> PyResult<Bound<'py, PyByteArray>> {
+    let count = grid.count();
     let bytes = on_this_thread(py, |on_progress| {
         let mut bytes = Vec::new();
         for k in 0..count {

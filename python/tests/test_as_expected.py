@@ -9,6 +9,7 @@ import subprocess
 import sys
 import time
 import typing
+from collections.abc import Mapping
 from pathlib import Path
 
 import cf_xarray  # noqa: F401  (adds `.cf`)
@@ -178,12 +179,40 @@ def test_a_flight_is_drawn_smoothly():
 def test_a_case_is_a_mapping(tmp_path: Path):
     case = snapload.Case(f_o=0.31, a=0.2, stop_when_sliding=True)
     assert snapload.Case(**case) == case and dict(case) == case.keys() and case["a"] == 0.2
+    assert isinstance(case, Mapping) and dict(case.items()) == dict(case) and "a" in case and "depth" not in case
+    assert list(case.values()) == [case[key] for key in case]
+    assert case.get("a") == 0.2 and case.get("depth") is None and case.get("depth", 8.0) == 8.0
     point = snapload.Case(body="point", a=0)
     assert snapload.Case(**point) == point and len(case) == len(list(case))
     assert case.__replace__(e=0.5) == case.replace(e=0.5)
     case.to_file(tmp_path / "case.toml")
     again = snapload.Case.from_file(tmp_path / "case.toml")
     assert again == case and again.replace(a=0.3).inertia == 0.3 * 0.3
+
+
+#: Its second value is not meant.
+MASKED = np.ma.array([0.5, 0.6], mask=[False, True])
+
+
+def test_an_array_without_a_masked_value_is_an_array():
+    whole = np.ma.array([0.5, 0.6])
+    assert snapload.sweep(snapload.Case(t_end=1), e=whole).e.values.tolist() == [0.5, 0.6]
+    # In a list of cases a masked value is a missing one.
+    cases = snapload.sweep(snapload.Case(t_end=1, e=0.7), cases={"e": MASKED})
+    assert cases.e.values.tolist() == [0.5, 0.7]
+
+
+def test_a_place_of_a_branch_is_checked():
+    orbit = snapload.Case(body="point", r=1.7, e=0.35, f_o=1.4, nu=0.8, omega=3.1).orbit()
+    branch = snapload.continuation(orbit, "f_o", (1.35, 1.45))
+    assert branch.orbit(-1) == branch.orbit(len(branch) - 1)
+    with pytest.raises(IndexError, match=rf"there is no point 9999; there are {len(branch)} of them, from 0"):
+        branch.orbit(9999)
+    with pytest.raises(IndexError, match="there is no event 7; there are 0 of them"):
+        branch.event(7)
+    for wrong in (1.0, "1", slice(2)):
+        with pytest.raises(TypeError, match=r"point = .* is not allowed; allowed: a whole number"):
+            branch.orbit(wrong)
 
 
 @pytest.mark.parametrize(
@@ -208,6 +237,36 @@ def test_a_case_is_a_mapping(tmp_path: Path):
         (lambda _: snapload.Case().run(uncertainty="x"), ValueError, "uncertainty = 'x' is not allowed; allowed: a"),
         (lambda _: snapload.critical_force(snapload.Case(), largest=-1), ValueError, "largest = -1 is not allowed"),
         (lambda _: snapload.critical_force(snapload.Case(), over={"f_o": [1]}), ValueError, "the key that is searched"),
+        (
+            lambda _: snapload.critical_force(snapload.Case(), over="e"),
+            ValueError,
+            "over = 'e' is not allowed; allow",
+        ),
+        (
+            lambda _: snapload.Hydro.from_dataset(None),
+            TypeError,
+            "dataset, a NoneType, is not allowed; allowed: an xa",
+        ),
+        (lambda _: snapload.cases[1], TypeError, "code = 1 is not allowed; allowed: the code of a built-in case"),
+        (lambda _: snapload.sweep(snapload.Case(), e=MASKED), ValueError, "e = an array with 1 masked value is not"),
+        (lambda _: snapload.sweep(snapload.Case(), random=2, e=MASKED), ValueError, "e = an array with 1 masked value"),
+        (
+            lambda _: snapload.Case(e=np.ma.masked),
+            ValueError,
+            r"e \(a masked value\) is not allowed; allowed: a num",
+        ),
+        (lambda _: snapload.Case().run(tolerance=np.ma.masked), ValueError, "tolerance = masked is not allowed"),
+        (lambda _: snapload.Case().run(trust=False).at(MASKED), ValueError, "t = an array with 1 masked value"),
+        (
+            lambda _: snapload.Case().run(uncertainty=1e9),
+            ValueError,
+            "^uncertainty = 1e9 is not allowed; allowed: a s",
+        ),
+        (
+            lambda _: snapload.ensemble(snapload.Case(), 5, uncertainty={"x": 1e9, "f_o": 1}),
+            ValueError,
+            "x=1e9, f_o=1",
+        ),
     ],
 )
 def test_mistakes_are_reported(call, kind, message, tmp_path: Path):

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import os
 import subprocess
 import sys
 from dataclasses import asdict
@@ -230,6 +231,28 @@ def test_a_file_is_read_as_the_command_reads_it(command_json, tmp_path: Path):
         snapload.Case.from_file(path)
     path.write_text("a == 2")
     with pytest.raises(ValueError, match="mooring.toml"):
+        snapload.Case.from_file(path)
+    path.write_bytes(b"f_o = 0.2 # \xff")
+    with pytest.raises(ValueError, match=r"mooring.toml: .*utf-8"):
+        snapload.Case.from_file(path)
+
+
+def test_a_file_with_a_byte_order_mark_is_read_as_the_command_reads_it(command_json, tmp_path: Path):
+    path = tmp_path / "mooring.toml"
+    path.write_bytes(b"\xef\xbb\xbff_o = 0.25\r\nt_end = 5\r\n")
+    case = snapload.Case.from_file(path)
+    assert case == snapload.Case(f_o=0.25, t_end=5) and case.keys() == command_json("run", str(path))["case"]
+
+
+@pytest.mark.skipif(sys.platform != "linux", reason="other systems have names in Unicode only")
+def test_a_path_that_is_no_text_is_read_as_the_command_reads_it(command_json, tmp_path: Path):
+    path = tmp_path / os.fsdecode(b"m\xfcring.toml")
+    path.write_text("f_o = 0.25\nt_end = 5\n")
+    case = snapload.Case.from_file(path)
+    assert case.keys() == command_json("run", str(path))["case"] and case.name == f"{tmp_path}/m\ufffdring.toml"
+    assert snapload.Case.from_file(os.fsencode(path)) == case
+    path.write_text("e = 7\n")
+    with pytest.raises(ValueError, match="m\ufffdring.toml: e = 7 is not allowed"):
         snapload.Case.from_file(path)
 
 

@@ -14,10 +14,12 @@ def test_scales_agree_with_a_library_of_units():
     length, mass, force = 5.0 * registry.m, 800.0 * registry.kg, 1000.0 * registry.N
     time = ((mass * length / force) ** 0.5).to("s")
     known = {"L": length, "m": mass, "F": force, "T": time, "rad": registry.rad, "1": 1 * registry.dimensionless}
-    from snapload._scales import unit_of
+    from snapload._products import unit_of
+    from snapload._schema import units
 
-    for scale in {key["unit"] for key in (*snapload._engine.keys(), *snapload._engine.columns())} - {""}:
-        over, _, under = scale.replace("^", "**").replace(" ", "*").partition("/")
+    assert "L^(1/2)/T" in units().values()
+    for scale in set(units().values()) - {""}:
+        over, _, under = scale.replace("(1/2)", "0.5").replace("^", "**").replace(" ", "*").partition("/")
         value = known["1"] * eval(over, {}, known) / (eval(under, {}, known) if under else 1)
         assert SCALES.factor(scale) == pytest.approx(value.to(registry.Unit(unit_of(scale))).magnitude), scale
 
@@ -56,8 +58,17 @@ def test_results_come_back_in_si():
         (lambda: snapload.Scales(0, 1, 1), ValueError, "length = 0 is not allowed; allowed: a number above 0"),
         (lambda: snapload.Scales(1, "x", 1), ValueError, "mass = 'x' is not allowed; allowed: a number"),
         (lambda: SCALES.factor("kg"), ValueError, "scale = 'kg' is not allowed; allowed: a product such as"),
+        (lambda: SCALES.factor("L^(1/0)"), ValueError, "is not allowed; allowed: a product such as"),
+        (lambda: SCALES.factor("L^(1/2"), ValueError, "is not allowed; allowed: a product such as"),
+        (lambda: SCALES.factor(None), TypeError, "scale = None is not allowed; allowed: a product such as"),
+        (lambda: SCALES.case({"f_o": 300}), TypeError, "base = {'f_o': 300} is not allowed; allowed: a snapload.Case"),
+        (lambda: SCALES.case(f_o=[1]), ValueError, r"f_o = \[1\] is not allowed; allowed: a number"),
         (lambda: SCALES.si(3.0), TypeError, "result, a float, is not allowed; allowed: a Table"),
-        (lambda: SCALES.si(snapload.sensitivities(snapload.Case())), ValueError, "over the unit of the key"),
+        (
+            lambda: SCALES.si(snapload.sensitivities(snapload.Case())),
+            ValueError,
+            "t is not allowed, as its scale, T over the unit of the key, is no single unit",
+        ),
         (lambda: SCALES.case(omgea=1), ValueError, "omgea"),
     ],
 )

@@ -14,6 +14,7 @@ from snapload._keys import LIMITS
 
 WEIGHT = snapload.Forcing((0, -1))
 STRING = snapload.Cable(anchor=(0, 0), length=1)
+SWING = snapload.System(snapload.Body(), [STRING], WEIGHT, 0.5, y=-1, vx=1.8, t_end=5)
 
 
 def breakwater(mass: float = 1.0, **keys) -> snapload.System:
@@ -153,6 +154,26 @@ def test_runs_of_systems_are_drawn(what):
     still.plot(what)
 
 
+def test_keys_that_change_different_numbers_go_together():
+    system = breakwater().replace(length_1=1.6, length_2=1.7, anchor_x_1=1.1, omega_1=1.2, force_y=-0.9, mass=1.1, y=0)
+    assert [cable.length for cable in system.cables] == [1.6, 1.7] and system.cables[0].anchor[0] == 1.1
+    assert system.forcing.sinusoids[0].omega == 1.2 and system.forcing.constant == (0, -0.9)
+    assert (system.body.mass, system.y) == (1.1, 0)
+
+
+def test_cables_may_come_from_a_generator():
+    longer = breakwater().replace(cables=(dataclasses.replace(cable, length=1.6) for cable in breakwater().cables))
+    assert longer == breakwater().replace(length=1.6)
+
+
+def test_a_range_of_a_count_has_whole_numbers():
+    study = breakwater().sweep(max_impacts="3:5:2", progress=False)
+    assert study.max_impacts.values.tolist() == [3, 5]
+    # A run ends at the first impact beyond.
+    assert (study.impacts_1 + study.impacts_2).values.tolist() == [4, 6]
+    assert study.end.values.tolist() == ["impact_limit"] * 2
+
+
 @pytest.mark.parametrize(
     ("call", "kind", "message"),
     [
@@ -175,6 +196,21 @@ def test_runs_of_systems_are_drawn(what):
         (lambda: breakwater(max_impacts=0), ValueError, "max_impacts = 0 is not allowed"),
         (lambda: breakwater().replace(lenght=1), ValueError, "there is no key 'lenght'; the keys are body, cables"),
         (lambda: breakwater().replace(length_3=1), ValueError, "there is no key 'length_3': there are 2 of them"),
+        (lambda: many_cables().replace(length_6=1), ValueError, "there is no key 'length_6': there are 5 of them"),
+        (lambda: SWING.replace(length_2=1), ValueError, "there is no key 'length_2': there is one of them"),
+        (lambda: SWING.replace(omega=5), ValueError, "there is no key 'omega': the system has no sinusoids"),
+        (lambda: SWING.sweep(omega=[1, 2]), ValueError, "there is no key 'omega': the system has no sinusoids"),
+        (lambda: breakwater().sweep(length_1=[1.59], length=[1.6, 1.7]), ValueError, "length beside length_1 is not"),
+        (lambda: breakwater().replace(length_2=1.7, cables=[STRING]), ValueError, "cables beside length_2 is not"),
+        (lambda: breakwater().replace(cables=[STRING], anchor_x=1), ValueError, "anchor_x beside cables is not"),
+        (lambda: breakwater().replace(mass=2, body=snapload.Body()), ValueError, "body beside mass is not allowed"),
+        (lambda: breakwater().replace(forcing=WEIGHT, omega_1=2), ValueError, "omega_1 beside forcing is not allowed"),
+        (lambda: breakwater().replace(force_y=-1, forcing=WEIGHT), ValueError, "forcing beside force_y is not"),
+        (lambda: breakwater().sweep(vx="0:1"), ValueError, 'vx = "0:1": three numbers are needed; write first:last:n'),
+        (lambda: breakwater().sweep(vx="a:b:3"), ValueError, 'vx = "a:b:3": "a" is not a number; write first:last:n'),
+        (lambda: breakwater().sweep(vx="0:1:c"), ValueError, 'vx = "0:1:c": n must be a whole number, 1 or more'),
+        (lambda: breakwater().sweep(vx="0:1:99999999999"), ValueError, "allowed: a range of at most 10000000 values"),
+        (lambda: breakwater().sweep(length=np.ma.array([1.6, 1.7], mask=[0, 1])), ValueError, "1 masked value"),
         (lambda: breakwater().run(uncertainty={"r": 1}), ValueError, "uncertainty: r is not allowed; allowed: start"),
         (lambda: breakwater().run(uncertainty=-1), ValueError, "uncertainty = -1 is not allowed"),
         (lambda: breakwater().run(tolerance=0), ValueError, "tolerance = 0 is not allowed"),

@@ -6,7 +6,7 @@ use crate::failure::Failure;
 use crate::json::JsonArgs;
 use crate::option_values::whole_number;
 use crate::outputs::Outputs;
-use crate::uncertainty::UncertaintyArgs;
+use crate::uncertainty::{UncertaintyArgs, with_option};
 use serde::Serialize;
 use snapload::analysis::{
     CriticalForce, ExceedanceCurve, ForceScan, NONZERO_MEMBERS, OnProgress, Progress,
@@ -82,7 +82,7 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
             });
             Answer::One {
                 row: CriticalRow::new(row),
-                curve: curve.transpose()?,
+                curve: curve.transpose().map_err(with_option)?,
             }
         }
         Some(text) => over(&input, text, scan, &on_progress)

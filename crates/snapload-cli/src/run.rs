@@ -7,7 +7,7 @@ use crate::json::{Json, JsonArgs, refuse_directory};
 use crate::option_values::whole_number;
 use crate::pending_outputs::{PendingOutputs, TargetFolder};
 use crate::pictures::pictures;
-use crate::uncertainty::UncertaintyArgs;
+use crate::uncertainty::{UncertaintyArgs, of_option};
 use snapload::analysis::{MEMBERS, Progress};
 use snapload::{Case, Sampling};
 use snapload_certificate::Cancelled;
@@ -114,8 +114,7 @@ fn trusted(args: &Args, case: &Case) -> Result<RunWithTrust, Failure> {
     let uncertainty = args.uncertainty.read(case)?;
     let (bar, seed) = (Bar::new(), args.uncertainty.seed());
     let on_progress = |progress: Progress| bar.show(progress);
-    RunWithTrust::run(case, uncertainty, args.ensemble, seed, &on_progress)
-        .map_err(|error| Failure::from(error).with_prefix("--uncertainty"))
+    RunWithTrust::run(case, uncertainty, args.ensemble, seed, &on_progress).map_err(of_option)
 }
 
 /// The proof of the run, if it is asked for.

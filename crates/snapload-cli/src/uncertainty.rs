@@ -2,7 +2,7 @@
 use crate::failure::Failure;
 use crate::option_values::whole_number;
 use snapload::Case;
-use snapload::analysis::{SEED, Uncertainty};
+use snapload::analysis::{SEED, UNCERTAINTY, Uncertainty, Unfinished};
 use snapload_report::TOLERANCE;
 
 /// What counts as known, as given on the command line.
@@ -44,7 +44,7 @@ impl UncertaintyArgs {
         let mut set = |text: &String| {
             let (key, size) = parse(text)?;
             let set = uncertainty.set_for(case.parameters(), key, size);
-            set.map_err(|error| Failure::bad_input(error).with_prefix("--uncertainty"))
+            set.map_err(|error| Failure::bad_input(error).with_prefix(OPTION))
         };
         self.uncertainty.iter().try_for_each(&mut set)?;
         Ok(uncertainty)
@@ -59,6 +59,28 @@ impl UncertaintyArgs {
         self.seed
     }
 }
+
+/// An error of work with neighbours; one that names the uncertainty names the option instead.
+pub(crate) fn with_option(error: Unfinished) -> Unfinished {
+    match error {
+        Unfinished::Case(mut error) if error.key == UNCERTAINTY => {
+            error.key = OPTION.to_owned();
+            Unfinished::Case(error)
+        }
+        other => other,
+    }
+}
+
+/// The same where every other error is one of the uncertainty, too.
+pub(crate) fn of_option(error: Unfinished) -> Failure {
+    match with_option(error) {
+        Unfinished::Case(error) if error.key != OPTION => Failure::from(error).with_prefix(OPTION),
+        other => other.into(),
+    }
+}
+
+/// The option.
+const OPTION: &str = "--uncertainty";
 
 /// The meaning of one `--uncertainty`: a key, or none for all start values, and a size.
 fn parse(text: &str) -> Result<(Option<&str>, f64), Failure> {

@@ -49,6 +49,7 @@ mod orbit;
 mod orbit_row;
 mod orbit_search;
 mod proof;
+mod quantities;
 mod rows;
 mod scan;
 mod section;
@@ -84,6 +85,7 @@ pub use options::{
 pub use orbit::{EventRow, NoOrbit, Orbit, OrbitRequest, Proof};
 pub use orbit_row::OrbitRow;
 pub use proof::{Proofs, prove_all};
+pub use quantities::QUANTITIES;
 pub use rows::{AttractionRow, BasinRow, DiagramRow, ErosionRow, SectionRow};
 pub use scan::scan;
 pub use section::{LONGEST_PERIOD, Section, SectionOptions, period_of, start_of};

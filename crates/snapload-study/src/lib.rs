@@ -36,7 +36,7 @@ pub use metadata::{Identity, Shard};
 pub use parquet_file::{ColumnType, Values};
 #[cfg(feature = "pictures")]
 pub use picture::{StudyPicture, key_label};
-pub use plan::{Axis, MOST_CASES, Plan, RANDOM, RandomRange};
+pub use plan::{Axis, MOST_CASES, Plan, RANDOM, RandomRange, written_grid};
 pub use rows::{Row, Run, rows};
 pub use sobol::Sobol;
 pub use store::{Opened, Store, check_name, chunk, folder_of, parent_of};

@@ -42,19 +42,7 @@ impl Axis {
     /// [`StudyError::Input`] if the text is no range, and as for [`Axis::even`].
     pub fn written(key: &str, text: &str) -> Result<Self, StudyError> {
         key_named(key)?;
-        let wrong = |what: &str| wrong_range(key, text, what, GRID_FORM);
-        let parts: Vec<&str> = text.split(':').map(str::trim).collect();
-        let [first, last, count] = parts[..] else {
-            return Err(wrong("three numbers are needed"));
-        };
-        let count = count.parse().ok().filter(|n| *n >= 1);
-        let count = count.ok_or_else(|| wrong("n must be a whole number, 1 or more"))?;
-        let grid = Grid::new(first, last, count).ok_or_else(|| {
-            let first_is_right = Grid::new(first, first, 1).is_some();
-            let text = if first_is_right { last } else { first };
-            wrong(&format!("{text:?} is not a number"))
-        })?;
-        Self::even(key, grid)
+        Self::even(key, written_grid(key, text)?)
     }
 
     /// An axis with listed values.
@@ -114,6 +102,26 @@ impl fmt::Display for Axis {
 /// The notation of a grid, and of a range of random values.
 const GRID_FORM: &str = "first:last:n for n evenly spaced values, such as 0.01:0.6:60";
 const RANGE_FORM: &str = "low:high for the side of a box, such as 0.05:0.6";
+
+/// The values of a range in the notation `first:last:n`; the key, which need not be one of a case,
+/// is only named in errors.
+///
+/// # Errors
+/// [`StudyError::Input`] if the text is no range.
+pub fn written_grid(key: &str, text: &str) -> Result<Grid, StudyError> {
+    let wrong = |what: &str| wrong_range(key, text, what, GRID_FORM);
+    let parts: Vec<&str> = text.split(':').map(str::trim).collect();
+    let [first, last, count] = parts[..] else {
+        return Err(wrong("three numbers are needed"));
+    };
+    let count = count.parse().ok().filter(|n| *n >= 1);
+    let count = count.ok_or_else(|| wrong("n must be a whole number, 1 or more"))?;
+    Grid::new(first, last, count).ok_or_else(|| {
+        let first_is_right = Grid::new(first, first, 1).is_some();
+        let text = if first_is_right { last } else { first };
+        wrong(&format!("{text:?} is not a number"))
+    })
+}
 
 /// The error of a wrong range for a key, with the notation that is allowed.
 fn wrong_range(key: &str, text: &str, what: &str, form: &str) -> StudyError {

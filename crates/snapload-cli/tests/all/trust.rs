@@ -164,6 +164,20 @@ fn what_can_not_be_in_doubt_is_refused_in_words() {
     let point = ["run", "--set", "body=point", "--uncertainty"];
     refused(&[&point[..], &["theta=1e-3"]].concat(), "no such quantity");
     refused(&["run", "--tolerance", "0"], "above 0");
+    for wide in ["1e9", "y=900"] {
+        let named = format!("error: --uncertainty = {wide} is not allowed; allowed: a smaller one");
+        refused(&["run", "--uncertainty", wide], &named);
+        let scan = [
+            "critical",
+            "--max",
+            "0.3",
+            "--step",
+            "0.3",
+            "--ensemble",
+            "9",
+        ];
+        refused(&[&scan[..], &["--uncertainty", wide]].concat(), &named);
+    }
     refused(&["critical", "--uncertainty", "1e-3"], "add --ensemble");
     refused(&["verify", "--digits", "400"], "307");
     refused(&["verify", "--tolerance", "nan"], "above 0");

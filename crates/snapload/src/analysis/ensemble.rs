@@ -28,6 +28,9 @@ pub struct Ensemble {
     pub seed: u64,
 }
 
+/// The key of the error of an uncertainty within which no neighbour is legal.
+pub const UNCERTAINTY: &str = "uncertainty";
+
 /// Half-width of the cloud in every start value, unless an uncertainty is given \[L\], \[rad\],
 /// \[L/T\], \[rad/T\].
 pub const DEFAULT_CLOUD: f64 = 1e-12;
@@ -89,13 +92,36 @@ impl Ensemble {
                 Err(error) => latest = Some(error),
             }
         }
-        Err(latest.unwrap_or_else(|| {
-            CaseError::value(
-                "uncertainty",
-                Value::Integer(index.into()),
-                "a legal neighbour",
-            )
-        }))
+        Err(self.too_large(latest))
+    }
+
+    /// An uncertainty within which no legal neighbour was drawn; the error is that of the latest one.
+    fn too_large(&self, latest: Option<CaseError>) -> CaseError {
+        let named = |(key, size): &(&str, f64)| format!("{key}={}", Value::Number(*size));
+        let moving = START_KEYS.iter().zip(self.uncertainty.start);
+        let moving = moving.filter(|(key, _)| self.base.moves_by(key));
+        let of_start: Vec<(&str, f64)> = moving.map(|(key, size)| (*key, size)).collect();
+        let keys = &self.uncertainty.keys;
+        let sizes = match of_start[..] {
+            [(_, size), ..] if keys.is_empty() && of_start.iter().all(|(_, s)| *s == size) => {
+                Value::Number(size).to_string()
+            }
+            _ => {
+                let given = of_start.iter().filter(|(_, size)| *size > 0.0);
+                let given: Vec<String> = given.map(named).chain(keys.iter().map(named)).collect();
+                given.join(", ")
+            }
+        };
+        let mut allowed =
+            format!("a smaller one, as none of {DRAWS} neighbours within it is legal");
+        if let Some(latest) = latest {
+            let (key, value) = (latest.key, latest.value);
+            allowed += &format!(
+                "; the latest has {key} = {value}, but needs {}",
+                latest.allowed
+            );
+        }
+        CaseError::value(UNCERTAINTY, sizes, allowed)
     }
 
     fn draw(&self, generator: &mut ChaCha8Rng) -> Parameters {

@@ -17,6 +17,7 @@ pub use critical::{CriticalForce, Exceedance, ForceScan};
 pub use digits::digits_within;
 pub use ensemble::{
     DEFAULT_CLOUD, DEFAULT_MEMBERS, Ensemble, EnsembleEnds, MEMBERS, NONZERO_MEMBERS, SEED, Share,
+    UNCERTAINTY,
 };
 pub use exceedance::{ExceedanceCurve, Exceeding};
 pub use lyapunov::Frame;

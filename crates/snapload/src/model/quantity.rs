@@ -30,7 +30,7 @@ const fn of(
 
 /// All of them.
 #[rustfmt::skip] // one row a quantity
-pub const QUANTITIES: [Quantity; 18] = [
+pub const QUANTITIES: [Quantity; 19] = [
     of("t", "*t*", "T", "time"),
     of("x", "*x*", "L", "horizontal position of the centre"),
     of("y", "*y*", "L", "vertical position of the centre"),
@@ -49,6 +49,7 @@ pub const QUANTITIES: [Quantity; 18] = [
     of("rho3", "ρ₃", "L/T", "sum of v_n"),
     of("y_max", "*y*ₘₐₓ", "L", "highest y of the centre"),
     of("theta_max", "|*θ*|ₘₐₓ", "rad", "largest rotation"),
+    of("exponent", "*λ*", "1/T", "Lyapunov exponent"),
 ];
 
 /// A meaning in short: the part before a colon, a semicolon or a comma.

@@ -108,6 +108,24 @@ fn members_are_within_the_doubt_and_do_not_depend_on_their_number() -> Result<()
     Ok(())
 }
 
+#[test]
+fn an_uncertainty_without_legal_neighbours_is_named() -> Result<(), CaseError> {
+    let case = Case::new(Parameters::STANDARD)?;
+    let refusal = |uncertainty: &Uncertainty| {
+        let ensemble = Ensemble::about(&case, uncertainty, 5, 1);
+        let error = ensemble.member(0).map(|_| ()).unwrap_err();
+        (error.key, error.value, error.allowed)
+    };
+    let (key, value, allowed) = refusal(&Uncertainty::of_start(1e9));
+    assert_eq!((key.as_str(), value.as_str()), ("uncertainty", "1e9"));
+    assert!(allowed.starts_with("a smaller one"), "{allowed}");
+    let mut some = Uncertainty::default();
+    some.set("y", 1e9)?;
+    some.set("f_o", 0.5)?;
+    assert_eq!(refusal(&some).1, "y=1e9, f_o=0.5");
+    Ok(())
+}
+
 /// The start is on the boundary of a cable: half of the ensemble is out of reach, and is drawn
 /// again.
 #[test]
