@@ -223,7 +223,7 @@ fn a_tension_that_neighbours_lose_ends_trust() {
         let mut uncertainty = Uncertainty::default();
         uncertainty.set("f_o", size).expect("a key in doubt");
         let (run, trust) = trusted_run(&case(entries), &uncertainty, &no_progress).expect("legal");
-        let lost = run.impacts().len() > 0;
+        let lost = !run.impacts().is_empty();
         (trust.horizon.map(|horizon| horizon.cause), lost)
     };
     for sign in [1.0, -1.0] {
