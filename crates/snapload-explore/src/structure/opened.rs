@@ -1,7 +1,7 @@
 //! The case of a structure in a request of the page: a file with changes.
 use crate::refusal::Refusal;
 use serde::{Deserialize, Serialize};
-use snapload::{CaseError, Entries};
+use snapload::{CaseError, Entries, Value, parse_value};
 use snapload_structure::{NO_FILES_HERE, STRUCTURE, Structure};
 use std::fmt::Write as _;
 use std::path::PathBuf;
@@ -103,33 +103,11 @@ impl Opened {
     }
 
     /// The same with waves of this kind only.
-    fn with_water(self, water: WaterKind) -> Result<Self, CaseError> {
-        let mut entries = Entries::new(&STRUCTURE);
-        let left_out = |table: &str| {
-            WATERS
-                .iter()
-                .any(|(name, kind)| *name == table && *kind != water)
-        };
-        for table in STRUCTURE
-            .tables
-            .iter()
-            .filter(|table| !left_out(table.name))
-        {
-            for index in 0..self.entries.count(table.name) {
-                entries.add(table.name);
-                let fields = self.entries.table(table.name, index);
-                for key in table.keys {
-                    if let Some(value) = fields.given(key.name) {
-                        let place = self
-                            .entries
-                            .place(&fields.path(key.name))
-                            .unwrap_or_default();
-                        entries.give(table.name, index, key.name, value.clone(), place)?;
-                    }
-                }
-            }
+    fn with_water(mut self, water: WaterKind) -> Self {
+        for (table, _) in WATERS.iter().filter(|(_, kind)| *kind != water) {
+            self.entries.remove(table);
         }
-        Ok(Self { entries, ..self })
+        self
     }
 }
 
@@ -148,7 +126,7 @@ impl CaseRequest {
         let own = opened.water();
         let water = self.water.unwrap_or(own);
         if water != own {
-            opened = opened.with_water(water)?;
+            opened = opened.with_water(water);
         }
         for change in &self.set {
             opened.entries.set(change)?;
@@ -190,9 +168,10 @@ impl Case {
         };
         let changes = changes.iter().filter_map(|change| change.split_once('='));
         let changes: Vec<String> = changes
-            .map(|(key, value)| match value.parse::<f64>() {
-                Ok(_) => format!("{key:?}: {value}"),
-                Err(_) if value.starts_with(['[', '"']) => format!("{key:?}: {value}"),
+            .map(|(key, value)| match parse_value(value) {
+                Ok(Value::Bool(true)) => format!("{key:?}: True"),
+                Ok(Value::Bool(false)) => format!("{key:?}: False"),
+                Ok(read) => format!("{key:?}: {read}"),
                 Err(_) => format!("{key:?}: {value:?}"),
             })
             .collect();
