@@ -17,6 +17,7 @@ from numpy.typing import ArrayLike, NDArray
 from . import _engine
 from ._arguments import whole_number
 from ._lazy_import import LazyModule
+from ._result import Result
 
 if TYPE_CHECKING:
     import xarray
@@ -50,7 +51,7 @@ class HydroOptions(TypedDict, total=False):
 
 
 @dataclass(frozen=True, repr=False, eq=False)
-class Hydro:
+class Hydro(Result):
     """Hydrodynamic coefficients of a floating body, and the results that need no simulation.
 
     Use :meth:`from_file` or :meth:`from_dataset` to create it. All quantities are in kg, m, N, s and rad. Positive
@@ -68,7 +69,8 @@ class Hydro:
     warnings : list of str
         Warnings about the file, the memory and the results.
     answer : dict
-        All results, as ``snapload hydro --json`` writes them.
+        All results, as ``snapload hydro --json`` writes them. ``sea`` is empty, as the command writes it without
+        ``--hs`` and ``--tp``, which are options of the command only.
 
     See Also
     --------
@@ -185,7 +187,7 @@ class Hydro:
     def _analyse(cls, name: str, variables: list[_Variable] | None, options: HydroOptions) -> Hydro:
         given = {key: _json_value(key, value) for key, value in options.items() if value is not None}
         text, summary = _engine.hydro(name, variables, json.dumps(given))
-        answer = json.loads(text)
+        answer = json.loads(text) | {"sea": []}
         floating = answer["floating"] or {}
         return cls(
             natural=floating.get("natural", []),
@@ -231,6 +233,12 @@ class Hydro:
         numpy.ndarray
             K, of shape ``(*t.shape, 3, 3)``.
 
+        Raises
+        ------
+        ValueError
+            If a time is negative or not a finite number. The sum of exponentials is K only from 0 on; the memory of
+            the future is 0.
+
         See Also
         --------
         Hydro.dataset : Has the poles and residues of the memory.
@@ -243,6 +251,9 @@ class Hydro:
         np.True_
         """
         times = np.asarray(t, dtype=float)
+        refused = times[~(np.isfinite(times) & (times >= 0))]
+        if refused.size:
+            raise ValueError(f"t = {refused[0]} is not allowed; allowed: finite times in s from 0 on")
         poles = _complex([term["pole"] for term in self.answer["memory"]])
         residues = _complex([term["residue"] for term in self.answer["memory"]])
         kernel = np.tensordot(np.exp(np.multiply.outer(times, poles)), residues, axes=1)

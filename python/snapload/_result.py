@@ -6,10 +6,14 @@ from dataclasses import fields
 from typing import Any, ClassVar
 
 import numpy as np
+from numpy.typing import NDArray
 
 
 class Result:
-    """A result is equal to another if all its fields, including arrays, are; its repr has those in ``_repr_fields``."""
+    """A result is equal to another if all its fields, including arrays, are; its repr has those in ``_repr_fields``.
+
+    NaN, which stands for what is not known, is equal to NaN.
+    """
 
     _repr_fields: ClassVar[tuple[str, ...]] = ()
     __hash__ = None  # type: ignore[assignment]
@@ -25,11 +29,25 @@ class Result:
         return f"{type(self).__name__}({', '.join(texts)}{more})"
 
 
-def equal_values(one: object, other: object) -> bool:
-    """Whether two values are equal; arrays are compared by their elements."""
+def equal_values(one: Any, other: Any) -> bool:
+    """Whether two values are equal; arrays are compared by their elements, and NaN is equal to NaN."""
     if isinstance(one, np.ndarray) or isinstance(other, np.ndarray):
-        return np.asarray(one).dtype == np.asarray(other).dtype and np.array_equal(one, other)  # type: ignore[arg-type]
-    return one == other
+        return _equal_arrays(np.asarray(one), np.asarray(other))
+    if isinstance(one, dict) and isinstance(other, dict):
+        return one.keys() == other.keys() and all(equal_values(one[key], other[key]) for key in one)
+    if isinstance(one, (list, tuple)) and type(one) is type(other):
+        return len(one) == len(other) and all(map(equal_values, one, other))
+    if isinstance(one, float) and isinstance(other, float) and np.isnan(one) and np.isnan(other):
+        return True
+    return bool(one == other)
+
+
+def _equal_arrays(one: NDArray[Any], other: NDArray[Any]) -> bool:
+    if one.dtype != other.dtype or one.shape != other.shape:
+        return False
+    if one.dtype.names is not None:
+        return all(_equal_arrays(one[name], other[name]) for name in one.dtype.names)
+    return np.array_equal(one, other, equal_nan=one.dtype.kind in "fc")
 
 
 def _names(result: Any) -> list[str]:

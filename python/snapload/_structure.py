@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+import json
 from collections.abc import Mapping, Sequence
 from os import PathLike, fspath
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 
@@ -19,7 +21,8 @@ def _toml_value(value: object) -> str:
     if isinstance(value, bool):
         return str(value).lower()
     if isinstance(value, str):
-        return value
+        # A string of JSON is a string of TOML, which also forbids an unescaped delete character.
+        return json.dumps(value, ensure_ascii=False).replace("\x7f", "\\u007f")
     if isinstance(value, Sequence) or isinstance(value, np.ndarray):
         return f"[{', '.join(_toml_value(item) for item in value)}]"
     if isinstance(value, (int, np.integer)):
@@ -37,7 +40,9 @@ class Structure:
     """A moored structure in SI units, described by a case for ``snapload assess``.
 
     The manual lists the keys under structures. Use :meth:`from_toml`, :meth:`parse`, :meth:`from_moordyn` or
-    :meth:`example` to create a structure.
+    :meth:`example` to create a structure. Structures are equal if all their keys have equal values, given or by
+    default, and the files that they name had equal contents. A structure that was pickled is read again, with the
+    files in the same folder.
 
     See Also
     --------
@@ -59,6 +64,8 @@ class Structure:
     @classmethod
     def from_toml(cls, path: str | PathLike[str], changes: Mapping[str, object] | None = None) -> Structure:
         """Read a case file.
+
+        Files that the case names, such as ``float.file``, are read from the folder of the case file.
 
         Parameters
         ----------
@@ -85,11 +92,15 @@ class Structure:
         ...     snapload.Structure.from_toml(file).assess(neighbours=0).standing
         'open'
         """
-        return cls.parse(Path(path).read_text(encoding="utf-8"), changes, name=fspath(path))
+        text = Path(path).read_text(encoding="utf-8")
+        return cls(_engine.Structure.parse(fspath(path), _folder_of(path), text, _changes(changes)))
 
     @classmethod
     def parse(cls, text: str, changes: Mapping[str, object] | None = None, name: str = "structure") -> Structure:
         """Read a case from a string.
+
+        Files that the case names, such as ``float.file``, are read from the current working directory, as a string
+        has no folder of its own.
 
         Parameters
         ----------
@@ -116,7 +127,7 @@ class Structure:
         >>> snapload.Structure.parse(text, {"run.duration": 60}, name="short")
         <Structure short>
         """
-        return cls(_engine.Structure.parse(name, text, _changes(changes)))
+        return cls(_engine.Structure.parse(name, Path.cwd(), text, _changes(changes)))
 
     @classmethod
     def example(cls) -> Structure:
@@ -143,6 +154,8 @@ class Structure:
     def from_moordyn(cls, path: str | PathLike[str], changes: Mapping[str, object] | None = None) -> Structure:
         """Read an input file of MoorDyn version 2.
 
+        Files that the changes name, such as ``float.file``, are read from the folder of this file.
+
         Parameters
         ----------
         path : str or path
@@ -168,7 +181,7 @@ class Structure:
         'open'
         """
         text = Path(path).read_text(encoding="utf-8")
-        return cls(*_engine.Structure.from_moordyn(fspath(path), text, _changes(changes)))
+        return cls(*_engine.Structure.from_moordyn(fspath(path), _folder_of(path), text, _changes(changes)))
 
     def to_moordyn(self, path: str | PathLike[str], segments: int = 1) -> None:
         """Write an input file for MoorDyn version 2.
@@ -247,11 +260,7 @@ class Structure:
         optional = ("wave", "sea", "design", "project")
         if table not in optional:
             raise ValueError(f"table = {table!r} is not allowed; allowed: one of {', '.join(optional)}")
-        kept, inside = [], False
-        for row in self.to_toml().splitlines():
-            inside = row.strip() == f"[{table}]" if row.startswith("[") else inside
-            kept += [] if inside else [row]
-        return Structure(_engine.Structure.parse(self._engine.name, "\n".join(kept), []), self.notes)
+        return Structure(self._engine.without(table), self.notes)
 
     def to_toml(self) -> str:
         """Return the case as TOML.
@@ -302,7 +311,7 @@ class Structure:
         """
         neighbours = whole_number("neighbours", neighbours)
         with progress_bar("assess", neighbours, progress) as report_progress:
-            return Assessment(self._engine.assess(neighbours, report_progress))
+            return Assessment(self, (neighbours,), self._engine.assess(neighbours, report_progress))
 
     def seas(self, seeds: int = 20, elastic: bool = False, progress: bool = True) -> Seas:
         """Run the structure in many records of its irregular sea.
@@ -365,7 +374,26 @@ class Structure:
         """
         stiffer, every = number("stiffer", stiffer), number("every", every)
         with progress_bar("elastic", 100, progress) as report_progress:
-            return Elastic(self._engine.elastic(stiffer, every, report_progress))
+            return Elastic(self, (stiffer, every), self._engine.elastic(stiffer, every, report_progress))
+
+    def __eq__(self, other: object) -> bool:
+        return isinstance(other, Structure) and self._engine == other._engine
+
+    def __hash__(self) -> int:
+        return hash(self._engine)
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        engine = self._engine
+        return _restore, (engine.name, fspath(engine.folder), engine.to_toml(), self.notes)
 
     def __repr__(self) -> str:
         return f"<Structure {self._engine.name}>"
+
+
+def _folder_of(path: str | PathLike[str]) -> Path:
+    """The folder of a file, which stays the same if the working directory changes."""
+    return Path(path).absolute().parent
+
+
+def _restore(name: str, folder: str, text: str, notes: tuple[str, ...]) -> Structure:
+    return Structure(_engine.Structure.parse(name, Path(folder), text, []), notes)

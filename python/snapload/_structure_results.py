@@ -3,16 +3,16 @@
 from __future__ import annotations
 
 import json
-from html import escape
 from os import PathLike
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from . import _engine
 from ._lazy_import import LazyModule
+from ._structure_base import RepeatableResult, StructureResult
 from ._structure_datasets import attributes_of, motion_dataset, rows_dataset
 
 if TYPE_CHECKING:
@@ -21,22 +21,7 @@ else:
     xarray = LazyModule("xarray")
 
 
-class _StructureResult:
-    """The common part of all results."""
-
-    def __init__(self, data: dict[str, Any], summary: str) -> None:
-        #: Everything that the command writes as JSON. Each key ends in the SI unit of its value.
-        self.data = data
-        self._summary = summary
-
-    def __str__(self) -> str:
-        return self._summary
-
-    def _repr_html_(self) -> str:
-        return f"<pre>{escape(self._summary)}</pre>"
-
-
-class Assessment(_StructureResult):
+class Assessment(RepeatableResult[_engine.Assessment]):
     """The response of a structure to one regular wave or one record of a sea.
 
     Attributes
@@ -58,9 +43,9 @@ class Assessment(_StructureResult):
     ('line',)
     """
 
-    def __init__(self, engine: _engine.Assessment) -> None:
-        super().__init__(json.loads(engine.json()), engine.summary())
-        self._engine = engine
+    def _repeat(self) -> _engine.Assessment:
+        (neighbours,) = self._options
+        return self._structure._engine.assess(neighbours, None)
 
     @property
     def standing(self) -> str:
@@ -154,13 +139,18 @@ class Assessment(_StructureResult):
         Parameters
         ----------
         times : array_like
-            Times within the run [s].
+            Times within the run [s], from 0 to ``data["end"]["t_s"]``.
 
         Returns
         -------
         xarray.Dataset
             ``x_m``, ``z_m`` and ``theta_rad`` along ``t_s``, and ``tension_n`` along ``t_s`` and ``line``. The tension
             of a slack line is 0.
+
+        Raises
+        ------
+        ValueError
+            If a time is before the start or after the end of the run, or not a number.
 
         See Also
         --------
@@ -203,7 +193,7 @@ class Assessment(_StructureResult):
         return f"<Assessment: {self.standing}>"
 
 
-class Seas(_StructureResult):
+class Seas(StructureResult):
     """The response of a structure to many records of a sea.
 
     Attributes
@@ -311,7 +301,7 @@ class Seas(_StructureResult):
         return f"<Seas: {self.data['records']} records>"
 
 
-class Elastic(_StructureResult):
+class Elastic(RepeatableResult[_engine.Elastic]):
     """A structure with elastic lines, compared with the same structure with inextensible lines.
 
     Attributes
@@ -331,9 +321,9 @@ class Elastic(_StructureResult):
     'N'
     """
 
-    def __init__(self, engine: _engine.Elastic) -> None:
-        super().__init__(json.loads(engine.json()), engine.summary())
-        self._engine = engine
+    def _repeat(self) -> _engine.Elastic:
+        stiffer, every = self._options
+        return self._structure._engine.elastic(stiffer, every, None)
 
     @property
     def standing(self) -> str:

@@ -63,7 +63,6 @@ class Table:
     def __init__(self, table: _engine.Table) -> None:
         self._table = table
         self._names = tuple(name for name, _ in table.columns())
-        self._array: NDArray[Any] | None = None
 
     @classmethod
     def _from_columns(cls, columns: Iterable[tuple[str, str, str, NDArray[Any]]]) -> Table:
@@ -190,13 +189,13 @@ class Table:
 
     @property
     def __array_interface__(self) -> dict[str, Any]:
-        """For ``numpy.asarray``: the rows as a structured array, a copy that is made once."""
-        if self._array is None:
-            columns = dict(self)
-            self._array = np.empty(len(self), dtype=[(name, column.dtype) for name, column in columns.items()])
-            for name, column in columns.items():
-                self._array[name] = column
-        return self._array.__array_interface__
+        """For ``numpy.asarray``: the rows as a structured array, each time a copy of its own."""
+        columns = dict(self)
+        array = np.empty(len(self), dtype=[(name, column.dtype) for name, column in columns.items()])
+        for name, column in columns.items():
+            array[name] = column
+        # NumPy keeps what stands here as long as its array lives; with the address it would keep only this table.
+        return array.__array_interface__ | {"data": array}
 
     def __arrow_c_stream__(self, requested_schema: object = None) -> object:
         return self._table.__arrow_c_stream__(requested_schema)

@@ -8,7 +8,8 @@ use snapload_structure::note::{self, Source};
 use snapload_structure::{
     ElasticComparison, Lines, ModelAtRest, STRUCTURE, checked_every, compare_elastic, moordyn,
 };
-use std::path::Path;
+use std::hash::{DefaultHasher, Hash, Hasher};
+use std::path::{Path, PathBuf};
 
 /// The example of the manual.
 const EXAMPLE: &str = include_str!("../../docs/examples/cylinder.toml");
@@ -17,23 +18,28 @@ const EXAMPLE: &str = include_str!("../../docs/examples/cylinder.toml");
 #[pyclass(frozen, module = "snapload._engine")]
 pub(crate) struct Structure {
     name: String,
+    /// The folder of the files that the case names.
+    folder: PathBuf,
     entries: Entries,
     structure: snapload_structure::Structure,
 }
 
 impl Structure {
-    fn of(name: &str, mut entries: Entries, changes: &[String]) -> Result<Self, CaseError> {
+    fn of(
+        name: &str,
+        folder: &Path,
+        mut entries: Entries,
+        changes: &[String],
+    ) -> Result<Self, CaseError> {
         changes.iter().try_for_each(|change| entries.set(change))?;
-        // A text has no directory of its own; the files that it names are relative to the working
-        // directory.
-        let here = Path::new("");
-        let structure = snapload_structure::Structure::from_entries_beside(&entries, here);
+        let structure = snapload_structure::Structure::from_entries_beside(&entries, folder);
         let structure = structure.map_err(|error| match error.place {
             Some(_) => error,
             None => error.at(name.to_owned()),
         })?;
         Ok(Self {
             name: name.to_owned(),
+            folder: folder.to_owned(),
             entries,
             structure,
         })
@@ -42,11 +48,12 @@ impl Structure {
 
 #[pymethods]
 impl Structure {
-    /// Reads the text of a case; `changes` are keys such as `wave.height=2`.
+    /// Reads the text of a case, with the files that it names in this folder; `changes` are keys
+    /// such as `wave.height=2`.
     #[staticmethod]
-    fn parse(name: &str, text: &str, changes: Vec<String>) -> PyResult<Self> {
+    fn parse(name: &str, folder: PathBuf, text: &str, changes: Vec<String>) -> PyResult<Self> {
         let entries = Entries::parse(&STRUCTURE, name, text).map_err(error_of_case)?;
-        Self::of(name, entries, &changes).map_err(error_of_case)
+        Self::of(name, &folder, entries, &changes).map_err(error_of_case)
     }
 
     /// The text of the manual's example.
@@ -57,9 +64,15 @@ impl Structure {
 
     /// Reads an input file of MoorDyn; returns what of it was left out or taken otherwise, too.
     #[staticmethod]
-    fn from_moordyn(name: &str, text: &str, changes: Vec<String>) -> PyResult<(Self, Vec<String>)> {
+    fn from_moordyn(
+        name: &str,
+        folder: PathBuf,
+        text: &str,
+        changes: Vec<String>,
+    ) -> PyResult<(Self, Vec<String>)> {
         let reading = moordyn::read(name, text).map_err(error_of_case)?;
-        let structure = Self::of(name, reading.entries, &changes).map_err(error_of_case)?;
+        let structure = Self::of(name, &folder, reading.entries, &changes);
+        let structure = structure.map_err(error_of_case)?;
         Ok((structure, reading.notes))
     }
 
@@ -70,12 +83,42 @@ impl Structure {
 
     /// The same with other values of keys.
     fn replace(&self, changes: Vec<String>) -> PyResult<Self> {
-        Self::of(&self.name, self.entries.clone(), &changes).map_err(error_of_case)
+        let changed = Self::of(&self.name, &self.folder, self.entries.clone(), &changes);
+        changed.map_err(error_of_case)
+    }
+
+    /// The same without the tables of a name.
+    fn without(&self, table: &str) -> PyResult<Self> {
+        let mut entries = self.entries.clone();
+        entries.remove(table);
+        Self::of(&self.name, &self.folder, entries, &[]).map_err(error_of_case)
+    }
+
+    /// Whether all inputs are equal, including those that are left out or read from files.
+    fn __eq__(&self, other: &Self) -> bool {
+        self.structure == other.structure
+    }
+
+    /// Equal for equal structures: 0 and -0 are equal and have one hash.
+    fn __hash__(&self) -> u64 {
+        let structure = &self.structure;
+        let lengths = structure.lines.iter().map(|line| line.length_m);
+        let numbers = [structure.duration_s, structure.body.mass_kg].into_iter();
+        let mut hasher = DefaultHasher::new();
+        for number in numbers.chain(lengths) {
+            (number + 0.0).to_bits().hash(&mut hasher);
+        }
+        hasher.finish()
     }
 
     #[getter]
     fn name(&self) -> &str {
         &self.name
+    }
+
+    #[getter]
+    fn folder(&self) -> &Path {
+        &self.folder
     }
 
     /// The case as TOML.
@@ -182,16 +225,16 @@ impl Assessment {
         note::page(source(&self.name), &self.found, None).map_err(internal_error)
     }
 
-    /// The motion at times.
-    fn motion(&self, times_s: Vec<f64>) -> MotionColumns {
-        let samples = self.found.motion_at(&times_s);
-        (
+    /// The motion at times within the run.
+    fn motion(&self, times_s: Vec<f64>) -> PyResult<MotionColumns> {
+        let samples = self.found.motion_at(&times_s).map_err(error_of_case)?;
+        Ok((
             times_s,
             samples.iter().map(|sample| sample.place_m[0]).collect(),
             samples.iter().map(|sample| sample.place_m[1]).collect(),
             samples.iter().map(|sample| sample.theta_rad).collect(),
             samples.into_iter().map(|sample| sample.tension_n).collect(),
-        )
+        ))
     }
 }
 

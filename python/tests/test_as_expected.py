@@ -83,6 +83,10 @@ def results():
     yield snapload.critical_force(snapload.Case(), step=0.1)
     yield snapload.critical_force(snapload.Case(), step=0.1, members=10)
     yield from (snapload.ensemble(case, 10), snapload.verify(case))
+    # With NaN: digits of a number that is not known, and errors of averages over few periods.
+    yield snapload.Case().run().certify()
+    point = snapload.Case(body="point", r=1.7, e=0.35, f_o=1.4, nu=0.8, omega=3.1)
+    yield snapload.lyapunov_spectrum(point, periods=3)
 
 
 @pytest.mark.parametrize("result", list(results()), ids=lambda result: type(result).__name__)

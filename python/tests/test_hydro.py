@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import copy
 import json
+import pickle
 from pathlib import Path
 
 import numpy as np
@@ -44,8 +46,7 @@ def test_results_are_those_of_the_command(tmp_path: Path) -> None:
     )
     assert status == 0
     command = json.loads(out.read_text())
-    for key in ("added_mass_inf", "memory", "quality", "floating", "warnings"):
-        assert pontoon.answer[key] == command[key]
+    assert pontoon.answer == command
     assert pontoon.rest is not None
     assert pontoon.rest["taut"] == [1, 2]
 
@@ -59,8 +60,25 @@ def test_memory_is_that_of_the_damping() -> None:
     found = pontoon.kernel(t)
     assert found.shape == (30, 3, 3)
     assert np.abs(found[:, 1, 1] - expected).max() < 0.02 * expected[0]
+    # A force depends on no motion that comes after it.
+    for wrong in (-1e-9, [1, -2], np.nan, np.inf):
+        with pytest.raises(ValueError, match="t = .* is not allowed; allowed: finite times in s from 0 on"):
+            pontoon.kernel(wrong)
+    assert pontoon.kernel([]).shape == (0, 3, 3)
     assert "passive" in repr(pontoon)
     assert "<table>" in pontoon._repr_html_()
+
+
+def test_copies_are_equal() -> None:
+    pontoon = snapload.Hydro.from_file(PONTOON, pairs=4)
+    assert pontoon.dataset.sizes["omega"] > 0
+    for other in (
+        pickle.loads(pickle.dumps(pontoon)),
+        copy.deepcopy(pontoon),
+        snapload.Hydro.from_file(PONTOON, pairs=4),
+    ):
+        assert other == pontoon and not other != pontoon and repr(other) == repr(pontoon)
+    assert pontoon != snapload.Hydro.from_file(PONTOON, pairs=4, mass=80000) and pontoon != 1
 
 
 def test_bad_datasets_are_refused() -> None:

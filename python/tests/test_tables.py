@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import gc
+
 import numpy as np
 import pandas
 import polars
@@ -25,6 +27,21 @@ def test_pyarrow_polars_and_pandas_share_the_memory(run):
     frame = pandas.DataFrame.from_arrow(table)
     assert frame["v_n"].tolist() == table["v_n"].tolist()
     assert np.asarray(pyarrow.table(table).column("v_n").chunk(0)).ctypes.data == place
+
+
+def test_an_array_is_a_copy():
+    run = snapload.Case(f_o=0.31).run()
+    for table in (run.impacts, run.modes):
+        name = table.columns[-1]
+        values = table[name].tolist()
+        array = np.asarray(table)
+        array[name][:] = 99
+        assert np.asarray(table)[name].tolist() == table[name].tolist() == values
+    # The array lives longer than its table.
+    array = np.asarray(snapload.Case(f_o=0.31).run().modes)
+    del run, table
+    gc.collect()
+    assert array["mode"].tolist() == ["slack"] and array["t_start"].tolist() == [0.0]
 
 
 def test_fields_have_units(run):

@@ -107,33 +107,11 @@ impl Opened {
     }
 
     /// The same with waves of this kind only.
-    fn with_water(self, water: WaterKind) -> Result<Self, CaseError> {
-        let mut entries = Entries::new(&STRUCTURE);
-        let left_out = |table: &str| {
-            WATERS
-                .iter()
-                .any(|(name, kind)| *name == table && *kind != water)
-        };
-        for table in STRUCTURE
-            .tables
-            .iter()
-            .filter(|table| !left_out(table.name))
-        {
-            for index in 0..self.entries.count(table.name) {
-                entries.add(table.name);
-                let fields = self.entries.table(table.name, index);
-                for key in table.keys {
-                    if let Some(value) = fields.given(key.name) {
-                        let place = self
-                            .entries
-                            .place(&fields.path(key.name))
-                            .unwrap_or_default();
-                        entries.give(table.name, index, key.name, value.clone(), place)?;
-                    }
-                }
-            }
+    fn with_water(mut self, water: WaterKind) -> Self {
+        for (table, _) in WATERS.iter().filter(|(_, kind)| *kind != water) {
+            self.entries.remove(table);
         }
-        Ok(Self { entries, ..self })
+        self
     }
 }
 
@@ -152,7 +130,7 @@ impl CaseRequest {
         let own = opened.water();
         let water = self.water.unwrap_or(own);
         if water != own {
-            opened = opened.with_water(water)?;
+            opened = opened.with_water(water);
         }
         for change in &self.set {
             opened.entries.set(change)?;
@@ -216,12 +194,13 @@ impl Case {
     }
 }
 
-/// A value in the notation of `--set`, in Python. Numbers and lists of numbers are written as they
-/// are; any other text is read by Python's `from_toml` as `--set` reads it.
+/// A value in the notation of `--set`, in Python, which takes a text as it is.
 fn python_value(value: &str) -> String {
     match parse_value(value) {
-        Ok(Value::Number(_) | Value::Integer(_)) => value.to_owned(),
-        Ok(list) if list.pair().is_some() || list.triple().is_some() => value.to_owned(),
-        _ => python_text(value),
+        Ok(Value::Bool(true)) => "True".to_owned(),
+        Ok(Value::Bool(false)) => "False".to_owned(),
+        Ok(Value::Number(_) | Value::Integer(_) | Value::List(_)) => value.to_owned(),
+        Ok(Value::Text(text)) => python_text(&text),
+        Err(_) => python_text(value),
     }
 }

@@ -90,7 +90,7 @@ fn a_run_agrees_with_assess() {
     assert!((t[0], *t.last().unwrap()) == (60.0, 80.0) && t.is_sorted());
     let at: Vec<usize> = (0..t.len()).step_by(97).collect();
     let exact = direct.motion_at(&at.iter().map(|&row| t[row]).collect::<Vec<_>>());
-    for (row, exact) in at.into_iter().zip(exact) {
+    for (row, exact) in at.into_iter().zip(exact.unwrap()) {
         let drawn = ["x", "z", "theta"].map(|name| motion[name][row].as_f64().unwrap());
         let [x, z] = exact.place_m;
         for (drawn, exact) in drawn.into_iter().zip([x, z, exact.theta_rad]) {
@@ -212,8 +212,12 @@ fn another_water_takes_the_place_of_that_of_the_file() {
         (&json!(false), &json!(400.0))
     );
     // The exported file is the case that is shown.
-    let file = server.post("/api/structure/export/case.toml", &json!({ "case": sea }));
+    let mut named = sea.clone();
+    let set = named["set"].as_array_mut().unwrap();
+    set.push(json!(r#"project.name='Pier "A" \ east'"#));
+    let file = server.post("/api/structure/export/case.toml", &json!({ "case": named }));
     let saved = Structure::parse("case.toml", std::str::from_utf8(&file.body).unwrap()).unwrap();
+    assert_eq!(saved.project.name, r#"Pier "A" \ east"#);
     let direct = assess(saved, 0, &no_progress).unwrap();
     assert_eq!(whole["assessment"]["verdict"], json!(direct.verdict()));
     let still = ask(

@@ -413,3 +413,23 @@ fn a_run_on_elastic_lines_ends_where_the_body_touches_the_floor() {
     assert!(below(&run.end).abs() < 1e-9, "{}", below(&run.end));
     assert_eq!(comparison.verdict().standing, VerdictKind::Exceeds);
 }
+
+/// Where nothing was computed there is no motion: a run that stopped early does not stand still
+/// after its end.
+#[test]
+fn motion_is_only_within_the_run() {
+    let text = EXAMPLE.replace("height = 2\n", "height = 3\n");
+    let found = assess(structure(&text), 0, &no_progress).unwrap();
+    let (given, end) = (found.prepared.structure.duration_s, found.outcome.end_s);
+    assert!(end < given, "{end}");
+    assert_eq!(found.motion_at(&[0.0, end]).unwrap().len(), 2);
+    for outside in [-1.0, end * (1.0 + 1e-9), given, f64::NAN] {
+        let error = found.motion_at(&[0.0, outside]).unwrap_err();
+        assert_eq!((&*error.key, error.value), ("times", outside.to_string()));
+        assert!(
+            error.allowed.contains(&format!("{end} s")),
+            "{}",
+            error.allowed
+        );
+    }
+}

@@ -107,6 +107,15 @@ impl Entries {
         index
     }
 
+    /// Removes all tables of a name, with their keys.
+    pub fn remove(&mut self, table: &str) {
+        self.entries.retain(|entry| entry.table != table);
+        let tables = self.schema.tables.iter().zip(&mut self.counts);
+        for (_, count) in tables.filter(|(described, _)| described.name == table) {
+            *count = 0;
+        }
+    }
+
     /// How many tables of a name there are.
     pub fn count(&self, table: &str) -> usize {
         let mut tables = self.schema.tables.iter().zip(&self.counts);

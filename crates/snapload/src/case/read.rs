@@ -310,3 +310,31 @@ fn malformed(schema: &Schema, name: &str, text: &str, error: &toml::de::Error) -
             line_of(text, at)
         ))
 }
+
+#[cfg(test)]
+mod tests {
+    use super::{Value, parse_value};
+
+    /// The parser of TOML is the judge: a text is read as it was, whatever characters it has.
+    #[test]
+    fn texts_are_written_as_toml_reads_them() {
+        let all: String = ('\0'..='\u{17f}')
+            .chain(['\u{2028}', '\u{1f30a}'])
+            .collect();
+        for text in [
+            &*all,
+            "",
+            "a\\tb",
+            "\"",
+            "\\",
+            "Pier \"A\" \\ east",
+            "two\r\nlines",
+            "true",
+        ] {
+            let written = Value::from(text).to_string();
+            assert_eq!(written.lines().count(), 1, "{written}");
+            assert_eq!(parse_value(&written), Ok(Value::from(text)));
+        }
+        assert_eq!(Value::from("point").to_string(), "\"point\"");
+    }
+}

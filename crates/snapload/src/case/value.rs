@@ -1,6 +1,6 @@
 //! A value of a key, from a file, a command line, a request or Python.
 
-use std::fmt;
+use std::fmt::{self, Write as _};
 
 /// A value of a key, before it is checked and as it is printed.
 #[derive(Clone, Debug, PartialEq)]
@@ -115,11 +115,27 @@ impl fmt::Display for Value {
             Self::Number(n) => write!(f, "{n}"),
             Self::Integer(n) => write!(f, "{n}"),
             Self::Bool(flag) => write!(f, "{flag}"),
-            Self::Text(text) => write!(f, "\"{text}\""),
+            Self::Text(text) => write_text(f, text),
             Self::List(values) => {
                 let values: Vec<String> = values.iter().map(Self::to_string).collect();
                 write!(f, "[{}]", values.join(", "))
             }
         }
     }
+}
+
+/// A basic string of TOML: quotation marks, backslashes and control characters are escaped.
+fn write_text(f: &mut fmt::Formatter<'_>, text: &str) -> fmt::Result {
+    f.write_char('"')?;
+    for character in text.chars() {
+        match character {
+            '"' | '\\' => write!(f, "\\{character}")?,
+            '\n' => f.write_str("\\n")?,
+            '\r' => f.write_str("\\r")?,
+            '\t' => f.write_str("\\t")?,
+            control if control.is_control() => write!(f, "\\u{:04X}", u32::from(control))?,
+            _ => f.write_char(character)?,
+        }
+    }
+    f.write_char('"')
 }
