@@ -65,7 +65,7 @@ def section(
         standard errors: ``exponent``, minus infinity where a taut cable removes a direction, and ``exponent_se``, NaN
         if fewer than five periods are kept. Attributes: ``period`` of the motion in periods of the forcing (NaN if it
         is not periodic), ``snaps`` per period, ``y_max``, ``theta_max``, and, if the motion stopped at a limit,
-        ``stop`` and ``stop_t``.
+        ``stop``, ``stop_t`` and ``stop_certain``, which is 0 where rounding decides ``stop_t``, otherwise 1.
 
     Raises
     ------
@@ -127,7 +127,8 @@ def section(
         "theta_max": data["theta_max"],
     }
     if data["stop"] is not None:
-        attrs |= {"stop": data["stop"]["reason"], "stop_t": data["stop"]["t"]}
+        stop = data["stop"]
+        attrs |= {"stop": stop["reason"], "stop_t": stop["t"], "stop_certain": int(stop["certain"])}
     return xarray.Dataset(variables, coords, attrs)
 
 
@@ -384,7 +385,8 @@ def _spectrum(rows: list[dict[str, float | None]]) -> tuple[NDArray[np.float64],
 
 
 def _stop_text(data: dict[str, Any]) -> str:
-    return f"stops at t = {data['stop']['t']:.4f}, {data['stop']['reason'].replace('_', ' ')}"
+    doubt = "" if data["stop"]["certain"] else " (not certain)"
+    return f"stops at t = {data['stop']['t']:.4f}{doubt}, {data['stop']['reason'].replace('_', ' ')}"
 
 
 def _count(values: str | NDArray[Any]) -> int:
