@@ -66,7 +66,8 @@ def section(
         standard errors: ``exponent``, minus infinity where a taut cable removes a direction, and ``exponent_se``, NaN
         if fewer than five periods are kept. Attributes: ``period`` of the motion in periods of the forcing (NaN if it
         is not periodic), ``snaps`` per period, ``y_max``, ``theta_max``, and, if the motion stopped at a limit,
-        ``stop`` and ``stop_t``. The scale of an attribute is in another one, such as ``y_max_scale``.
+        ``stop``, ``stop_t`` and ``stop_certain``, which is 0 where rounding decides ``stop_t``, otherwise 1. The scale
+        of an attribute is in another one, such as ``y_max_scale``.
 
     Raises
     ------
@@ -123,8 +124,9 @@ def section(
     measures = {name: or_nan(data[name]) for name in ("phase", "period", "snaps", "y_max", "theta_max")}
     attrs: dict[str, Any] = {"title": "A section of a long motion of a body on cables", **COMMON_ATTRIBUTES}
     if data["stop"] is not None:
-        attrs["stop"] = data["stop"]["reason"]
-        measures["stop_t"] = data["stop"]["t"]
+        stop = data["stop"]
+        attrs |= {"stop": stop["reason"], "stop_certain": int(stop["certain"])}
+        measures["stop_t"] = stop["t"]
     return xarray.Dataset(variables, coords, attrs | with_scales(measures))
 
 
@@ -365,7 +367,8 @@ def _spectrum(rows: list[dict[str, float | None]]) -> tuple[NDArray[np.float64],
 
 
 def _stop_text(data: dict[str, Any]) -> str:
-    return f"stops at t = {data['stop']['t']:.4f}, {data['stop']['reason'].replace('_', ' ')}"
+    doubt = "" if data["stop"]["certain"] else " (not certain)"
+    return f"stops at t = {data['stop']['t']:.4f}{doubt}, {data['stop']['reason'].replace('_', ' ')}"
 
 
 def _count(values: str | NDArray[Any]) -> int:

@@ -426,7 +426,7 @@ def orbit_of_system(
     """The orbit near a given start, or near the start of the system."""
     waves = system.forcing.sinusoids
     if not waves or waves[0].omega == 0:
-        allowed = "forces with a sinusoid of a frequency above 0, a period of which is one of the orbit"
+        allowed = "forces with a sinusoid of a frequency other than 0, a period of which is one of the orbit"
         raise ValueError(f"forcing = {system.forcing!r} is not allowed; allowed: {allowed}")
     for wave in waves[1:]:
         parts = wave.omega / waves[0].omega

@@ -63,6 +63,7 @@ def test_a_section_of_an_orbit_has_its_multipliers():
         stopped = snapload.section(snapload.Case(f_o=0.5), periods=20, keep=10)
     assert stopped.sizes["k"] == 0
     assert stopped.attrs["stop"] == "rotation_limit" and stopped.attrs["stop_t"] == pytest.approx(10.0247, abs=1e-4)
+    assert stopped.attrs["stop_certain"] == 1
 
 
 def test_directions_that_taut_cables_remove_have_no_exponent():

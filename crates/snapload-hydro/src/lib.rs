@@ -14,6 +14,7 @@ mod memory;
 mod read;
 mod report;
 mod sections;
+mod shortest;
 mod spline;
 mod textbook;
 mod waves;
@@ -38,6 +39,7 @@ pub use read::{
 };
 pub use report::{Floating, GivenMemory, Json, Report, Request, page, periods_summary};
 pub use sections::{Place, Shape, added_mass_of_section};
+pub use shortest::shortest_solution;
 pub use spline::Spline;
 pub use textbook::SectionBody;
 pub use waves::{water_acceleration, wave_number};

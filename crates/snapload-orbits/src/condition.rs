@@ -1,20 +1,14 @@
 //! The condition that special orbits along a curve satisfy, as one equation in addition to those of
 //! the closed lap.
 //!
-//! A matrix A that is singular at the special orbit is bordered, as in W. J. F. Govaerts,
-//! *Numerical Methods for Bifurcations of Dynamical Equilibria* (2000), ch. 3: in
-//!
-//! ```text
-//! [ A   b ] [ v ]   [ 0 ]
-//! [ cᵀ  0 ] [ g ] = [ 1 ]
-//! ```
-//!
-//! g is smooth and zero where A is singular. With the derivatives ∂F of the closed lap's equations
+//! A matrix A that is singular at the special orbit is bordered ([`crate::bordered`]), and the g of
+//! its border vanishes. With the derivatives ∂F of the closed lap's equations
 //! by state z and times, A is ∂F at a fold; ∂F + 2 ∂z/∂z at a period doubling, where P δz = −δz has
 //! a solution in place of P δz = δz; and the second compound matrix of the monodromy matrix, whose
 //! eigenvalues are the products μ_i μ_j, less the unit matrix, where a pair is on the unit circle.
 //! The first two do not divide by the speed of a snap, so that they are smooth through grazes.
 
+use crate::bordered::{null_vectors, solved};
 use crate::branch_events::{BranchEvent, Kind};
 use crate::continuation::{Continuation, Unknowns};
 use crate::hybrid::{DURATION, Family, Hybrid, Jet, Point, constant};
@@ -265,13 +259,8 @@ fn singular<F: Family>(
     continuation: &Continuation<F>,
     u: &Unknowns,
 ) -> Option<Condition> {
-    let svd = matrix(of, continuation, u).try_svd(true, true, f64::EPSILON, 10_000)?;
-    let last = svd.singular_values.imin();
-    Some(Condition::Singular {
-        of,
-        left: svd.u?.column(last).into_owned(),
-        right: svd.v_t?.row(last).transpose(),
-    })
+    let [right, left] = null_vectors(&matrix(of, continuation, u))?;
+    Some(Condition::Singular { of, left, right })
 }
 
 /// The matrix that is singular at a special orbit.
@@ -306,30 +295,10 @@ fn compound(matrix: &DMatrix<f64>) -> DMatrix<f64> {
     })
 }
 
-/// v and g of the bordered system.
-fn solved(
-    matrix: &DMatrix<f64>,
-    left: &DVector<f64>,
-    right: &DVector<f64>,
-) -> Option<(DVector<f64>, f64)> {
-    let n = matrix.nrows();
-    if left.len() != n {
-        return None;
-    }
-    let mut all = matrix.clone().resize(n + 1, n + 1, 0.0);
-    all.view_mut((0, n), (n, 1)).copy_from(left);
-    all.view_mut((n, 0), (1, n)).copy_from(&right.transpose());
-    let mut unit = DVector::zeros(n + 1);
-    unit[n] = 1.0;
-    let solution = all.lu().solve(&unit)?;
-    let whole = solution.iter().all(|part| part.is_finite());
-    whole.then(|| (solution.rows(0, n).into_owned(), solution[n]))
-}
-
 #[cfg(test)]
 mod tests {
-    use super::{compound, solved};
-    use nalgebra::{DMatrix, DVector};
+    use super::compound;
+    use nalgebra::DMatrix;
 
     /// The eigenvalues of the second compound matrix are the products of two eigenvalues.
     #[test]
@@ -343,16 +312,5 @@ mod tests {
         let products = size * size + 2.0 * 0.5 * cosine;
         assert!((whole.trace() - products).abs() < 1e-14);
         assert!((whole.determinant() - matrix.determinant().powi(2)).abs() < 1e-14);
-    }
-
-    #[test]
-    fn the_border_is_zero_where_the_matrix_is_singular() {
-        let border = DVector::from_vec(vec![0.6, 0.8]);
-        let of = |by: f64| {
-            let matrix = DMatrix::from_row_slice(2, 2, &[1.0, 2.0, 2.0, 4.0 + by]);
-            solved(&matrix, &border, &border).map(|(_, g)| g)
-        };
-        assert!(of(0.0).is_some_and(|g| g.abs() < 1e-15));
-        assert!(of(0.1).is_some_and(|g| g.abs() > 1e-3));
     }
 }

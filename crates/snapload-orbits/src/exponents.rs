@@ -60,8 +60,10 @@ impl Directions {
         self.logs.clone()
     }
 
-    /// Carries them through a step, to the state and the taut cables that it ends with.
-    pub(crate) fn follow(&mut self, map: &StepMap, taut: TautSet, after: &Point) {
+    /// Carries them through a step, to the state and the taut cables that it ends with. Returns ln of
+    /// the factor by which the first one has grown, which turns to where deviations grow most.
+    pub(crate) fn follow(&mut self, map: &StepMap, taut: TautSet, after: &Point) -> f64 {
+        let first = self.logs[0];
         let mut taken = closed_by(&self.system, self.variables, taut, after);
         let constraints = taken.len();
         for (direction, log) in self.directions.iter_mut().zip(&mut self.logs) {
@@ -87,6 +89,7 @@ impl Directions {
         if !self.closes_for_good {
             self.fill(taken.split_off(constraints));
         }
+        self.logs[0] - first
     }
 
     /// Replaces the closed directions by others, so that all remain independent.

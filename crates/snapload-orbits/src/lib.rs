@@ -24,6 +24,7 @@
 mod attraction;
 mod attractor;
 mod basin;
+mod bordered;
 mod branch;
 mod branch_events;
 mod branch_rows;

@@ -12,18 +12,23 @@
 //!
 //! B and C are differences of the exact monodromy matrix at neighbours.
 
+use crate::bordered::null_vectors;
 use crate::branch_events::Kind;
 use crate::continuation::{Continuation, Unknowns};
 use crate::hybrid::{Family, Point};
 use nalgebra::{DMatrix, DVector};
 
 /// The steps of the difference quotients, of first and of second order.
-const FIRST: f64 = 1e-5;
-const SECOND: f64 = 2e-4;
+const FIRST: f64 = 5e-5;
+const SECOND: f64 = 3e-4;
 /// Steps of Newton's method towards the times of the events from a neighbour.
 const MOST_STEPS: usize = 8;
-/// The accuracy to which the times are found.
-const DONE: f64 = 1e-13;
+/// The last step is shorter, so that its error, which is that squared, is below rounding.
+const DONE: f64 = 1e-9;
+
+/// A vector that a matrix takes to less than this part of the matrix's size is a null vector: on a
+/// curve the eigenvalue is right to rounding, about 1e-12.
+const VANISHING: f64 = 1e-11;
 
 /// A coefficient with the eigenvector q to which it belongs. That of a fold changes its sign with
 /// that of q.
@@ -71,7 +76,10 @@ pub(crate) fn coefficient<F: Family>(
     let n = whole.nrows();
     let back = (DMatrix::identity(n, n) - &whole).lu().solve(&square)?;
     let neighbour = |by: f64| map.monodromy(&(&q * by)).map(|there| there * &q);
-    let cube = (neighbour(SECOND)? + neighbour(-SECOND)? - (&whole * &q) * 2.0) / (SECOND * SECOND);
+    let middle = (&whole * &q) * 2.0;
+    let cube = extrapolated(SECOND, |step| {
+        Some((neighbour(step)? + neighbour(-step)? - &middle) / (step * step))
+    })?;
     let value = p.dot(&cube) / 6.0 + 0.5 * p.dot(&map.second(&q, &back)?);
     value.is_finite().then_some(Coefficient {
         value,
@@ -79,16 +87,20 @@ pub(crate) fn coefficient<F: Family>(
     })
 }
 
-/// q and p of an eigenvalue, q of unit length and ⟨p, q⟩ = 1.
-pub(crate) fn eigenvectors(whole: &DMatrix<f64>, eigenvalue: f64) -> Option<[DVector<f64>; 2]> {
+/// q and p of an eigenvalue, q of unit length and ⟨p, q⟩ = 1; none if they are not known to rounding.
+fn eigenvectors(whole: &DMatrix<f64>, eigenvalue: f64) -> Option<[DVector<f64>; 2]> {
     let n = whole.nrows();
     let less = whole - DMatrix::identity(n, n) * eigenvalue;
-    let svd = less.try_svd(true, true, f64::EPSILON, 10_000)?;
-    let last = svd.singular_values.imin();
-    let q = svd.v_t?.row(last).transpose();
-    let p = svd.u?.column(last).into_owned();
+    let [q, p] = null_vectors(&less)?;
+    let most = VANISHING * less.norm();
+    let vanish = (&less * &q).norm() <= most && less.tr_mul(&p).norm() <= most;
     let along = p.dot(&q);
-    (along.abs() > 1e-12).then(|| [q, p / along])
+    (vanish && along.abs() > 1e-12).then(|| [q, p / along])
+}
+
+/// A central difference quotient without its error of second order in the step.
+fn extrapolated(step: f64, quotient: impl Fn(f64) -> Option<DVector<f64>>) -> Option<DVector<f64>> {
+    Some((quotient(step)? * 4.0 - quotient(2.0 * step)?) / 3.0)
 }
 
 /// The composed map near a closed lap.
@@ -116,12 +128,12 @@ impl<F: Family> Map<'_, '_, F> {
                 0 => return Some(linear.monodromy(variables)),
                 _ => times.lu().solve(&-residual.rows(m, n))?,
             };
-            if step.amax() < DONE {
-                let whole = linear.monodromy(variables);
-                return whole.iter().all(|part| part.is_finite()).then_some(whole);
-            }
             for (duration, part) in durations.iter_mut().zip(step.iter()) {
                 *duration += part;
+            }
+            if step.amax() < DONE {
+                let whole = lap.linearise(&z, &durations).monodromy(variables);
+                return whole.iter().all(|part| part.is_finite()).then_some(whole);
             }
         }
         None
@@ -133,8 +145,9 @@ impl<F: Family> Map<'_, '_, F> {
         if size == 0.0 {
             return Some(DVector::zeros(a.len()));
         }
-        let step = FIRST / size;
         let there = |by: f64| self.monodromy(&(b * by)).map(|whole| whole * a);
-        Some((there(step)? - there(-step)?) / (2.0 * step))
+        extrapolated(FIRST / size, |step| {
+            Some((there(step)? - there(-step)?) / (2.0 * step))
+        })
     }
 }

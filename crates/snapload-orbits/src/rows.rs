@@ -38,6 +38,8 @@ struct ExponentRow {
 struct StopRow {
     reason: &'static str,
     t: f64,
+    /// False if rounding may decide the time, as deviations had grown too much.
+    certain: Option<bool>,
 }
 
 #[derive(Serialize)]
@@ -69,6 +71,7 @@ impl SectionRow {
             stop: section.stop.map(|stop| StopRow {
                 reason: stop.name(),
                 t: section.end.1,
+                certain: section.stop_is_certain(),
             }),
             points: points
                 .map(|(state, k)| PointRow { k, state: *state })

@@ -29,6 +29,9 @@ pub struct Section {
     pub theta_max: f64,
     /// Why it stopped, if it did so early.
     pub stop: Option<Stop>,
+    /// ln of the factor by which deviations had grown at the end, the largest since any earlier
+    /// time; none if exponents were not requested.
+    pub growth: Option<f64>,
 }
 
 /// How long a motion is followed.
@@ -46,6 +49,9 @@ pub struct SectionOptions {
     pub impacts: bool,
 }
 
+/// Beyond this growth roundings may have come to the digits that are printed of the time of a stop:
+/// that of 1e-16 at one step to 1e-6, and there is one at each.
+const KNOWN: f64 = 1e10;
 /// A motion counts as periodic if its section points agree to within this, over the number of laps
 /// that follows.
 const SAME: f64 = 1e-8;
@@ -117,6 +123,7 @@ impl Section {
                 y_max: z[1],
                 theta_max: z[2].abs(),
                 stop: None,
+                growth: options.exponents.then_some(0.0),
             },
         };
         follow.run(simulation, last, on_progress)?;
@@ -131,6 +138,13 @@ impl Section {
             (from..points.len()).all(|k| crate::distance(&points[k], &points[k - n]) <= SAME)
         };
         (1..=self.longest_period()).find(repeats)
+    }
+
+    /// Whether the time at which it stopped is known in spite of rounding, as far as deviations grow
+    /// smoothly; none if it did not stop, or their growth was not followed.
+    pub fn stop_is_certain(&self) -> Option<bool> {
+        self.stop?;
+        self.growth.map(|growth| growth < KNOWN.ln())
     }
 
     /// The longest period that can be detected with this many points.
@@ -154,7 +168,7 @@ pub fn period_of(parameters: &Parameters) -> Result<f64, CaseError> {
     if omega > 0.0 {
         return Ok(std::f64::consts::TAU / omega);
     }
-    let allowed = "a frequency above 0, as sections are a period of the forcing apart";
+    let allowed = "a frequency other than 0, as sections are a period of the forcing apart";
     Err(CaseError::value("omega", parameters.omega, allowed))
 }
 
@@ -196,7 +210,9 @@ impl Follow {
             }
             if let Some((tangent, directions)) = &mut self.linearised {
                 let map = tangent.of_step(&simulation, &step);
-                directions.follow(&map, step.taut_after, &step.after.components());
+                let grown = directions.follow(&map, step.taut_after, &step.after.components());
+                let growth = self.section.growth.get_or_insert(0.0);
+                *growth = (*growth + grown).max(0.0);
             }
             let periods = (step.t_end - self.t_start) / self.period;
             Progress::new("following the motion", periods, last as f64).report(on_progress)?;

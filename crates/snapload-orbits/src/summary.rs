@@ -117,11 +117,20 @@ fn exponents_text(exponents: &[[f64; 2]]) -> String {
 pub fn without_points_summary(section: &Section) -> Option<String> {
     let stop = section.stop.filter(|_| section.points.is_empty())?;
     Some(format!(
-        "stops at t = {:.4}: {}. That is before the first point of the section, which comes after {}",
+        "stops at t = {:.4}{}: {}. That is before the first point of the section, which comes after {}",
         section.end.1,
+        doubt(section),
         stop.reason_text(),
         of_the_forcing(section.first as usize)
     ))
+}
+
+/// What follows the time of a stop that rounding decides.
+fn doubt(section: &Section) -> &'static str {
+    match section.stop_is_certain() {
+        Some(false) => " (not certain)",
+        _ => "",
+    }
 }
 
 /// A section.
@@ -133,10 +142,15 @@ pub fn section_summary(section: &Section) -> String {
     if let Some(stop) = section.stop {
         let _ = writeln!(
             text,
-            "Stopped   at t = {:.4}: {}",
+            "Stopped   at t = {:.4}{}: {}",
             section.end.1,
+            doubt(section),
             stop.reason_text()
         );
+        if section.stop_is_certain() == Some(false) {
+            text += "          rounding decides the time: with another number of periods the motion may stop at another \
+                     time, or not at all\n";
+        }
         return text;
     }
     let _ = match section.period() {

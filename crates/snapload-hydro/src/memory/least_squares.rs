@@ -1,8 +1,9 @@
 //! Least squares, without and with bounds.
 
+use crate::shortest::shortest_solution;
 use nalgebra::{DMatrix, DVector};
 
-/// Singular values below this part of the largest count as zero.
+/// Singular values below this part of the size of the matrix count as zero.
 const RANK: f64 = 1e-13;
 
 /// min ‖A x − b‖, the shortest x if there are several. Columns are scaled to equal length.
@@ -15,9 +16,7 @@ pub(super) fn solve(a: &DMatrix<f64>, b: &DVector<f64>) -> Option<DVector<f64>> 
     for (index, mut column) in scaled.column_iter_mut().enumerate() {
         column *= scale[index];
     }
-    let svd = scaled.try_svd(true, true, f64::EPSILON, 10_000)?;
-    let eps = RANK * svd.singular_values.max();
-    let mut x = svd.solve(b, eps).ok()?;
+    let mut x = shortest_solution(&scaled, b, RANK * scaled.norm())?;
     for (index, value) in x.iter_mut().enumerate() {
         *value *= scale[index];
     }

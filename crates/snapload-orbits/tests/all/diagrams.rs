@@ -87,6 +87,48 @@ fn section(parameters: &Parameters) -> Section {
     Section::of(parameters, &KEPT, &no_progress).unwrap()
 }
 
+/// The same start stops at two times if the searches for events take other steps, as they do when the
+/// motion is to last longer: neither time is known. A stop after a short motion is.
+#[test]
+fn the_time_of_a_stop_that_rounding_decides_is_not_reported_as_known() {
+    let chaotic = Parameters {
+        inertia: None,
+        a: 0.0,
+        r: 2.09,
+        e: 0.69,
+        nu: 1.19,
+        omega: 4.98,
+        f_o: 1.74,
+        x: 0.05,
+        ..Parameters::STANDARD
+    };
+    let stopped = |case: &Parameters, periods: u64| {
+        let options = SectionOptions {
+            skip: 10,
+            keep: periods - 10,
+            ..KEPT
+        };
+        Section::of(case, &options, &no_progress).unwrap()
+    };
+    let both = [3000, 20_000].map(|periods| stopped(&chaotic, periods));
+    assert!((both[0].end.1 - both[1].end.1).abs() > 1.0);
+    for found in both {
+        assert_eq!(found.stop_is_certain(), Some(false));
+        let words = section_summary(&found);
+        assert!(words.contains(" (not certain): ") && words.contains("rounding decides"));
+    }
+    let short = Parameters {
+        f_o: 0.5,
+        ..Parameters::STANDARD
+    };
+    let both = [20, 2000].map(|periods| stopped(&short, periods));
+    assert!((both[0].end.1 - both[1].end.1).abs() < 1e-4);
+    for found in both {
+        assert_eq!(found.stop_is_certain(), Some(true));
+        assert!(!section_summary(&found).contains("certain"));
+    }
+}
+
 /// Two taut cables leave a point mass no deviation, and a rigid body those of its rocking, which
 /// preserves areas.
 #[test]

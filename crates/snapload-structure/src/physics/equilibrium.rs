@@ -13,6 +13,7 @@ use super::model::Model;
 use crate::structure::Structure;
 use nalgebra::{DMatrix, DVector, Matrix3, Vector3};
 use snapload::{CaseError, State, System};
+use snapload_hydro::shortest_solution;
 use std::f64::consts::FRAC_PI_2;
 
 /// The tolerance of a closed gap and of a balance of forces, in the engine's units.
@@ -310,7 +311,7 @@ fn rest(system: &System, set: &[usize], start: State) -> Option<State> {
             return None;
         }
         // If the body can turn freely the matrix is singular; the shortest step does not turn it.
-        let step = matrix.svd(true, true).solve(&-residual, 1e-10).ok()?;
+        let step = shortest_solution(&matrix, &-residual, 1e-10)?;
         let shorter = (0.5 / step.rows(0, 3).norm()).min(1.0);
         at = moved(&at, &(Vector3::new(step[0], step[1], step[2]) * shorter));
         tension += step.rows(3, m) * shorter;
@@ -385,8 +386,8 @@ fn tensions(system: &System, taut: &[usize], at: &State) -> (Vec<f64>, f64) {
         }
         let matrix = DMatrix::from_fn(3, kept.len(), |k, i| rows[kept[i]][k]);
         let right = DVector::from_fn(3, |k, _| load[k]);
-        let solution = matrix.clone().svd(true, true).solve(&right, 1e-10);
-        let solution = solution.unwrap_or_else(|_| DVector::zeros(kept.len()));
+        let solution = shortest_solution(&matrix, &right, 1e-10);
+        let solution = solution.unwrap_or_else(|| DVector::zeros(kept.len()));
         let pushing = (0..kept.len())
             .filter(|&i| solution[i] < -1e-9)
             .min_by(|&a, &b| solution[a].total_cmp(&solution[b]));
