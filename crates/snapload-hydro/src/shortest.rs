@@ -13,14 +13,21 @@ const MOST_ROUNDS: usize = 60;
 /// rounding over σ, in the left vectors and in the values: `compute_2x2_uptrig_svd` divides a
 /// difference by σ. Where its product is not the matrix another method takes its place.
 pub fn shortest_solution(a: &DMatrix<f64>, b: &DVector<f64>, zero: f64) -> Option<DVector<f64>> {
+    shortest_within(5.0 * f64::EPSILON, a, b, zero)
+}
+
+/// The same by a decomposition that converges to within `precision`.
+pub(crate) fn shortest_within(
+    precision: f64,
+    a: &DMatrix<f64>,
+    b: &DVector<f64>,
+    zero: f64,
+) -> Option<DVector<f64>> {
     if a.is_empty() || !a.iter().chain(b).all(|entry| entry.is_finite()) {
         return None;
     }
-    let svd = a
-        .clone()
-        .try_svd(true, true, 5.0 * f64::EPSILON, 10_000)
-        .filter(|svd| is_of(svd, a));
-    match svd {
+    let svd = a.clone().try_svd(true, true, precision, 10_000);
+    match svd.filter(|svd| is_of(svd, a)) {
         Some(svd) => svd.solve(b, zero).ok(),
         None => by_rotations(a, b, zero),
     }

@@ -1,6 +1,6 @@
 //! Least squares, without and with bounds.
 
-use crate::shortest::shortest_solution;
+use crate::shortest::shortest_within;
 use nalgebra::{DMatrix, DVector};
 
 /// Singular values below this part of the size of the matrix count as zero.
@@ -16,7 +16,7 @@ pub(super) fn solve(a: &DMatrix<f64>, b: &DVector<f64>) -> Option<DVector<f64>> 
     for (index, mut column) in scaled.column_iter_mut().enumerate() {
         column *= scale[index];
     }
-    let mut x = shortest_solution(&scaled, b, RANK * scaled.norm())?;
+    let mut x = shortest_within(f64::EPSILON, &scaled, b, RANK * scaled.norm())?;
     for (index, value) in x.iter_mut().enumerate() {
         *value *= scale[index];
     }
