@@ -417,7 +417,9 @@ class BaseRun:
         raise NotImplementedError
 
     def _short_repr(self, of: str) -> str:
-        return f"<Run of {of}: {self.end.reason} at t = {self.end.t:.4f}, {len(self.impacts)} impacts>"
+        # A row with v_n = 0 is no impact.
+        count = int((self.impacts["v_n"] > 0).sum())
+        return f"<Run of {of}: {self.end.reason} at t = {self.end.t:.4f}, {count} impacts>"
 
     def _repr_html_(self) -> str:
         rows = []

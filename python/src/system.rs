@@ -170,9 +170,9 @@ impl System {
 fn explain(error: StartError, start: &State, lengths: &[f64]) -> CaseError {
     let place = format!("{}, {}, {}", start.x, start.y, start.theta);
     match error {
-        StartError::CableTooShort { cable, gap } => {
+        StartError::CableTooShort { cable, gap, .. } => {
             let length = lengths[cable];
-            let over = length * ((1.0 + gap / (length * length)).sqrt() - 1.0);
+            let over = gap / ((length * length + gap).sqrt() + length);
             let cable = cable + 1;
             let allowed = format!(
                 "a start within reach of all cables; cable {cable} would have to be {over:.3e} \
@@ -186,9 +186,14 @@ fn explain(error: StartError, start: &State, lengths: &[f64]) -> CaseError {
             let allowed = format!("a bound beyond the start, whose {what} is {value}");
             CaseError::value(key, Value::Number(bound), allowed)
         }
-        StartError::NotFinite | StartError::Restitution | StartError::TooManyCables => {
-            CaseError::value("x, y, theta", place, error.to_string())
+        StartError::TooShort { cable, length } => {
+            let key = format!("length_{}", cable + 1);
+            CaseError::value(&key, Value::Number(length), error.to_string())
         }
+        StartError::CanNotClose { .. }
+        | StartError::NotFinite
+        | StartError::Restitution
+        | StartError::TooManyCables => CaseError::value("x, y, theta", place, error.to_string()),
     }
 }
 

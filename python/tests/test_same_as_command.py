@@ -126,6 +126,16 @@ def test_the_file_of_a_study_is_the_same_to_the_byte(command, tmp_path: Path):
     assert row.impacts_1 + row.impacts_2 == (run.impacts["v_n"] > 0).sum()
 
 
+def test_words_count_impacts_without_impulses_passed_into_a_taut_cable():
+    case = snapload.Case(f_o=0.27, stop_when_settled=False, t_end=9)
+    run = case.run(members=0)
+    of_cables = [int(((run.impacts["cable"] == k) & (run.impacts["v_n"] > 0)).sum()) for k in (1, 2)]
+    passed = len(run.impacts) - sum(of_cables)
+    assert passed > 1 and repr(run).endswith(f", {sum(of_cables)} impacts>")
+    counts = f"{of_cables[0]} of cable 1, {of_cables[1]} of cable 2; {passed} impulses passed into a taut cable"
+    assert counts in str(run)
+
+
 def test_parts_lists_and_random_points_open(command, tmp_path: Path):
     part, box, cases = (tmp_path / name for name in ("part.parquet", "box.parquet", "cases.parquet"))
     command("sweep", "--vary", "e=0.5:0.9:5", "--shard", "2/2", "--out", str(part))

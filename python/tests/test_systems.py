@@ -136,6 +136,30 @@ def test_a_study_is_its_runs():
     assert capped.equals(study)
 
 
+def test_words_count_impacts_without_impulses_passed_into_a_taut_cable():
+    run = many_cables().run()
+    snaps = [((run.impacts["cable"] == k) & (run.impacts["v_n"] > 0)).sum() for k in (1, 2, 3, 4, 5)]
+    passed = len(run.impacts) - sum(snaps)
+    assert passed > 1 and f"Impacts   {sum(snaps)}: {snaps[0]} of cable 1, " in str(run)
+    assert str(run).endswith(f"; {passed} impulses passed into a taut cable")
+    assert f" {sum(snaps)} impacts>" in repr(run)
+
+
+def test_a_pendulum_released_at_the_height_of_its_anchor_stays_taut():
+    # Its tension 3 sin φ grows from zero.
+    rope = snapload.Cable(anchor=(0, 0), length=1)
+    run = snapload.System(snapload.Body(), [rope], snapload.Forcing((0, -1)), 0.5, x=1, t_end=20).run()
+    assert len(run.impacts) == 0 and run.modes["mode"].tolist() == ["sliding"] and run.outcome.certain
+
+
+def test_a_start_inside_a_short_cable_is_not_moved():
+    rope, weight = snapload.Cable(anchor=(0, 0), length=3e-5), snapload.Forcing((0, -1))
+    run = snapload.System(snapload.Body(), [rope], weight, 0.5, y=-3e-7, t_end=1e-9).run()
+    assert run.at(0.0)["y"] == -3e-7
+    with pytest.raises(ValueError, match="length_1 = .* allowed: cables of length 1e-16 or more"):
+        snapload.System(snapload.Body(), [snapload.Cable((0, 0), 1e-300)], weight, 0.5, t_end=0.5)
+
+
 def test_an_illegal_system_is_a_cell_without_a_run():
     study = many_cables().sweep(length_3=[1.0, 1.32], progress=False)
     assert study.error.values.tolist()[1] == "" and "cable 3 would have to be" in study.error.values[0]

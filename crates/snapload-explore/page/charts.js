@@ -98,7 +98,7 @@ const CHARTS = [
     read: (run, moment) => latestSnap(run, moment.t),
     marks: ({ impacts }) => ({ t: impacts.t, y: impacts.v_n }),
     markWords: impactWords,
-    words: (run) => `${run.cut?.impacts ?? run.impacts.t.length} impacts, the hardest ${number(run.norms.rho1)} L/T`,
+    words: (run) => `${run.snaps} impacts, the hardest ${number(run.norms.rho1)} L/T`,
   },
   {
     id: "tensions",

@@ -82,7 +82,7 @@ export class PlaybackControls {
     return {
       value: `${fixed(t, 3)} of ${fixed(run.tEnd, 3)} T, ${modeName(run.tautAt(t))}`,
       clock: `t = ${fixed(t, 4)} T`,
-      counted: `impact ${run.latestImpact(t) + 1} of ${run.cut?.impacts ?? run.impacts.t.length}`,
+      counted: `impact ${run.snapsUntil(t)} of ${run.snaps}`,
     };
   }
 

@@ -73,6 +73,8 @@ export class Run {
   modes;
   /** @type {any} */
   impacts;
+  /** The number of impacts: impulses that passed into a taut cable have a row, but do not count. */
+  snaps = 0;
   /** @type {any} */
   cut;
   /** @type {any} */
@@ -85,6 +87,8 @@ export class Run {
   python = "";
   /** The times of all events, computed when they are first needed. @type {number[] | undefined} */
   eventTimes;
+  /** The number of impacts up to each row, computed when it is first needed. @type {number[] | undefined} */
+  snapCounts;
 
   constructor(answer) {
     Object.assign(this, answer);
@@ -150,6 +154,13 @@ export class Run {
   latestImpact(t) {
     const times = this.impacts.t;
     return times.length > 0 && times[0] <= t ? lastAtOrBefore(times, t) : -1;
+  }
+
+  /** The number of impacts at or before t, without impulses that passed into a taut cable. */
+  snapsUntil(t) {
+    let count = 0;
+    this.snapCounts ??= this.impacts.v_n.map((v) => (count += v > 0 ? 1 : 0));
+    return this.snapCounts[this.latestImpact(t)] ?? 0;
   }
 
   /** Impacts with from <= t <= to, the latest first, as indices. */

@@ -72,14 +72,14 @@ export class SceneView {
       parts.push(`The ghost, started ${number(Math.abs(ghost.by))} away in ${ghost.key}, ${apart}.`);
     }
     if (this.run.ghost_error) parts.push(sentence(`no ghost: ${this.run.ghost_error}`));
-    if (cut) parts.push(`Only the first ${cut.shown} of ${cut.impacts} impacts are shown.`);
+    if (cut) parts.push(`Only the first ${cut.shown} of ${cut.impacts} rows of impacts are shown.`);
     return parts.join(" ");
   }
 
   #summarise() {
-    const { norms, impacts, timeTaut } = this.run;
+    const { norms, snaps, timeTaut } = this.run;
     const rows = [
-      ["Impacts", String(this.run.cut?.impacts ?? impacts.t.length), "impacts"],
+      ["Impacts", String(snaps), "impacts"],
       ["ρ<sub>1</sub> = max <i>v</i><sub>n</sub>", number(norms.rho1, 5), "rho1"],
       ["ρ<sub>2</sub> to t = 10", number(norms.rho2, 5), "rho2"],
       ["ρ<sub>3</sub> = Σ <i>v</i><sub>n</sub>", number(norms.rho3, 5), "rho3"],

@@ -88,6 +88,11 @@ pub(crate) fn answer(request: Request, allowance: &Allowance) -> Result<Vec<u8>,
             shown,
             digits: &followed.digits,
         },
+        snaps: run
+            .impacts()
+            .iter()
+            .filter(|impact| impact.v_n > 0.0)
+            .count(),
         cut: (shown.len() < run.impacts().len()).then(|| Cut {
             impacts: run.impacts().len(),
             shown: shown.len(),
@@ -130,6 +135,9 @@ struct Answer<'a> {
     horizon: HorizonWithText,
     modes: Modes,
     impacts: Impacts<'a>,
+    /// The number of impacts of the whole run: the rows without those of impulses that passed into a
+    /// taut cable.
+    snaps: usize,
     cut: Option<Cut>,
     motion: Columns,
     ghost: Option<Ghost>,
@@ -139,6 +147,7 @@ struct Answer<'a> {
     took_ms: f64,
 }
 
+/// Rows of impacts.
 #[derive(Serialize)]
 struct Cut {
     impacts: usize,

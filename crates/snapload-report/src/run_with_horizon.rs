@@ -1,6 +1,6 @@
 //! A run with its horizon and known digits, which are quick to compute.
 use crate::NormsKnown;
-use crate::run_with_trust::horizon_in_words;
+use crate::run_with_trust::trust_of_impacts_in_words;
 use snapload::analysis::{
     Cancelled, Horizon, NormErrors, OnProgress, TrustMonitor, Uncertainty, record,
 };
@@ -44,6 +44,6 @@ impl RunWithHorizon {
     /// Where trust ends, and on a second line why.
     pub fn in_words(&self) -> String {
         let tolerance = Uncertainty::default().tolerance;
-        horizon_in_words(self.horizon, tolerance, self.run.impacts().len())
+        trust_of_impacts_in_words(self.horizon, tolerance, self.run.impacts())
     }
 }

@@ -3,7 +3,7 @@ use snapload::analysis::{
     DEFAULT_MEMBERS, Ensemble, EnsembleEnds, Horizon, HorizonCause, OnProgress, Sensitivity, Trust,
     Uncertainty, Unfinished, sensitivity, trusted_run,
 };
-use snapload::{Case, Trajectory};
+use snapload::{Case, Impact, Trajectory};
 
 /// The number of impacts whose derivatives by every key are given.
 const SENSITIVE_IMPACTS: usize = 3;
@@ -130,12 +130,33 @@ pub fn outcome_in_words(trusted: &RunWithTrust) -> String {
 
 /// Where trust ends, and on a second line why.
 pub fn trust_in_words(trusted: &RunWithTrust) -> String {
-    let impacts = trusted.run.impacts().len();
-    horizon_in_words(
-        trusted.trust.horizon,
-        trusted.uncertainty.tolerance,
-        impacts,
-    )
+    let (horizon, tolerance) = (trusted.trust.horizon, trusted.uncertainty.tolerance);
+    trust_of_impacts_in_words(horizon, tolerance, trusted.run.impacts())
+}
+
+/// The same for a run with these impacts.
+pub(crate) fn trust_of_impacts_in_words(
+    horizon: Option<Horizon>,
+    tolerance: f64,
+    impacts: &[Impact],
+) -> String {
+    let horizon = horizon.map(|horizon| Horizon {
+        impact: 1 + snaps_before(horizon, impacts),
+        ..horizon
+    });
+    horizon_in_words(horizon, tolerance, snaps(impacts))
+}
+
+/// The number of impacts in the rows of their table: an impulse that passes into a taut cable, with
+/// v_n = 0, has a row but is not an impact.
+pub(crate) fn snaps(impacts: &[Impact]) -> usize {
+    impacts.iter().filter(|impact| impact.v_n > 0.0).count()
+}
+
+/// The number of those before the horizon, whose number is that of a row.
+pub(crate) fn snaps_before(horizon: Horizon, impacts: &[Impact]) -> usize {
+    let rows = horizon.impact.saturating_sub(1).min(impacts.len());
+    snaps(&impacts[..rows])
 }
 
 /// The same for a run with this number of impacts.

@@ -1,9 +1,12 @@
 //! A run in a few lines of text.
 use crate::digits::{count, digits};
+use crate::run_with_trust::{snaps, snaps_before};
 use crate::{Certified, RunWithTrust, outcome_in_words, trust_in_words};
 use serde::Serialize;
 use snapload::analysis::{NormErrors, digits_within};
-use snapload::{Mode, ModeInterval, Norms, Parameters, SETTLING_HEIGHT, Stop, Trajectory, Value};
+use snapload::{
+    Impact, Mode, ModeInterval, Norms, Parameters, SETTLING_HEIGHT, Stop, Trajectory, Value,
+};
 use std::fmt::Write;
 use std::path::PathBuf;
 
@@ -217,35 +220,36 @@ pub fn end_in_words(trajectory: &Trajectory, parameters: &Parameters) -> String 
     }
 }
 
-/// The number of rows of the table of impacts, as horizons count them, and the number of certain
-/// ones if not all are: snaps of each cable, and impulses passed into a taut cable, which have v_n
-/// = 0.
+/// The number of impacts, and the number of certain ones if not all are: snaps of each cable. Beside
+/// them the impulses passed into a taut cable, with v_n = 0, which do not count as impacts.
 fn impacts(trusted: &RunWithTrust) -> String {
     let impacts = trusted.run.impacts();
-    let mut of_cable = [0_usize; snapload::MAX_CABLES];
-    let mut passed = 0;
-    for impact in impacts {
-        match of_cable.get_mut(impact.cable) {
-            Some(count) if impact.v_n > 0.0 => *count += 1,
-            _ => passed += 1,
-        }
-    }
     if impacts.is_empty() {
         return "none".to_owned();
     }
-    let mut text = format!("{}", impacts.len());
+    let of_cable = |cable: usize| {
+        let mine = |impact: &&Impact| impact.cable == cable && impact.v_n > 0.0;
+        impacts.iter().filter(mine).count()
+    };
+    let count = snaps(impacts);
+    let mut text = format!("{count}");
     if let Some(horizon) = trusted.trust.horizon {
-        let known = horizon.impact.saturating_sub(1).min(impacts.len());
+        let known = snaps_before(horizon, impacts);
         let _ = write!(text, " ({known} certain)");
     }
-    let cables = of_cable.iter().zip(1..).filter(|(count, _)| **count > 0);
-    let mut parts: Vec<String> = cables
+    let cables = (0..snapload::MAX_CABLES).map(|cable| (of_cable(cable), cable + 1));
+    let parts: Vec<String> = cables
+        .filter(|(count, _)| *count > 0)
         .map(|(count, cable)| format!("{count} of cable {cable}"))
         .collect();
-    if passed > 0 {
-        parts.push(format!("{passed} passed into a taut cable"));
+    if !parts.is_empty() {
+        let _ = write!(text, ": {}", parts.join(", "));
     }
-    let _ = write!(text, ": {}", parts.join(", "));
+    let passed = impacts.len() - count;
+    if passed > 0 {
+        let s = if passed == 1 { "" } else { "s" };
+        let _ = write!(text, "; {passed} impulse{s} passed into a taut cable");
+    }
     text
 }
 
@@ -300,4 +304,38 @@ fn interval(interval: &ModeInterval) -> String {
         interval.taut.mode().name(),
         taut.join(", ")
     )
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use snapload::analysis::{Uncertainty, Unfinished, no_progress};
+    use snapload::{Case, Outcome};
+
+    /// The summary counts the impacts as an outcome and a sweep do, and impulses passed into a taut
+    /// cable beside them.
+    #[test]
+    fn impacts_are_counted_without_impulses_passed_into_a_taut_cable() -> Result<(), Unfinished> {
+        let case = Case::new(Parameters {
+            f_o: 0.27,
+            t_end: 9.0,
+            stop_when_settled: false,
+            ..Parameters::STANDARD
+        })?;
+        let trusted = RunWithTrust::run_alone(&case, Uncertainty::default(), &no_progress)?;
+        let outcome = Outcome::of(&case);
+        let (rows, all) = (trusted.run.impacts().len(), outcome.snaps() as usize);
+        let passed = rows - all;
+        assert!(passed > 1);
+        let of_cables = format!(
+            "{} of cable 1, {} of cable 2; {passed} impulses passed into a taut cable",
+            outcome.impacts[0], outcome.impacts[1]
+        );
+        let words = impacts(&trusted);
+        assert!(words.starts_with(&format!("{all} (")), "{words}");
+        assert!(words.ends_with(&of_cables), "{words}");
+        let trust = trust_in_words(&trusted);
+        assert!(trust.contains(&format!(" of {all},")), "{trust}");
+        Ok(())
+    }
 }

@@ -12,8 +12,9 @@ use crate::slack::set::Set;
 use crate::taut::start::Instants;
 use crate::verdict::ProofFailure;
 
-/// A gap at the start within this distance of zero counts as closed.
-const START_TOLERANCE: &str = "1e-9";
+/// A gap at the start within this distance of zero counts as closed, if it is also within this part
+/// of r².
+const START_TOLERANCE: [&str; 2] = ["1e-9", "1e-7"];
 
 impl<'a> Run<'a> {
     /// All states of a box at an instant, with no cable closed.
@@ -45,15 +46,22 @@ impl<'a> Run<'a> {
         let start: State = std::array::from_fn(|_| start.next().unwrap_or_else(Ball::zero));
         // At x = y = θ = 0 both gaps are exactly zero for every size.
         let at_origin = case.start()[..3].iter().all(Decimal::is_zero);
-        let tolerance = Decimal::parse(START_TOLERANCE).map(|d| d.ball(fine.limbs));
-        let tolerance = tolerance.unwrap_or_else(Ball::zero);
+        let [tolerance, part] = START_TOLERANCE.map(|number| {
+            let number = Decimal::parse(number).map(|d| d.ball(fine.limbs));
+            number.unwrap_or_else(Ball::zero)
+        });
+        let part = &fine.r.squared() * &part;
+        let of_gap = match part.is_below(&tolerance) {
+            true => &part,
+            false => &tolerance,
+        };
         for (which, event_value) in fine.event_values(&start).iter().enumerate() {
             let clear = match which {
                 0..FIRST_TOP if at_origin => true,
-                0..FIRST_TOP => (&event_value.value + &tolerance).is_negative(),
+                0..FIRST_TOP => (&event_value.value + of_gap).is_negative(),
                 _ => event_value.value.is_negative(),
             };
-            if !clear && (&event_value.value - &tolerance).is_positive() {
+            if !clear && (&event_value.value - of_gap).is_positive() {
                 let what = format!("the start is beyond {}", name(which));
                 return Err(ProofFailure::Refuted(what));
             }

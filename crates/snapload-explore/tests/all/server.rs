@@ -275,6 +275,16 @@ fn a_run_of_very_many_impacts_is_cut_and_reported_as_cut() {
 }
 
 #[test]
+fn an_impulse_passed_into_a_taut_cable_is_a_row_but_no_impact() {
+    let sliding = json!({ "f_o": 0.27, "stop_when_settled": false, "t_end": 9 });
+    let answer = serve().run(sliding);
+    let speeds = numbers(&answer["impacts"]["v_n"]);
+    let snaps = speeds.iter().filter(|v_n| **v_n > 0.0).count();
+    assert!(snaps < speeds.len());
+    assert_eq!(answer["snaps"].as_u64(), Some(snaps as u64));
+}
+
+#[test]
 fn a_run_that_takes_too_long_is_refused_with_what_to_do() {
     let server = serve();
     let began = Instant::now();

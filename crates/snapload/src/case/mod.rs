@@ -182,14 +182,27 @@ fn start<T: Real>(p: &Parameters<T>) -> State<T> {
     }
 }
 
+/// How much longer a cable of this gap would have to be: √(r² + g) − r.
+fn over_length(gap: f64, r: f64) -> f64 {
+    gap / ((r * r + gap).sqrt() + r)
+}
+
 /// The error for an illegal start, in terms of the case's keys.
 fn explain(error: StartError, p: &Parameters) -> CaseError {
     match error {
-        StartError::CableTooShort { cable, gap } => {
-            let over = p.r * ((1.0 + gap / (p.r * p.r)).sqrt() - 1.0);
+        StartError::CableTooShort {
+            cable,
+            gap,
+            tolerance,
+        } => {
+            let over = over_length(gap, p.r);
+            let over = match over >= 0.1 {
+                true => format!("{over:.3}"),
+                false => format!("{over:.3e}"),
+            };
             let allowed = format!(
-                "a start within reach of both cables; cable {} would have to be {over:.3} longer \
-                 (its gap is g = {gap:.3e}, and g <= 1e-9 is allowed)",
+                "a start within reach of both cables; cable {} would have to be {over} longer \
+                 (its gap is g = {gap:.3e}, and g <= {tolerance:.0e} is allowed)",
                 cable + 1
             );
             let hint = "raise y, or move x and theta towards 0";
@@ -217,9 +230,13 @@ fn explain(error: StartError, p: &Parameters) -> CaseError {
             let allowed = format!("a limit above the {bounded} of the start, {value:.6}");
             CaseError::value(limit, Value::Number(bound), allowed)
         }
-        StartError::NotFinite | StartError::Restitution | StartError::TooManyCables => {
-            CaseError::value("x, y, theta", place(p), error.to_string())
+        StartError::TooShort { .. } => {
+            CaseError::value("r", Value::Number(p.r), error.to_string()).with_hint("raise r")
         }
+        StartError::CanNotClose { .. }
+        | StartError::NotFinite
+        | StartError::Restitution
+        | StartError::TooManyCables => CaseError::value("x, y, theta", place(p), error.to_string()),
     }
 }
 

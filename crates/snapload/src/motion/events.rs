@@ -127,6 +127,15 @@ pub(crate) struct Reached {
 }
 
 impl Reached {
+    /// Whether tensions are lost, and nothing else happens.
+    pub(crate) fn is_of_tensions(&self) -> bool {
+        let tensions = Self {
+            tensions: self.tensions,
+            ..Self::default()
+        };
+        !self.tensions.is_empty() && *self == tensions
+    }
+
     fn add(&mut self, function: EventFunction) {
         match function {
             EventFunction::Gap(cable) => self.gaps = self.gaps.with(cable),

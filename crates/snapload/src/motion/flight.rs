@@ -125,6 +125,11 @@ impl<T: Real> Flight<T> {
         }
     }
 
+    /// Whether a cable was known to be closed and at rest at the start.
+    pub(crate) fn rested(&self, cable: usize) -> bool {
+        self.resting.contains(cable)
+    }
+
     /// g, ġ, g̈ of a cable, with |g⃛| ≤ 2 (3 |Ṗ||P̈| + r |P⃛|) from there on.
     /// |P − A| ≤ r holds up to the first crossing, and the bound is used only up to there. |Ṗ|
     /// grows by at most |P̈| σ.

@@ -24,6 +24,7 @@ pub(crate) mod start;
 pub(crate) mod step_map;
 pub(crate) mod tangent;
 pub(crate) mod taut_series;
+pub(crate) mod ties;
 pub(crate) mod trajectory;
 pub(crate) mod two_cable_flight;
 pub(crate) mod two_cables;

@@ -78,6 +78,10 @@ pub struct Simulation<T: Real = f64> {
     last: LastImpacts<T>,
     stop: Option<Stop>,
     t_limit: Option<T>,
+    /// Taut cables whose tension has just touched zero.
+    touching: TautSet,
+    /// Resting cables of which only rounding told whether they were taut at the start.
+    undecided: TautSet,
 }
 
 /// The latest instants of impact, as needed for the limit of a converging series.
@@ -205,6 +209,8 @@ impl<T: Real> Simulation<T> {
             },
             stop: start.stop,
             t_limit: None,
+            touching: start.touching,
+            undecided: start.undecided,
         })
     }
 
@@ -351,14 +357,20 @@ impl<T: Real> Simulation<T> {
                     &self.contacts,
                     self.active,
                 );
+                series.set_touching(std::mem::take(&mut self.touching));
                 self.active = series.active();
                 horizon = horizon.min(series.step());
                 first_crossing(&**series, self.t, horizon)
             };
-            crossing.unwrap_or(Crossing {
+            let mut crossing = crossing.unwrap_or(Crossing {
                 s: horizon,
                 reached: Reached::default(),
-            })
+            });
+            if crossing.reached.is_of_tensions() && self.only_touches(&crossing) {
+                self.touching = crossing.reached.tensions;
+                crossing.reached = Reached::default();
+            }
+            crossing
         })
     }
 
@@ -410,6 +422,11 @@ impl<T: Real> Simulation<T> {
             self.contacts[cable].gap == T::ZERO && self.contacts[cable].error == T::ZERO
         };
         (0..self.system.cables.len()).filter(known).collect()
+    }
+
+    /// Cables that rested at the start and of which only rounding told whether they were taut.
+    pub(crate) fn undecided_at_start(&self) -> TautSet {
+        self.undecided
     }
 
     /// The cables whose gap and normal velocity are zero, whether or not they have tension.

@@ -9,12 +9,25 @@ use crate::model::taut_set::{MAX_CABLES, TautSet};
 use crate::motion::active_set::{ActiveSet, taut_next};
 use crate::motion::contact::{Contact, Contacts};
 use crate::motion::projection::{project_position, project_velocity};
+use crate::motion::ties::{Decided, Instant, Tie};
 use std::cell::Cell;
 use std::fmt;
 
 /// A gap at the start counts as closed within this distance of zero, and a normal velocity as zero
 /// (docs/model.md section 5).
 pub const START_TOLERANCE: f64 = 1e-9;
+/// A gap counts as closed within this part of r², too: of a cable shorter than 0.1 the whole range
+/// of gaps, from −r², may be smaller than [`START_TOLERANCE`].
+const PART_OF_SQUARE: f64 = 1e-7;
+/// Where some of several closed cables depend on others, not all of their gaps become zero: this
+/// many times the tolerance may be left.
+const LEFT_OVER: f64 = 100.0;
+/// A projection moves no attachment by more than this part of its cable. It is 3e-4 at most for a
+/// gap within the tolerance whose cables can only be closed together to second order.
+const FARTHEST: f64 = 1e-3;
+/// The least length of a cable, about a rounding of the unit of length \[L\]: the motion on shorter
+/// ones takes too many steps per unit of time, and in the end squares that are rounded to zero.
+const LEAST_LENGTH: f64 = 1e-16;
 
 /// Why a start is not legal.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -25,6 +38,20 @@ pub enum StartError {
         cable: usize,
         /// The gap \[L²\].
         gap: f64,
+        /// The largest gap that is allowed.
+        tolerance: f64,
+    },
+    /// A cable counts as closed, but no small displacement closes it together with the others.
+    CanNotClose {
+        /// The cable, by index from 0.
+        cable: usize,
+    },
+    /// A cable is shorter than a motion can follow.
+    TooShort {
+        /// The cable, by index from 0.
+        cable: usize,
+        /// Its length.
+        length: f64,
     },
     /// The quantity of a limit is beyond its bound.
     BeyondLimit {
@@ -46,10 +73,25 @@ pub enum StartError {
 impl fmt::Display for StartError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            Self::CableTooShort { cable, gap } => write!(
+            Self::CableTooShort {
+                cable,
+                gap,
+                tolerance,
+            } => write!(
                 f,
                 "a start within reach of all cables; the gap of cable {} is {gap:.3e}, and at most \
-                 {START_TOLERANCE:e} is allowed",
+                 {tolerance:.0e} is allowed",
+                cable + 1
+            ),
+            Self::CanNotClose { cable } => write!(
+                f,
+                "a start on the ends of its closed cables; no displacement of less than a \
+                 thousandth of its length closes cable {}",
+                cable + 1
+            ),
+            Self::TooShort { cable, length } => write!(
+                f,
+                "cables of length {LEAST_LENGTH:e} or more; that of cable {} is {length:e}",
                 cable + 1
             ),
             Self::BeyondLimit { stop, value, bound } => write!(
@@ -71,7 +113,17 @@ pub(crate) struct Start<T> {
     pub(crate) state: State<T>,
     pub(crate) active: ActiveSet,
     pub(crate) contacts: Contacts<T>,
+    /// Taut cables whose tension rises from zero.
+    pub(crate) touching: TautSet,
+    /// Resting cables of which only rounding tells whether they are taut.
+    pub(crate) undecided: TautSet,
     pub(crate) stop: Option<Stop>,
+}
+
+/// The largest distance from zero at which the gap of a cable counts as closed at the start.
+pub(crate) fn start_tolerance<T: Real>(cable: &Cable<T>) -> T {
+    let part = cable.length().squared() * T::from_decimal(PART_OF_SQUARE);
+    T::from_decimal(START_TOLERANCE).min(part)
 }
 
 /// Checks a start and projects it onto the cables that count as closed: in position, and, where the
@@ -88,8 +140,10 @@ pub(crate) fn prepare<T: Real>(
     let stop = stop_at_start(system, rules, t, state)?;
     let closed = closed_cables(system, state)?;
     let tolerance = T::from_decimal(START_TOLERANCE);
+    let given = state;
     let mut state = *state;
     project_position(system, &mut state, closed);
+    check_projection(system, given, &state, closed)?;
     let velocity =
         |state: &State<T>, cable: usize| system.cables[cable].normal(state).velocity(state);
     let resting: TautSet = closed
@@ -112,6 +166,32 @@ pub(crate) fn prepare<T: Real>(
     let still = [T::ZERO; 3];
     let around = system.surroundings(t);
     let active = taut_next(system, &around, &state, still, resting);
+    let now = Instant {
+        system,
+        around: &around,
+        state: &state,
+        memory_force: still,
+    };
+    let loose = resting.iter().filter(|&cable| !active.taut.contains(cable));
+    let cables = now.unmoved(loose.collect(), active.carrying);
+    let Decided {
+        active,
+        touching,
+        undecided,
+    } = match cables.is_empty() {
+        true => Decided::known(active),
+        false => Tie {
+            system,
+            rules,
+            t,
+            state: &state,
+            contacts: &contacts,
+            resting,
+            active,
+            cables,
+        }
+        .decided(),
+    };
     let snaps = closed
         .iter()
         .any(|cable| !resting.contains(cable) && velocity(&state, cable) > T::ZERO);
@@ -121,6 +201,8 @@ pub(crate) fn prepare<T: Real>(
         state,
         active,
         contacts,
+        touching,
+        undecided,
         stop: stop.or(settled),
     })
 }
@@ -159,23 +241,32 @@ fn check_numbers<T: Real>(
     if !finite.get() || !system.cables.iter().all(positive) {
         return Err(StartError::NotFinite);
     }
+    for (cable, tether) in system.cables.iter().enumerate() {
+        let length = tether.length().to_f64();
+        if length < LEAST_LENGTH {
+            return Err(StartError::TooShort { cable, length });
+        }
+    }
     if !system.contact_law().is_passive() {
         return Err(StartError::Restitution);
     }
     Ok(())
 }
 
-/// The cables that count as closed.
+/// The cables that count as closed: those whose gap is within the tolerance of zero or, if the
+/// cable is so short and so far from the origin that this is less, within its rounding error.
 #[inline(always)]
 fn closed_cables<T: Real>(system: &System<T>, state: &State<T>) -> Result<TautSet, StartError> {
-    let tolerance = T::from_decimal(START_TOLERANCE);
     let mut closed = TautSet::SLACK;
     for (cable, tether) in system.cables.iter().enumerate() {
-        let gap = tether.gap(state);
+        let (gap, error) = tether.gap_and_error(state);
+        let rounding = error.min(T::from_decimal(START_TOLERANCE));
+        let tolerance = start_tolerance(tether).max(rounding);
         if gap > tolerance {
             return Err(StartError::CableTooShort {
                 cable,
                 gap: gap.to_f64(),
+                tolerance: tolerance.to_f64(),
             });
         }
         if gap >= -tolerance {
@@ -183,6 +274,28 @@ fn closed_cables<T: Real>(system: &System<T>, state: &State<T>) -> Result<TautSe
         }
     }
     Ok(closed)
+}
+
+/// Checks that a projection has closed the cables, and has only moved the body a little.
+#[inline(always)]
+fn check_projection<T: Real>(
+    system: &System<T>,
+    given: &State<T>,
+    projected: &State<T>,
+    closed: TautSet,
+) -> Result<(), StartError> {
+    for cable in closed.iter() {
+        let tether = &system.cables[cable];
+        let (gap, error) = tether.gap_and_error(projected);
+        let moved = tether.span(projected) - tether.span(given);
+        let is_near = moved.length() <= tether.length() * FARTHEST;
+        let is_closed = gap.abs() <= start_tolerance(tether).max(error) * LEFT_OVER;
+        // Numbers that are not finite are neither.
+        if !(is_near && is_closed) {
+            return Err(StartError::CanNotClose { cable });
+        }
+    }
+    Ok(())
 }
 
 /// A start at a limit stops at once; one beyond it is an error.

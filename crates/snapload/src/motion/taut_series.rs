@@ -50,7 +50,7 @@ use crate::model::mass::Mass;
 use crate::model::rules::Rules;
 use crate::model::state::State;
 use crate::model::system::System;
-use crate::model::taut_set::{MAX_CABLES, PerCable};
+use crate::model::taut_set::{MAX_CABLES, PerCable, TautSet};
 use crate::motion::active_set::ActiveSet;
 use crate::motion::cable_series::CableSeries;
 use crate::motion::complementarity::Factored;
@@ -63,8 +63,9 @@ use crate::motion::waves::sinusoids::Expanded;
 mod events;
 mod water;
 
-/// A displacement along a step of less than this counts as rest: the terms need not converge
-/// relative to each other, only stay below the rounding of this \[L\], \[rad\].
+/// A displacement along a step of less than this, or than the length of a taut cable, counts as
+/// rest: the terms need not converge relative to each other, only stay below the rounding of this
+/// \[L\], \[rad\].
 const STILL: f64 = 1e-12;
 
 /// The gap of a cable, and its tension where it carries.
@@ -95,6 +96,8 @@ pub(crate) struct Series<T: Real> {
     pairs: CableSeries<T>,
     lines: Vec<Line<T>>,
     contacts: Contacts<T>,
+    /// Cables whose tension is known to be zero at the start, and to rise.
+    touching: TautSet,
     /// A gap below this counts as zero while its cable rests.
     touch: PerCable<T>,
     /// The truncation error of the series of a slack flight by waves, up to a power of the time.
@@ -128,6 +131,7 @@ impl<T: Real> Series<T> {
             pairs: CableSeries::default(),
             lines: Vec::new(),
             contacts: [Contact::CLOSED; MAX_CABLES],
+            touching: TautSet::SLACK,
             touch: [T::ZERO; MAX_CABLES],
             waves_left_out: water::waves_left_out(system),
             left_out: [T::ZERO; MAX_CABLES],
@@ -319,12 +323,12 @@ impl<T: Real> Series<T> {
     #[inline(always)]
     fn choose_step(&self, system: &System<T>) -> T {
         apart!(T, {
-            let mut light = T::ONE;
+            let (mut light, mut still) = (T::ONE, T::from_f64(STILL));
             for cable in self.active.carrying.iter() {
                 let fairlead = system.cables[cable].fairlead();
                 light = light.max(system.body.mass.largest_coupling(fairlead.dot(fairlead)));
+                still = still.min(system.cables[cable].length());
             }
-            let still = T::from_f64(STILL);
             let longest = T::ONE.min((T::from_f64(8.0) / light).sqrt());
             let mut step = longest;
             for motion in [&self.x, &self.y, &self.theta] {
@@ -337,6 +341,16 @@ impl<T: Real> Series<T> {
             }
             self.shortened(system, step)
         })
+    }
+
+    /// Sets the taut cables whose tension is known to be zero at the start, and to rise.
+    pub(crate) fn set_touching(&mut self, cables: TautSet) {
+        self.touching = cables;
+    }
+
+    /// Whether the tension of a cable is known to be zero at the start, and to rise.
+    pub(crate) fn rises_from_zero(&self, cable: usize) -> bool {
+        self.touching.contains(cable)
     }
 
     /// The cables that are taut within the step, and the carrying ones among them.
@@ -390,6 +404,11 @@ impl<T: Real> Series<T> {
     pub(crate) fn gap_and_rate(&self, cable: usize, s: T) -> (T, T) {
         let [gap, rate, _] = self.lines[cable].gap.jet(s, ORDER);
         (gap, rate)
+    }
+
+    /// Whether a cable was known to be closed and at rest at the start.
+    pub(crate) fn rested(&self, cable: usize) -> bool {
+        self.contacts[cable].resting
     }
 
     /// Whether a cable that was at rest at the start, such as one that has just lost its tension,

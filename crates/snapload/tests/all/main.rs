@@ -22,4 +22,5 @@ mod linearised_motion;
 mod many_cables;
 mod outcomes;
 mod same_bits;
+mod starts;
 mod trust;

@@ -6,7 +6,7 @@ use crate::model::cable::Normal;
 use crate::motion::active_set::normal_acceleration;
 use crate::motion::events::Reached;
 use crate::motion::simulation::{Simulation, Step};
-use crate::motion::start::START_TOLERANCE;
+use crate::motion::start::{START_TOLERANCE, start_tolerance};
 use crate::motion::step_map::Deviation;
 
 /// Neighbours are assumed to be within this many standard deviations.
@@ -87,9 +87,9 @@ pub(super) fn cause(
     if struck.len() > 1 {
         return Some(HorizonCause::Simultaneous);
     }
-    if let Some(Closing { cable, .. }) =
-        closing.filter(|closing| may_miss(approach, neighbours, closing))
-    {
+    if let Some(Closing { cable, .. }) = closing.filter(|closing| {
+        may_miss(approach, neighbours, closing) || may_not_have_opened(simulation, step, closing)
+    }) {
         return Some(HorizonCause::Graze { cable });
     }
     if let Some(Closing { cable, .. }) =
@@ -110,7 +110,7 @@ pub(super) fn cause(
 }
 
 /// The cause at the start, if there is one: a cable that is closed in the run may be slack within
-/// the uncertainty, or leave or snap where it rests.
+/// the uncertainty, or leave or snap where it rests; or only rounding tells whether it is taut.
 pub(super) fn cause_at_start(
     simulation: &Simulation,
     covariance: &CovarianceFactor,
@@ -128,7 +128,8 @@ pub(super) fn cause_at_start(
         } else {
             speed >= normal.velocity(simulation.state()).abs()
         };
-        SIGMA_REACH * gap > START_TOLERANCE || turns
+        let undecided = simulation.undecided_at_start().contains(*cable);
+        SIGMA_REACH * gap > start_tolerance(tether) || turns || undecided
     };
     let cable = simulation.closed().iter().find(open)?;
     Some(HorizonCause::Start { cable })
@@ -209,6 +210,16 @@ impl Closing {
 fn may_miss(approach: &Approach, neighbours: &Neighbours, closing: &Closing) -> bool {
     let Closing { v_n, alpha, .. } = *closing;
     alpha < 0.0 && neighbours.reach_in_time(approach) * 2.0 * -alpha >= v_n
+}
+
+/// Whether a cable that rested at the start of the step, g = ġ = 0, closes within what counts as
+/// zero there: it may have been taut all the time, or be taut in a neighbour.
+#[inline(always)]
+fn may_not_have_opened(simulation: &Simulation, step: &Step, closing: &Closing) -> bool {
+    let Closing { cable, v_n, .. } = *closing;
+    let length = simulation.system().cables[cable].length();
+    let s = step.t_end - step.t_start;
+    v_n * s <= 8.0 * f64::EPSILON * length && s > 0.0 && simulation.rested(step, cable)
 }
 
 /// Whether some neighbours snap slowly enough to stick and others do not, after which the numbers

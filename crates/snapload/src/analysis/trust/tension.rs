@@ -17,6 +17,9 @@ use crate::motion::simulation::{Simulation, Step};
 use crate::motion::step_map::{StepMap, dot6, join};
 use crate::motion::tangent::Tangent;
 
+/// A tension may change by so much without any uncertainty but rounding \[F\].
+const OF_ROUNDING: f64 = 1e-12;
+
 /// A step with taut cables and the spread of its neighbours.
 pub(super) struct TautStep<'a> {
     pub(super) simulation: &'a Simulation,
@@ -50,7 +53,9 @@ impl TautStep<'_> {
             if step.event.reached.tensions.contains(cable) {
                 return may_stay(simulation, step, cable, reach);
             }
-            ranges[cable][0] <= reach
+            // Its growth decides that a tension of zero rises, whatever rounding makes of the zero.
+            let known = reach <= OF_ROUNDING && simulation.rises_from_zero(step, cable);
+            ranges[cable][0] <= reach && !known
         };
         // A cable that lies along others carries nothing.
         let cable = step.carrying.iter().find(differs)?;

@@ -8,9 +8,11 @@ use crate::model::taut_set::TautSet;
 use crate::motion::active_set::{ActiveSet, normal_acceleration, taut_next};
 use crate::motion::bounce::UNMOVED;
 use crate::motion::contact::Contact;
+use crate::motion::events::Crossing;
 use crate::motion::impact::{ImpactResult, impact};
 use crate::motion::projection::project_velocity;
 use crate::motion::simulation::{CONVERGING, Event, LastImpacts, Simulation};
+use crate::motion::ties::{Instant, first_clear};
 
 /// A tension below this is negative by more than rounding: the cable would have to push \[F\].
 const NEGATIVE_TENSION: f64 = -1e-7;
@@ -181,6 +183,27 @@ impl<T: Real> Simulation<T> {
         }
         let around = self.surroundings(t);
         taut_next(&self.system, &around, state, memory_force, candidates)
+    }
+
+    /// Whether tensions that reach zero at a crossing are positive again before they are negative by
+    /// more than rounding. If cables depend on each other, [`Simulation::release`] decides.
+    #[cold]
+    #[inline(never)]
+    pub(super) fn only_touches(&self, crossing: &Crossing<T>) -> bool {
+        let ActiveSet { taut, carrying } = self.active;
+        let (Some(series), true) = (&self.series, taut == carrying) else {
+            return false;
+        };
+        let (s, tensions) = (crossing.s, crossing.reached.tensions);
+        let now = Instant {
+            system: &self.system,
+            around: &self.surroundings(self.t + s),
+            state: &series.state(s),
+            memory_force: series.memory_force(s),
+        };
+        let clear = first_clear(series, s, tensions, &now.zero_tensions(carrying));
+        let rises = |s: T| tensions.iter().all(|i| series.tension(i, s) > T::ZERO);
+        clear.is_some_and(rises)
     }
 
     /// Cables lose their tension: they open, whatever sign rounding gives to a tension of zero.

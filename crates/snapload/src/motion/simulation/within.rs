@@ -263,6 +263,22 @@ impl<T: Real> Simulation<T> {
         }
     }
 
+    /// Whether the tension of a cable was known to be zero at the start of the latest step, and to
+    /// rise from there.
+    pub(crate) fn rises_from_zero(&self, step: &Step<T>, cable: usize) -> bool {
+        let series = self.expanded(step.taut);
+        series.is_some_and(|series| series.rises_from_zero(cable))
+    }
+
+    /// Whether a cable was known to be closed and at rest at the start of the latest step.
+    pub(crate) fn rested(&self, step: &Step<T>, cable: usize) -> bool {
+        match (self.expanded(step.taut), &self.bounce_start) {
+            (Some(series), _) => series.rested(cable),
+            (None, Some(_)) => false,
+            (None, None) => self.flight.rested(cable),
+        }
+    }
+
     /// Whether a cable that is slack in the latest step came, before its end, within `margin` > 0
     /// of a gap of zero. If a cable was closed at the start, its gap is zero there for all
     /// neighbours, and the margin grows from zero; if it lost its tension there and opens

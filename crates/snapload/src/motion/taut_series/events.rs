@@ -13,6 +13,9 @@ const ZERO_TENSION: f64 = 1e-7;
 /// one.
 const TAUT_TOLERANCE: f64 = 64.0;
 
+/// A tension that is known to be zero counts as zero up to this many roundings of its terms.
+const ROUNDINGS: f64 = 8.0;
+
 impl<T: Real> Series<T> {
     /// Whether a taut cable stays taut within the step: it carries, or its gap is zero up to
     /// rounding.
@@ -102,12 +105,31 @@ impl<T: Real> Series<T> {
     }
 }
 
+impl<T: Real> Series<T> {
+    /// Minus a tension that is zero at the start and rises: value and rate are known to be zero, so
+    /// that rounding does not make it cross zero there.
+    fn touching_jet(&self, event: &EventSeries<T>) -> Jet<T> {
+        let EventSeries { series, order, .. } = event;
+        let size = series.derivative_bound(0, self.step, *order);
+        Jet {
+            start_noise: size * T::EPSILON * ROUNDINGS,
+            resting: true,
+            jerk: series[3] * 6.0,
+            fourth: series.derivative_bound(4, self.step, *order),
+            ..Jet::new(event.function, T::ZERO, T::ZERO, series[2] * 2.0)
+        }
+    }
+}
+
 impl<T: Real> HasEvents<T> for Series<T> {
     #[inline(always)]
     fn jets_at(&self, s: T, jets: &mut Jets<T>) {
         for event in &self.event_series {
             jets.push(match event.function {
                 EventFunction::Gap(cable) => self.gap_jet(cable, s),
+                EventFunction::Tension(cable) if s == T::ZERO && self.touching.contains(cable) => {
+                    self.touching_jet(event)
+                }
                 other => {
                     let jet = self.jet(other, &event.series, event.order, s);
                     Jet {

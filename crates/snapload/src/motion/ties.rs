@@ -1,0 +1,252 @@
+//! Resting cables that have neither a tension nor a normal acceleration, up to rounding.
+//!
+//! The problem on accelerations does not decide between taut and slack there: 0 ≤ T ⟂ −g̈ ≥ 0 holds
+//! with both zero. A pendulum that is released at the height of its anchor is such a start, and so
+//! is a body at rest on two cables at the force at which one of them loses its tension. The first
+//! derivative that is not zero decides: with T growing the cable is taut from the start, with T
+//! falling it is slack. A motion that treats a taut cable as slack has a gap that grows as t³ or
+//! t⁴, and once that is more than rounding an impact, which does not exist.
+//!
+//! So the motion from such a start is expanded with the undecided cables taut. All motions that are
+//! in question have the same acceleration at the start, so that the problem on accelerations a
+//! little later, where the tensions are more than rounding, has the same solution along each of
+//! them. In the same way a tension that reaches zero, and is positive again before it is negative
+//! by more than rounding, has only touched zero: the pendulum at its next turning point.
+
+use crate::arithmetic::plane::Vector2;
+use crate::arithmetic::real::Real;
+use crate::model::rules::Rules;
+use crate::model::state::State;
+use crate::model::surroundings::Surroundings;
+use crate::model::system::System;
+use crate::model::taut_set::{MAX_CABLES, PerCable, TautSet};
+use crate::motion::active_set::{ActiveSet, taut_next, tensions};
+use crate::motion::complementarity::{Factored, independent};
+use crate::motion::contact::Contacts;
+use crate::motion::taut_series::Series;
+use crate::motion::waves::Waves;
+
+/// A normal acceleration counts as zero up to this many roundings of its summands \[F\].
+const ZERO: f64 = 4.0;
+/// A tension decides once it is this many times what counts as zero \[F\].
+const CLEAR: f64 = 16.0;
+/// Tensions are first evaluated 2^−LATER of a step later, then at each doubling of that, up to half
+/// a step.
+const LATER: i32 = 28;
+/// A series is evaluated up to this multiple of its step: its error has grown by 1.125^28 there.
+const BEYOND: f64 = 1.125;
+
+/// The cables of a start that are tied between taut and slack.
+pub(crate) struct Decided {
+    pub(crate) active: ActiveSet,
+    /// Taut cables whose tension is zero at the start, and rises.
+    pub(crate) touching: TautSet,
+    /// Those whose tension does not rise above rounding along a whole step.
+    pub(crate) undecided: TautSet,
+}
+
+impl Decided {
+    /// A start without ties.
+    #[inline(always)]
+    pub(crate) fn known(active: ActiveSet) -> Self {
+        Self {
+            active,
+            touching: TautSet::SLACK,
+            undecided: TautSet::SLACK,
+        }
+    }
+}
+
+/// A state with all forces on the body but those of the cables.
+pub(crate) struct Instant<'a, T: Real> {
+    pub(crate) system: &'a System<T>,
+    pub(crate) around: &'a Surroundings<T>,
+    pub(crate) state: &'a State<T>,
+    pub(crate) memory_force: [T; 3],
+}
+
+/// The start of a motion with its ties, which are resting and not in `active`.
+pub(crate) struct Tie<'a, T: Real> {
+    pub(crate) system: &'a System<T>,
+    pub(crate) rules: &'a Rules<T>,
+    pub(crate) t: T,
+    pub(crate) state: &'a State<T>,
+    pub(crate) contacts: &'a Contacts<T>,
+    pub(crate) resting: TautSet,
+    pub(crate) active: ActiveSet,
+    pub(crate) cables: TautSet,
+}
+
+impl<T: Real> Instant<'_, T> {
+    /// The cables of a set whose normal acceleration is zero, with the tensions of the carrying
+    /// ones.
+    #[inline(always)]
+    pub(crate) fn unmoved(&self, set: TautSet, carrying: TautSet) -> TautSet {
+        if set.is_empty() {
+            return set;
+        }
+        let found = self.normal_accelerations(set, carrying);
+        let zero = |&cable: &usize| {
+            let (left, zero) = found[cable];
+            left.abs() <= zero
+        };
+        set.iter().filter(zero).collect()
+    }
+
+    /// The normal accelerations of the cables of a set with the tensions of the carrying ones, and
+    /// below what each counts as zero.
+    fn normal_accelerations(&self, set: TautSet, carrying: TautSet) -> PerCable<(T, T)> {
+        let &Self {
+            system,
+            around,
+            state,
+            memory_force,
+        } = self;
+        let free = system.free_acceleration(around, state, memory_force);
+        let tension = tensions(system, around, state, memory_force, carrying);
+        let normals = system.normals(state, set.union(carrying));
+        let mut found = [(T::ZERO, T::ZERO); MAX_CABLES];
+        for cable in set.iter() {
+            let mut left = system.free_normal_acceleration(cable, state, free);
+            let mut size = size_of_load(system, cable, state, free);
+            for other in carrying.iter() {
+                let coupling = system.body.mass.coupling(&normals[cable], &normals[other]);
+                left -= coupling * tension[other];
+                size += (coupling * tension[other]).abs();
+            }
+            found[cable] = (left, size * T::EPSILON * ZERO);
+        }
+        found
+    }
+
+    /// Below what the tension of each of some independent cables counts as zero.
+    pub(crate) fn zero_tensions(&self, carrying: TautSet) -> PerCable<T> {
+        let normals = self.system.normals(self.state, carrying);
+        let mass = &self.system.body.mass;
+        let w = |i: usize, j: usize| mass.coupling(&normals[i], &normals[j]);
+        let ready = Factored::new(carrying, w);
+        let accelerations = self.normal_accelerations(carrying, carrying);
+        let mut zero = [T::ZERO; MAX_CABLES];
+        for source in carrying.iter() {
+            let mut load = [T::ZERO; MAX_CABLES];
+            load[source] = accelerations[source].1;
+            let tension = ready.solve(&load);
+            for cable in carrying.iter() {
+                zero[cable] += tension[cable].abs();
+            }
+        }
+        zero
+    }
+}
+
+/// The first time after `from` at which the tensions of all of some cables are more than rounding;
+/// none if there is none within half a step.
+pub(crate) fn first_clear<T: Real>(
+    series: &Series<T>,
+    from: T,
+    cables: TautSet,
+    zero: &PerCable<T>,
+) -> Option<T> {
+    let clear = |&s: &T| {
+        let known = |cable: usize| series.tension(cable, s).abs() > zero[cable] * CLEAR;
+        cables.iter().all(known)
+    };
+    (1..=LATER)
+        .map(|k| from + series.step() * 0.5_f64.powi(LATER + 1 - k))
+        .take_while(|&s| s <= series.step() * BEYOND)
+        .find(clear)
+}
+
+impl<T: Real> Tie<'_, T> {
+    /// Decides it. The water has no memory yet.
+    #[cold]
+    #[inline(never)]
+    pub(crate) fn decided(&self) -> Decided {
+        let &Self {
+            system,
+            state,
+            t,
+            resting,
+            active,
+            cables,
+            ..
+        } = self;
+        let normals = system.normals(state, resting);
+        let w = |i: usize, j: usize| system.body.mass.coupling(&normals[i], &normals[j]);
+        let carrying = cables.iter().fold(active.carrying, |set, cable| {
+            let more = set.with(cable);
+            if independent(more, w) { more } else { set }
+        });
+        let held = ActiveSet {
+            taut: active.taut.union(cables),
+            carrying,
+        };
+        let mut waves = Waves::new(system);
+        waves.cover(t, t);
+        let series = self.expanded(&waves, held);
+        let tied = cables.intersection(carrying);
+        let now = Instant {
+            system,
+            around: &waves.at(system, t),
+            state,
+            memory_force: [T::ZERO; 3],
+        };
+        if let Some(s) = first_clear(&series, T::ZERO, tied, &now.zero_tensions(carrying)) {
+            let (later, memory_force) = (series.state(s), series.memory_force(s));
+            let around = waves.at(system, t + s);
+            let active = taut_next(system, &around, &later, memory_force, resting);
+            return Decided {
+                active,
+                touching: cables.intersection(active.carrying),
+                undecided: TautSet::SLACK,
+            };
+        }
+        // All is within rounding. The growth of the tensions is still the best that is known; where
+        // there is no tension at any time, taut and slack are the same motion.
+        let half = series.step() * 0.5;
+        let growth = |cable| series.tension(cable, half) - series.tension(cable, T::ZERO);
+        let none = tied.iter().all(|cable| growth(cable) == T::ZERO);
+        let rise = !none && tied.iter().all(|cable| growth(cable) > T::ZERO);
+        Decided {
+            active: if rise { held } else { active },
+            touching: if rise { tied } else { TautSet::SLACK },
+            undecided: if none { TautSet::SLACK } else { cables },
+        }
+    }
+
+    /// The motion with these cables taut.
+    fn expanded(&self, waves: &Waves<T>, held: ActiveSet) -> Box<Series<T>> {
+        let Self {
+            system,
+            rules,
+            t,
+            state,
+            contacts,
+            ..
+        } = self;
+        let mut series = Box::new(Series::new(system, rules));
+        let (around, memory) = (waves.expanded(system, *t), system.memory_at_rest());
+        series.begin(system, &around, state, &memory, contacts, held);
+        series
+    }
+}
+
+/// A bound on the summands of the normal acceleration without any cable force, times the factor by
+/// which a rounding of the positions turns the cable.
+fn size_of_load<T: Real>(
+    system: &System<T>,
+    cable: usize,
+    state: &State<T>,
+    [x, y, turning]: [T; 3],
+) -> T {
+    let tether = &system.cables[cable];
+    let reach = tether.fairlead().length();
+    let spin = state.vtheta.abs();
+    let speed = state.velocity().length() + spin * reach;
+    let size = Vector2 { x, y }.length()
+        + turning.abs() * reach
+        + speed.squared() / tether.length()
+        + spin.squared() * reach;
+    let place = state.centre().length() + reach + tether.anchor().length();
+    size * (T::ONE + place / tether.length())
+}
