@@ -95,7 +95,7 @@ impl Ensemble {
         Err(self.too_large(latest))
     }
 
-    /// An uncertainty within which no legal neighbour was drawn; the error is that of the latest one.
+    /// An uncertainty within which no legal neighbour was drawn; `latest` is the error of the last.
     fn too_large(&self, latest: Option<CaseError>) -> CaseError {
         let named = |(key, size): &(&str, f64)| format!("{key}={}", Value::Number(*size));
         let moving = START_KEYS.iter().zip(self.uncertainty.start);
