@@ -56,6 +56,13 @@ class BaseRun:
     def _in_its_units(self, table: Table) -> Table:
         return table if self._nondimensional else table._in_own_units()
 
+    def _impacts_in_words(self, cables: int) -> str:
+        snaps = self.impacts["cable"][self.impacts["v_n"] > 0]
+        counts = [f"{(snaps == k + 1).sum()} of cable {k + 1}" for k in range(cables)]
+        passed = len(self.impacts) - len(snaps)
+        beside = f"; {passed} impulse{'s' * (passed != 1)} passed into a taut cable" if passed else ""
+        return f"{len(snaps)}: {', '.join(counts)}{beside}"
+
     @property
     def _engine(self) -> _engine.Run:
         """The run of the engine. It does not travel to other processes, where the run is repeated."""

@@ -415,17 +415,10 @@ class SystemRun(BaseRun):
         lines = [("End", f"{self.end.reason.replace('_', ' ')} at t = {self.end.t:.4f}")]
         if self._trusted:
             lines += [("Trust", self._engine.trust_in_words())]
-        lines += [("Impacts", self._impacts_in_words())]
+        lines += [("Impacts", self._impacts_in_words(len(self.system.cables)))]
         # As the command prints it: labels of ten letters, and further lines are indented by as much.
         rows = ["\n".join(f"{a if i == 0 else '':<10}{line}" for i, line in enumerate(b.split("\n"))) for a, b in lines]
         return "\n".join(rows), lines
-
-    def _impacts_in_words(self) -> str:
-        snaps = self.impacts["cable"][self.impacts["v_n"] > 0]
-        counts = [f"{(snaps == k + 1).sum()} of cable {k + 1}" for k in range(len(self.system.cables))]
-        passed = len(self.impacts) - len(snaps)
-        beside = f"; {passed} impulse{'s' * (passed != 1)} passed into a taut cable" if passed else ""
-        return f"{len(snaps)}: {', '.join(counts)}{beside}"
 
     def __eq__(self, other: object) -> bool:
         if not isinstance(other, SystemRun):

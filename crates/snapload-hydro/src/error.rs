@@ -1,6 +1,6 @@
 //! Errors in hydrodynamic coefficients, or in their use.
 
-use crate::read::GivenSource;
+use std::fmt;
 
 /// Why coefficients can not be used. The message says what is wrong, where, and how to correct it.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
@@ -113,5 +113,27 @@ impl Warning {
             what,
             message: message.into(),
         }
+    }
+}
+
+/// Where values are given in addition to the file, for messages.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum GivenSource {
+    /// A case file.
+    #[default]
+    Case,
+    /// The options of a command.
+    CommandLine,
+    /// The options of a function.
+    Options,
+}
+
+impl fmt::Display for GivenSource {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Self::Case => "in the case",
+            Self::CommandLine => "on the command line",
+            Self::Options => "in the options",
+        })
     }
 }

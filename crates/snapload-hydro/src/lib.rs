@@ -23,7 +23,7 @@ pub use coefficients::{
     Excitation, ExcitationCurve, FREEDOMS, Hydrodynamics, Hydrostatics, MatrixCurve, Water,
     transport,
 };
-pub use error::{HydroError, Warning};
+pub use error::{GivenSource, HydroError, Warning};
 pub use linear::{
     Body, Decay, Line, Mode, Natural, Peak, Response, Rest, Swing, Weight, decay,
     decay_of_the_damping, eigenvalues, fine_responses, natural_of_the_file, natural_of_the_memory,
@@ -34,8 +34,8 @@ pub use memory::{
     added_mass_at_infinity, fit, given,
 };
 pub use read::{
-    Dataset, FirstColumn, Format, Given, GivenSource, Reading, Values, Variable, WamitText,
-    from_dataset, from_nemoh, from_wamit, read,
+    Dataset, FirstColumn, Format, Given, Reading, Values, Variable, WamitText, from_dataset,
+    from_nemoh, from_wamit, read,
 };
 pub use report::{Floating, GivenMemory, Json, Report, Request, page, periods_summary};
 pub use sections::{Place, Shape, added_mass_of_section};

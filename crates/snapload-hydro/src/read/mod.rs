@@ -14,7 +14,7 @@ pub use nemoh::from_nemoh;
 pub use wamit::{FirstColumn, WamitText, from_wamit};
 
 use crate::coefficients::{Hydrodynamics, Water};
-use crate::error::{HydroError, Warning};
+use crate::error::{GivenSource, HydroError, Warning};
 use std::fmt;
 use std::path::{Path, PathBuf};
 
@@ -38,28 +38,6 @@ impl fmt::Display for Format {
             Self::Wamit => "WAMIT",
             Self::Nemoh => "Nemoh",
             Self::Section => "textbook values of a section",
-        })
-    }
-}
-
-/// Where values are given in addition to the file, for messages.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum GivenSource {
-    /// A case file.
-    #[default]
-    Case,
-    /// The options of a command.
-    CommandLine,
-    /// The options of a function.
-    Options,
-}
-
-impl fmt::Display for GivenSource {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(match self {
-            Self::Case => "in the case",
-            Self::CommandLine => "on the command line",
-            Self::Options => "in the options",
         })
     }
 }

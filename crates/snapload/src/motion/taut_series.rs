@@ -63,9 +63,8 @@ use crate::motion::waves::sinusoids::Expanded;
 mod events;
 mod water;
 
-/// A displacement along a step of less than this, or than the length of a taut cable, counts as
-/// rest: the terms need not converge relative to each other, only stay below the rounding of this
-/// \[L\], \[rad\].
+/// A displacement along a step of less than this, or than a taut cable's length, counts as rest: the
+/// terms need not converge relative to each other, only stay below its rounding \[L\], \[rad\].
 const STILL: f64 = 1e-12;
 
 /// The gap of a cable, and its tension where it carries.

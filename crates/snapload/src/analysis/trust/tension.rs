@@ -54,7 +54,7 @@ impl TautStep<'_> {
                 return may_stay(simulation, step, cable, reach);
             }
             // Its growth decides that a tension of zero rises, whatever rounding makes of the zero.
-            let known = reach <= OF_ROUNDING && simulation.rises_from_zero(step, cable);
+            let known = reach <= OF_ROUNDING && simulation.touches_zero(step, cable);
             ranges[cable][0] <= reach && !known
         };
         // A cable that lies along others carries nothing.
@@ -80,7 +80,9 @@ pub(super) fn cause_at_start(
         for key in keys {
             variance += key.of_normal_acceleration(cable).powi(2);
         }
-        acceleration.abs() <= SIGMA_REACH * variance.sqrt()
+        // If it is zero to rounding the start has decided by the growth of the tension, or not.
+        let reach = SIGMA_REACH * variance.sqrt();
+        reach > OF_ROUNDING && acceleration.abs() <= reach
     })?;
     Some(HorizonCause::Start { cable })
 }

@@ -263,11 +263,12 @@ impl<T: Real> Simulation<T> {
         }
     }
 
-    /// Whether the tension of a cable was known to be zero at the start of the latest step, and to
-    /// rise from there.
-    pub(crate) fn rises_from_zero(&self, step: &Step<T>, cable: usize) -> bool {
+    /// Whether the tension of a cable is known to be zero at the start or at the end of the latest
+    /// step, and positive besides.
+    pub(crate) fn touches_zero(&self, step: &Step<T>, cable: usize) -> bool {
         let series = self.expanded(step.taut);
-        series.is_some_and(|series| series.rises_from_zero(cable))
+        let at_start = series.is_some_and(|series| series.rises_from_zero(cable));
+        at_start || self.touching.contains(cable)
     }
 
     /// Whether a cable was known to be closed and at rest at the start of the latest step.
