@@ -258,6 +258,8 @@ class Seas(StructureResult):
     def largest_tensions_n(self) -> xarray.DataArray:
         """The largest tension of each record [N], in a snap or in a taut line; empty if tensions are not known.
 
+        It is NaN for a record that ended before the judged time.
+
         See Also
         --------
         snapload.Seas.words : The result in words.
