@@ -109,10 +109,13 @@ pub(crate) fn add_case_defaults(entries: &mut Entries, code: &str) -> Result<(),
 
 fn read_file(schema: &'static Schema, path: &Path) -> Result<Entries, Failure> {
     let (text, shown) = (read_text(path)?, path.display().to_string());
-    if snapload::table_names(&text)
-        .iter()
-        .any(|name| name == "vary")
-    {
+    let varies = |text: &str| {
+        snapload::table_names(text)
+            .iter()
+            .any(|name| name == "vary")
+    };
+    let is_of_a_case = schema.tables.iter().all(|table| table.name != "vary");
+    if is_of_a_case && varies(&text) {
         let what = "this is the file of a study, as it has [vary]";
         let words = ["snapload", "sweep", &shown, "--out", "study.parquet"];
         let hint = format!("write {}", shell_command(words));

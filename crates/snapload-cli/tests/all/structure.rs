@@ -64,7 +64,8 @@ fn words_of_note(room: &Path) -> Vec<String> {
     let page = fs::read_to_string(room.join("note.html")).unwrap();
     let (_, from) = page.split_once("with the command</p>\n<p><code>").unwrap();
     let line = from.split_once("</code>").unwrap().0;
-    let line = line.replace("&quot;", "\"").replace("&lt;", "<");
+    let line = line.replace("&quot;", "\"").replace("&#39;", "'");
+    let line = line.replace("&lt;", "<");
     let line = line.replace("&gt;", ">").replace("&amp;", "&");
     let script = format!("snapload() {{ printf '%s\\0' \"$@\"; }}; {line}");
     let mut shell = std::process::Command::new("sh");

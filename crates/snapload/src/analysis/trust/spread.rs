@@ -346,6 +346,7 @@ impl SpreadMonitor {
             before,
             along,
             keys: &self.keys,
+            is_first: self.steps == 0,
         };
         taut.cause()
     }

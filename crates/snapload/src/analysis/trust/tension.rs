@@ -31,6 +31,8 @@ pub(super) struct TautStep<'a> {
     /// At its end, at the time of the event before.
     pub(super) along: &'a CovarianceFactor,
     pub(super) keys: &'a [UncertainKey],
+    /// Whether the run begins with it.
+    pub(super) is_first: bool,
 }
 
 impl TautStep<'_> {
@@ -54,7 +56,8 @@ impl TautStep<'_> {
                 return may_stay(simulation, step, cable, reach);
             }
             // Its growth decides that a tension of zero rises, whatever rounding makes of the zero.
-            let known = reach <= OF_ROUNDING && simulation.touches_zero(step, cable);
+            let rises = self.is_first && simulation.tensions_at_end(step)[cable] > reach;
+            let known = reach <= OF_ROUNDING && (rises || simulation.touches_zero(step, cable));
             ranges[cable][0] <= reach && !known
         };
         // A cable that lies along others carries nothing.
