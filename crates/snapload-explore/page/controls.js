@@ -16,7 +16,7 @@ const GROUPS = [
 const LONG_OPTION = 8;
 
 /** The most characters of an end of a slider that its field shows. */
-const LONGEST_END = 6;
+const LONGEST_END = 5;
 
 /** Kinds of values that are not always a single number, which need more room and the whole meaning of their key. */
 const ROOMY = ["text", "per_freedom"];
@@ -283,10 +283,11 @@ function rounded(value) {
   return Math.abs(value) < 1e6 ? fieldText(Number(value.toPrecision(6))) : `${Number(mantissa)}e${Number(exponent)}`;
 }
 
-/** An end of a slider, as short as its field is. */
+/** An end of a slider, with an exponent where the narrow field would not show all of it. */
 function endText(value) {
   const text = fieldText(value);
-  return text.length > LONGEST_END ? value.toExponential().replace("e+", "e") : text;
+  const short = value.toExponential().replace("e+", "e");
+  return text.length > LONGEST_END && short.length < text.length ? short : text;
 }
 
 /** A round step, such that the range has some hundreds of them. */

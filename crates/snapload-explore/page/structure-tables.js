@@ -6,8 +6,8 @@ import { escape, fixed, number, ratio, round, sentence } from "./formatting.js";
 /** The numbers of listed snaps: of the judged ones, and of those in the transient. */
 const [LISTED, EARLY] = [10, 3];
 
-/** The unit of slack; the tensions and snaps beside it are those of the judged time. */
-const WHOLE = "% of whole time";
+/** The heading of slack; the tensions and snaps beside it are those of the judged time. */
+const SLACK = "Slack of<br>all time";
 
 const kilo = (newtons) => (newtons === null || newtons === undefined ? "–" : round(newtons / 1e3, 4));
 const percent = (part) => (part === null ? "–" : fixed(100 * part, 1));
@@ -50,7 +50,7 @@ export function showLines(run) {
   $("lines").innerHTML =
     `<thead><tr><th scope="col">Line</th>${head("Utilisation", "", "")}${head("Safety<br>factor", "")}` +
     `${head("Breaking<br>load", "kN")}${head("While<br>taut", "kN")}${head("Snap<br>peak", "kN")}${elasticHead("Peak", "kN")}` +
-    `${head("Slack", WHOLE)}${elasticHead("Slack", WHOLE)}${head("Fastest<br>snap", "m/s")}${head("Snaps", "")}` +
+    `${head(SLACK, "%")}${elasticHead(SLACK, "%")}${head("Fastest<br>snap", "m/s")}${head("Snaps", "")}` +
     `${head("At rest", "kN")}${head("Least", "kN")}</tr></thead><tbody>` +
     run.lines.map((line, i) => lineRow(line, elastic?.lines[i])).join("") +
     "</tbody>";
