@@ -137,8 +137,9 @@ def test_a_study_is_its_runs():
 
 
 def test_words_count_impacts_without_impulses_passed_into_a_taut_cable():
-    run = many_cables().run()
-    snaps = [((run.impacts["cable"] == k) & (run.impacts["v_n"] > 0)).sum() for k in (1, 2, 3, 4, 5)]
+    # A cable stays taut while the other one snaps ever faster.
+    run = breakwater(settled_below=None).replace(amplitude_x=0.27, amplitude_y=0.135).run()
+    snaps = [((run.impacts["cable"] == k) & (run.impacts["v_n"] > 0)).sum() for k in (1, 2)]
     passed = len(run.impacts) - sum(snaps)
     assert passed > 1 and f"Impacts   {sum(snaps)}: {snaps[0]} of cable 1, " in str(run)
     assert str(run).endswith(f"; {passed} impulses passed into a taut cable")
