@@ -6,6 +6,7 @@ use crate::runs::outcome::Outcome;
 use crate::runs::quantile::{quantile, sorted};
 use crate::runs::seas::{Failing, Seas};
 use crate::runs::three_hours::NoDistribution;
+use crate::structure::THREE_HOURS_S;
 use crate::text_layout::{digits, paragraph, tenths};
 use askama::Template;
 use snapload::Stop;
@@ -58,11 +59,22 @@ impl Seas {
             VerdictKind::Breaks
         } else if failing.unknown > 0 {
             VerdictKind::Unknown
-        } else if self.breaking_only_early() > 0 {
+        } else if self.breaking_only_early() > 0 || self.is_too_short() {
             VerdictKind::Open
         } else {
             VerdictKind::Holds
         }
+    }
+
+    /// Whether records shorter than three hours say nothing of those, as lines snap in them that do
+    /// not in the records, or not in all.
+    fn is_too_short(&self) -> bool {
+        let reason = self.peak_in_three_hours().err();
+        let by_snaps = matches!(
+            reason,
+            Some(NoDistribution::MaySnap | NoDistribution::SomeWithoutSnaps(..))
+        );
+        by_snaps && self.prepared.structure.duration_s < THREE_HOURS_S
     }
 
     /// The answer in a sentence or two.

@@ -64,6 +64,7 @@ fn records_without_snaps_are_not_extrapolated_to_snaps() {
             .all(|record| record.outcome.snaps() == 0)
     );
     assert_eq!(short.peak_in_three_hours(), Err(NoDistribution::MaySnap));
+    assert_eq!(short.standing(), VerdictKind::Open);
     let words = short.words();
     assert!(
         words.contains("within three hours one may go slack and snap"),
