@@ -36,6 +36,9 @@ const LARGE_PITCH: f64 = 15.0;
 const FREE_TURN: f64 = 60.0;
 /// Records whose judged time is less than three hours divided by this say little about three hours.
 const SHORT: f64 = 12.0;
+/// Where the tensions at rest on elastic lines differ from those on inextensible lines by more than
+/// this part, so may all others, as the water then carries part of what moves the body.
+const STRETCHED: f64 = 0.1;
 /// A change of the wave's phase of this much is no longer small \[rad\].
 const MOST_PHASE: f64 = 0.3;
 
@@ -251,7 +254,15 @@ fn stretch_at_rest(rest: &Equilibrium) -> Option<Warning> {
         each_kilo(relaxed),
         each_kilo(&rest.tension_n)
     );
-    warning_if(true, "stretch at rest", [0.0; 2], &words)
+    let pairs = || rest.tension_n.iter().zip(relaxed);
+    let largest = pairs().fold(0.0_f64, |most, (a, b)| most.max(*a).max(*b));
+    let is_far = pairs().any(|(a, b)| (a - b).abs() > STRETCHED * largest);
+    let found = warning_if(true, "stretch at rest", [0.0; 2], &words);
+    found.map(|found| Warning {
+        decided_by: is_far.then_some("snapload elastic"),
+        leaves_open: is_far,
+        ..found
+    })
 }
 
 /// Tensions in kN, one after the other.

@@ -241,6 +241,32 @@ fn a_place_of_rest_below_the_given_one_is_reported_as_below() {
     );
 }
 
+/// An upright line of spring rate k carries k/(k + C33) of its load if it were inextensible, and the
+/// water the rest: 92 % is a warning, and with 88 % the verdict is left to the elastic line.
+#[test]
+fn lines_that_leave_much_of_their_load_to_the_water_leave_the_verdict_open() {
+    for (share, is_open) in [(0.92, false), (0.88, true)] {
+        let stiffness = 1025.0 * 9.81 * 80.0 * share / (1.0 - share) * 9.6;
+        let line = format!("length = 9.6\nstiffness = {stiffness}\nbreaking_load = 1e6");
+        let assessment = assess(structure(&of_its_section("", &line)), 0, &no_progress);
+        let assessment = assessment.unwrap();
+        let rest = &assessment.prepared.rest;
+        let on_spring = rest.elastic_tension_n.as_ref().expect("a warning")[0];
+        assert!((on_spring / rest.tension_n[0] - share).abs() < 1e-9);
+        let verdict = assessment.verdict();
+        let kind = if is_open {
+            VerdictKind::Open
+        } else {
+            VerdictKind::Holds
+        };
+        assert_eq!(verdict.standing, kind, "{}", verdict.words);
+        let names = verdict
+            .words
+            .contains("see stretch at rest): snapload elastic decides");
+        assert_eq!(names, is_open, "{}", verdict.words);
+    }
+}
+
 /// Four lines, two on each side, of which one is 2 mm shorter than the other: with stiffnesses they
 /// share the load as springs do, and without a stiffness the verdict is open.
 #[test]
