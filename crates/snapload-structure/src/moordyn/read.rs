@@ -76,8 +76,43 @@ pub fn read(name: &str, text: &str) -> Result<Reading, CaseError> {
     let Reader {
         tables, mut notes, ..
     } = reader;
+    let types: Vec<String> = tables
+        .lines
+        .iter()
+        .map(|row| row.type_name.clone())
+        .collect();
     let entries = tables.with_front(&sections, &mut notes)?;
+    let by_restitution = entries.table("run", 0).given("restitution").is_some();
+    let kinds = sections.rows(Section::LineTypes);
+    let used = kinds.filter(|kind| types.iter().any(|name| kind.words[0] == name));
+    notes.extend(used.flat_map(|kind| left_out_of_type(kind, by_restitution)));
     Ok(Reading { entries, notes })
+}
+
+/// Notes on the columns of a type that a case can not represent. A restitution in the front matter
+/// is what `write` made the internal damping of.
+fn left_out_of_type(kind: &Row<'_>, by_restitution: bool) -> Vec<String> {
+    let given = |index: usize, column: &str| {
+        let word = kind
+            .words
+            .get(index)
+            .filter(|word| number(word) != Some(0.0))?;
+        Some(format!("{column} = {word}"))
+    };
+    let columns = ["EI", "Cd", "Ca", "CdAx", "CaAx"];
+    let water = (5..)
+        .zip(columns)
+        .filter_map(|(index, column)| given(index, column));
+    let water = water.collect::<Vec<_>>().join(", ");
+    let name = kind.words[0];
+    let damping = given(4, "BA").filter(|_| !by_restitution);
+    let damping = damping.map(|damping| {
+        format!("Type {name}: {damping} was left out: run.restitution has its place.")
+    });
+    let water = (!water.is_empty()).then(|| {
+        format!("Type {name}: {water} left out: lines have no bending, drag or added mass.")
+    });
+    damping.into_iter().chain(water).collect()
 }
 
 struct Reader {
@@ -244,8 +279,12 @@ impl Reader {
         on_body: bool,
     ) -> Result<(), CaseError> {
         let [x, _, z] = fairlead.place(2, ["X", "Y", "Z"])?;
+        let id = row.word(0, "ID")?;
+        if self.tables.lines.iter().any(|row| row.id == id) {
+            return Err(row.refuse("ID", id, "a number that no other line has", ""));
+        }
         self.tables.lines.push(LineRow {
-            id: row.word(0, "ID")?.to_owned(),
+            id: id.to_owned(),
             type_name: row.word(1, "LineType")?.to_owned(),
             fairlead_on_body_m: on_body.then_some([x, z]),
         });

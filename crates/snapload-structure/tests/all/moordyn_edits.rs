@@ -313,6 +313,27 @@ fn rows_of_lines_keep_their_own_keys() {
     notes_of(&notes, &[]);
 }
 
+/// What a case can not represent is noted in a written file, too, and a number is that of one line.
+#[test]
+fn edits_that_a_case_can_not_have_are_reported() {
+    let text = written(&[]);
+    let kind = row(&text, "LINE TYPES", "line1");
+    let mut words: Vec<&str> = kind.split_whitespace().collect();
+    words[5..7].copy_from_slice(&["5000", "1.2"]);
+    let (_, notes) = read(&text.replace(kind, &words.join("  ")));
+    let note =
+        "Type line1: EI = 5000, Cd = 1.2 left out: lines have no bending, drag or added mass.";
+    assert_eq!(notes, [note]);
+
+    let second = row(&text, "LINES", "line2");
+    let twice = text.replace(second, &second.replacen('2', "1", 1));
+    let error = moordyn::read("lines.txt", &twice).unwrap_err().to_string();
+    assert!(
+        error.contains("ID") && error.contains("no other line has"),
+        "{error}"
+    );
+}
+
 /// A line that is added to a body which starts elsewhere is attached where the tables have it.
 #[test]
 fn an_added_line_is_drawn_with_the_body_at_its_position() {
