@@ -87,8 +87,9 @@ export function showSnaps(run) {
   const { t, line, speed, peak, utilisation, jolt, all } = run.snaps;
   const order = t.map((_, i) => i).sort((a, b) => run.hardness[b] - run.hardness[a]);
   const judged = (i) => t[i] >= run.transient_s;
-  const some = [...order.filter(judged).slice(0, LISTED), ...order.filter((i) => !judged(i)).slice(0, EARLY)];
-  const hardest = some.sort((a, b) => t[a] - t[b]);
+  const after = order.filter(judged).slice(0, LISTED);
+  const before = order.filter((i) => !judged(i)).slice(0, EARLY);
+  const hardest = [...after, ...before].sort((a, b) => t[a] - t[b]);
   const row = (i) =>
     `<tr data-t="${t[i]}"><td><button type="button" class="go" data-t="${t[i]}">${fixed(t[i], 3)}</button></td>` +
     `<td><span class="c${((line[i] - 1) % 6) + 1}">${line[i]}</span>${jolt[i] ? " impact while taut" : ""}</td>` +
@@ -96,5 +97,7 @@ export function showSnaps(run) {
     `${cell(ratio(utilisation[i]))}` +
     `<td>${t[i] < run.transient_s ? "no, in the transient" : "yes"}</td></tr>`;
   $("events-body").innerHTML = hardest.map(row).join("");
-  $("events-words").textContent = all ? `${hardest.length} of ${run.snapsInWords} at 1 cm/s or more` : "no snaps at 1 cm/s or more";
+  const early = before.length ? `, and the ${before.length} hardest before it` : "";
+  const listed = `the ${after.length} hardest in the judged time${early}, of ${run.snapsInWords} at 1 cm/s or more`;
+  $("events-words").textContent = all ? listed : "no snaps at 1 cm/s or more";
 }

@@ -61,11 +61,10 @@ export class StructureWaves {
     const what = utilisation ? "Largest utilisation" : "Fastest snap [m/s]";
     $("waves-message").textContent =
       `${what} in waves run for ${length} periods each; ×: the run fails, or the wave can not be run. ` +
-      "Motions are chaotic, so that single cells may differ from those beside them. Click a cell to run its wave.";
-    const plainly = (value) => Number(value.toPrecision(3));
+      "Motions are chaotic, so that single cells may differ from those beside them. Click a cell to run its wave for the duration of the case.";
     const cell = (i, j) => {
       const value = cells[i * heights_m.length + j];
-      const wave = `data-height="${plainly(heights_m[j])}" data-period="${plainly(periods_s[i])}"`;
+      const wave = `data-height="${heights_m[j]}" data-period="${periods_s[i]}"`;
       const kind = value === null ? "fails" : !utilisation ? "" : value >= 1 ? "breaks" : value >= 0.5 ? "near" : "";
       return `<td tabindex="-1" class="${kind}" ${wave}>${value === null ? "×" : utilisation ? ratio(value) : fixed(value, 2)}</td>`;
     };

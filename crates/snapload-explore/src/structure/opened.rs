@@ -160,11 +160,20 @@ impl Case {
         (&self.opened.name, changes.map(String::as_str).collect())
     }
 
+    /// What has to be said of that file, as a comment of a shell and of Python.
+    fn comment(&self) -> &str {
+        if self.by_set {
+            ""
+        } else {
+            "  # saved by Export"
+        }
+    }
+
     /// The command line that gives the same answer.
     pub(crate) fn command(&self, verb: &str) -> String {
         let (file, changes) = self.file_and_changes();
         let sets = changes.into_iter().flat_map(|change| ["--set", change]);
-        shell_command(["snapload", verb, file].into_iter().chain(sets))
+        shell_command(["snapload", verb, file].into_iter().chain(sets)) + self.comment()
     }
 
     /// The same in Python.
@@ -188,8 +197,9 @@ impl Case {
             false => format!(", {{{}}}", items.join(", ")),
         };
         format!(
-            "import snapload\nsnapload.Structure.from_toml({}{changes}).assess()",
-            python_text(file)
+            "import snapload\nsnapload.Structure.from_toml({}{changes}).assess(){}",
+            python_text(file),
+            self.comment()
         )
     }
 }

@@ -201,7 +201,10 @@ fn another_water_takes_the_place_of_that_of_the_file() {
         (&json!(true), &json!(400.0))
     );
     assert_eq!(first["assessment"]["end"]["t_s"], 300.0);
-    assert_eq!(first["shell"], "snapload assess case.toml");
+    assert_eq!(
+        first["shell"],
+        "snapload assess case.toml  # saved by Export"
+    );
     let whole = ask(
         &server,
         "/api/structure/run",
@@ -334,6 +337,10 @@ fn other_waves_are_those_of_the_note() {
     let cells = answer["cells"].as_array().unwrap();
     assert_eq!(cells.len(), heights.len() * periods.len());
     assert_eq!(answer["utilisation"], true);
+    // A cell is of the wave of its label, which has three digits.
+    for value in heights.iter().chain(&periods) {
+        assert_eq!(format!("{value:.2e}").parse(), Ok(*value));
+    }
     // The wave of the case is among them, run for as many periods.
     let own = |values: &[f64], value: f64| {
         let apart = |v: &f64| (v - value).abs() < 1e-9;

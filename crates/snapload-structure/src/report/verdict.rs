@@ -94,6 +94,10 @@ struct VerdictText<'a> {
     /// Whether the run ended before the judged time.
     unjudged: bool,
     elastic: bool,
+    /// The factor by which the lines are stiffer than given.
+    stiffer: f64,
+    /// Whether each line's stiffness is known.
+    stiffness_known: bool,
 }
 
 #[derive(Template)]
@@ -191,14 +195,15 @@ impl Early {
 }
 
 /// The verdict: whether the lines go slack, how hard they snap, and whether one breaks;
-/// `elastic` says whether the lines are elastic.
+/// elastic lines are so many times stiffer than given.
 fn verdict(
     structure: &Structure,
     outcome: &Outcome,
     warnings: &[Warning],
     early: Option<Early>,
-    elastic: bool,
+    stiffer: Option<f64>,
 ) -> Verdict {
+    let elastic = stiffer.is_some();
     let lines = (1..)
         .zip(&outcome.lines)
         .zip(outcome.utilisations(structure));
@@ -240,6 +245,8 @@ fn verdict(
         open,
         unjudged: outcome.is_unjudged(),
         elastic,
+        stiffer: stiffer.unwrap_or(1.0),
+        stiffness_known: structure.tensions_known(),
     };
     Verdict {
         standing,
@@ -278,7 +285,13 @@ impl ElasticComparison {
                 .map(|load| pull.peak_n / load),
         });
         let early = Early::hardest(early, structure, outcome);
-        verdict(structure, outcome, &self.warnings(), early, true)
+        verdict(
+            structure,
+            outcome,
+            &self.warnings(),
+            early,
+            Some(self.stiffer),
+        )
     }
 }
 
@@ -302,7 +315,7 @@ impl Assessment {
         // Of equal loads the snap is named, as it has a speed.
         let early = Early::taut_or_snap(structure, outcome).chain(early);
         let early = Early::hardest(early, structure, outcome);
-        let alone = verdict(structure, outcome, &self.warnings, early, false);
+        let alone = verdict(structure, outcome, &self.warnings, early, None);
         self.with_neighbours_in(alone)
     }
 

@@ -63,7 +63,7 @@ pub fn compare_elastic(
     let elastic = run_elastic(&elastic_case, &elastic_lines, every_s, on_progress)?;
     let elastic_took_s = clock.elapsed().as_secs_f64();
     let inextensible = match prepared.starts_within_reach() {
-        true => Some(Inextensible::of(&prepared)?),
+        true => Some(Inextensible::of(&prepared, stiffer)?),
         false => None,
     };
     Ok(ElasticComparison {
@@ -106,8 +106,14 @@ impl ElasticComparison {
 }
 
 impl Inextensible {
-    fn of(prepared: &ModelAtRest) -> Result<Self, CaseError> {
+    /// The tensions of its snaps are those of lines `stiffer` times as stiff as given.
+    fn of(prepared: &ModelAtRest, stiffer: f64) -> Result<Self, CaseError> {
         let clock = Instant::now();
+        let mut prepared = prepared.clone();
+        for line in &mut prepared.structure.lines {
+            line.stiffness_n = line.stiffness_n.map(|stiffness| stiffness * stiffer);
+        }
+        let prepared = &prepared;
         let mut simulation = prepared.begin(1.0)?;
         let (mut snaps, mut slack) = (Vec::new(), vec![0.0; prepared.structure.lines.len()]);
         while let Some(step) = simulation.step() {

@@ -35,7 +35,7 @@ pub fn scan(structure: &Structure, on_progress: OnProgress) -> Result<Option<Sca
     };
     let spaced = |[low, high]: [f64; 2], value: f64| -> Vec<f64> {
         let part = |k: u32| low + (high - low) * f64::from(k) / f64::from(STEPS - 1);
-        (0..STEPS).map(|k| value * part(k)).collect()
+        (0..STEPS).map(|k| shown(value * part(k))).collect()
     };
     let (periods_s, heights_m) = (
         spaced(PERIODS, wave.period_s),
@@ -57,6 +57,11 @@ pub fn scan(structure: &Structure, on_progress: OnProgress) -> Result<Option<Sca
         periods_s,
         heights_m,
     }))
+}
+
+/// A height or a period in three digits, as a table shows it: the cell is of that very wave.
+fn shown(value: f64) -> f64 {
+    format!("{value:.2e}").parse().unwrap_or(value)
 }
 
 fn one(structure: &Structure, wave: Wave) -> Option<f64> {

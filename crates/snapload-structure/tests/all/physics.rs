@@ -2,7 +2,7 @@
 
 use snapload::analysis::no_progress;
 use snapload::{Impact, Playback, State};
-use snapload_structure::{ModelAtRest, Snap, Structure, assess, snaps};
+use snapload_structure::{ModelAtRest, Snap, Structure, assess, compare_elastic, snaps};
 use std::f64::consts::PI;
 
 const EXAMPLE: &str = include_str!("../../../../docs/examples/cylinder.toml");
@@ -358,5 +358,33 @@ fn double_lines_run_to_the_end_and_share_evenly() {
             assert!((a / b - 1.0).abs() < 1e-6, "{a} {b}");
             assert!((pair[0].peak_n.unwrap() / pair[1].peak_n.unwrap() - 1.0).abs() < 1e-6);
         }
+    }
+}
+
+/// Snaps beside lines that are a hundred times as stiff as given have the tension of such lines:
+/// (P − T)² − T² = u² k m, with the load T at rest.
+#[test]
+fn snaps_beside_stiffer_lines_are_of_stiffer_lines() {
+    let snaps_of = |stiffer: f64| {
+        let text = EXAMPLE.replace("[run]", "[run]\nduration = 12");
+        let prepared = ModelAtRest::new(Structure::parse("case", &text).unwrap()).unwrap();
+        let found = compare_elastic(prepared, stiffer, f64::INFINITY, &no_progress).unwrap();
+        let words = found.verdict().words;
+        let named = words.contains("for lines of 100 times the given stiffness");
+        assert_eq!(named, stiffer != 1.0, "{words}");
+        found
+    };
+    let (given, stiff) = (snaps_of(1.0), snaps_of(100.0));
+    let rest_n = &given.prepared.rest.tension_n;
+    let snaps = |of: &snapload_structure::ElasticComparison| of.inextensible.clone().unwrap().snaps;
+    let pairs: Vec<_> = snaps(&given).into_iter().zip(snaps(&stiff)).collect();
+    assert!(pairs.len() > 10);
+    for (soft, hard) in pairs {
+        let work = |snap: &Snap| {
+            let above = snap.energy_peak_n.unwrap() - rest_n[snap.line];
+            above.powi(2) - rest_n[snap.line].powi(2)
+        };
+        assert_eq!((soft.line, soft.t_s), (hard.line, hard.t_s));
+        assert!((work(&hard) / (100.0 * work(&soft)) - 1.0).abs() < 1e-9);
     }
 }
