@@ -72,7 +72,11 @@ impl Seas {
         let reason = self.peak_in_three_hours().err();
         let by_snaps = matches!(
             reason,
-            Some(NoDistribution::MaySnap | NoDistribution::SomeWithoutSnaps(..))
+            Some(
+                NoDistribution::MaySnap
+                    | NoDistribution::MayBecomeTaut
+                    | NoDistribution::SomeWithoutSnaps(..)
+            )
         );
         by_snaps && self.prepared.structure.duration_s < THREE_HOURS_S
     }

@@ -1,5 +1,6 @@
 //! The distribution of the largest load of a sea in three hours, or why none is given.
 
+use super::outcome::{LineOutcome, Outcome};
 use super::seas::Seas;
 use crate::physics::gumbel::Gumbel;
 use crate::structure::THREE_HOURS_S;
@@ -23,6 +24,9 @@ pub enum NoDistribution {
     NoSnaps,
     /// No line snaps in the records, but one may go slack within three hours, and then snap.
     MaySnap,
+    /// No line snaps in the records, but one that is slack at rest may become taut within three
+    /// hours, and then snap.
+    MayBecomeTaut,
     /// All records have the same largest value.
     AllEqual,
 }
@@ -53,6 +57,11 @@ impl fmt::Display for NoDistribution {
                 f,
                 "no line snaps in the records, but within three hours one may go slack and snap: {longer}"
             ),
+            Self::MayBecomeTaut => write!(
+                f,
+                "no line snaps in the records, but within three hours one that is slack at rest may become taut and \
+                 snap: {longer}"
+            ),
             Self::AllEqual => f.write_str("all records have the same largest value"),
         }
     }
@@ -67,9 +76,7 @@ impl Seas {
         self.check_whole()?;
         let largest = self.largest_n().ok_or(NoDistribution::TensionsUnknown)?;
         self.check_snaps()?;
-        if self.without_snaps() == self.records.len() && self.may_snap() {
-            return Err(NoDistribution::MaySnap);
-        }
+        self.check_beyond()?;
         self.fit(&known(&largest))
     }
 
@@ -115,29 +122,43 @@ impl Seas {
         Ok(())
     }
 
-    /// Whether a line may go slack within three hours although none does in the records: the
-    /// distribution of tensions without snaps ends there. The largest loss of tension of each
-    /// record, as a part of the tension at rest, is extrapolated, and the value that 99 % stay
-    /// below must be less than one by more than two standard errors.
-    fn may_snap(&self) -> bool {
+    /// The distribution of tensions without snaps ends where a line goes slack that has tension at
+    /// rest, or becomes taut that has none. If no line snaps in the records, neither may happen
+    /// within three hours.
+    fn check_beyond(&self) -> Result<(), NoDistribution> {
+        if self.without_snaps() < self.records.len() {
+            return Ok(());
+        }
         let rest_n = self.prepared.rest.inextensible_tensions_n();
-        let losses: Vec<f64> = self
-            .outcomes()
-            .map(|outcome| {
-                let lines = outcome.lines.iter().zip(rest_n);
-                let losses = lines.filter_map(|(line, rest_n)| {
-                    let least_n = line.least_n.filter(|_| *rest_n > 0.0)?;
-                    Some(1.0 - least_n / rest_n)
-                });
-                losses.fold(0.0, f64::max)
-            })
-            .collect();
-        match self.fit(&losses) {
+        let lost = |index: usize, line: &LineOutcome| {
+            let least_n = line.least_n.filter(|_| rest_n[index] > 0.0)?;
+            Some(1.0 - least_n / rest_n[index])
+        };
+        if self.may_reach_one(lost) {
+            return Err(NoDistribution::MaySnap);
+        }
+        match self.may_reach_one(|_, line| line.slack_used) {
+            true => Err(NoDistribution::MayBecomeTaut),
+            false => Ok(()),
+        }
+    }
+
+    /// Whether a part that each line loses or uses up may reach one within three hours. The largest
+    /// of each record is extrapolated, and the value that 99 % stay below must be less than one by
+    /// more than two standard errors.
+    fn may_reach_one(&self, part: impl Fn(usize, &LineOutcome) -> Option<f64>) -> bool {
+        let of_record = |outcome: &Outcome| {
+            let lines = outcome.lines.iter().enumerate();
+            let parts = lines.filter_map(|(index, line)| part(index, line));
+            parts.fold(0.0, f64::max)
+        };
+        let parts: Vec<f64> = self.outcomes().map(of_record).collect();
+        match self.fit(&parts) {
             Ok(fit) => {
                 let nearly_all = fit.quantile(0.99);
                 nearly_all.value + 2.0 * nearly_all.error >= 1.0
             }
-            Err(_) => losses.iter().any(|loss| *loss >= 1.0),
+            Err(_) => parts.iter().any(|part| *part >= 1.0),
         }
     }
 

@@ -10,6 +10,29 @@ use snapload_structure::{
 const EXAMPLE: &str = include_str!("../../../../docs/examples/cylinder.toml");
 const SEA: &str = include_str!("../../../../docs/examples/cylinder-sea.toml");
 
+/// The example on one line above its centre, with two guys of chain that are slack at rest, as they
+/// are 0.4 m longer than the distance from (∓6, -10) to (0, -3.5).
+fn guyed(duration: f64, seed: u64) -> Structure {
+    let guy = |x: f64| line(x, -3.5, 8.846 + 0.4);
+    let (body, rest) = SEA.split_once("[[line]]").unwrap();
+    let rest = &rest[rest.find("[site]").unwrap()..];
+    let body = body.replace(
+        "[body]",
+        "[body]\nturning_damping = 5e4\nlinear_damping = 3e4",
+    );
+    let rest = rest.replace("hs = 1.2", &format!("hs = 0.3\nseed = {seed}"));
+    let lines = line(0.0, -5.0, 5.0) + &guy(-6.0) + &guy(6.0);
+    structure(&format!("{body}{lines}{rest}\nduration = {duration}\n"))
+}
+
+/// A line of chain from the floor at x to the middle of the body at z.
+fn line(x: f64, z: f64, length: f64) -> String {
+    format!(
+        "[[line]]\nanchor = [{x}, -10]\nfairlead = [0, {z}]\nlength = {length}\n\
+         type = \"studless chain\"\ndiameter = 0.038\n"
+    )
+}
+
 /// Records of the sea of the example, with these significant height, duration and further keys of
 /// `[run]`.
 fn records(hs: f64, duration: f64, run: &str, count: u32) -> Seas {
@@ -72,6 +95,58 @@ fn records_without_snaps_are_not_extrapolated_to_snaps() {
     );
     let long = records(0.15, 10_860.0, "transient = 60", 1);
     assert!(long.records[0].outcome.largest_n() > 1.1e6);
+}
+
+/// A line that is slack at rest has no tension to lose, and snaps where it becomes taut: the short
+/// records lack that, and in three hours a record of the same sea breaks a line.
+#[test]
+fn records_in_which_a_slack_line_stays_slack_are_not_extrapolated_to_snaps() {
+    let run = |duration, seed, count| {
+        let structure = guyed(duration, seed);
+        seas(structure, count, Lines::Inextensible, &no_progress).unwrap()
+    };
+    let short = run(960.0, 1, 6);
+    for outcome in short.records.iter().map(|record| &record.outcome) {
+        assert!(outcome.lines[1..].iter().all(|l| l.slack_fraction == 1.0));
+        assert!(outcome.lines[0].least_n.unwrap() > 0.9 * short.prepared.rest.tension_n[0]);
+    }
+    let reason = NoDistribution::MayBecomeTaut;
+    assert_eq!(short.peak_in_three_hours(), Err(reason));
+    assert_eq!(short.standing(), VerdictKind::Open);
+    let words = short.words();
+    assert!(words.contains("may become taut and snap"), "{words}");
+    assert_eq!(run(10_800.0, 3, 1).failing().count, 1);
+}
+
+/// The part of its slack that a line uses up is that of the distances from its anchor along the
+/// motion, and 1 where an elastic line pulls.
+#[test]
+fn the_slack_that_is_used_up_is_a_part_of_a_distance() {
+    let run = Assessment::single_run(guyed(300.0, 1), &no_progress).unwrap();
+    let times: Vec<f64> = (0..=24_000).map(|k| 60.0 + f64::from(k) * 0.01).collect();
+    let motion = run.motion_at(&times).unwrap();
+    // The fairlead is the centre of the body at rest.
+    let lacks = |[x, z]: [f64; 2], anchor: f64| 9.246 - (x - anchor).hypot(z + 10.0);
+    for (line, anchor) in [(1, -6.0), (2, 6.0)] {
+        let lacking = motion.iter().map(|at| lacks(at.place_m, anchor));
+        let used = 1.0 - lacking.fold(f64::INFINITY, f64::min) / lacks([0.0, -3.5], anchor);
+        let found = run.outcome.lines[line].slack_used.unwrap();
+        assert!((found / used - 1.0).abs() < 0.01, "{found} {used}");
+    }
+    assert_eq!(run.outcome.lines[0].slack_used, None);
+    let mut rough = guyed(300.0, 1);
+    let Water::Sea(sea) = &mut rough.water else {
+        panic!("a sea");
+    };
+    sea.significant_height_m = 1.2;
+    let elastic = seas(rough, 1, Lines::Elastic, &no_progress).unwrap();
+    let lines = &elastic.records[0].outcome.lines;
+    assert_eq!(lines[0].slack_used, None);
+    for line in &lines[1..] {
+        let pulls = line.largest_taut_n > 0.0;
+        assert_eq!(line.slack_used.unwrap() >= 1.0, pulls);
+    }
+    assert!(lines[1..].iter().any(|line| line.largest_taut_n > 0.0));
 }
 
 /// Of records that are cut short it is known that they fail if a line breaks before they end, and
