@@ -59,26 +59,19 @@ impl Seas {
             VerdictKind::Breaks
         } else if failing.unknown > 0 {
             VerdictKind::Unknown
-        } else if self.breaking_only_early() > 0 || self.is_too_short() {
+        } else if self.breaking_only_early() > 0 || self.too_short().is_some() {
             VerdictKind::Open
         } else {
             VerdictKind::Holds
         }
     }
 
-    /// Whether records shorter than three hours say nothing of those, as lines snap in them that do
-    /// not in the records, or not in all.
-    fn is_too_short(&self) -> bool {
-        let reason = self.peak_in_three_hours().err();
-        let by_snaps = matches!(
-            reason,
-            Some(
-                NoDistribution::MaySnap
-                    | NoDistribution::MayBecomeTaut
-                    | NoDistribution::SomeWithoutSnaps(..)
-            )
-        );
-        by_snaps && self.prepared.structure.duration_s < THREE_HOURS_S
+    /// Why records that are shorter than three hours do not tell whether a line breaks in those: lines
+    /// may snap in them that do not in the records, or there are too few. Tensions need not be
+    /// known for that.
+    fn too_short(&self) -> Option<NoDistribution> {
+        let short = self.prepared.structure.duration_s < THREE_HOURS_S;
+        self.check_beyond().err().filter(|_| short)
     }
 
     /// The answer in a sentence or two.

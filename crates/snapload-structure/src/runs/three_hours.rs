@@ -75,7 +75,6 @@ impl Seas {
     pub fn peak_in_three_hours(&self) -> Result<Gumbel, NoDistribution> {
         self.check_whole()?;
         let largest = self.largest_n().ok_or(NoDistribution::TensionsUnknown)?;
-        self.check_snaps()?;
         self.check_beyond()?;
         self.fit(&known(&largest))
     }
@@ -125,7 +124,8 @@ impl Seas {
     /// The distribution of tensions without snaps ends where a line goes slack that has tension at
     /// rest, or becomes taut that has none. If no line snaps in the records, neither may happen
     /// within three hours.
-    fn check_beyond(&self) -> Result<(), NoDistribution> {
+    pub(crate) fn check_beyond(&self) -> Result<(), NoDistribution> {
+        self.check_snaps()?;
         if self.without_snaps() < self.records.len() {
             return Ok(());
         }

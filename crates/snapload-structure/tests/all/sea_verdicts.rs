@@ -97,6 +97,29 @@ fn records_without_snaps_are_not_extrapolated_to_snaps() {
     assert!(long.records[0].outcome.largest_n() > 1.1e6);
 }
 
+/// The first records of a sea never tell more than all of them: where all leave the verdict open, so
+/// does one, unless a line breaks in it. Nor do records tell more if tensions of snaps are not known.
+#[test]
+fn fewer_records_do_not_make_a_sea_safe() {
+    let mut few = records(0.15, 1260.0, "transient = 60", 4);
+    for count in (1..=4).rev() {
+        few.records.truncate(count);
+        assert_eq!(few.standing(), VerdictKind::Open, "{count}");
+        let mut without = few.clone();
+        for line in &mut without.prepared.structure.lines {
+            line.stiffness_n = None;
+        }
+        let reason = NoDistribution::TensionsUnknown;
+        assert_eq!(without.peak_in_three_hours(), Err(reason));
+        assert_eq!(without.standing(), VerdictKind::Open, "{count}");
+    }
+    let reached = few.largest_n().unwrap()[0].unwrap();
+    for line in &mut few.prepared.structure.lines {
+        line.breaking_load_n = Some(0.999 * reached);
+    }
+    assert_eq!(few.standing(), VerdictKind::Breaks);
+}
+
 /// A line that is slack at rest has no tension to lose, and snaps where it becomes taut: the short
 /// records lack that, and in three hours a record of the same sea breaks a line.
 #[test]
