@@ -12,6 +12,14 @@ use askama::Template;
 use snapload::Stop;
 use snapload::analysis::Share;
 
+/// Why records that are shorter than three hours do not tell whether a line breaks in those.
+enum TooShort {
+    /// Lines may snap that do not in the records, or there are too few.
+    Snaps,
+    /// The distribution of the largest ratio of tension to breaking load, which may reach one.
+    Overload(Gumbel),
+}
+
 #[derive(Template)]
 #[template(path = "seas-words.txt")]
 struct SeasVerdictText {
@@ -29,6 +37,8 @@ struct SeasVerdictText {
     cut_short: bool,
     /// The violated rules that leave the verdict open.
     open: Option<OpenRules>,
+    /// What leaves it open for three hours.
+    too_short: Option<TooShort>,
 }
 
 impl Seas {
@@ -66,12 +76,16 @@ impl Seas {
         }
     }
 
-    /// Why records that are shorter than three hours do not tell whether a line breaks in those: lines
-    /// may snap in them that do not in the records, or there are too few. Tensions need not be
-    /// known for that.
-    fn too_short(&self) -> Option<NoDistribution> {
-        let short = self.prepared.structure.duration_s < THREE_HOURS_S;
-        self.check_beyond().err().filter(|_| short)
+    /// Why shorter records do not tell whether a line breaks in three hours. Whether lines may snap
+    /// can be known without their tensions.
+    fn too_short(&self) -> Option<TooShort> {
+        if self.prepared.structure.duration_s >= THREE_HOURS_S {
+            return None;
+        }
+        match self.check_beyond() {
+            Err(_) => Some(TooShort::Snaps),
+            Ok(()) => self.overload_in_three_hours().map(TooShort::Overload),
+        }
     }
 
     /// The answer in a sentence or two.
@@ -91,6 +105,9 @@ impl Seas {
             probability: self.probability(),
             cut_short: self.outcomes().any(cut_short),
             open: undecided_by(&self.warnings),
+            too_short: self
+                .too_short()
+                .filter(|_| self.standing() == VerdictKind::Open),
         })
     }
 }

@@ -92,6 +92,20 @@ impl Seas {
         self.fit(&known(&self.speeds_m_s()))
     }
 
+    /// The distribution of the largest ratio of a tension to the breaking load of its line in three
+    /// hours, if that may reach one: the value that 90 % stay below is not less than one by more than
+    /// two standard errors. Each line is compared with its own breaking load.
+    pub(crate) fn overload_in_three_hours(&self) -> Option<Gumbel> {
+        let structure = &self.prepared.structure;
+        let of_record = |outcome: &Outcome| {
+            let known: Option<Vec<f64>> = outcome.utilisations(structure).into_iter().collect();
+            known?.into_iter().reduce(f64::max)
+        };
+        let largest: Option<Vec<f64>> = self.outcomes().map(of_record).collect();
+        let fit = self.fit(&largest?).ok()?;
+        may_reach_one(&fit, 0.9).then_some(fit)
+    }
+
     /// Records that ended early would be records of a shorter time.
     fn check_whole(&self) -> Result<(), NoDistribution> {
         let records = self.records.len();
@@ -134,19 +148,18 @@ impl Seas {
             let least_n = line.least_n.filter(|_| rest_n[index] > 0.0)?;
             Some(1.0 - least_n / rest_n[index])
         };
-        if self.may_reach_one(lost) {
+        if self.part_may_reach_one(lost) {
             return Err(NoDistribution::MaySnap);
         }
-        match self.may_reach_one(|_, line| line.slack_used) {
+        match self.part_may_reach_one(|_, line| line.slack_used) {
             true => Err(NoDistribution::MayBecomeTaut),
             false => Ok(()),
         }
     }
 
-    /// Whether a part that each line loses or uses up may reach one within three hours. The largest
-    /// of each record is extrapolated, and the value that 99 % stay below must be less than one by
-    /// more than two standard errors.
-    fn may_reach_one(&self, part: impl Fn(usize, &LineOutcome) -> Option<f64>) -> bool {
+    /// Whether the largest part that a line of a record loses or uses up may reach one within three
+    /// hours, in more than one of a hundred seas.
+    fn part_may_reach_one(&self, part: impl Fn(usize, &LineOutcome) -> Option<f64>) -> bool {
         let of_record = |outcome: &Outcome| {
             let lines = outcome.lines.iter().enumerate();
             let parts = lines.filter_map(|(index, line)| part(index, line));
@@ -154,10 +167,7 @@ impl Seas {
         };
         let parts: Vec<f64> = self.outcomes().map(of_record).collect();
         match self.fit(&parts) {
-            Ok(fit) => {
-                let nearly_all = fit.quantile(0.99);
-                nearly_all.value + 2.0 * nearly_all.error >= 1.0
-            }
+            Ok(fit) => may_reach_one(&fit, 0.99),
             Err(_) => parts.iter().any(|part| *part >= 1.0),
         }
     }
@@ -168,6 +178,13 @@ impl Seas {
         let fit = Gumbel::fit(largest).ok_or(NoDistribution::AllEqual)?;
         Ok(fit.over_times(THREE_HOURS_S / judged_s))
     }
+}
+
+/// Whether the value that a part of all stay below is not less than one by more than two standard
+/// errors.
+fn may_reach_one(fit: &Gumbel, part: f64) -> bool {
+    let quantile = fit.quantile(part);
+    quantile.value + 2.0 * quantile.error >= 1.0
 }
 
 /// The values of the judged records.
