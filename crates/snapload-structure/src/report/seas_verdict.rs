@@ -15,7 +15,7 @@ use snapload::analysis::Share;
 /// Why records that are shorter than three hours do not tell whether a line breaks in those.
 enum TooShort {
     /// Lines may snap that do not in the records, or there are too few.
-    Snaps,
+    Snaps(NoDistribution),
     /// The distribution of the largest ratio of tension to breaking load, which may reach one.
     Overload(Gumbel),
 }
@@ -39,6 +39,7 @@ struct SeasVerdictText {
     open: Option<OpenRules>,
     /// What leaves it open for three hours.
     too_short: Option<TooShort>,
+    standing: VerdictKind,
 }
 
 impl Seas {
@@ -83,7 +84,7 @@ impl Seas {
             return None;
         }
         match self.check_beyond() {
-            Err(_) => Some(TooShort::Snaps),
+            Err(reason) => Some(TooShort::Snaps(reason)),
             Ok(()) => self.overload_in_three_hours().map(TooShort::Overload),
         }
     }
@@ -92,6 +93,7 @@ impl Seas {
     pub fn words(&self) -> String {
         let speeds = sorted(self.speeds_m_s().into_iter().flatten());
         let structure = &self.prepared.structure;
+        let standing = self.standing();
         let cut_short = |one: &Outcome| one.fails(structure).is_none() && one.stop != Stop::EndTime;
         paragraph(&SeasVerdictText {
             early: self.breaking_only_early(),
@@ -105,9 +107,8 @@ impl Seas {
             probability: self.probability(),
             cut_short: self.outcomes().any(cut_short),
             open: undecided_by(&self.warnings),
-            too_short: self
-                .too_short()
-                .filter(|_| self.standing() == VerdictKind::Open),
+            too_short: self.too_short().filter(|_| standing == VerdictKind::Open),
+            standing,
         })
     }
 }

@@ -116,12 +116,26 @@ fn fewer_records_do_not_make_a_sea_safe() {
         let reason = NoDistribution::TensionsUnknown;
         assert_eq!(without.peak_in_three_hours(), Err(reason));
         assert_eq!(without.standing(), VerdictKind::Open, "{count}");
+        // What is open is told with its reason, once, in the text as in JSON.
+        let open = "Whether a line breaks within three hours is open, as the records are shorter";
+        let reason = if count < 3 {
+            "too few: run more"
+        } else {
+            "one may go slack and snap"
+        };
+        for seas in [&few, &without] {
+            assert_eq!(seas.to_json("case")["standing"], "open");
+            let words = seas.words();
+            assert_eq!(words.matches(open).count(), 1, "{words}");
+            assert_eq!(words.matches(reason).count(), 1, "{words}");
+        }
     }
     let reached = few.largest_n().unwrap()[0].unwrap();
     for line in &mut few.prepared.structure.lines {
         line.breaking_load_n = Some(0.999 * reached);
     }
-    assert_eq!(few.standing(), VerdictKind::Breaks);
+    assert_eq!(few.to_json("case")["standing"], "breaks");
+    assert!(!few.words().contains("is open"));
 }
 
 /// Records of 80 minutes in all do not show that a line stays below a load in three hours that is one
@@ -331,7 +345,7 @@ fn a_sea_in_which_a_line_breaks_early_is_open() {
     assert_eq!(seas.standing(), VerdictKind::Open);
     assert_eq!(alone(&seas, 1).verdict().standing, VerdictKind::Open);
     let page = note::seas_page(source("case"), &seas).unwrap();
-    assert!(page.contains("verdict open"));
+    assert!(page.contains("verdict open") && page.contains("so the verdict is open"));
 }
 
 /// What neighbours and other restitutions would change is said of every verdict: of one that is open
