@@ -2,7 +2,6 @@
 
 use super::verdict::{OpenRules, VerdictKind, undecided_by};
 use crate::physics::gumbel::Gumbel;
-use crate::runs::outcome::Outcome;
 use crate::runs::quantile::{quantile, sorted};
 use crate::runs::seas::{Failing, Seas};
 use crate::runs::three_hours::NoDistribution;
@@ -33,8 +32,10 @@ struct SeasVerdictText {
     median_m_s: f64,
     failing: Failing,
     probability: Option<Share>,
-    /// Whether records ended early of which it is therefore not known whether they fail.
-    cut_short: bool,
+    /// Of the records of which it is not known whether they fail, the number that ended early.
+    cut_short: usize,
+    /// Whether it is not known of some of them for a lack of a tension or a breaking load.
+    lacking: bool,
     /// The violated rules that leave the verdict open.
     open: Option<OpenRules>,
     /// What leaves it open for three hours.
@@ -94,7 +95,7 @@ impl Seas {
         let speeds = sorted(self.speeds_m_s().into_iter().flatten());
         let structure = &self.prepared.structure;
         let standing = self.standing();
-        let cut_short = |one: &Outcome| one.fails(structure).is_none() && one.stop != Stop::EndTime;
+        let unknown = || self.outcomes().filter(|one| one.fails(structure).is_none());
         paragraph(&SeasVerdictText {
             early: self.breaking_only_early(),
             transient_s: structure.transient_s,
@@ -105,7 +106,8 @@ impl Seas {
             median_m_s: quantile(&speeds, 0.5).unwrap_or(0.0),
             failing: self.failing(),
             probability: self.probability(),
-            cut_short: self.outcomes().any(cut_short),
+            cut_short: unknown().filter(|one| one.stop != Stop::EndTime).count(),
+            lacking: unknown().any(|one| one.lacks_a_load(structure)),
             open: undecided_by(&self.warnings),
             too_short: self.too_short().filter(|_| standing == VerdictKind::Open),
             standing,

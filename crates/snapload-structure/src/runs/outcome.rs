@@ -144,6 +144,15 @@ impl Outcome {
         whole.then_some(false)
     }
 
+    /// Whether a breaking load is not known, or a tension in the judged time.
+    pub(crate) fn lacks_a_load(&self, structure: &Structure) -> bool {
+        let mut lines = self.lines.iter().zip(&structure.lines);
+        lines.any(|(outcome, line)| {
+            let judged = outcome.least_n.is_some();
+            line.breaking_load_n.is_none() || judged && outcome.largest_n().is_none()
+        })
+    }
+
     /// The largest tension of each line divided by its breaking load, if that is known.
     pub fn utilisations(&self, structure: &Structure) -> Vec<Option<f64>> {
         let one = |(outcome, line): (&LineOutcome, &crate::structure::LineSi)| {

@@ -269,7 +269,32 @@ fn records_that_end_early_have_no_probability() {
         let page = note::seas_page(source("case"), seas).unwrap();
         assert!(!page.contains("verdict holds"), "{words}");
     }
-    assert!(strong.words().contains("as they ended before their time"));
+    assert!(
+        strong
+            .words()
+            .contains("in 4 of 4 records, as they ended before their time.")
+    );
+}
+
+/// Longer records answer only where they ended early: if a breaking load is not known either, both
+/// reasons are told.
+#[test]
+fn every_reason_why_records_are_not_known_is_told() {
+    let mut seas = records(1.2, 900.0, "max_snaps = 300", 3);
+    seas.prepared.structure.lines[0].breaking_load_n = Some(1e9);
+    seas.prepared.structure.lines[1].breaking_load_n = None;
+    let lacking = "a tension or a breaking load is not known: give each line type";
+    let both = format!("in 3 of 3 records, as 3 of them ended before their time, and {lacking}");
+    assert!(seas.words().contains(&both), "{}", seas.words());
+    seas.records[0].outcome.stop = Stop::EndTime;
+    let both = format!("in 3 of 3 records, as 2 of them ended before their time, and {lacking}");
+    assert!(seas.words().contains(&both), "{}", seas.words());
+    seas.records.truncate(1);
+    let one = format!("in 1 of 1 record, as {lacking}");
+    assert!(seas.words().contains(&one), "{}", seas.words());
+    seas.records[0].outcome.stop = Stop::ImpactLimit;
+    let both = format!("in 1 of 1 record, as it ended before its time, and {lacking}");
+    assert!(seas.words().contains(&both), "{}", seas.words());
 }
 
 /// A line that breaks is told although the breaking load of another one is not known.
