@@ -339,7 +339,7 @@ class Structure:
         >>> import snapload
         >>> sea = {"sea.hs": 2, "sea.tp": 6, "run.duration": 600}
         >>> snapload.Structure.example().without("wave").replace(sea).seas(seeds=4)
-        <Seas: 4 records>
+        <Seas: breaks, 4 records>
         """
         seeds = whole_number("seeds", seeds)
         with progress_bar("seas", seeds, progress) as report_progress:

@@ -219,11 +219,33 @@ class Seas(StructureResult):
         super().__init__(json.loads(text), summary)
 
     @property
+    def standing(self) -> str:
+        """The verdict in one word: ``holds``, ``breaks``, ``open`` or ``unknown``.
+
+        ``breaks`` means that a line breaks in at least one record, or the body turns over or reaches the sea floor.
+        ``open`` means that the tensions are not reliable, that a line would break before anything is judged, or that
+        the records are too short or too few to tell whether one breaks in three hours.
+
+        See Also
+        --------
+        snapload.Seas.words : The result in a sentence or two.
+
+        Examples
+        --------
+        >>> import snapload
+        >>> sea = {"sea.hs": 2, "sea.tp": 6, "run.duration": 600}
+        >>> snapload.Structure.example().without("wave").replace(sea).seas(seeds=4).standing
+        'breaks'
+        """
+        return str(self.data["standing"])
+
+    @property
     def words(self) -> str:
         """The result in a sentence or two.
 
         See Also
         --------
+        snapload.Seas.standing : The verdict in one word.
         snapload.Seas.largest_tensions_n : The largest tensions, on which it is based.
 
         Examples
@@ -300,7 +322,7 @@ class Seas(StructureResult):
         Path(path).write_text(self._page, encoding="utf-8", newline="\n")
 
     def __repr__(self) -> str:
-        return f"<Seas: {self.data['records']} records>"
+        return f"<Seas: {self.standing}, {self.data['records']} records>"
 
 
 class Elastic(RepeatableResult[_engine.Elastic]):

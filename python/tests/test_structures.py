@@ -39,6 +39,7 @@ def test_seas_are_those_of_the_command(command_json: Callable[..., Any]) -> None
     data = snapload.Structure.from_toml(sea, {"run.duration": 330}).seas(seeds=3, elastic=True)
     assert data.data == expected
     assert data.largest_tensions_n.values.tolist() == expected["largest_tensions_n"]
+    assert data.standing == expected["standing"] in repr(data)
 
 
 def test_motion_and_snaps_have_units() -> None:

@@ -20,7 +20,7 @@ use std::f64::consts::FRAC_PI_2;
 const BALANCED: f64 = 1e-9;
 /// A line counts as taut at rest if its gap is within this of zero, which is 0.1 µm on a line of
 /// 100 m.
-const TOUCHING: f64 = 1e-9;
+pub(super) const TOUCHING: f64 = 1e-9;
 /// The most steps of Newton's method.
 const STEPS: usize = 30;
 /// Step of the difference quotients for the derivatives of the normals.

@@ -2,7 +2,9 @@
 
 use super::afloat::{TautMode, model, rest_afloat};
 use super::elastic::undamped;
-use super::equilibrium::{DistributionByStiffness, Equilibrium, equilibrium, steady_load_error};
+use super::equilibrium::{
+    DistributionByStiffness, Equilibrium, TOUCHING, equilibrium, steady_load_error,
+};
 use super::model::{CURRENT, Model};
 use crate::structure::{IrregularSea, Structure, Water};
 use snapload::{CaseError, Simulation, StartError, State, Stop};
@@ -205,6 +207,31 @@ impl ModelAtRest {
     /// The state in which it begins, in the engine's units.
     pub fn start(&self) -> State {
         self.start
+    }
+
+    /// The largest part of its slack at rest that a line uses up in some states: 0 as at rest, 1
+    /// where it is taut; none for a line with tension at rest.
+    pub(crate) fn slack_used(
+        &self,
+        line: usize,
+        states: impl IntoIterator<Item = State>,
+    ) -> Option<f64> {
+        if self.rest.inextensible_tensions_n()[line] > 0.0 {
+            return None;
+        }
+        let cable = &self.model.system.cables[line];
+        // The distance that it lacks to be taut, from the gap |d|² − r², which is free of
+        // cancellation.
+        let lacks = |at: &State| {
+            let lacks = -cable.gap(at) / (cable.span(at).length() + cable.length());
+            (lacks > TOUCHING).then_some(lacks)
+        };
+        let rest = self.model.at_rest(self.rest.place_m, self.rest.theta_rad);
+        let Some(at_rest) = lacks(&rest) else {
+            return Some(1.0);
+        };
+        let used = |at: State| lacks(&at).map_or(1.0, |lacks| 1.0 - lacks / at_rest);
+        states.into_iter().map(used).reduce(f64::max)
     }
 
     fn start_error(&self, error: StartError) -> CaseError {

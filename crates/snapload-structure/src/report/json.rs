@@ -171,6 +171,7 @@ impl Seas {
             "afloat": afloat(&self.prepared, None),
             "lines": self.lines,
             "records": self.records.len(),
+            "standing": self.standing(),
             "words": self.words(),
             "peak_tension_in_three_hours_n": self.peak_in_three_hours().ok().map(gumbel),
             "fastest_snap_in_three_hours_m_s": self.speed_in_three_hours().ok().map(gumbel),

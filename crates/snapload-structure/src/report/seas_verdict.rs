@@ -2,7 +2,6 @@
 
 use super::verdict::{OpenRules, VerdictKind, undecided_by};
 use crate::physics::gumbel::Gumbel;
-use crate::runs::outcome::Outcome;
 use crate::runs::quantile::{quantile, sorted};
 use crate::runs::seas::{Failing, Seas};
 use crate::runs::three_hours::NoDistribution;
@@ -11,6 +10,14 @@ use crate::text_layout::{digits, paragraph, tenths};
 use askama::Template;
 use snapload::Stop;
 use snapload::analysis::Share;
+
+/// Why records that are shorter than three hours do not tell whether a line breaks in those.
+enum TooShort {
+    /// Lines may snap that do not in the records, or there are too few.
+    Snaps(NoDistribution),
+    /// The distribution of the largest ratio of tension to breaking load, which may reach one.
+    Overload(Gumbel),
+}
 
 #[derive(Template)]
 #[template(path = "seas-words.txt")]
@@ -25,10 +32,15 @@ struct SeasVerdictText {
     median_m_s: f64,
     failing: Failing,
     probability: Option<Share>,
-    /// Whether records ended early of which it is therefore not known whether they fail.
-    cut_short: bool,
+    /// Of the records of which it is not known whether they fail, the number that ended early.
+    cut_short: usize,
+    /// Whether it is not known of some of them for a lack of a tension or a breaking load.
+    lacking: bool,
     /// The violated rules that leave the verdict open.
     open: Option<OpenRules>,
+    /// What leaves it open for three hours.
+    too_short: Option<TooShort>,
+    standing: VerdictKind,
 }
 
 impl Seas {
@@ -59,29 +71,31 @@ impl Seas {
             VerdictKind::Breaks
         } else if failing.unknown > 0 {
             VerdictKind::Unknown
-        } else if self.breaking_only_early() > 0 || self.is_too_short() {
+        } else if self.breaking_only_early() > 0 || self.too_short().is_some() {
             VerdictKind::Open
         } else {
             VerdictKind::Holds
         }
     }
 
-    /// Whether records shorter than three hours say nothing of those, as lines snap in them that do
-    /// not in the records, or not in all.
-    fn is_too_short(&self) -> bool {
-        let reason = self.peak_in_three_hours().err();
-        let by_snaps = matches!(
-            reason,
-            Some(NoDistribution::MaySnap | NoDistribution::SomeWithoutSnaps(..))
-        );
-        by_snaps && self.prepared.structure.duration_s < THREE_HOURS_S
+    /// Why shorter records do not tell whether a line breaks in three hours. Whether lines may snap
+    /// can be known without their tensions.
+    fn too_short(&self) -> Option<TooShort> {
+        if self.prepared.structure.duration_s >= THREE_HOURS_S {
+            return None;
+        }
+        match self.check_beyond() {
+            Err(reason) => Some(TooShort::Snaps(reason)),
+            Ok(()) => self.overload_in_three_hours().map(TooShort::Overload),
+        }
     }
 
     /// The answer in a sentence or two.
     pub fn words(&self) -> String {
         let speeds = sorted(self.speeds_m_s().into_iter().flatten());
         let structure = &self.prepared.structure;
-        let cut_short = |one: &Outcome| one.fails(structure).is_none() && one.stop != Stop::EndTime;
+        let standing = self.standing();
+        let unknown = || self.outcomes().filter(|one| one.fails(structure).is_none());
         paragraph(&SeasVerdictText {
             early: self.breaking_only_early(),
             transient_s: structure.transient_s,
@@ -92,8 +106,11 @@ impl Seas {
             median_m_s: quantile(&speeds, 0.5).unwrap_or(0.0),
             failing: self.failing(),
             probability: self.probability(),
-            cut_short: self.outcomes().any(cut_short),
+            cut_short: unknown().filter(|one| one.stop != Stop::EndTime).count(),
+            lacking: unknown().any(|one| one.lacks_a_load(structure)),
             open: undecided_by(&self.warnings),
+            too_short: self.too_short().filter(|_| standing == VerdictKind::Open),
+            standing,
         })
     }
 }

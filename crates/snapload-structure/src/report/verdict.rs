@@ -26,7 +26,8 @@ pub enum VerdictKind {
     /// A tension or a breaking load is not known.
     Unknown,
     /// A rule is violated on which the tensions depend, so that another command has to decide. Or a
-    /// line would break only before the judged time, or only in neighbours of the run.
+    /// line would break only before the judged time, or only in neighbours of the run. Or records of a
+    /// sea are too short or too few to tell whether one breaks in three hours.
     Open,
 }
 

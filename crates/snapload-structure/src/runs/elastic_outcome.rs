@@ -47,6 +47,7 @@ impl Outcome {
                 largest_taut_n: run.peaks_n[line],
                 least_n: run.least_n[line],
                 slack_fraction: run.slack_fraction(line),
+                slack_used: run.slack_used[line],
                 early_n: early()
                     .filter(|pull| pull.line == line)
                     .map(|pull| pull.peak_n)

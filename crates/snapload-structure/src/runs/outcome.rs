@@ -30,6 +30,10 @@ pub struct LineOutcome {
     pub least_n: Option<f64>,
     /// The part of the whole time in which it has no tension.
     pub slack_fraction: f64,
+    /// The largest part of its slack at rest that is used up, 1 if it becomes taut; none for a line
+    /// with tension at rest, or without judged time.
+    #[serde(skip)]
+    pub slack_used: Option<f64>,
     /// The largest tension before the judged time, while taut or in a snap if that is known \[N\].
     #[serde(skip)]
     pub early_n: f64,
@@ -140,6 +144,15 @@ impl Outcome {
         whole.then_some(false)
     }
 
+    /// Whether a breaking load is not known, or a tension in the judged time.
+    pub(crate) fn lacks_a_load(&self, structure: &Structure) -> bool {
+        let mut lines = self.lines.iter().zip(&structure.lines);
+        lines.any(|(outcome, line)| {
+            let judged = outcome.least_n.is_some();
+            line.breaking_load_n.is_none() || judged && outcome.largest_n().is_none()
+        })
+    }
+
     /// The largest tension of each line divided by its breaking load, if that is known.
     pub fn utilisations(&self, structure: &Structure) -> Vec<Option<f64>> {
         let one = |(outcome, line): (&LineOutcome, &crate::structure::LineSi)| {
@@ -197,13 +210,19 @@ impl<'a> OutcomeCounter<'a> {
         let transient_s = self.prepared.structure.transient_s;
         let is_judged = step.t_end * scales.time_s >= transient_s;
         let ranges = simulation.tension_ranges(step);
-        for ((line, wave), range) in self.lines.iter_mut().zip(&mut self.waves).zip(ranges) {
+        let quarter = 0.25 * (step.t_end - step.t_start);
+        let along = || (1..=4).map(|k| simulation.within(step, f64::from(k) * quarter));
+        let lines = self.lines.iter_mut().zip(&mut self.waves).enumerate();
+        for ((index, (line, wave)), range) in lines.zip(ranges) {
             // A taut line can not push: a negative tension is rounding.
             let [least, largest] = range.map(|tension| tension.max(0.0) * scales.force_n);
             if is_judged {
                 self.waves_n.extend(wave.add([least, largest]));
                 line.largest_taut_n = line.largest_taut_n.max(largest);
                 line.least_n = Some(line.least_n.map_or(least, |before| before.min(least)));
+                if let Some(used) = self.prepared.slack_used(index, along()) {
+                    line.slack_used = Some(line.slack_used.map_or(used, |before| before.max(used)));
+                }
             } else {
                 line.early_n = line.early_n.max(largest);
             }

@@ -1,5 +1,6 @@
 //! The distribution of the largest load of a sea in three hours, or why none is given.
 
+use super::outcome::{LineOutcome, Outcome};
 use super::seas::Seas;
 use crate::physics::gumbel::Gumbel;
 use crate::structure::THREE_HOURS_S;
@@ -23,6 +24,9 @@ pub enum NoDistribution {
     NoSnaps,
     /// No line snaps in the records, but one may go slack within three hours, and then snap.
     MaySnap,
+    /// No line snaps in the records, but one that is slack at rest may become taut within three
+    /// hours, and then snap.
+    MayBecomeTaut,
     /// All records have the same largest value.
     AllEqual,
 }
@@ -53,6 +57,11 @@ impl fmt::Display for NoDistribution {
                 f,
                 "no line snaps in the records, but within three hours one may go slack and snap: {longer}"
             ),
+            Self::MayBecomeTaut => write!(
+                f,
+                "no line snaps in the records, but within three hours one that is slack at rest may become taut and \
+                 snap: {longer}"
+            ),
             Self::AllEqual => f.write_str("all records have the same largest value"),
         }
     }
@@ -66,10 +75,7 @@ impl Seas {
     pub fn peak_in_three_hours(&self) -> Result<Gumbel, NoDistribution> {
         self.check_whole()?;
         let largest = self.largest_n().ok_or(NoDistribution::TensionsUnknown)?;
-        self.check_snaps()?;
-        if self.without_snaps() == self.records.len() && self.may_snap() {
-            return Err(NoDistribution::MaySnap);
-        }
+        self.check_beyond()?;
         self.fit(&known(&largest))
     }
 
@@ -84,6 +90,20 @@ impl Seas {
             return Err(NoDistribution::NoSnaps);
         }
         self.fit(&known(&self.speeds_m_s()))
+    }
+
+    /// The distribution of the largest ratio of a tension to the breaking load of its line in three
+    /// hours, if that may reach one: the value that 90 % stay below is not less than one by more than
+    /// two standard errors. Each line is compared with its own breaking load.
+    pub(crate) fn overload_in_three_hours(&self) -> Option<Gumbel> {
+        let structure = &self.prepared.structure;
+        let of_record = |outcome: &Outcome| {
+            let known: Option<Vec<f64>> = outcome.utilisations(structure).into_iter().collect();
+            known?.into_iter().reduce(f64::max)
+        };
+        let largest: Option<Vec<f64>> = self.outcomes().map(of_record).collect();
+        let fit = self.fit(&largest?).ok()?;
+        may_reach_one(&fit, 0.9).then_some(fit)
     }
 
     /// Records that ended early would be records of a shorter time.
@@ -115,29 +135,40 @@ impl Seas {
         Ok(())
     }
 
-    /// Whether a line may go slack within three hours although none does in the records: the
-    /// distribution of tensions without snaps ends there. The largest loss of tension of each
-    /// record, as a part of the tension at rest, is extrapolated, and the value that 99 % stay
-    /// below must be less than one by more than two standard errors.
-    fn may_snap(&self) -> bool {
+    /// The distribution of tensions without snaps ends where a line goes slack that has tension at
+    /// rest, or becomes taut that has none. If no line snaps in the records, neither may happen
+    /// within three hours.
+    pub(crate) fn check_beyond(&self) -> Result<(), NoDistribution> {
+        self.check_snaps()?;
+        if self.without_snaps() < self.records.len() {
+            return Ok(());
+        }
         let rest_n = self.prepared.rest.inextensible_tensions_n();
-        let losses: Vec<f64> = self
-            .outcomes()
-            .map(|outcome| {
-                let lines = outcome.lines.iter().zip(rest_n);
-                let losses = lines.filter_map(|(line, rest_n)| {
-                    let least_n = line.least_n.filter(|_| *rest_n > 0.0)?;
-                    Some(1.0 - least_n / rest_n)
-                });
-                losses.fold(0.0, f64::max)
-            })
-            .collect();
-        match self.fit(&losses) {
-            Ok(fit) => {
-                let nearly_all = fit.quantile(0.99);
-                nearly_all.value + 2.0 * nearly_all.error >= 1.0
-            }
-            Err(_) => losses.iter().any(|loss| *loss >= 1.0),
+        let lost = |index: usize, line: &LineOutcome| {
+            let least_n = line.least_n.filter(|_| rest_n[index] > 0.0)?;
+            Some(1.0 - least_n / rest_n[index])
+        };
+        if self.part_may_reach_one(lost) {
+            return Err(NoDistribution::MaySnap);
+        }
+        match self.part_may_reach_one(|_, line| line.slack_used) {
+            true => Err(NoDistribution::MayBecomeTaut),
+            false => Ok(()),
+        }
+    }
+
+    /// Whether the largest part that a line of a record loses or uses up may reach one within three
+    /// hours, in more than one of a hundred seas.
+    fn part_may_reach_one(&self, part: impl Fn(usize, &LineOutcome) -> Option<f64>) -> bool {
+        let of_record = |outcome: &Outcome| {
+            let lines = outcome.lines.iter().enumerate();
+            let parts = lines.filter_map(|(index, line)| part(index, line));
+            parts.fold(0.0, f64::max)
+        };
+        let parts: Vec<f64> = self.outcomes().map(of_record).collect();
+        match self.fit(&parts) {
+            Ok(fit) => may_reach_one(&fit, 0.99),
+            Err(_) => parts.iter().any(|part| *part >= 1.0),
         }
     }
 
@@ -147,6 +178,13 @@ impl Seas {
         let fit = Gumbel::fit(largest).ok_or(NoDistribution::AllEqual)?;
         Ok(fit.over_times(THREE_HOURS_S / judged_s))
     }
+}
+
+/// Whether the value that a part of all stay below is not less than one by more than two standard
+/// errors.
+fn may_reach_one(fit: &Gumbel, part: f64) -> bool {
+    let quantile = fit.quantile(part);
+    quantile.value + 2.0 * quantile.error >= 1.0
 }
 
 /// The values of the judged records.

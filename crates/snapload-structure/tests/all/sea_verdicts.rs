@@ -10,13 +10,40 @@ use snapload_structure::{
 const EXAMPLE: &str = include_str!("../../../../docs/examples/cylinder.toml");
 const SEA: &str = include_str!("../../../../docs/examples/cylinder-sea.toml");
 
+/// The example on one line above its centre, with two guys of chain that are slack at rest, as they
+/// are 0.4 m longer than the distance from (∓6, -10) to (0, -3.5).
+fn guyed(duration: f64, seed: u64) -> Structure {
+    let guy = |x: f64| line(x, -3.5, 8.846 + 0.4);
+    let (body, rest) = SEA.split_once("[[line]]").unwrap();
+    let rest = &rest[rest.find("[site]").unwrap()..];
+    let body = body.replace(
+        "[body]",
+        "[body]\nturning_damping = 5e4\nlinear_damping = 3e4",
+    );
+    let rest = rest.replace("hs = 1.2", &format!("hs = 0.3\nseed = {seed}"));
+    let lines = line(0.0, -5.0, 5.0) + &guy(-6.0) + &guy(6.0);
+    structure(&format!("{body}{lines}{rest}\nduration = {duration}\n"))
+}
+
+/// A line of chain from the floor at x to the middle of the body at z.
+fn line(x: f64, z: f64, length: f64) -> String {
+    format!(
+        "[[line]]\nanchor = [{x}, -10]\nfairlead = [0, {z}]\nlength = {length}\n\
+         type = \"studless chain\"\ndiameter = 0.038\n"
+    )
+}
+
 /// Records of the sea of the example, with these significant height, duration and further keys of
 /// `[run]`.
 fn records(hs: f64, duration: f64, run: &str, count: u32) -> Seas {
     let text = SEA
         .replace("[run]", &format!("[run]\nduration = {duration}\n{run}"))
         .replace("hs = 1.2", &format!("hs = {hs}"));
-    seas(structure(&text), count, Lines::Inextensible, &no_progress).unwrap()
+    seas_of(structure(&text), count)
+}
+
+fn seas_of(structure: Structure, count: u32) -> Seas {
+    seas(structure, count, Lines::Inextensible, &no_progress).unwrap()
 }
 
 /// The single run of one record.
@@ -74,6 +101,131 @@ fn records_without_snaps_are_not_extrapolated_to_snaps() {
     assert!(long.records[0].outcome.largest_n() > 1.1e6);
 }
 
+/// The first records of a sea never tell more than all of them: where all leave the verdict open, so
+/// does one, unless a line breaks in it. Nor do records tell more if tensions of snaps are not known.
+#[test]
+fn fewer_records_do_not_make_a_sea_safe() {
+    let mut few = records(0.15, 1260.0, "transient = 60", 4);
+    for count in (1..=4).rev() {
+        few.records.truncate(count);
+        assert_eq!(few.standing(), VerdictKind::Open, "{count}");
+        let mut without = few.clone();
+        for line in &mut without.prepared.structure.lines {
+            line.stiffness_n = None;
+        }
+        let reason = NoDistribution::TensionsUnknown;
+        assert_eq!(without.peak_in_three_hours(), Err(reason));
+        assert_eq!(without.standing(), VerdictKind::Open, "{count}");
+        // What is open is told with its reason, once, in the text as in JSON.
+        let open = "Whether a line breaks within three hours is open, as the records are shorter";
+        let reason = if count < 3 {
+            "too few: run more"
+        } else {
+            "one may go slack and snap"
+        };
+        for seas in [&few, &without] {
+            assert_eq!(seas.to_json("case")["standing"], "open");
+            let words = seas.words();
+            assert_eq!(words.matches(open).count(), 1, "{words}");
+            assert_eq!(words.matches(reason).count(), 1, "{words}");
+        }
+    }
+    let reached = few.largest_n().unwrap()[0].unwrap();
+    for line in &mut few.prepared.structure.lines {
+        line.breaking_load_n = Some(0.999 * reached);
+    }
+    assert_eq!(few.to_json("case")["standing"], "breaks");
+    assert!(!few.words().contains("is open"));
+}
+
+/// Records of 80 minutes in all do not show that a line stays below a load in three hours that is one
+/// per cent above the largest of them: that is exceeded sooner. Each line is compared with its own
+/// breaking load.
+#[test]
+fn a_sea_is_open_in_which_a_tension_above_the_breaking_load_is_expected() {
+    let mut seas = records(1.2, 300.0, "", 20);
+    let mut with_loads = |margins: [f64; 2]| {
+        for (index, margin) in margins.into_iter().enumerate() {
+            let lines = seas.records.iter().map(|r| &r.outcome.lines[index]);
+            let largest = lines.filter_map(|line| line.largest_n());
+            let load = margin * largest.fold(0.0, f64::max);
+            seas.prepared.structure.lines[index].breaking_load_n = Some(load);
+        }
+        assert_eq!(seas.failing().count + seas.failing().unknown, 0);
+        assert!(seas.peak_in_three_hours().is_ok());
+        seas.clone()
+    };
+    for margins in [[1.01, 1.01], [1.01, 100.0], [100.0, 1.01]] {
+        let seas = with_loads(margins);
+        assert_eq!(seas.standing(), VerdictKind::Open);
+        let words = seas.words();
+        assert!(
+            words.contains("Whether a line breaks within three hours is open: the largest ratio"),
+            "{words}"
+        );
+    }
+    let strong = with_loads([100.0; 2]);
+    assert_eq!(strong.standing(), VerdictKind::Holds);
+    assert!(!strong.words().contains("open"));
+    // Guys that never become taut do not have to bear what the line between them bears.
+    let mut guys = guyed(960.0, 1);
+    for line in &mut guys.lines[1..] {
+        line.length_m += 6.0;
+        line.breaking_load_n = Some(1e5);
+    }
+    let seas = seas_of(guys, 6);
+    assert!(seas.peak_in_three_hours().unwrap().mean().value > 1e5);
+    assert_eq!(seas.standing(), VerdictKind::Holds);
+}
+
+/// A line that is slack at rest has no tension to lose, and snaps where it becomes taut: the short
+/// records lack that, and in three hours a record of the same sea breaks a line.
+#[test]
+fn records_in_which_a_slack_line_stays_slack_are_not_extrapolated_to_snaps() {
+    let short = seas_of(guyed(960.0, 1), 6);
+    for outcome in short.records.iter().map(|record| &record.outcome) {
+        assert!(outcome.lines[1..].iter().all(|l| l.slack_fraction == 1.0));
+        assert!(outcome.lines[0].least_n.unwrap() > 0.9 * short.prepared.rest.tension_n[0]);
+    }
+    let reason = NoDistribution::MayBecomeTaut;
+    assert_eq!(short.peak_in_three_hours(), Err(reason));
+    assert_eq!(short.standing(), VerdictKind::Open);
+    let words = short.words();
+    assert!(words.contains("may become taut and snap"), "{words}");
+    assert_eq!(seas_of(guyed(10_800.0, 3), 1).failing().count, 1);
+}
+
+/// The part of its slack that a line uses up is that of the distances from its anchor along the
+/// motion, and 1 where an elastic line pulls.
+#[test]
+fn the_slack_that_is_used_up_is_a_part_of_a_distance() {
+    let run = Assessment::single_run(guyed(300.0, 1), &no_progress).unwrap();
+    let times: Vec<f64> = (0..=24_000).map(|k| 60.0 + f64::from(k) * 0.01).collect();
+    let motion = run.motion_at(&times).unwrap();
+    // The fairlead is the centre of the body at rest.
+    let lacks = |[x, z]: [f64; 2], anchor: f64| 9.246 - (x - anchor).hypot(z + 10.0);
+    for (line, anchor) in [(1, -6.0), (2, 6.0)] {
+        let lacking = motion.iter().map(|at| lacks(at.place_m, anchor));
+        let used = 1.0 - lacking.fold(f64::INFINITY, f64::min) / lacks([0.0, -3.5], anchor);
+        let found = run.outcome.lines[line].slack_used.unwrap();
+        assert!((found / used - 1.0).abs() < 0.01, "{found} {used}");
+    }
+    assert_eq!(run.outcome.lines[0].slack_used, None);
+    let mut rough = guyed(300.0, 1);
+    let Water::Sea(sea) = &mut rough.water else {
+        panic!("a sea");
+    };
+    sea.significant_height_m = 1.2;
+    let elastic = seas(rough, 1, Lines::Elastic, &no_progress).unwrap();
+    let lines = &elastic.records[0].outcome.lines;
+    assert_eq!(lines[0].slack_used, None);
+    for line in &lines[1..] {
+        let pulls = line.largest_taut_n > 0.0;
+        assert_eq!(line.slack_used.unwrap() >= 1.0, pulls);
+    }
+    assert!(lines[1..].iter().any(|line| line.largest_taut_n > 0.0));
+}
+
 /// Of records that are cut short it is known that they fail if a line breaks before they end, and
 /// otherwise nothing; a probability needs to know of all.
 #[test]
@@ -117,7 +269,32 @@ fn records_that_end_early_have_no_probability() {
         let page = note::seas_page(source("case"), seas).unwrap();
         assert!(!page.contains("verdict holds"), "{words}");
     }
-    assert!(strong.words().contains("as they ended before their time"));
+    assert!(
+        strong
+            .words()
+            .contains("in 4 of 4 records, as they ended before their time.")
+    );
+}
+
+/// Longer records answer only where they ended early: if a breaking load is not known either, both
+/// reasons are told.
+#[test]
+fn every_reason_why_records_are_not_known_is_told() {
+    let mut seas = records(1.2, 900.0, "max_snaps = 300", 3);
+    seas.prepared.structure.lines[0].breaking_load_n = Some(1e9);
+    seas.prepared.structure.lines[1].breaking_load_n = None;
+    let lacking = "a tension or a breaking load is not known: give each line type";
+    let both = format!("in 3 of 3 records, as 3 of them ended before their time, and {lacking}");
+    assert!(seas.words().contains(&both), "{}", seas.words());
+    seas.records[0].outcome.stop = Stop::EndTime;
+    let both = format!("in 3 of 3 records, as 2 of them ended before their time, and {lacking}");
+    assert!(seas.words().contains(&both), "{}", seas.words());
+    seas.records.truncate(1);
+    let one = format!("in 1 of 1 record, as {lacking}");
+    assert!(seas.words().contains(&one), "{}", seas.words());
+    seas.records[0].outcome.stop = Stop::ImpactLimit;
+    let both = format!("in 1 of 1 record, as it ended before its time, and {lacking}");
+    assert!(seas.words().contains(&both), "{}", seas.words());
 }
 
 /// A line that breaks is told although the breaking load of another one is not known.
@@ -193,7 +370,7 @@ fn a_sea_in_which_a_line_breaks_early_is_open() {
     assert_eq!(seas.standing(), VerdictKind::Open);
     assert_eq!(alone(&seas, 1).verdict().standing, VerdictKind::Open);
     let page = note::seas_page(source("case"), &seas).unwrap();
-    assert!(page.contains("verdict open"));
+    assert!(page.contains("verdict open") && page.contains("so the verdict is open"));
 }
 
 /// What neighbours and other restitutions would change is said of every verdict: of one that is open

@@ -66,6 +66,9 @@ pub struct ElasticRun {
     pub peaks_n: Vec<f64>,
     /// The smallest, 0 if it goes slack; none if the run ends before the transient is over \[N\].
     pub least_n: Vec<Option<f64>>,
+    /// The largest part of its slack at rest that each line uses up after the transient, 1 if it
+    /// becomes taut; none for a line with tension at rest.
+    pub slack_used: Vec<Option<f64>>,
     /// Crest and trough of every wave of tension of every line after the transient \[N\].
     pub waves_n: Vec<[f64; 2]>,
 }
@@ -82,8 +85,8 @@ impl ElasticRun {
 pub(super) struct PullRecorder<'a> {
     scales: &'a Scales,
     structure: &'a Structure,
-    /// The x of the position of rest on these lines \[m\].
-    rest_x_m: f64,
+    /// The structure about its position of rest on these lines.
+    prepared: &'a ModelAtRest,
     body: &'a BodyOnElasticLines<'a>,
     /// The times of the samples that are still to come, before the end \[s\].
     samples: Peekable<Box<dyn Iterator<Item = f64>>>,
@@ -116,7 +119,7 @@ impl<'a> PullRecorder<'a> {
         Ok(Self {
             scales,
             structure: &prepared.structure,
-            rest_x_m: prepared.rest.place_m[0],
+            prepared,
             body,
             samples: samples.peekable(),
             kept: kept.is_some(),
@@ -125,6 +128,7 @@ impl<'a> PullRecorder<'a> {
                 waterline: Waterline::before(&prepared.structure),
                 peaks_n: vec![0.0; body.elastic_lines.len()],
                 least_n: vec![None; body.elastic_lines.len()],
+                slack_used: vec![None; body.elastic_lines.len()],
                 ..ElasticRun::default()
             },
             waves: WavesOfTension::of_lines(&prepared.rest),
@@ -163,7 +167,10 @@ impl<'a> PullRecorder<'a> {
         let t_s = t * self.scales.time_s;
         self.run.turned_rad = self.run.turned_rad.max(state.theta.abs());
         let [x, z] = self.scales.to_si([state.x, state.y]);
-        self.run.excursion_m = self.run.excursion_m.max((x - self.rest_x_m).abs());
+        self.run.excursion_m = self
+            .run
+            .excursion_m
+            .max((x - self.prepared.rest.place_m[0]).abs());
         if let Some(seen) = &mut self.run.waterline {
             *seen = seen.with(&Waterline::at(self.structure, z, state.theta));
         }
@@ -177,6 +184,10 @@ impl<'a> PullRecorder<'a> {
                 let (peak, least) = (&mut self.run.peaks_n[line], &mut self.run.least_n[line]);
                 *peak = peak.max(tension);
                 *least = Some(least.map_or(tension, |least| least.min(tension)));
+                if let Some(used) = self.prepared.slack_used(line, [*state]) {
+                    let most = &mut self.run.slack_used[line];
+                    *most = Some(most.map_or(used, |before| before.max(used)));
+                }
                 self.run.waves_n.extend(self.waves[line].add([tension; 2]));
             }
         }

@@ -164,7 +164,7 @@ impl<T: Real> Along<T> for LatestStep<'_, T> {
 impl<T: Real> Simulation<T> {
     /// The state a time `s` into the segment that the latest step made.
     #[inline(always)]
-    pub(crate) fn within(&self, step: &Step<T>, s: T) -> State<T> {
+    pub fn within(&self, step: &Step<T>, s: T) -> State<T> {
         self.motion(step.taut).state(s)
     }
 
