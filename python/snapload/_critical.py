@@ -38,9 +38,14 @@ class CriticalForce(Result):
         The limit at which its run ends, such as ``rotation_limit`` or ``upper_bound``.
     t : float or None
         The time of that end [T].
+    certain : bool
+        Whether the ends of all runs up to ``f_cr`` are certain; of all runs, if none exceeds a limit.
     exceeding : numpy.ndarray, shape (n, 2)
         All amplitudes that exceed a limit, as intervals ``[from, to]`` of adjacent amplitudes [F]. There may be several
         intervals, because a run with an amplitude above the critical one may settle.
+    uncertain : numpy.ndarray, shape (n, 2)
+        All amplitudes whose runs pass their horizon of trust, as such intervals: each may end in another way, and
+        exceed a limit or not [F].
     probability : numpy.recarray or None
         With an ensemble, at each amplitude: ``f_o``; whether the end is ``certain``; ``count``, the number of members
         that exceed a limit; ``part``, their fraction; and the 95 % interval of it from ``low`` to ``high``.
@@ -63,12 +68,14 @@ class CriticalForce(Result):
     f_cr: float | None
     reason: str | None
     t: float | None
+    certain: bool
     exceeding: NDArray[np.float64]
+    uncertain: NDArray[np.float64]
     probability: np.recarray[Any, Any] | None
     passes: dict[str, float | None]
     _step: float
     _largest: float
-    _repr_fields = ("f_cr", "reason", "t", "exceeding")
+    _repr_fields = ("f_cr", "certain", "reason", "t", "exceeding", "uncertain")
 
     def plot(self, ax: matplotlib.axes.Axes | None = None) -> matplotlib.axes.Axes:
         """Draw which amplitudes exceed a limit, or with which probability.
@@ -103,6 +110,11 @@ class CriticalForce(Result):
         for place, (start, stop) in enumerate(self.exceeding):
             label = "exceeds" if place == 0 else None
             ax.axvspan(start - half, stop + half, color=ORANGE, alpha=0.35, linewidth=0, label=label)
+        for place, (start, stop) in enumerate(self.uncertain):
+            label = "not certain" if place == 0 else None
+            ax.axvspan(
+                start - half, stop + half, facecolor="none", edgecolor="0.4", hatch="////", linewidth=0, label=label
+            )
         if self.probability is not None:
             at = self.probability
             ax.fill_between(at.f_o, at.low, at.high, color=BLUE, alpha=0.25, linewidth=0)
@@ -124,10 +136,12 @@ class CriticalForce(Result):
         def interval(start: float, stop: float) -> str:
             return f"{start:g}" if start == stop else f"{start:g} to {stop:g}"
 
-        rows = [("f_cr", "none" if self.f_cr is None else f"{self.f_cr:g}")]
+        sure = "" if self.certain else " (not certain)"
+        rows = [("f_cr", ("none" if self.f_cr is None else f"{self.f_cr:g}") + sure)]
         if self.reason is not None:
             rows.append(("reason", f"{self.reason.replace('_', ' ')} at t = {self.t:.4f}"))
         rows.append(("exceeding", ", ".join(interval(*pair) for pair in self.exceeding)))
+        rows.append(("uncertain", ", ".join(interval(*pair) for pair in self.uncertain)))
         rows += [
             (f"{name[1:].lstrip('0')} % exceed first at", "none" if f_o is None else f"{f_o:g}")
             for name, f_o in self.passes.items()
@@ -198,8 +212,8 @@ def critical_force(
     -------
     CriticalForce or xarray.Dataset
         The smallest amplitude that exceeds a limit, and all others that do. With `over`, a dataset over those keys
-        with ``f_cr`` (NaN if no amplitude exceeds a limit), ``reason``, ``t``, and ``exceeds``, which says over these
-        keys and ``f_o`` which amplitudes exceed a limit.
+        with ``f_cr`` (NaN if no amplitude exceeds a limit), whether it is ``certain``, ``reason``, ``t``, and over these
+        keys and ``f_o`` which amplitudes exceed a limit (``exceeds``), and of which this is ``uncertain``.
 
     Raises
     ------
@@ -235,7 +249,8 @@ def critical_force(
     if uncertainty is not None and members == 0:
         raise ValueError("uncertainty needs neighbours, but none are run; give members, such as members=200")
     data = json.loads(_engine.critical_force(engine, step, largest))
-    exceeding = np.array(data.pop("exceeding"), dtype=np.float64).reshape(-1, 2)
+    for name in ("exceeding", "uncertain"):
+        data[name] = np.array(data[name], dtype=np.float64).reshape(-1, 2)
     probability, passes = None, {}
     if members > 0:
         with progress_bar("force amplitudes", round(largest / step), progress, 0) as report_progress:
@@ -247,7 +262,7 @@ def critical_force(
         points = [tuple(point[name] for name, _ in kinds) for point in ensemble_data["probability"]]
         probability = np.array(points, dtype=kinds).view(np.recarray)
     return CriticalForce(
-        **data, exceeding=exceeding, probability=probability, passes=passes, _step=step, _largest=largest
+        **data, probability=probability, passes=passes, _step=step, _largest=largest
     )
 
 
@@ -266,10 +281,13 @@ def _critical_over_keys(
     rows, forces = json.loads(answer), np.array(amplitudes)
     coords = grid_coordinates(axes)
     dims, shape = tuple(coords), tuple(len(values) for _, values, _ in coords.values())
-    exceeds = np.zeros((len(rows), len(forces)), dtype=bool)
-    for row, in_interval in zip(rows, exceeds, strict=True):
-        for first, last in row.get("exceeding", ()):
-            in_interval |= (first <= forces) & (forces <= last)
+
+    def within(name: str) -> NDArray[np.bool_]:
+        within = np.zeros((len(rows), len(forces)), dtype=bool)
+        for row, in_interval in zip(rows, within, strict=True):
+            for first, last in row.get(name, ()):
+                in_interval |= (first <= forces) & (forces <= last)
+        return within.reshape(*shape, len(forces))
 
     def column(name: str, missing: Any) -> NDArray[Any]:
         values = [missing if row.get(name) is None else row[name] for row in rows]
@@ -279,12 +297,18 @@ def _critical_over_keys(
     smallest = {**about["f_o"], "long_name": "critical force, in F", "comment": "the smallest amplitude that exceeds"}
     variables: dict[str, Any] = {
         "f_cr": (dims, column("f_cr", np.nan), smallest),
+        "certain": (
+            dims,
+            np.array([row.get("certain", False) for row in rows]).reshape(shape),
+            {"long_name": "whether the ends of the runs up to f_cr are certain"},
+        ),
         "reason": (dims, column("reason", ""), {"long_name": "which limit is reached there"}),
         "t": (dims, column("t", np.nan), {**about["t"], "long_name": "when it is reached, in T"}),
-        "exceeds": (
+        "exceeds": ((*dims, "f_o"), within("exceeding"), {"long_name": "whether the amplitude exceeds"}),
+        "uncertain": (
             (*dims, "f_o"),
-            exceeds.reshape(*shape, len(forces)),
-            {"long_name": "whether the amplitude exceeds"},
+            within("uncertain"),
+            {"long_name": "whether the end of its run is not certain"},
         ),
     }
     if any("error" in row for row in rows):

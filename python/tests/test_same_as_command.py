@@ -86,6 +86,8 @@ def test_the_critical_force_is_the_same(command_json):
     found = snapload.critical_force(snapload.Case(), largest=0.5, members=10)
     assert (found.f_cr, found.reason, found.t) == (data["f_cr"], data["reason"], data["t"])
     assert found.exceeding.tolist() == data["exceeding"]
+    assert found.uncertain.tolist() == data["uncertain"]
+    assert found.certain is data["certain"]
     assert found.passes == data["passes"]
     for name in ("f_o", "certain", "count", "part", "low", "high"):
         assert found.probability[name].tolist() == [point[name] for point in data["probability"]]
@@ -190,6 +192,9 @@ def test_the_critical_force_over_keys_is_the_same(command_json):
         exceeds = here.f_o.values[here.exceeds.values]
         assert sum(((exceeds >= low) & (exceeds <= high)).sum() for low, high in point["exceeding"]) == len(exceeds)
         assert {low for low, _ in point["exceeding"]} <= set(exceeds)
+        assert bool(here.certain) is point["certain"]
+        uncertain = here.f_o.values[here.uncertain.values]
+        assert {low for low, _ in point["uncertain"]} <= set(uncertain)
     grid = snapload.critical_force(snapload.Case(), over={"r": [0.5, 1.5], "e": [0.9]}, largest=0.4, step=0.1)
     assert grid.f_cr.dims == ("r", "e") and "r > |1 - a|" in grid.error.sel(r=0.5).item()
 

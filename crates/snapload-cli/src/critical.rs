@@ -19,7 +19,8 @@ use std::fmt::Write;
 const EXAMPLES: &str = "\
 The critical force is the smallest amplitude f_o = step, 2 step, ... whose run stops at a limit of the motion,
 such as the rotation limit or the upper bound. Runs with larger amplitudes may settle again, so all amplitudes
-that exceed a limit are listed as intervals. With --set stop_when_sliding=true a run ends when the body begins to
+that exceed a limit are listed as intervals. So are those whose runs pass their horizon of trust: each may end in
+another way, and whether they exceed is not certain. With --set stop_when_sliding=true a run ends when the body begins to
 slide, as in the studies of the thesis's chapter 6.
 
 Examples:
@@ -93,6 +94,10 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
     outputs.finish(&answer, text)
 }
 
+/// What it means that amplitudes are uncertain, and what decides.
+const UNCERTAIN: &str = "their runs pass their horizon, and may end in another way\n          \
+                         (--ensemble N runs neighbours; snapload certify proves an end)";
+
 /// The most values of another key.
 const MOST_VALUES: u64 = 100_000;
 
@@ -165,15 +170,19 @@ impl Answer {
         match self {
             Self::One { row, curve } => {
                 let mut text = format!("Case      {case}\n");
+                let sure = if row.certain { "" } else { " (not certain)" };
                 let _ = match (row.f_cr, row.reason, row.t) {
                     (Some(f_cr), Some(reason), Some(t)) => writeln!(
                         text,
-                        "Critical  f_cr = {f_cr}: {} at t = {t:.4}\nExceeding f_o = {}",
+                        "Critical  f_cr = {f_cr}: {} at t = {t:.4}{sure}\nExceeding f_o = {}",
                         reason.replace('_', " "),
                         row.exceeding()
                     ),
-                    _ => writeln!(text, "Critical  none up to f_o = {}", args.max),
+                    _ => writeln!(text, "Critical  none up to f_o = {}{sure}", args.max),
                 };
+                if let Some(uncertain) = row.uncertain() {
+                    let _ = writeln!(text, "Uncertain f_o = {uncertain}: {UNCERTAIN}");
+                }
                 if let Some(curve) = curve {
                     curve.in_words(&mut text);
                 }
@@ -183,9 +192,17 @@ impl Answer {
                 let mut text = format!("{over:<12} {:<8} exceeding\n", "f_cr");
                 for Point { value, row } in points {
                     let first = row.f_cr.map_or("none".to_owned(), |f_cr| f_cr.to_string());
+                    let first = if row.certain {
+                        first
+                    } else {
+                        format!("~{first}")
+                    };
                     let value = format!("{value:.6}");
                     let value = value.trim_end_matches('0').trim_end_matches('.');
                     let _ = writeln!(text, "{value:<12} {first:<8} {}", row.exceeding());
+                }
+                if points.iter().any(|point| !point.row.certain) {
+                    let _ = writeln!(text, "~ not certain: a run up to it passes its horizon");
                 }
                 text
             }

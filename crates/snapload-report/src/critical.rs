@@ -10,34 +10,53 @@ use std::fmt::Write;
 pub struct CriticalRow {
     /// The smallest amplitude that exceeds; none if none does.
     pub f_cr: Option<f64>,
+    /// Whether the ends of the runs up to it are certain.
+    pub certain: bool,
     /// The limit that its run reaches.
     pub reason: Option<&'static str>,
     /// The time at which it is reached.
     pub t: Option<f64>,
     exceeding: Vec<[f64; 2]>,
+    uncertain: Vec<[f64; 2]>,
 }
 
 impl CriticalRow {
     /// The row of a result.
     pub fn new(found: CriticalForce) -> Self {
-        let CriticalForce { first, exceeding } = found;
+        let certain = found.is_certain();
+        let CriticalForce {
+            first,
+            exceeding,
+            uncertain,
+        } = found;
         Self {
             f_cr: first.map(|first| first.f_o),
+            certain,
             reason: first.map(|first| first.reason.name()),
             t: first.map(|first| first.t),
             exceeding,
+            uncertain,
         }
     }
 
     /// The amplitudes that exceed, in words.
     pub fn exceeding(&self) -> String {
-        let interval = |[from, to]: &[f64; 2]| match from == to {
-            true => format!("{from}"),
-            false => format!("{from}-{to}"),
-        };
-        let all: Vec<String> = self.exceeding.iter().map(interval).collect();
-        all.join(", ")
+        in_words(&self.exceeding)
     }
+
+    /// Those whose runs may end in another way, in words; none if there are none.
+    pub fn uncertain(&self) -> Option<String> {
+        (!self.uncertain.is_empty()).then(|| in_words(&self.uncertain))
+    }
+}
+
+fn in_words(intervals: &[[f64; 2]]) -> String {
+    let interval = |[from, to]: &[f64; 2]| match from == to {
+        true => format!("{from}"),
+        false => format!("{from}-{to}"),
+    };
+    let all: Vec<String> = intervals.iter().map(interval).collect();
+    all.join(", ")
 }
 
 /// The probability of exceeding, in JSON: a curve with the numbers from which it was computed.

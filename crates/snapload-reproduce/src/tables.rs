@@ -234,7 +234,7 @@ pub(crate) fn csv_6_1(study: &Study) -> String {
 
 /// Table 6.2, with computed and published values, and by convention.
 pub(crate) fn csv_6_2(study: &Study) -> String {
-    let header = "r,shape,a,b,published,proved,difference,published_ends,p05,p50,p95,verdict,exceeding,\
+    let header = "r,shape,a,b,published,proved,difference,published_ends,p05,p50,p95,verdict,exceeding_in_doubles,\
                   t_end_18,t_end_25,t_end_50,t_end_100,sliding_on,limits_alone";
     let rows = study.critical.iter().map(|row| {
         let [r, a, b, published] =

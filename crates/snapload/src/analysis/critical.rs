@@ -1,8 +1,10 @@
 //! The critical force: the smallest force amplitude at which the rotation limit or the upper bound
 //! is reached (chapter 6.4.2), and all larger amplitudes of the scan that reach one of them.
 
-use crate::analysis::outcomes::outcomes;
-use crate::analysis::progress::{OnProgress, Unfinished};
+use crate::analysis::outcomes::{ThreadResults, on_all_threads};
+use crate::analysis::progress::{Counter, OnProgress, Unfinished};
+use crate::analysis::trust::Certainty;
+use crate::batch::lanes::Lanes;
 use crate::case::Case;
 use crate::case::error::CaseError;
 use crate::case::parameters::Parameters;
@@ -102,6 +104,9 @@ pub struct CriticalForce {
     /// All amplitudes that exceed, as intervals of neighbouring ones `[from, to]`. There may be
     /// several intervals: a run above the critical amplitude may settle.
     pub exceeding: Vec<[f64; 2]>,
+    /// All amplitudes whose runs pass their horizon of trust, as such intervals: each may end in
+    /// another way than its run, and exceed or not.
+    pub uncertain: Vec<[f64; 2]>,
 }
 
 impl CriticalForce {
@@ -122,23 +127,43 @@ impl CriticalForce {
             })
         };
         let cases: Vec<Case> = amplitudes.iter().map(case).collect::<Result<_, _>>()?;
-        let outcomes = outcomes(&cases, on_progress)?;
-        let outcomes: Vec<(f64, Outcome)> = amplitudes.into_iter().zip(outcomes).collect();
-        let first = outcomes.iter().find(|(_, outcome)| outcome.exceeds());
-        let exceeding = outcomes
-            .chunk_by(|a, b| a.1.exceeds() == b.1.exceeds())
-            .filter(|run| run[0].1.exceeds())
-            .map(|run| [run[0].0, run[run.len() - 1].0])
-            .collect();
+        let counter = Counter::new("running", 0, cases.len() as u64, on_progress);
+        let runs = on_all_threads(cases.len(), |numbers| {
+            let cases = numbers.map(|k| cases[k].clone());
+            Certainty::with_outcomes(Lanes::best(), cases, &counter)
+        });
+        let runs = runs.map(ThreadResults::into_vec)?;
+        let runs: Vec<Run> = amplitudes.into_iter().zip(runs).collect();
+        let exceeds = |(_, (outcome, _)): &Run| outcome.exceeds();
+        let first = runs.iter().find(|run| exceeds(run));
         Ok(Self {
-            first: first.map(|(f_o, outcome)| Exceedance {
+            first: first.map(|(f_o, (outcome, _))| Exceedance {
                 f_o: *f_o,
                 reason: outcome.end.reason,
                 t: outcome.end.t,
             }),
-            exceeding,
+            exceeding: intervals(&runs, exceeds),
+            uncertain: intervals(&runs, |(_, (_, certainty))| !certainty.decides_the_end()),
         })
     }
+
+    /// Whether the ends of all runs up to the first amplitude that exceeds are certain; of all runs
+    /// if none exceeds.
+    pub fn is_certain(&self) -> bool {
+        let first = self.first.map_or(f64::INFINITY, |first| first.f_o);
+        self.uncertain.iter().all(|[from, _]| *from > first)
+    }
+}
+
+/// An amplitude with the outcome of its run.
+type Run = (f64, (Outcome, Certainty));
+
+/// The amplitudes whose runs are such, as intervals of neighbouring ones.
+fn intervals(runs: &[Run], is_such: impl Fn(&Run) -> bool) -> Vec<[f64; 2]> {
+    let alike = runs.chunk_by(|a, b| is_such(a) == is_such(b));
+    let such = alike.filter(|some| is_such(&some[0]));
+    such.map(|some| [some[0].0, some[some.len() - 1].0])
+        .collect()
 }
 
 #[cfg(test)]

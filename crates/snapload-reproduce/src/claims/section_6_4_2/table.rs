@@ -149,6 +149,7 @@ mod tests {
         let none = || CriticalForce {
             first: None,
             exceeding: Vec::new(),
+            uncertain: Vec::new(),
         };
         let share = |f_o: f64| {
             let of = NEIGHBOURS as usize;
