@@ -15,6 +15,8 @@
 
 use crate::arithmetic::plane::Vector2;
 use crate::arithmetic::real::Real;
+use crate::model::forcing::Harmonic;
+use crate::model::mass::{Mass, Matrix3, times};
 use crate::model::rules::Rules;
 use crate::model::state::State;
 use crate::model::surroundings::Surroundings;
@@ -103,12 +105,13 @@ impl<T: Real> Instant<'_, T> {
             memory_force,
         } = self;
         let free = system.free_acceleration(around, state, memory_force);
+        let free_size = size_of_free_acceleration(system, state, memory_force);
         let tension = tensions(system, around, state, memory_force, carrying);
         let normals = system.normals(state, set.union(carrying));
         let mut found = [(T::ZERO, T::ZERO); MAX_CABLES];
         for cable in set.iter() {
             let mut left = system.free_normal_acceleration(cable, state, free);
-            let mut size = size_of_load(system, cable, state, free);
+            let mut size = size_of_load(system, cable, state, free_size);
             for other in carrying.iter() {
                 let coupling = system.body.mass.coupling(&normals[cable], &normals[other]);
                 left -= coupling * tension[other];
@@ -229,6 +232,55 @@ impl<T: Real> Tie<'_, T> {
         series.begin(system, &around, state, &memory, contacts, held);
         series
     }
+}
+
+/// The sums of the absolute values of all summands of [`System::free_acceleration`]: where forces
+/// cancel each other, their roundings do not.
+fn size_of_free_acceleration<T: Real>(
+    system: &System<T>,
+    state: &State<T>,
+    memory_force: [T; 3],
+) -> [T; 3] {
+    let mass = &system.body.mass;
+    let place = [state.x, state.y, state.theta].map(T::abs);
+    let speed = [state.vx, state.vy, state.vtheta].map(T::abs);
+    let forcing = &system.forcing;
+    let [x, y] = sum_of_sizes(forcing.constant.map(T::abs), &forcing.harmonics).components();
+    let mut load = [x, y, T::ZERO];
+    if let Some(drag) = &system.drag {
+        let water = sum_of_sizes([speed[0], speed[1]].into(), &drag.water);
+        let factor = drag.linear + drag.quadratic * water.length();
+        load[0] += factor * water.x;
+        load[1] += factor * water.y;
+        load[2] += mass.load_of_turning(drag.turning * speed[2]);
+    }
+    if let Some(water) = &system.floating {
+        let sizes = |matrix: &Matrix3<T>| matrix.map(|row| row.map(T::abs));
+        let stiff = times(&sizes(&water.stiffness), place);
+        let damped = times(&sizes(&water.damping), speed);
+        let wave = |i: usize| {
+            let sizes = water.excitation.iter();
+            sizes.fold(water.constant[i].abs(), |sum, wave| {
+                sum + wave.cosine[i].abs() + wave.sine[i].abs()
+            })
+        };
+        for (i, load) in load.iter_mut().enumerate().take(2) {
+            *load += wave(i) + stiff[i] + damped[i] + memory_force[i].abs();
+        }
+        let moment = wave(2) + stiff[2] + damped[2] + memory_force[2].abs();
+        load[2] += mass.load_of_moment(moment);
+    }
+    match mass {
+        Mass::Unit { .. } => load,
+        Mass::Full { inverse, .. } => times(&inverse.map(|row| row.map(T::abs)), load),
+    }
+}
+
+/// The sum of some sizes and the largest possible ones of some sinusoids.
+fn sum_of_sizes<T: Real>(of_others: Vector2<T>, sinusoids: &[Harmonic<T>]) -> Vector2<T> {
+    sinusoids.iter().fold(of_others, |sum, wave| {
+        sum + wave.cosine.map(T::abs) + wave.sine.map(T::abs)
+    })
 }
 
 /// A bound on the summands of the normal acceleration without any cable force, times the factor by

@@ -23,4 +23,5 @@ mod many_cables;
 mod outcomes;
 mod same_bits;
 mod starts;
+mod touches;
 mod trust;
