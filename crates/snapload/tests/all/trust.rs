@@ -354,3 +354,53 @@ fn a_tension_that_some_neighbours_lose_ends_trust() {
         assert_eq!(horizon, None, "{doubt}");
     }
 }
+
+/// Two cables that snap in turn, each half as fast as the one before, come to rest after five snaps
+/// below `v_stick`. Where one snap is about as fast as that, neighbours need one more or less.
+#[test]
+fn a_row_of_slow_snaps_that_may_begin_later_ends_trust() -> Result<(), Unfinished> {
+    let case = |v_stick: f64, more: f64| {
+        let numbers = [
+            ("r", 2.5),
+            ("a", 0.2),
+            ("b", 0.3),
+            ("f_o", 0.05 + more),
+            ("nu", 0.63),
+            ("omega", 2.76),
+            ("e", 0.0),
+            ("x", -0.145),
+            ("y", 0.338),
+            ("theta", -0.13),
+            ("t_end", 8.0),
+            ("v_stick", v_stick),
+        ];
+        let entries = numbers.map(|(key, value)| (key, value.into()));
+        Case::from_entries(
+            entries
+                .into_iter()
+                .chain([("stop_when_settled", false.into())]),
+        )
+    };
+    let run = case(1e-4, 0.0)?.run();
+    let first = run.impacts().iter().find(|snap| snap.v_n < 1e-4).unwrap();
+    let doubt = 1e-4;
+    let mut uncertainty = Uncertainty {
+        tolerance: 0.05,
+        ..Uncertainty::default()
+    };
+    uncertainty.set("f_o", doubt)?;
+    for (part, alike) in [(1.0 + 1e-6, false), (1.0 - 1e-6, false), (1.2, true)] {
+        let v_stick = part * first.v_n;
+        let (run, trust) = trusted_run(&case(v_stick, 0.0)?, &uncertainty, &no_progress)?;
+        let mut same = true;
+        for side in [-doubt, doubt] {
+            same &= case(v_stick, side)?.run().impacts().len() == run.impacts().len();
+        }
+        assert_eq!(same, alike, "{part}");
+        let cable = first.cable;
+        let sticking = Some(HorizonCause::Sticking { cable }).filter(|_| !alike);
+        let cause = trust.horizon.map(|horizon| horizon.cause);
+        assert_eq!(cause, sticking, "{part}");
+    }
+    Ok(())
+}
