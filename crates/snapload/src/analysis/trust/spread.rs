@@ -7,6 +7,7 @@ use crate::analysis::trust::causes::{
 use crate::analysis::trust::covariance::{CovarianceFactor, LARGEST_SPREAD};
 use crate::analysis::trust::linear_map::{LinearMap, Observer};
 use crate::analysis::trust::parts::{COLUMNS, squares};
+use crate::analysis::trust::passed_impulse;
 use crate::analysis::trust::rounding::{self, Rounding};
 use crate::analysis::trust::tension::{self, TautStep};
 use crate::analysis::trust::uncertain_key::{UncertainKey, uniform};
@@ -315,7 +316,10 @@ impl SpreadMonitor {
         let closing = Closing::of(simulation, step, &approach);
         if self.horizon.is_none() {
             let by_tension = self.horizon_of_tension(simulation, step, &map, [&before, &along]);
-            let other = cause(simulation, step, &approach, &neighbours, closing);
+            let other = cause(simulation, step, &approach, &neighbours, closing).or_else(|| {
+                let tangent = self.tangent.as_deref()?;
+                passed_impulse::cause(simulation.system(), tangent, step, &met, &self.keys)
+            });
             let other = other.map(|cause| self.horizon_after(step, cause));
             let earlier = |a: Horizon, b: Horizon| if b.t < a.t { b } else { a };
             self.horizon = other.into_iter().chain(by_tension).reduce(earlier);

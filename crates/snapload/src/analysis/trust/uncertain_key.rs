@@ -5,7 +5,7 @@ use crate::case::Case;
 use crate::case::error::CaseError;
 use crate::case::value::Value;
 use crate::model::state::State;
-use crate::model::taut_set::MAX_CABLES;
+use crate::model::taut_set::{MAX_CABLES, PerCable};
 use crate::motion::active_set::normal_acceleration;
 use crate::motion::simulation::Simulation;
 use crate::motion::step_map::{Deviation, StepMap};
@@ -20,6 +20,8 @@ pub(super) struct UncertainKey {
     pub(super) deviation: Deviation,
     /// Those of the tensions at the start and at the end of the latest step, by cable.
     pub(super) tensions: [[f64; MAX_CABLES]; 2],
+    /// Those of the reactions of the cables that were taut at the latest impact.
+    pub(super) reactions: PerCable<f64>,
 }
 
 /// The standard deviation of a value that lies anywhere within ± `size`.
@@ -51,6 +53,7 @@ impl UncertainKey {
             size,
             deviation: [w[0], w[1], w[2], w[3], w[4], w[5], 0.0],
             tensions: [[0.0; MAX_CABLES]; 2],
+            reactions: [0.0; MAX_CABLES],
         })
     }
 
@@ -85,6 +88,11 @@ impl UncertainKey {
                 simulation.tensions_at_end(&step),
             ];
             self.tensions = ends.map(|ends| ends.map(|tension| tension.slope[0] * self.size));
+        }
+        if let Some(result) = &step.result {
+            for cable in step.event.still.iter() {
+                self.reactions[cable] = result.reaction(cable).slope[0] * self.size;
+            }
         }
         self.deviation = at(&step.after);
         [along, met, self.deviation]
