@@ -252,6 +252,11 @@ impl<T: Real> Simulation<T> {
         self.active.taut
     }
 
+    /// The taut cables whose tensions determine the motion.
+    pub(crate) fn carrying(&self) -> TautSet {
+        self.active.carrying
+    }
+
     /// Why the motion has stopped, if it has.
     pub fn stop(&self) -> Option<Stop> {
         self.stop

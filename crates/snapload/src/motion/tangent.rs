@@ -172,7 +172,7 @@ impl Tangent {
         state.components().map(|component| component.slope)
     }
 
-    /// The normal acceleration of a closed cable that is slack, at the time reached, and its
+    /// The normal acceleration of a closed cable that carries nothing, at the time reached, and its
     /// derivatives by (x, y, θ, ẋ, ẏ, θ̇).
     pub(crate) fn normal_acceleration(
         &self,
@@ -182,7 +182,7 @@ impl Tangent {
         let around = simulation.surroundings(simulation.time());
         let (around, state) = (around.map(Number::constant), variables(simulation.state()));
         let held = simulation.memory_force().map(Number::constant);
-        let taut = simulation.taut();
+        let taut = simulation.carrying();
         let found = normal_acceleration(&self.system, &around, &state, held, cable, taut);
         (found.value, found.slope)
     }

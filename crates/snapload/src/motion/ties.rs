@@ -59,6 +59,20 @@ impl Decided {
     }
 }
 
+impl ActiveSet {
+    /// The same with cables that have no tension at any time. Beside a cable that carries they stay
+    /// closed: there taut and slack are the same motion.
+    fn beside(self, idle: TautSet) -> Self {
+        if self.carrying.is_empty() {
+            return self;
+        }
+        Self {
+            taut: self.taut.union(idle),
+            ..self
+        }
+    }
+}
+
 /// A state with all forces on the body but those of the cables.
 pub(crate) struct Instant<'a, T: Real> {
     pub(crate) system: &'a System<T>,
@@ -194,26 +208,37 @@ impl<T: Real> Tie<'_, T> {
             state,
             memory_force: [T::ZERO; 3],
         };
-        if let Some(s) = first_clear(&series, T::ZERO, tied, &now.zero_tensions(carrying)) {
+        let zero = now.zero_tensions(carrying);
+        let clear = |cables| first_clear(&series, T::ZERO, cables, &zero);
+        let half = series.step() * 0.5;
+        let growth = |cable| series.tension(cable, half) - series.tension(cable, T::ZERO);
+        let nothing = |&i: &usize| growth(i) == T::ZERO && clear(TautSet::only(i)).is_none();
+        let idle: TautSet = tied.iter().filter(nothing).collect();
+        let live = idle.iter().fold(tied, TautSet::without);
+        if let (Some(s), false) = (clear(live), live.is_empty()) {
             let (later, memory_force) = (series.state(s), series.memory_force(s));
             let around = waves.at(system, t + s);
             let active = taut_next(system, &around, &later, memory_force, resting);
             return Decided {
-                active,
+                active: active.beside(idle),
                 touching: cables.intersection(active.carrying),
                 undecided: TautSet::SLACK,
             };
         }
-        // All is within rounding. The growth of the tensions is still the best that is known; where
-        // there is no tension at any time, taut and slack are the same motion.
-        let half = series.step() * 0.5;
-        let growth = |cable| series.tension(cable, half) - series.tension(cable, T::ZERO);
-        let none = tied.iter().all(|cable| growth(cable) == T::ZERO);
-        let rise = !none && tied.iter().all(|cable| growth(cable) > T::ZERO);
+        // All is within rounding. The growth of the tensions is still the best that is known.
+        let rise = !live.is_empty() && live.iter().all(|cable| growth(cable) > T::ZERO);
+        let held = ActiveSet {
+            carrying: idle.iter().fold(carrying, TautSet::without),
+            ..held
+        };
         Decided {
-            active: if rise { held } else { active },
-            touching: if rise { tied } else { TautSet::SLACK },
-            undecided: if none { TautSet::SLACK } else { cables },
+            active: if rise { held } else { active.beside(idle) },
+            touching: if rise { live } else { TautSet::SLACK },
+            undecided: if live.is_empty() {
+                TautSet::SLACK
+            } else {
+                cables
+            },
         }
     }
 

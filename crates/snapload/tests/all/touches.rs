@@ -2,7 +2,9 @@
 
 use crate::agrees_with_closed_forms::string;
 use snapload::analysis::{Trust, TrustMonitor, no_progress, record};
-use snapload::{Cable, Forcing, Harmonic, Rules, Simulation, State, System, TautSet, Trajectory};
+use snapload::{
+    Cable, Forcing, Harmonic, Rules, Simulation, State, Stop, System, TautSet, Trajectory,
+};
 use std::f64::consts::{FRAC_PI_2, PI};
 
 fn followed(system: System, t_end: f64, start: State) -> (Trajectory, Trust) {
@@ -106,6 +108,55 @@ fn two_tensions_may_rise_from_zero_together() {
             };
             let about = format!("{weight}, {squares:?}");
             stays_taut(&about, (system, State::default()), 3.0);
+        }
+    }
+}
+
+/// A mass between a cable to the left, with T₁ = 0.3 cos(t + φ), and one to the top, with T₂ = 0.
+/// When T₁ is lost the mass is pushed to the left, by 0.3 (τ − sin τ) at first, and swings on the
+/// other cable. Impacts by rounding may come before, but are not certain.
+#[test]
+fn a_cable_without_tension_takes_over_from_one_that_loses_it() {
+    for [size, phase] in [
+        [0.3, -FRAC_PI_2],
+        [-0.3, FRAC_PI_2],
+        [0.3, 0.0],
+        [0.3, -0.7],
+    ] {
+        for first in [0, 1] {
+            let mut cables = vec![
+                Cable::new([-1.0, 0.0], [0.0, 0.0], 1.0),
+                Cable::new([0.0, 1.0], [0.0, 0.0], 1.0),
+            ];
+            cables.rotate_left(first);
+            let system = System {
+                cables,
+                forcing: Forcing {
+                    constant: [0.0, 0.0].into(),
+                    harmonics: vec![Harmonic::with_phases(1.0, [size, 0.0], [phase; 2])],
+                },
+                ..string(1.0, 0.0, 0.5)
+            };
+            let about = format!("{size}, {phase}, {first}");
+            let lost = FRAC_PI_2 - phase.rem_euclid(PI);
+            let lost = if lost < 1e-9 { lost + PI } else { lost };
+            let (run, trust) = followed(system, lost + 0.5, State::default());
+            assert_eq!(run.end().reason, Stop::EndTime, "{about}");
+            let traces = run.impacts().iter().all(|snap| snap.v_n < 1e-15);
+            assert!(traces && run.impacts().len() < 10, "{about}");
+            let last = run.modes().last().unwrap();
+            assert_eq!(last.taut, TautSet::only(1 - first), "{about}");
+            assert!(
+                (run.at(lost - 1e-3).tensions[first] - 3e-4).abs() < 1e-9,
+                "{about}"
+            );
+            let end = run.end().state;
+            assert!(end.x < -0.005, "{about}: {end:?}");
+            assert!((end.x.hypot(end.y - 1.0) - 1.0).abs() < 1e-12, "{about}");
+            assert!(
+                trust.horizon.is_some() || run.impacts().is_empty(),
+                "{about}"
+            );
         }
     }
 }

@@ -18,6 +18,7 @@ use crate::analysis::trust::causes::SIGMA_REACH;
 use crate::analysis::trust::covariance::CovarianceFactor;
 use crate::analysis::trust::uncertain_key::UncertainKey;
 use crate::model::taut_set::TautSet;
+use crate::motion::complementarity::independent;
 use crate::motion::events::Reached;
 use crate::motion::simulation::{Simulation, Step};
 use crate::motion::step_map::{StepMap, dot6, join};
@@ -59,6 +60,11 @@ impl TautStep<'_> {
         let goes_on = step.event.reached == Reached::default() && step.stop.is_none();
         let [first, last] = self.tangent.slopes_of_tensions(simulation, step);
         let mut near = NearZero::default();
+        near.differ = self
+            .idle()
+            .iter()
+            .filter(|&cable| self.reach(cable, [&first[cable], &last[cable]]) > OF_ROUNDING)
+            .collect();
         // A cable that lies along others carries nothing.
         for cable in step.carrying.iter() {
             let reach = self.reach(cable, [&first[cable], &last[cable]]);
@@ -84,6 +90,21 @@ impl TautStep<'_> {
         near
     }
 
+    /// Taut cables that could carry, and have no tension along the step.
+    fn idle(&self) -> TautSet {
+        let step = self.step;
+        if step.taut == step.carrying {
+            return TautSet::SLACK;
+        }
+        let system = self.simulation.system();
+        let normals = system.normals(&step.start, step.taut);
+        let w = |i: usize, j: usize| system.body.mass.coupling(&normals[i], &normals[j]);
+        if !independent(step.taut, w) {
+            return TautSet::SLACK;
+        }
+        step.carrying.iter().fold(step.taut, TautSet::without)
+    }
+
     /// How far the tension of a cable of neighbours is from the run's, given its derivatives at the
     /// start and at the end.
     fn reach(&self, cable: usize, [first, last]: [&[f64; 6]; 2]) -> f64 {
@@ -107,7 +128,7 @@ pub(super) fn cause_at_start(
     covariance: &CovarianceFactor,
     keys: &[UncertainKey],
 ) -> Option<HorizonCause> {
-    let slack = |cable: &usize| !simulation.taut().contains(*cable);
+    let slack = |cable: &usize| !simulation.carrying().contains(*cable);
     let mut resting = simulation.resting().iter().filter(slack).peekable();
     resting.peek()?;
     let tangent = Tangent::new(simulation.system());

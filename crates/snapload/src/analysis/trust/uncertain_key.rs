@@ -57,13 +57,13 @@ impl UncertainKey {
         })
     }
 
-    /// The standard deviation of the normal acceleration of a closed cable that is slack, at the
+    /// The standard deviation of the normal acceleration of a closed cable that carries nothing, at the
     /// start, as far as it depends on the parameter.
     pub(super) fn of_normal_acceleration(&self, cable: usize) -> f64 {
         let simulation = &self.simulation;
         let (system, state) = (simulation.system(), simulation.state());
         let around = simulation.surroundings(simulation.time());
-        let (held, taut) = (simulation.memory_force(), simulation.taut());
+        let (held, taut) = (simulation.memory_force(), simulation.carrying());
         let found = normal_acceleration(system, &around, state, held, cable, taut);
         found.slope[0] * self.size
     }
