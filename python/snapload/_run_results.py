@@ -106,8 +106,8 @@ class Trust(Result):
     impact : int or None
         The number of the impact at the horizon, from 1.
     because : str or None
-        The reason: ``tolerance``, ``graze``, ``near_miss``, ``sticking``, ``tension``, ``simultaneous``,
-        ``start`` or ``stop_rule``.
+        The reason: ``tolerance``, ``graze``, ``near_miss``, ``sticking``, ``tension``,
+        ``passed_impulse``, ``simultaneous``, ``start`` or ``stop_rule``.
     tolerance : float
         Error of time or state, as two standard deviations, above which a result counts as not known.
     uncertainty : dict of str to float

@@ -193,6 +193,10 @@ pub(crate) fn horizon_in_words(horizon: Option<Horizon>, tolerance: f64, impacts
             "the tension of cable {} comes so close to zero there that it may or may not go slack",
             cable + 1
         ),
+        HorizonCause::PassedImpulse { cable } => format!(
+            "a snap there hardly loads or unloads cable {}, which is taut and may or may not go slack",
+            cable + 1
+        ),
         HorizonCause::Simultaneous => {
             "cables snap at the same instant there; which is first decides what follows".to_owned()
         }

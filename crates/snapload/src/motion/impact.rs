@@ -38,6 +38,15 @@ pub(crate) struct ImpactResult<T> {
 }
 
 impl<T: Real> ImpactResult<T> {
+    /// The impulse of a closed cable or, where it has none, its normal velocity after the impact.
+    pub(crate) fn reaction(&self, cable: usize) -> T {
+        if self.pulling.contains(cable) {
+            self.impulse[cable]
+        } else {
+            self.v_after[cable]
+        }
+    }
+
     /// Of one cable.
     pub(crate) fn of_one(
         cable: usize,

@@ -30,6 +30,7 @@ mod event_laws;
 mod kernels;
 pub(super) mod within;
 
+pub(crate) use event_laws::zero_velocity;
 pub use kernels::Steps;
 use kernels::begin;
 use within::StateAt;
@@ -121,7 +122,7 @@ pub struct Step<T: Real = f64> {
     /// The carrying cables among the taut ones.
     pub(crate) carrying: TautSet,
     pub(crate) event: Event,
-    result: Option<ImpactResult<T>>,
+    pub(crate) result: Option<ImpactResult<T>>,
 }
 
 /// The event at the end of a segment, before its law is applied.
@@ -249,6 +250,11 @@ impl<T: Real> Simulation<T> {
     /// The taut cables.
     pub fn taut(&self) -> TautSet {
         self.active.taut
+    }
+
+    /// The taut cables whose tensions determine the motion.
+    pub(crate) fn carrying(&self) -> TautSet {
+        self.active.carrying
     }
 
     /// Why the motion has stopped, if it has.

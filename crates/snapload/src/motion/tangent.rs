@@ -28,13 +28,13 @@ use crate::model::taut_set::{MAX_CABLES, TautSet};
 use crate::motion::active_set::{
     acceleration, normal_acceleration, response_to_force, slopes_of_acceleration, tensions,
 };
-use crate::motion::impact::{impact, slope_of_impact_alone};
+use crate::motion::impact::{ImpactResult, impact, slope_of_impact_alone};
 use crate::motion::projection::{project_position, project_velocity};
 use crate::motion::simulation::{Simulation, Step};
 use crate::motion::step_map::{Flow, Matrix, MemoryRates, StepMap, add_scaled, dot6, join, split};
 use crate::motion::water_flow::{Slopes, WaterFlow, memory_rates, pace_of_memory};
 
-type Number = Dual<f64, 6>;
+pub(crate) type Number = Dual<f64, 6>;
 
 /// Steps, for each expansion of the motion, in which Φ is integrated along taut motion; the length
 /// of an expansion follows the motion's own time scale. With the Runge-Kutta rule the error of Φ is
@@ -172,7 +172,7 @@ impl Tangent {
         state.components().map(|component| component.slope)
     }
 
-    /// The normal acceleration of a closed cable that is slack, at the time reached, and its
+    /// The normal acceleration of a closed cable that carries nothing, at the time reached, and its
     /// derivatives by (x, y, θ, ẋ, ẏ, θ̇).
     pub(crate) fn normal_acceleration(
         &self,
@@ -182,7 +182,7 @@ impl Tangent {
         let around = simulation.surroundings(simulation.time());
         let (around, state) = (around.map(Number::constant), variables(simulation.state()));
         let held = simulation.memory_force().map(Number::constant);
-        let taut = simulation.taut();
+        let taut = simulation.carrying();
         let found = normal_acceleration(&self.system, &around, &state, held, cable, taut);
         (found.value, found.slope)
     }
@@ -200,6 +200,14 @@ impl Tangent {
         step: &Step,
     ) -> [[[f64; 6]; MAX_CABLES]; 2] {
         dispatch(DifferentiatingTensions(self, simulation, step))
+    }
+
+    /// The impact at the end of a step, with its derivatives by (x, y, θ, ẋ, ẏ, θ̇) along which the
+    /// closed cables stay closed.
+    pub(crate) fn impact(&self, step: &Step) -> ImpactResult<Number> {
+        let (mut before, event) = (variables(&step.before), &step.event);
+        project_position(&self.system, &mut before, event.closed);
+        impact(&self.system, &before, event.closed, event.still)
     }
 
     /// Φ along the segment of a step.

@@ -15,6 +15,8 @@
 
 use crate::arithmetic::plane::Vector2;
 use crate::arithmetic::real::Real;
+use crate::model::forcing::Harmonic;
+use crate::model::mass::{Mass, Matrix3, times};
 use crate::model::rules::Rules;
 use crate::model::state::State;
 use crate::model::surroundings::Surroundings;
@@ -53,6 +55,20 @@ impl Decided {
             active,
             touching: TautSet::SLACK,
             undecided: TautSet::SLACK,
+        }
+    }
+}
+
+impl ActiveSet {
+    /// The same with cables that have no tension at any time. Beside a cable that carries they stay
+    /// closed: there taut and slack are the same motion.
+    fn beside(self, idle: TautSet) -> Self {
+        if self.carrying.is_empty() {
+            return self;
+        }
+        Self {
+            taut: self.taut.union(idle),
+            ..self
         }
     }
 }
@@ -103,12 +119,13 @@ impl<T: Real> Instant<'_, T> {
             memory_force,
         } = self;
         let free = system.free_acceleration(around, state, memory_force);
+        let free_size = size_of_free_acceleration(system, state, memory_force);
         let tension = tensions(system, around, state, memory_force, carrying);
         let normals = system.normals(state, set.union(carrying));
         let mut found = [(T::ZERO, T::ZERO); MAX_CABLES];
         for cable in set.iter() {
             let mut left = system.free_normal_acceleration(cable, state, free);
-            let mut size = size_of_load(system, cable, state, free);
+            let mut size = size_of_load(system, cable, state, free_size);
             for other in carrying.iter() {
                 let coupling = system.body.mass.coupling(&normals[cable], &normals[other]);
                 left -= coupling * tension[other];
@@ -191,26 +208,37 @@ impl<T: Real> Tie<'_, T> {
             state,
             memory_force: [T::ZERO; 3],
         };
-        if let Some(s) = first_clear(&series, T::ZERO, tied, &now.zero_tensions(carrying)) {
+        let zero = now.zero_tensions(carrying);
+        let clear = |cables| first_clear(&series, T::ZERO, cables, &zero);
+        let half = series.step() * 0.5;
+        let growth = |cable| series.tension(cable, half) - series.tension(cable, T::ZERO);
+        let nothing = |&i: &usize| growth(i) == T::ZERO && clear(TautSet::only(i)).is_none();
+        let idle: TautSet = tied.iter().filter(nothing).collect();
+        let live = idle.iter().fold(tied, TautSet::without);
+        if let (Some(s), false) = (clear(live), live.is_empty()) {
             let (later, memory_force) = (series.state(s), series.memory_force(s));
             let around = waves.at(system, t + s);
             let active = taut_next(system, &around, &later, memory_force, resting);
             return Decided {
-                active,
+                active: active.beside(idle),
                 touching: cables.intersection(active.carrying),
                 undecided: TautSet::SLACK,
             };
         }
-        // All is within rounding. The growth of the tensions is still the best that is known; where
-        // there is no tension at any time, taut and slack are the same motion.
-        let half = series.step() * 0.5;
-        let growth = |cable| series.tension(cable, half) - series.tension(cable, T::ZERO);
-        let none = tied.iter().all(|cable| growth(cable) == T::ZERO);
-        let rise = !none && tied.iter().all(|cable| growth(cable) > T::ZERO);
+        // All is within rounding. The growth of the tensions is still the best that is known.
+        let rise = !live.is_empty() && live.iter().all(|cable| growth(cable) > T::ZERO);
+        let held = ActiveSet {
+            carrying: idle.iter().fold(carrying, TautSet::without),
+            ..held
+        };
         Decided {
-            active: if rise { held } else { active },
-            touching: if rise { tied } else { TautSet::SLACK },
-            undecided: if none { TautSet::SLACK } else { cables },
+            active: if rise { held } else { active.beside(idle) },
+            touching: if rise { live } else { TautSet::SLACK },
+            undecided: if live.is_empty() {
+                TautSet::SLACK
+            } else {
+                cables
+            },
         }
     }
 
@@ -229,6 +257,55 @@ impl<T: Real> Tie<'_, T> {
         series.begin(system, &around, state, &memory, contacts, held);
         series
     }
+}
+
+/// The sums of the absolute values of all summands of [`System::free_acceleration`]: where forces
+/// cancel each other, their roundings do not.
+fn size_of_free_acceleration<T: Real>(
+    system: &System<T>,
+    state: &State<T>,
+    memory_force: [T; 3],
+) -> [T; 3] {
+    let mass = &system.body.mass;
+    let place = [state.x, state.y, state.theta].map(T::abs);
+    let speed = [state.vx, state.vy, state.vtheta].map(T::abs);
+    let forcing = &system.forcing;
+    let [x, y] = sum_of_sizes(forcing.constant.map(T::abs), &forcing.harmonics).components();
+    let mut load = [x, y, T::ZERO];
+    if let Some(drag) = &system.drag {
+        let water = sum_of_sizes([speed[0], speed[1]].into(), &drag.water);
+        let factor = drag.linear + drag.quadratic * water.length();
+        load[0] += factor * water.x;
+        load[1] += factor * water.y;
+        load[2] += mass.load_of_turning(drag.turning * speed[2]);
+    }
+    if let Some(water) = &system.floating {
+        let sizes = |matrix: &Matrix3<T>| matrix.map(|row| row.map(T::abs));
+        let stiff = times(&sizes(&water.stiffness), place);
+        let damped = times(&sizes(&water.damping), speed);
+        let wave = |i: usize| {
+            let sizes = water.excitation.iter();
+            sizes.fold(water.constant[i].abs(), |sum, wave| {
+                sum + wave.cosine[i].abs() + wave.sine[i].abs()
+            })
+        };
+        for (i, load) in load.iter_mut().enumerate().take(2) {
+            *load += wave(i) + stiff[i] + damped[i] + memory_force[i].abs();
+        }
+        let moment = wave(2) + stiff[2] + damped[2] + memory_force[2].abs();
+        load[2] += mass.load_of_moment(moment);
+    }
+    match mass {
+        Mass::Unit { .. } => load,
+        Mass::Full { inverse, .. } => times(&inverse.map(|row| row.map(T::abs)), load),
+    }
+}
+
+/// The sum of some sizes and the largest possible ones of some sinusoids.
+fn sum_of_sizes<T: Real>(of_others: Vector2<T>, sinusoids: &[Harmonic<T>]) -> Vector2<T> {
+    sinusoids.iter().fold(of_others, |sum, wave| {
+        sum + wave.cosine.map(T::abs) + wave.sine.map(T::abs)
+    })
 }
 
 /// A bound on the summands of the normal acceleration without any cable force, times the factor by

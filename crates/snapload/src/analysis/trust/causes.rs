@@ -5,7 +5,7 @@ use crate::analysis::trust::covariance::CovarianceFactor;
 use crate::model::cable::Normal;
 use crate::motion::active_set::normal_acceleration;
 use crate::motion::events::Reached;
-use crate::motion::simulation::{Simulation, Step};
+use crate::motion::simulation::{Progress, Simulation, Step};
 use crate::motion::start::{START_TOLERANCE, start_tolerance};
 use crate::motion::step_map::Deviation;
 
@@ -224,7 +224,8 @@ fn may_not_have_opened(simulation: &Simulation, step: &Step, closing: &Closing) 
 
 /// Whether some neighbours snap slowly enough to stick and others do not, after which the numbers
 /// of their impacts differ. Where the cable would have no tension, none sticks; where e = 0, all
-/// do.
+/// do. But where cables snap in turn, all stick after a row of slow snaps, in which this one counts
+/// for some neighbours and for others not.
 #[inline(always)]
 fn may_or_may_not_stick(
     simulation: &Simulation,
@@ -234,7 +235,9 @@ fn may_or_may_not_stick(
 ) -> bool {
     let (system, before) = (simulation.system(), &step.before);
     let Closing { cable, v_n, alpha } = *closing;
-    if alpha <= 0.0 || system.restitution == 0.0 {
+    let Progress { impacts, last } = simulation.progress();
+    let in_turn = impacts > 1 && last.repeats == 1;
+    if !in_turn && (alpha <= 0.0 || system.restitution == 0.0) {
         return false;
     }
     let off = (v_n - simulation.rules().v_stick).abs();

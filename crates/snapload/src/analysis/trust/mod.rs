@@ -15,6 +15,7 @@ mod covariance;
 mod linear_map;
 mod monitor;
 mod parts;
+mod passed_impulse;
 mod rounding;
 mod spread;
 mod tension;
@@ -162,6 +163,11 @@ pub enum HorizonCause {
         /// The cable.
         cable: usize,
     },
+    /// A snap hardly loads or unloads a taut cable, so that a neighbour may go slack, or stay taut.
+    PassedImpulse {
+        /// The taut cable.
+        cable: usize,
+    },
     /// Several cables snap at one instant: their order, which may differ for neighbours, decides
     /// what follows.
     Simultaneous,
@@ -183,6 +189,7 @@ impl HorizonCause {
             Self::NearMiss { .. } => "near_miss",
             Self::Sticking { .. } => "sticking",
             Self::Tension { .. } => "tension",
+            Self::PassedImpulse { .. } => "passed_impulse",
             Self::Simultaneous => "simultaneous",
             Self::Start { .. } => "start",
             Self::StopRule => "stop_rule",

@@ -7,6 +7,7 @@ use crate::analysis::trust::causes::{
 use crate::analysis::trust::covariance::{CovarianceFactor, LARGEST_SPREAD};
 use crate::analysis::trust::linear_map::{LinearMap, Observer};
 use crate::analysis::trust::parts::{COLUMNS, squares};
+use crate::analysis::trust::passed_impulse;
 use crate::analysis::trust::rounding::{self, Rounding};
 use crate::analysis::trust::tension::{self, TautStep};
 use crate::analysis::trust::uncertain_key::{UncertainKey, uniform};
@@ -16,6 +17,7 @@ use crate::case::Case;
 use crate::case::error::CaseError;
 use crate::model::rules::Stop;
 use crate::model::state::State;
+use crate::model::taut_set::TautSet;
 use crate::motion::bounce_map::{BounceMap, Bounced};
 use crate::motion::simulation::{Simulation, Step};
 use crate::motion::step_map::{Block, Deviation, StepMap, combined};
@@ -44,6 +46,9 @@ pub(super) struct SpreadMonitor {
     /// The steps so far, up to [`EXACT_STEPS`].
     steps: u32,
     pub(super) horizon: Option<Horizon>,
+    /// The cables whose tension was near zero and fell at the end of the latest step, and since
+    /// when it has been.
+    falling: (TautSet, f64),
     /// Whether the spread is too large to be carried further.
     too_large: bool,
     pub(super) end_error: f64,
@@ -123,6 +128,7 @@ impl SpreadMonitor {
             impacts: 0,
             steps: 0,
             horizon,
+            falling: (TautSet::SLACK, 0.0),
             end_error: 0.0,
         }
     }
@@ -308,16 +314,15 @@ impl SpreadMonitor {
         };
         let approach = LinearMap::Step(&map).approach();
         let closing = Closing::of(simulation, step, &approach);
-        if self.horizon.is_none()
-            && let Some(cause) = cause(simulation, step, &approach, &neighbours, closing)
-        {
-            self.set_horizon(step, cause);
-        }
-        if self.horizon.is_none()
-            && !step.taut.is_empty()
-            && let Some(cause) = self.tension_cause(simulation, step, &map, [&before, &along])
-        {
-            self.set_horizon(step, cause);
+        if self.horizon.is_none() {
+            let by_tension = self.horizon_of_tension(simulation, step, &map, [&before, &along]);
+            let other = cause(simulation, step, &approach, &neighbours, closing).or_else(|| {
+                let tangent = self.tangent.as_deref()?;
+                passed_impulse::cause(simulation.system(), tangent, step, &met, &self.keys)
+            });
+            let other = other.map(|cause| self.horizon_after(step, cause));
+            let earlier = |a: Horizon, b: Horizon| if b.t < a.t { b } else { a };
+            self.horizon = other.into_iter().chain(by_tension).reduce(earlier);
         }
         let mut after = met.carried(|w, _| map.carry_through(w), column(2));
         after.add_parts(&rounding.parts);
@@ -328,15 +333,19 @@ impl SpreadMonitor {
         self.error_at_event(step, &squares)
     }
 
-    /// Whether neighbours may lose a tension that the run keeps, or keep one that it loses.
+    /// Where trust ends because neighbours may lose a tension that the run keeps, or keep one that
+    /// it loses, if it does.
     #[inline(never)]
-    fn tension_cause(
+    fn horizon_of_tension(
         &mut self,
         simulation: &Simulation,
         step: &Step,
         map: &StepMap,
         [before, along]: [&CovarianceFactor; 2],
-    ) -> Option<HorizonCause> {
+    ) -> Option<Horizon> {
+        if step.taut.is_empty() {
+            return None;
+        }
         self.tangent(simulation);
         let taut = TautStep {
             simulation,
@@ -348,7 +357,18 @@ impl SpreadMonitor {
             keys: &self.keys,
             is_first: self.steps == 0,
         };
-        taut.cause()
+        let (falling, since) = self.falling;
+        let near = taut.near_zero(falling);
+        let before = near.differ.intersection(falling).iter().next();
+        let cable = before.or_else(|| near.differ.iter().next());
+        let mut horizon =
+            cable.map(|cable| self.horizon_after(step, HorizonCause::Tension { cable }));
+        if let (Some(_), Some(horizon)) = (before, &mut horizon) {
+            horizon.t = since;
+        }
+        let still = !near.fall.intersection(falling).is_empty();
+        self.falling = (near.fall, if still { since } else { step.t_end });
+        horizon
     }
 
     /// The error at an event, from the variances just before and just after it.
@@ -379,11 +399,16 @@ impl SpreadMonitor {
     /// Records where trust ends; only the first call has an effect.
     #[inline(always)]
     fn set_horizon(&mut self, step: &Step, cause: HorizonCause) {
-        self.horizon.get_or_insert(Horizon {
+        self.horizon = self.horizon.or(Some(self.horizon_after(step, cause)));
+    }
+
+    #[inline(always)]
+    fn horizon_after(&self, step: &Step, cause: HorizonCause) -> Horizon {
+        Horizon {
             t: step.t_end,
             impact: self.impacts + 1,
             cause,
-        });
+        }
     }
 }
 

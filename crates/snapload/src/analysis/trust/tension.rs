@@ -8,11 +8,18 @@
 //! step; a step is about half a radian of the motion, within which this hardly changes. An uncertain
 //! parameter also changes T itself, which its own run with derivatives contains. Deviations of a
 //! floating body's memory are left out.
+//!
+//! A step may end, as its series does, shortly before a tension is lost that all neighbours lose.
+//! So a tension that is near zero and still falls is decided by a later step: it is lost there, or
+//! it rises again, and then trust has ended where it was first near zero.
 
 use crate::analysis::trust::HorizonCause;
 use crate::analysis::trust::causes::SIGMA_REACH;
 use crate::analysis::trust::covariance::CovarianceFactor;
 use crate::analysis::trust::uncertain_key::UncertainKey;
+use crate::model::taut_set::TautSet;
+use crate::motion::complementarity::independent;
+use crate::motion::events::Reached;
 use crate::motion::simulation::{Simulation, Step};
 use crate::motion::step_map::{StepMap, dot6, join};
 use crate::motion::tangent::Tangent;
@@ -35,34 +42,82 @@ pub(super) struct TautStep<'a> {
     pub(super) is_first: bool,
 }
 
+/// The cables whose tension comes within reach of zero.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct NearZero {
+    /// Those that some neighbours lose and others do not.
+    pub(super) differ: TautSet,
+    /// Those that still fall at the end of the step, so that the next step decides.
+    pub(super) fall: TautSet,
+}
+
 impl TautStep<'_> {
-    /// The first cable whose tension some neighbours lose and others do not, if there is one.
-    pub(super) fn cause(&self) -> Option<HorizonCause> {
+    /// The cables near zero, among which those of `falling` were at the end of the step before.
+    pub(super) fn near_zero(&self, falling: TautSet) -> NearZero {
         let (simulation, step) = (self.simulation, self.step);
         let ranges = simulation.tension_ranges(step);
+        let at_end = simulation.tensions_at_end(step);
+        let goes_on = step.event.reached == Reached::default() && step.stop.is_none();
         let [first, last] = self.tangent.slopes_of_tensions(simulation, step);
-        let differs = |&cable: &usize| {
-            let lag = -dot6(&last[cable], self.map.rate());
-            let at_start = self.before.variance_of_parts(&join(&first[cable], 0.0));
-            let at_end = self.along.variance_of_parts(&join(&last[cable], lag));
-            let mut variances = [at_start, at_end];
-            for key in self.keys {
-                for (variance, tensions) in variances.iter_mut().zip(&key.tensions) {
-                    *variance += tensions[cable] * tensions[cable];
-                }
-            }
-            let reach = SIGMA_REACH * variances[0].max(variances[1]).sqrt();
+        let mut near = NearZero::default();
+        near.differ = self
+            .idle()
+            .iter()
+            .filter(|&cable| self.reach(cable, [&first[cable], &last[cable]]) > OF_ROUNDING)
+            .collect();
+        // A cable that lies along others carries nothing.
+        for cable in step.carrying.iter() {
+            let reach = self.reach(cable, [&first[cable], &last[cable]]);
             if step.event.reached.tensions.contains(cable) {
-                return may_stay(simulation, step, cable, reach);
+                if may_stay(simulation, step, cable, reach) {
+                    near.differ = near.differ.with(cable);
+                }
+                continue;
             }
             // Its growth decides that a tension of zero rises, whatever rounding makes of the zero.
-            let rises = self.is_first && simulation.tensions_at_end(step)[cable] > reach;
+            let ([least, largest], end) = (ranges[cable], at_end[cable]);
+            let rises = self.is_first && end > reach;
             let known = reach <= OF_ROUNDING && (rises || simulation.touches_zero(step, cable));
-            ranges[cable][0] <= reach && !known
-        };
-        // A cable that lies along others carries nothing.
-        let cable = step.carrying.iter().find(differs)?;
-        Some(HorizonCause::Tension { cable })
+            if known || least > reach && !falling.contains(cable) {
+                continue;
+            }
+            if goes_on && end <= least + OF_ROUNDING && end + OF_ROUNDING < largest {
+                near.fall = near.fall.with(cable);
+            } else {
+                near.differ = near.differ.with(cable);
+            }
+        }
+        near
+    }
+
+    /// Taut cables that could carry, and have no tension along the step.
+    fn idle(&self) -> TautSet {
+        let step = self.step;
+        if step.taut == step.carrying {
+            return TautSet::SLACK;
+        }
+        let system = self.simulation.system();
+        let normals = system.normals(&step.start, step.taut);
+        let w = |i: usize, j: usize| system.body.mass.coupling(&normals[i], &normals[j]);
+        if !independent(step.taut, w) {
+            return TautSet::SLACK;
+        }
+        step.carrying.iter().fold(step.taut, TautSet::without)
+    }
+
+    /// How far the tension of a cable of neighbours is from the run's, given its derivatives at the
+    /// start and at the end.
+    fn reach(&self, cable: usize, [first, last]: [&[f64; 6]; 2]) -> f64 {
+        let lag = -dot6(last, self.map.rate());
+        let at_start = self.before.variance_of_parts(&join(first, 0.0));
+        let at_end = self.along.variance_of_parts(&join(last, lag));
+        let mut variances = [at_start, at_end];
+        for key in self.keys {
+            for (variance, tensions) in variances.iter_mut().zip(&key.tensions) {
+                *variance += tensions[cable] * tensions[cable];
+            }
+        }
+        SIGMA_REACH * variances[0].max(variances[1]).sqrt()
     }
 }
 
@@ -73,7 +128,7 @@ pub(super) fn cause_at_start(
     covariance: &CovarianceFactor,
     keys: &[UncertainKey],
 ) -> Option<HorizonCause> {
-    let slack = |cable: &usize| !simulation.taut().contains(*cable);
+    let slack = |cable: &usize| !simulation.carrying().contains(*cable);
     let mut resting = simulation.resting().iter().filter(slack).peekable();
     resting.peek()?;
     let tangent = Tangent::new(simulation.system());

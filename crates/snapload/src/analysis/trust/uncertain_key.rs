@@ -5,7 +5,7 @@ use crate::case::Case;
 use crate::case::error::CaseError;
 use crate::case::value::Value;
 use crate::model::state::State;
-use crate::model::taut_set::MAX_CABLES;
+use crate::model::taut_set::{MAX_CABLES, PerCable};
 use crate::motion::active_set::normal_acceleration;
 use crate::motion::simulation::Simulation;
 use crate::motion::step_map::{Deviation, StepMap};
@@ -20,6 +20,8 @@ pub(super) struct UncertainKey {
     pub(super) deviation: Deviation,
     /// Those of the tensions at the start and at the end of the latest step, by cable.
     pub(super) tensions: [[f64; MAX_CABLES]; 2],
+    /// Those of the reactions of the cables that were taut at the latest impact.
+    pub(super) reactions: PerCable<f64>,
 }
 
 /// The standard deviation of a value that lies anywhere within ± `size`.
@@ -51,16 +53,17 @@ impl UncertainKey {
             size,
             deviation: [w[0], w[1], w[2], w[3], w[4], w[5], 0.0],
             tensions: [[0.0; MAX_CABLES]; 2],
+            reactions: [0.0; MAX_CABLES],
         })
     }
 
-    /// The standard deviation of the normal acceleration of a closed cable that is slack, at the
+    /// The standard deviation of the normal acceleration of a closed cable that carries nothing, at the
     /// start, as far as it depends on the parameter.
     pub(super) fn of_normal_acceleration(&self, cable: usize) -> f64 {
         let simulation = &self.simulation;
         let (system, state) = (simulation.system(), simulation.state());
         let around = simulation.surroundings(simulation.time());
-        let (held, taut) = (simulation.memory_force(), simulation.taut());
+        let (held, taut) = (simulation.memory_force(), simulation.carrying());
         let found = normal_acceleration(system, &around, state, held, cable, taut);
         found.slope[0] * self.size
     }
@@ -85,6 +88,11 @@ impl UncertainKey {
                 simulation.tensions_at_end(&step),
             ];
             self.tensions = ends.map(|ends| ends.map(|tension| tension.slope[0] * self.size));
+        }
+        if let Some(result) = &step.result {
+            for cable in step.event.still.iter() {
+                self.reactions[cable] = result.reaction(cable).slope[0] * self.size;
+            }
         }
         self.deviation = at(&step.after);
         [along, met, self.deviation]

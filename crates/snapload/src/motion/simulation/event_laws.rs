@@ -4,6 +4,7 @@ use crate::arithmetic::processor::apart;
 use crate::arithmetic::real::Real;
 use crate::model::rules::Stop;
 use crate::model::state::State;
+use crate::model::system::System;
 use crate::model::taut_set::TautSet;
 use crate::motion::active_set::{ActiveSet, normal_acceleration, taut_next};
 use crate::motion::bounce::UNMOVED;
@@ -19,6 +20,19 @@ const NEGATIVE_TENSION: f64 = -1e-7;
 /// After a tension is lost the motion is first evaluated 2^−LATER of a step later, then at each
 /// doubling of that, up to half a step.
 const LATER: i32 = 28;
+
+/// Up to what the normal velocity of a cable counts as zero at an impact, from the state after it
+/// and before it.
+#[inline(always)]
+pub(crate) fn zero_velocity<T: Real>(
+    system: &System<T>,
+    cable: usize,
+    [after, before]: [&State<T>; 2],
+) -> T {
+    let reach = system.cables[cable].fairlead().length();
+    let speed = |s: &State<T>| s.velocity().length() + s.vtheta.abs() * reach;
+    speed(after).max(speed(before)) * T::EPSILON * UNMOVED
+}
 
 impl<T: Real> Simulation<T> {
     /// Applies the law of the event.
@@ -113,10 +127,8 @@ impl<T: Real> Simulation<T> {
         if struck.contains(cable) && result.v_before[cable] <= T::ZERO {
             return true;
         }
-        let reach = self.system.cables[cable].fairlead().length();
-        let speed = |s: &State<T>| s.velocity().length() + s.vtheta.abs() * reach;
-        let rounding = speed(&self.state).max(speed(&self.before)) * T::EPSILON;
-        result.v_after[cable].abs() <= rounding * UNMOVED
+        let zero = zero_velocity(&self.system, cable, [&self.state, &self.before]);
+        result.v_after[cable].abs() <= zero
     }
 
     /// Of the cables at rest after an impact, those that still are after the slow ones have stuck:
