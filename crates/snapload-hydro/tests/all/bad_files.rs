@@ -145,7 +145,21 @@ fn broken_conventions_are_named() {
     }
     assert_message_contains(&refusal(upside_down), &["phase of X3"]);
     let mixed = pontoon().numbers("added_mass", |at, a| if at % 9 == 1 { a + 5e4 } else { a });
-    assert_message_contains(&refusal(mixed), &["symmetry", "mixed up"]);
+    assert_message_contains(&refusal(mixed), &["symmetry", "A_ij", "mixed up"]);
+    // Damping of surge by pitch without that of pitch by surge, or a tenth smaller.
+    let scaled = |part: f64| {
+        pontoon().numbers(
+            "radiation_damping",
+            move |at, b| {
+                if at % 9 == 2 { part * b } else { b }
+            },
+        )
+    };
+    assert_message_contains(&refusal(scaled(0.0)), &["symmetry", "B_ij", "mixed up"]);
+    let hydro = from_dataset(&scaled(0.9).0, &Given::default()).expect("coefficients");
+    let reading = Reading::new(Format::Capytaine, hydro).expect("a reading");
+    let doubtful = reading.warnings.iter().find(|w| w.what == "symmetry");
+    assert_message_contains(&doubtful.expect("a warning").message, &["B_ij", "mesh"]);
 }
 
 #[test]
