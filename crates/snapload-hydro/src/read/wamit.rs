@@ -16,7 +16,7 @@ use crate::error::HydroError;
 use nalgebra::{Complex, Matrix3, Vector3};
 use std::f64::consts::PI;
 
-/// What the first column of a file holds.
+/// What the first column of a file holds: WAMIT's IPEROUT from 1 to 4, with its length L (ULEN).
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum FirstColumn {
     /// T \[s\].
@@ -24,8 +24,32 @@ pub enum FirstColumn {
     Period,
     /// ω \[rad/s\]; zero and negative values stand for zero and infinite frequency.
     Frequency,
-    /// k \[1/m\] at the water's depth; zero and negative values as for the frequency.
+    /// KL with K = ω²/g whatever the depth; zero and negative values as for the frequency.
+    InfiniteDepthWaveNumber,
+    /// kL at the depth h, ω² = g k tanh(kh); zero and negative values as for the frequency.
     WaveNumber,
+}
+
+impl FirstColumn {
+    /// The words for them, in cases and options.
+    pub const WORDS: [&str; 4] = [
+        "period",
+        "frequency",
+        "infinite-depth-wavenumber",
+        "wavenumber",
+    ];
+
+    /// The one that a word means.
+    #[must_use]
+    pub fn from_word(word: &str) -> Option<Self> {
+        match word {
+            "period" => Some(Self::Period),
+            "frequency" => Some(Self::Frequency),
+            "infinite-depth-wavenumber" => Some(Self::InfiniteDepthWaveNumber),
+            "wavenumber" => Some(Self::WaveNumber),
+            _ => None,
+        }
+    }
 }
 
 /// The text of the files.
@@ -98,10 +122,11 @@ impl Units {
             FirstColumn::Period => 2.0 * PI / first,
             _ if first < 0.0 => f64::INFINITY,
             FirstColumn::Frequency => first,
+            FirstColumn::InfiniteDepthWaveNumber => (g * first / self.length).sqrt(),
+            FirstColumn::WaveNumber if first == 0.0 => 0.0,
             FirstColumn::WaveNumber => {
-                let shallow = (first * self.water.depth_m).tanh();
-                let shallow = if first == 0.0 { 0.0 } else { shallow };
-                (g * first * shallow).sqrt()
+                let k = first / self.length;
+                (g * k * (k * self.water.depth_m).tanh()).sqrt()
             }
         }
     }
