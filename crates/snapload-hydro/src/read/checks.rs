@@ -1,5 +1,6 @@
 //! Whether coefficients follow the conventions of signs, phases and units, and how good they are.
 
+use super::Format;
 use crate::coefficients::{Excitation, FREEDOMS, Hydrodynamics, UPPER};
 use crate::error::{HydroError, Warning};
 use crate::waves::wave_number;
@@ -14,13 +15,13 @@ const MIXED_UP: f64 = 0.2;
 const LONG_WAVE: f64 = 0.5;
 
 /// Refuses coefficients that violate a convention, and lists what is doubtful.
-pub(super) fn check(hydro: &Hydrodynamics) -> Result<Vec<Warning>, HydroError> {
+pub(super) fn check(format: Format, hydro: &Hydrodynamics) -> Result<Vec<Warning>, HydroError> {
     let mut warnings = Vec::new();
     symmetry(hydro, &mut warnings)?;
     damping(hydro, &mut warnings)?;
     stiffness(hydro, &mut warnings)?;
     for excitation in &hydro.excitation {
-        low_frequency(hydro, excitation, &mut warnings)?;
+        low_frequency(format, hydro, excitation, &mut warnings)?;
     }
     coverage(hydro, &mut warnings);
     Ok(warnings)
@@ -141,6 +142,7 @@ fn stiffness(hydro: &Hydrodynamics, warnings: &mut Vec<Warning>) -> Result<(), H
 ///
 /// as the pressure decreases towards +x a quarter of a period before a crest arrives.
 fn low_frequency(
+    format: Format,
     hydro: &Hydrodynamics,
     excitation: &Excitation,
     warnings: &mut Vec<Warning>,
@@ -154,9 +156,16 @@ fn low_frequency(
     let k = wave_number(omega, water.depth_m, water.gravity_m_s2);
     let long = k * waterplane.sqrt() < LONG_WAVE;
     if !long {
+        // Frequencies that are read as periods, or the other way round, are all too high.
+        let column = match format {
+            Format::Wamit => {
+                ". Does the first column of the files hold what first_column says, by default periods?"
+            }
+            _ => "",
+        };
         let message = format!(
             "the lowest frequency, {omega:.3} rad/s, is too high to check phases and units in \
-             the limit of long waves; compute lower ones"
+             the limit of long waves; compute lower ones{column}"
         );
         warnings.push(Warning::new("low frequencies", message));
         return Ok(());

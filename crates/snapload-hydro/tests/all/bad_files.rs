@@ -3,7 +3,7 @@
 use crate::common::{Spoilt, bytes, dataset, path};
 use nalgebra::Matrix3;
 use snapload_hydro::{
-    Dataset, Format, Given, Reading, Values, WamitText, from_dataset, from_wamit, read,
+    Dataset, FirstColumn, Format, Given, Reading, Values, WamitText, from_dataset, from_wamit, read,
 };
 
 fn refusal(spoilt: Spoilt) -> String {
@@ -269,6 +269,29 @@ fn wamit_may_leave_out_entries_by_symmetry() {
         }
     }
     assert_eq!((hydro.asymmetry, hydro.added_mass.len()), (0.0, 58));
+}
+
+/// The warning that no frequency is low enough asks about WAMIT's first column, which no other file
+/// has.
+#[test]
+fn periods_taken_as_frequencies_are_suspected() {
+    let warning = |format, hydro| {
+        let reading = Reading::new(format, hydro).expect("a reading");
+        let found = reading.warnings.into_iter();
+        let mut found = found.filter(|warning| warning.what == "low frequencies");
+        found.next().expect("a warning").message
+    };
+    let (files, given) = wamit();
+    let given = Given {
+        first_column: FirstColumn::Frequency,
+        ..given
+    };
+    let periods = from_wamit(&files, &given).expect("coefficients");
+    let question = "first column";
+    assert_message_contains(&warning(Format::Wamit, periods), &[question, "periods"]);
+    let high = pontoon().numbers("omega", |_, omega| 20.0 * omega);
+    let high = from_dataset(&high.0, &Given::default()).expect("coefficients");
+    assert!(!warning(Format::Capytaine, high).contains(question));
 }
 
 fn wamit_refusal(files: &WamitText, given: &Given) -> String {
