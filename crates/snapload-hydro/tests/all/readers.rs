@@ -327,6 +327,15 @@ fn nemoh_is_read() {
     let force = hydro.excitation_to(1.0).expect("+x").force[0];
     assert!((force[0] - Complex::new(0.0, -13537.78)).norm() < 0.1);
     assert!((force[1] - Complex::new(751_218.5, 0.0)).norm() < 40.0);
+
+    // The same phase in degrees, and without the headings of Nemoh, as Capytaine writes it.
+    let degrees = excitation.replace("-1.570795", "-90.0");
+    let error = from_nemoh(&radiation, &degrees, &given).expect_err("a refusal");
+    let message = error.to_string();
+    assert!(message.contains("at ω = 0.1 rad/s = -90") && message.contains("radians"), "{message}");
+    let no_zones = radiation.replace("Zone", "Surge");
+    let error = from_nemoh(&no_zones, &excitation, &given).expect_err("a refusal");
+    assert!(error.to_string().contains("Capytaine"), "{error}");
 }
 
 /// Another reference point: the power of damping is the same for the same motion of the body, and
