@@ -47,7 +47,7 @@ class HydroOptions(TypedDict, total=False):
     displaced_mass: float | None
     file_centre: tuple[float, float] | None
     unit_length: float | None
-    first_column: Literal["period", "frequency", "wavenumber"]
+    first_column: Literal["period", "frequency", "infinite-depth-wavenumber", "wavenumber"]
 
 
 @dataclass(frozen=True, repr=False, eq=False)

@@ -46,17 +46,14 @@ struct HydroOptions {
 }
 
 fn first_column(word: Option<&str>) -> PyResult<FirstColumn> {
-    match word {
-        None | Some("period") => Ok(FirstColumn::Period),
-        Some("frequency") => Ok(FirstColumn::Frequency),
-        Some("wavenumber") => Ok(FirstColumn::WaveNumber),
-        Some(other) => {
-            let words = format!(
-                "first_column = {other:?} is not allowed; allowed: period, frequency or wavenumber"
-            );
-            Err(PyValueError::new_err(words))
-        }
-    }
+    let Some(word) = word else {
+        return Ok(FirstColumn::default());
+    };
+    FirstColumn::from_word(word).ok_or_else(|| {
+        let allowed = FirstColumn::WORDS.join(", ");
+        let message = format!("first_column = {word:?} is not allowed; allowed: {allowed}");
+        PyValueError::new_err(message)
+    })
 }
 
 /// The options, or an error that names the one that is of another form.

@@ -60,6 +60,8 @@ pub struct Hydrodynamics {
     pub added_mass_inf: Option<Matrix3<f64>>,
     /// The largest |A_ij − A_ji| over ω, as a part of sqrt(A_ii A_jj), before A was made symmetric.
     pub asymmetry: f64,
+    /// The same of B, with sums over ω in place of the values at each.
+    pub damping_asymmetry: f64,
     /// X(ω), one or two directions.
     pub excitation: Vec<Excitation>,
     /// The water.

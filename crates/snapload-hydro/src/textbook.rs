@@ -97,6 +97,7 @@ impl SectionBody {
             added_mass_zero: None,
             added_mass_inf: Some(added),
             asymmetry: 0.0,
+            damping_asymmetry: 0.0,
             excitation: excitation.into(),
             water,
             reference_m: [self.x_m, 0.0],

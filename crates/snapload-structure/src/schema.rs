@@ -4,6 +4,7 @@ use crate::catalogue::{GRADES, TYPES};
 use crate::options::PAIRS;
 use snapload::DefaultValue::{Count, Derived, Flag, Number, Required, Word};
 use snapload::{Heading, Key, Kind, Schema, Table};
+use snapload_hydro::FirstColumn;
 
 /// The upper bound of lengths \[m\].
 const LONGEST: f64 = 1e5;
@@ -78,7 +79,8 @@ const FLOAT: &[Key] = &[
     Key::new("file_centre_of_gravity", "m", PLACE, Derived("the file's"),
         "[x, z] of the centre of gravity of the file's stiffness, where the file does not give it"),
     Key::new("unit_length", "m", LENGTH, Derived("none"), "WAMIT's unit of length ULEN"),
-    Key::new("first_column", "", Kind::Choice(&["period", "frequency", "wavenumber"]), Word("period"), "what the first column of WAMIT's files holds"),
+    Key::new("first_column", "", Kind::Choice(&FirstColumn::WORDS), Word("period"),
+        "what the first column of WAMIT's files holds (IPEROUT = 1 to 4)"),
     Key::new("name", "", Kind::Text, Derived("the only one"), "name of the body, where the file has several"),
 ];
 

@@ -103,8 +103,7 @@ fn of_block(block: &BlockQuality, entries: &[EntryQuality], warnings: &mut Vec<W
     if block.damped {
         let message = format!(
             "the memory of {names} could not be made passive, or only with an error larger by more than \
-             {:.0} percentage points; it is
-             kept unchanged, and linear damping of {:.2} % of the largest value is added",
+             {:.0} percentage points; it is kept unchanged, and linear damping of {:.2} % of the largest value is added",
             100.0 * PASSIVITY_MISFIT,
             -100.0 * block.least
         );

@@ -84,7 +84,7 @@ impl Reading {
     /// # Errors
     /// A [`HydroError`] that says which convention is violated.
     pub fn new(format: Format, hydro: Hydrodynamics) -> Result<Self, HydroError> {
-        let warnings = checks::check(&hydro)?;
+        let warnings = checks::check(format, &hydro)?;
         Ok(Self {
             format,
             hydro,

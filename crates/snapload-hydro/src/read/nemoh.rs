@@ -1,11 +1,12 @@
-//! Nemoh's text files, as its post-processor writes them and as Capytaine exports them.
+//! Nemoh's text files, as its post-processor writes them. Those that Capytaine exports in "Nemoh's
+//! format" have no zones and do not say which force is in which column; its netCDF says it.
 //!
 //! ```text
 //! RadiationCoefficients.tec    a zone for each motion; its rows are ω, and A and B of each force
 //! ExcitationForce.tec          a zone for each β in degrees; its rows are ω, and |F| and arg F of each force
 //! ```
 //!
-//! The phase is that of e^{−iωt}: at low frequency arg F1 → −π/2 for β = 0, and arg F3 → 0. Source:
+//! arg F is in radians. The phase is that of e^{−iωt}: at low frequency arg F1 → −π/2 for β = 0, and arg F3 → 0. Source:
 //! Nemoh v2, `Solver/Main.f90`, which writes these files, and the files that come with it.
 
 use super::table::{Row, Table};
@@ -44,8 +45,8 @@ pub fn from_nemoh(
     let motions = zones(name, radiation, 1 + 2 * SIX)?;
     if motions.len() != SIX {
         let found = format!("it has {} zones", motions.len());
-        let expected =
-            "one body with its six degrees of freedom is expected, one zone for each motion";
+        let expected = "one body with its six degrees of freedom is expected, one zone for each \
+                        motion; of Capytaine use the .nc file";
         return Err(HydroError::layout(name, found, expected));
     }
     let name = "ExcitationForce.tec";
@@ -62,6 +63,7 @@ pub fn from_nemoh(
             ));
         }
     }
+    headed.iter().try_for_each(|wave| in_radians(wave))?;
     let table = Table {
         rows: (0..count)
             .map(|step| row(&motions, &headed, step))
@@ -99,6 +101,21 @@ fn along_x<'a, 'b>(
         return Err(HydroError::missing(what, advice));
     }
     Ok((directions, headed))
+}
+
+/// Refuses phases that are no angles in radians.
+fn in_radians(wave: &Zone) -> Result<(), HydroError> {
+    for row in &wave.rows {
+        // Fortran writes seven digits of ±2π.
+        let phases = row.iter().skip(2).step_by(2);
+        if let Some(phase) = phases.into_iter().find(|phase| phase.abs() > 6.2832) {
+            let what = format!("a phase in ExcitationForce.tec at ω = {} rad/s", row[0]);
+            let expected = "−2π to 2π, in radians, is allowed; convert degrees to radians, and \
+                            subtract whole turns";
+            return Err(HydroError::value(what, *phase, expected));
+        }
+    }
+    Ok(())
 }
 
 /// The values of the zones at one frequency.

@@ -51,8 +51,8 @@ impl Table {
         let mut finite: Vec<Row> = Vec::new();
         let mut asymmetry: f64 = 0.0;
         for mut row in self.rows {
-            // Entries whose values were printed as zero are no asymmetry.
-            asymmetry = asymmetry.max(part_asymmetric(&row.added_mass));
+            let apart = row.added_mass - row.added_mass.transpose();
+            asymmetry = asymmetry.max(asymmetric_part(&apart, &row.added_mass));
             row.added_mass = symmetric(&row.added_mass);
             let whole = row.added_mass.iter().all(|value| value.is_finite());
             match row.omega {
@@ -67,6 +67,10 @@ impl Table {
             return Err(HydroError::layout("the file", found, expected));
         }
         finite.iter().try_for_each(Row::check)?;
+        // At single frequencies damping is nearly zero, and a part of it says nothing.
+        let damping = || finite.iter().map(|row| row.damping);
+        let apart: Matrix3<f64> = damping().map(|b| (b - b.transpose()).abs()).sum();
+        let damping_asymmetry = asymmetric_part(&apart, &damping().map(|b| b.abs()).sum());
         let excitation = self.directions.iter().enumerate();
         let excitation = excitation.map(|(index, direction)| Excitation {
             direction: *direction,
@@ -80,6 +84,7 @@ impl Table {
             added_mass_zero: zero,
             added_mass_inf: inf,
             asymmetry,
+            damping_asymmetry,
             water: self.water,
             reference_m: self.reference_m,
             hydrostatics: self.hydrostatics,
@@ -124,11 +129,12 @@ fn symmetric(matrix: &Matrix3<f64>) -> Matrix3<f64> {
     (matrix + matrix.transpose()) * 0.5
 }
 
-/// The largest |M_ij − M_ji| over sqrt(|M_ii M_jj|).
-fn part_asymmetric(matrix: &Matrix3<f64>) -> f64 {
+/// The largest |M_ij − M_ji|, which are `apart`, over sqrt(|M_ii M_jj|).
+fn asymmetric_part(apart: &Matrix3<f64>, matrix: &Matrix3<f64>) -> f64 {
     let part = |(i, j): (usize, usize)| {
         let scale = (matrix[(i, i)] * matrix[(j, j)]).abs().sqrt();
-        let difference = (matrix[(i, j)] - matrix[(j, i)]).abs();
+        let difference = apart[(i, j)].abs();
+        // Entries whose values were printed as zero are no asymmetry.
         if difference > 0.0 && scale > 0.0 {
             difference / scale
         } else {

@@ -16,7 +16,7 @@ use crate::error::HydroError;
 use nalgebra::{Complex, Matrix3, Vector3};
 use std::f64::consts::PI;
 
-/// What the first column of a file holds.
+/// What the first column of a file holds: WAMIT's IPEROUT from 1 to 4, with its length L (ULEN).
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum FirstColumn {
     /// T \[s\].
@@ -24,8 +24,32 @@ pub enum FirstColumn {
     Period,
     /// ω \[rad/s\]; zero and negative values stand for zero and infinite frequency.
     Frequency,
-    /// k \[1/m\] at the water's depth; zero and negative values as for the frequency.
+    /// KL with K = ω²/g whatever the depth; zero and negative values as for the frequency.
+    InfiniteDepthWaveNumber,
+    /// kL at the depth h, ω² = g k tanh(kh); zero and negative values as for the frequency.
     WaveNumber,
+}
+
+impl FirstColumn {
+    /// The words for them, in cases and options.
+    pub const WORDS: [&str; 4] = [
+        "period",
+        "frequency",
+        "infinite-depth-wavenumber",
+        "wavenumber",
+    ];
+
+    /// The one that a word means.
+    #[must_use]
+    pub fn from_word(word: &str) -> Option<Self> {
+        match word {
+            "period" => Some(Self::Period),
+            "frequency" => Some(Self::Frequency),
+            "infinite-depth-wavenumber" => Some(Self::InfiniteDepthWaveNumber),
+            "wavenumber" => Some(Self::WaveNumber),
+            _ => None,
+        }
+    }
 }
 
 /// The text of the files.
@@ -98,10 +122,11 @@ impl Units {
             FirstColumn::Period => 2.0 * PI / first,
             _ if first < 0.0 => f64::INFINITY,
             FirstColumn::Frequency => first,
+            FirstColumn::InfiniteDepthWaveNumber => (g * first / self.length).sqrt(),
+            FirstColumn::WaveNumber if first == 0.0 => 0.0,
             FirstColumn::WaveNumber => {
-                let shallow = (first * self.water.depth_m).tanh();
-                let shallow = if first == 0.0 { 0.0 } else { shallow };
-                (g * first * shallow).sqrt()
+                let k = first / self.length;
+                (g * k * (k * self.water.depth_m).tanh()).sqrt()
             }
         }
     }
@@ -168,10 +193,16 @@ fn rotation(mode: usize) -> usize {
     usize::from(mode > 3)
 }
 
+/// The values at one value of PER, and which of them the file has.
+struct Step {
+    per: f64,
+    has: Matrix3<bool>,
+    row: Row,
+}
+
 fn radiation(text: &str, units: &Units) -> Result<Vec<Row>, HydroError> {
     let name = "the .1 file";
-    let mut rows: Vec<Row> = Vec::new();
-    let mut seen = [false; 3];
+    let mut steps: Vec<Step> = Vec::new();
     for line in lines(name, text, 4..=5) {
         let line = line?;
         let (force, motion) = (mode(name, line[1])?, mode(name, line[2])?);
@@ -179,8 +210,8 @@ fn radiation(text: &str, units: &Units) -> Result<Vec<Row>, HydroError> {
         let (Some(i), Some(j)) = (place(force), place(motion)) else {
             continue;
         };
-        seen[i] |= i == j;
-        let row = row_at(&mut rows, omega);
+        let Step { has, row, .. } = step_at(&mut steps, omega, line[0]);
+        has[(i, j)] = true;
         let scale = units.water.density_kg_m3 * units.power(3 + rotation(force) + rotation(motion));
         row.added_mass[(i, j)] = scale * line[3];
         match line.get(4) {
@@ -193,28 +224,53 @@ fn radiation(text: &str, units: &Units) -> Result<Vec<Row>, HydroError> {
             }
         }
     }
-    if let Some(lacking) = seen.iter().position(|seen| !seen) {
-        let what = format!("the mode {0},{0}", MODES[lacking]);
-        let advice = "the .1 file must have 1,1, 3,3 and 5,5 (surge, heave, pitch)";
-        return Err(HydroError::missing(what, advice));
-    }
-    Ok(rows)
+    complete(&mut steps)?;
+    Ok(steps.into_iter().map(|step| step.row).collect())
 }
 
-/// The row of a frequency, which is added without values if it is new.
-fn row_at(rows: &mut Vec<Row>, omega: f64) -> &mut Row {
-    // Files are ordered by frequency, so that it is nearly always the last row.
-    let at = rows.iter().rposition(|row| row.omega == omega);
+/// The step of a frequency, which is added without values if it is new.
+fn step_at(steps: &mut Vec<Step>, omega: f64, per: f64) -> &mut Step {
+    // Files are ordered by frequency, so that it is nearly always the last one.
+    let at = steps.iter().rposition(|step| step.row.omega == omega);
     let at = at.unwrap_or_else(|| {
-        rows.push(Row {
+        let row = Row {
             omega,
             added_mass: Matrix3::zeros(),
             damping: Matrix3::zeros(),
             excitation: Vec::new(),
-        });
-        rows.len() - 1
+        };
+        let has = Matrix3::from_element(false);
+        steps.push(Step { per, has, row });
+        steps.len() - 1
     });
-    &mut rows[at]
+    &mut steps[at]
+}
+
+/// Takes the transposed entry where the file has only that one, and zero where it has neither, as
+/// for entries that vanish by symmetry. An entry that is missing at some of the frequencies is an
+/// error: a zero there would be a wrong coefficient.
+fn complete(steps: &mut [Step]) -> Result<(), HydroError> {
+    for (i, j) in (0..3).flat_map(|i| (0..3).map(move |j| (i, j))) {
+        let (force, motion) = (MODES[i], MODES[j]);
+        let somewhere = steps.iter().any(|step| step.has[(i, j)]);
+        if !somewhere && i == j {
+            let what = format!("the mode {force},{motion}");
+            let advice = "the .1 file must have 1,1, 3,3 and 5,5 (surge, heave, pitch)";
+            return Err(HydroError::missing(what, advice));
+        }
+        if !somewhere {
+            for Step { row, .. } in steps.iter_mut() {
+                row.added_mass[(i, j)] = row.added_mass[(j, i)];
+                row.damping[(i, j)] = row.damping[(j, i)];
+            }
+        } else if let Some(step) = steps.iter().find(|step| !step.has[(i, j)]) {
+            let what = format!("{force},{motion} at PER = {} in the .1 file", step.per);
+            let advice = "add the line, or remove this PER from the .1 and the .3 file; only an \
+                          entry off the diagonal may be left out, at every PER";
+            return Err(HydroError::missing(what, advice));
+        }
+    }
+    Ok(())
 }
 
 /// Adds the forces to the rows, and returns the directions.

@@ -1,8 +1,9 @@
 //! Every bad file is refused with a message that names the error, and none causes a panic.
 
 use crate::common::{Spoilt, bytes, dataset, path};
+use nalgebra::Matrix3;
 use snapload_hydro::{
-    Dataset, Format, Given, Reading, Values, WamitText, from_dataset, from_wamit, read,
+    Dataset, FirstColumn, Format, Given, Reading, Values, WamitText, from_dataset, from_wamit, read,
 };
 
 fn refusal(spoilt: Spoilt) -> String {
@@ -144,7 +145,21 @@ fn broken_conventions_are_named() {
     }
     assert_message_contains(&refusal(upside_down), &["phase of X3"]);
     let mixed = pontoon().numbers("added_mass", |at, a| if at % 9 == 1 { a + 5e4 } else { a });
-    assert_message_contains(&refusal(mixed), &["symmetry", "mixed up"]);
+    assert_message_contains(&refusal(mixed), &["symmetry", "A_ij", "mixed up"]);
+    // Damping of surge by pitch without that of pitch by surge, or a tenth smaller.
+    let scaled = |part: f64| {
+        pontoon().numbers(
+            "radiation_damping",
+            move |at, b| {
+                if at % 9 == 2 { part * b } else { b }
+            },
+        )
+    };
+    assert_message_contains(&refusal(scaled(0.0)), &["symmetry", "B_ij", "mixed up"]);
+    let hydro = from_dataset(&scaled(0.9).0, &Given::default()).expect("coefficients");
+    let reading = Reading::new(Format::Capytaine, hydro).expect("a reading");
+    let doubtful = reading.warnings.iter().find(|w| w.what == "symmetry");
+    assert_message_contains(&doubtful.expect("a warning").message, &["B_ij", "mesh"]);
 }
 
 #[test]
@@ -222,6 +237,63 @@ fn wamit() -> (WamitText, Given) {
     (files, given)
 }
 
+fn wamit_lines(text: &str, keep: impl Fn(&&str) -> bool) -> String {
+    let lines = text.lines().filter(keep);
+    lines.map(|line| line.to_owned() + "\n").collect()
+}
+
+/// Files of bodies with symmetries have only one of two transposed entries, or none that vanishes:
+/// the other one equals it, and the vanishing ones are zero.
+#[test]
+fn wamit_may_leave_out_entries_by_symmetry() {
+    let (files, given) = wamit();
+    let whole = from_wamit(&files, &given).expect("coefficients");
+    let kept = [["1", "1"], ["3", "3"], ["5", "5"], ["1", "5"]];
+    let mut upper = files.clone();
+    upper.radiation = wamit_lines(&files.radiation, |line| {
+        let words: Vec<&str> = line.split_whitespace().collect();
+        kept.iter().any(|entry| words[1..3] == entry[..])
+    });
+    let hydro = from_wamit(&upper, &given).expect("coefficients");
+    let matrices = [
+        (&whole.added_mass, &hydro.added_mass),
+        (&whole.damping, &hydro.damping),
+    ];
+    for (whole, half) in matrices {
+        let coupling = |m: &Matrix3<f64>| m[(0, 2)].abs();
+        let largest = whole.iter().map(coupling).fold(0.0, f64::max);
+        for (a, b) in whole.iter().zip(half) {
+            assert_eq!((b[(0, 2)], b[(0, 1)], b[(1, 2)]), (b[(2, 0)], 0.0, 0.0));
+            // The whole file's is the mean of 1,5 and 5,1, which differ a little on this mesh.
+            assert!((a[(0, 2)] - b[(0, 2)]).abs() < 0.05 * largest, "{a}{b}");
+        }
+    }
+    assert_eq!((hydro.asymmetry, hydro.added_mass.len()), (0.0, 58));
+}
+
+/// The warning that no frequency is low enough asks about WAMIT's first column, which no other file
+/// has.
+#[test]
+fn periods_taken_as_frequencies_are_suspected() {
+    let warning = |format, hydro| {
+        let reading = Reading::new(format, hydro).expect("a reading");
+        let found = reading.warnings.into_iter();
+        let mut found = found.filter(|warning| warning.what == "low frequencies");
+        found.next().expect("a warning").message
+    };
+    let (files, given) = wamit();
+    let given = Given {
+        first_column: FirstColumn::Frequency,
+        ..given
+    };
+    let periods = from_wamit(&files, &given).expect("coefficients");
+    let question = "first column";
+    assert_message_contains(&warning(Format::Wamit, periods), &[question, "periods"]);
+    let high = pontoon().numbers("omega", |_, omega| 20.0 * omega);
+    let high = from_dataset(&high.0, &Given::default()).expect("coefficients");
+    assert!(!warning(Format::Capytaine, high).contains(question));
+}
+
 fn wamit_refusal(files: &WamitText, given: &Given) -> String {
     let hydro = from_wamit(files, given);
     let read = hydro.and_then(|hydro| Reading::new(Format::Wamit, hydro));
@@ -263,13 +335,22 @@ fn bad_files_of_wamit_are_named() {
     );
     let mut no_heave = files.clone();
     let keep = |line: &&str| line.split_whitespace().nth(1) != Some("3");
-    no_heave.radiation = files
-        .radiation
-        .lines()
-        .filter(keep)
-        .map(|l| l.to_owned() + "\n")
-        .collect();
+    no_heave.radiation = wamit_lines(&files.radiation, keep);
     assert_message_contains(&wamit_refusal(&no_heave, &given), &["3,3", "missing"]);
+    // A line that is missing at one frequency only is no zero.
+    for [force, motion] in [["3", "3"], ["1", "5"]] {
+        let mut hole = files.clone();
+        let keep = |line: &&str| {
+            let words: Vec<&str> = line.split_whitespace().collect();
+            words[..3] != ["1.377892e+00", force, motion]
+        };
+        hole.radiation = wamit_lines(&files.radiation, keep);
+        let entry = format!("{force},{motion} at PER = 1.377892");
+        assert_message_contains(
+            &wamit_refusal(&hole, &given),
+            &[&entry, "missing", ".3 file"],
+        );
+    }
     let mut words = files.clone();
     words.radiation += "and so on\n";
     assert_message_contains(

@@ -113,6 +113,10 @@ fn poor_files_cause_warnings() {
         poor.warnings
     );
     assert!(!about("passivity").is_empty());
+    for warning in &poor.warnings {
+        let broken = warning.message.contains('\n') || warning.message.contains("  ");
+        assert!(!broken, "{:?}", warning.message);
+    }
     // With the damping that is added the sum is passive.
     let mut least = f64::INFINITY;
     for step in 1..4000 {

@@ -2,7 +2,9 @@
 
 use crate::common::{dataset, hydro, path, reading};
 use nalgebra::{Complex, Matrix3};
-use snapload_hydro::{Format, Given, Values, from_dataset, from_nemoh, read};
+use snapload_hydro::{
+    FirstColumn, Format, Given, Values, WamitText, from_dataset, from_nemoh, from_wamit, read,
+};
 
 fn close(a: f64, b: f64, part: f64) -> bool {
     (a - b).abs() <= part * b.abs()
@@ -130,6 +132,48 @@ fn wamit_scales_with_its_length() {
     let force = two.hydro.excitation[0].force[7].component_div(&one.hydro.excitation[0].force[7]);
     assert!((force[0] - Complex::new(4.0, 0.0)).norm() < 1e-12);
     assert!((force[2] - Complex::new(8.0, 0.0)).norm() < 1e-12);
+}
+
+/// A first column of another kind, of the same waves in water of 10 m and with a unit length of 2 m.
+#[test]
+fn wamit_has_four_first_columns() {
+    let [g, depth, length] = [9.81, 10.0, 2.0];
+    let k = [0.02, 0.1, 0.2, 0.5];
+    let omega = k.map(|k: f64| (g * k * (k * depth).tanh()).sqrt());
+    let columns = [
+        ("period", omega.map(|omega| std::f64::consts::TAU / omega)),
+        ("frequency", omega),
+        ("wavenumber", k.map(|k| k * length)),
+        (
+            "infinite-depth-wavenumber",
+            omega.map(|omega| omega * omega / g * length),
+        ),
+    ];
+    for (word, column) in columns {
+        let (mut radiation, mut excitation) = (String::new(), String::new());
+        for first in column {
+            for mode in [1, 3, 5] {
+                radiation += &format!("{first:e} {mode} {mode} 1 1\n");
+                excitation += &format!("{first:e} 0 {mode} 1 0 1 0\n");
+            }
+        }
+        let files = WamitText {
+            radiation,
+            excitation,
+            hydrostatics: None,
+        };
+        let given = Given {
+            depth_m: Some(depth),
+            unit_length_m: Some(length),
+            first_column: FirstColumn::from_word(word).expect(word),
+            ..wamit_given()
+        };
+        let read = from_wamit(&files, &given).expect(word).omega_rad_s;
+        assert_eq!(read.len(), 4, "{word}");
+        let same = read.iter().zip(omega).all(|(a, b)| close(*a, b, 1e-12));
+        assert!(same, "{word}: {read:?}");
+    }
+    assert_eq!(FirstColumn::from_word("rows"), None);
 }
 
 /// Axes are identified by their names, whatever their order; the frequencies may be along another
@@ -283,6 +327,15 @@ fn nemoh_is_read() {
     let force = hydro.excitation_to(1.0).expect("+x").force[0];
     assert!((force[0] - Complex::new(0.0, -13537.78)).norm() < 0.1);
     assert!((force[1] - Complex::new(751_218.5, 0.0)).norm() < 40.0);
+
+    // The same phase in degrees, and without the headings of Nemoh, as Capytaine writes it.
+    let degrees = excitation.replace("-1.570795", "-90.0");
+    let error = from_nemoh(&radiation, &degrees, &given).expect_err("a refusal");
+    let message = error.to_string();
+    assert!(message.contains("at ω = 0.1 rad/s = -90") && message.contains("radians"), "{message}");
+    let no_zones = radiation.replace("Zone", "Surge");
+    let error = from_nemoh(&no_zones, &excitation, &given).expect_err("a refusal");
+    assert!(error.to_string().contains("Capytaine"), "{error}");
 }
 
 /// Another reference point: the power of damping is the same for the same motion of the body, and

@@ -203,11 +203,10 @@ fn given(fields: Fields<'_>, site: &Site) -> Result<Given, CaseError> {
         centre_of_gravity_m: fields.get("file_centre_of_gravity")?,
         displaced_mass_kg: None,
         unit_length_m: fields.get("unit_length")?,
-        first_column: match fields.get::<String>("first_column")?.as_deref() {
-            Some("frequency") => FirstColumn::Frequency,
-            Some("wavenumber") => FirstColumn::WaveNumber,
-            _ => FirstColumn::Period,
-        },
+        first_column: fields
+            .get::<String>("first_column")?
+            .and_then(|word| FirstColumn::from_word(&word))
+            .unwrap_or_default(),
         body: fields.get("name")?,
         source: GivenSource::Case,
     })
