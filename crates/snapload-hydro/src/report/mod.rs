@@ -9,8 +9,8 @@ use json::rows;
 
 pub use json::Json;
 pub use page::page;
-pub use summary::periods_summary;
 use summary::plain;
+pub use summary::{held_summary, periods_summary};
 
 use crate::coefficients::transport;
 use crate::digits::kilo;

@@ -156,9 +156,7 @@ impl Floating {
                 tensions.collect::<Vec<_>>().join(", "),
             );
             push_row("rest", message);
-            if !natural.is_empty() {
-                push_row("held", periods_summary(natural, modes));
-            }
+            push_row("held", held_summary(natural, modes));
         }
     }
 }
@@ -203,6 +201,14 @@ fn largest(peaks: &[(Peak, Option<f64>); 3]) -> String {
 fn three_digits(value: f64) -> String {
     let before = value.max(1e-9).log10().floor() as i32;
     format!("{value:.*}", (2 - before).clamp(0, 9) as usize)
+}
+
+/// The same of a body on its taut lines, as text: three independent ones leave it no motion.
+pub fn held_summary(natural: &[Natural], modes: &[Mode]) -> String {
+    match natural.is_empty() {
+        true => "none, as the taut lines allow no motion".to_owned(),
+        false => periods_summary(natural, modes),
+    }
 }
 
 /// Natural periods with their damping, as text.

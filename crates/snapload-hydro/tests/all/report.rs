@@ -56,6 +56,33 @@ fn everything_is_reported() {
     assert!(json["water"]["depth_m"].is_null());
 }
 
+/// Three lines that leave a body no motion are reported in words, on a page and in JSON.
+#[test]
+fn a_body_that_is_held_fast_is_reported() {
+    let mut request = request();
+    let line = |anchor: f64, fairlead: f64, length_m: f64| Line {
+        anchor_m: [anchor, -10.0],
+        fairlead_m: [fairlead, -1.2],
+        length_m,
+    };
+    request.lines = vec![
+        line(6.0, 2.0, 9.666),
+        line(-6.0, -2.0, 9.666),
+        line(-6.0, 2.0, 11.8),
+    ];
+    request.weight.mass_kg = Some(80_000.0);
+    let report = Report::new("pontoon", reading("pontoon-deep.nc"), &request).expect("a report");
+    let held = report
+        .summary()
+        .into_iter()
+        .find(|(label, _)| label == "held");
+    assert!(held.expect("a row").1.contains("allow no motion"));
+    let page = page(&report, "snapload hydro").expect("a page");
+    assert!(page.contains("allow no motion") && !page.contains("NaN"));
+    let json = serde_json::to_value(report.to_json()).expect("JSON");
+    assert_eq!(json["floating"]["rest"]["natural"], serde_json::json!([]));
+}
+
 /// A file without hydrostatics has a memory but no periods, and a message names what is missing.
 #[test]
 fn files_without_hydrostatics_are_reported() {
