@@ -3,7 +3,7 @@
 use super::{Floating, Report, ZERO_DAMPING};
 use crate::coefficients::FREEDOMS;
 use crate::digits::kilo;
-use crate::linear::{Mode, Natural, Peak};
+use crate::linear::{BALANCED_ANGLE, Mode, Natural, Peak};
 use crate::memory::{BlockQuality, EntryQuality};
 use std::f64::consts::PI;
 
@@ -110,9 +110,9 @@ impl Floating {
             let way = if lift > 0.0 { "lift" } else { "weight" };
             format!("{} kN of {way}", kilo(&lift.abs(), 1))
         });
-        let size = body.constant_force[2].abs();
-        let moment = self.unbalanced_pitch();
-        let moment = moment.map(|_| format!("a moment of {} kN m", kilo(&size, 1)));
+        let moment = body.constant_force[2];
+        let moment = (moment.abs() > BALANCED_ANGLE * body.stiffness[(2, 2)].abs())
+            .then(|| format!("a moment of {} kN m", kilo(&moment, 1)));
         let pitches = ", and their fairleads decide the pitch";
         let (left, pitches) = match (lift, moment) {
             (Some(lift), Some(moment)) => (format!("{lift} and {moment} are"), pitches),
