@@ -37,7 +37,9 @@ pub use read::{
     Dataset, FirstColumn, Format, Given, Reading, Values, Variable, WamitText, from_dataset,
     from_nemoh, from_wamit, read,
 };
-pub use report::{Floating, GivenMemory, Json, Report, Request, page, periods_summary};
+pub use report::{
+    Floating, GivenMemory, Json, Report, Request, held_summary, page, periods_summary,
+};
 pub use sections::{Place, Shape, added_mass_of_section};
 pub use shortest::shortest_solution;
 pub use spline::Spline;

@@ -2,7 +2,10 @@
 
 use crate::coefficients::Hydrodynamics;
 use crate::error::HydroError;
-use nalgebra::{Matrix3, Vector3};
+use nalgebra::{Matrix3, Vector2, Vector3};
+
+/// A body floats upright if it pitches by less than this, in rad.
+pub(crate) const BALANCED_ANGLE: f64 = 0.01;
 
 /// The body's weight. Values that are not given are taken from the file: the displaced mass, and
 /// the centre of gravity and inertia for which it was computed.
@@ -78,6 +81,31 @@ impl Body {
     pub fn inertia_about_centre_kg_m2(&self) -> f64 {
         let [mz, mx] = [self.mass[(0, 2)], self.mass[(1, 2)]];
         self.mass[(2, 2)] - (mz * mz + mx * mx) / self.mass_kg
+    }
+
+    /// Heave and pitch in which it floats without lines under its constant forces \[m, rad\]; none if
+    /// water does not hold it up and upright.
+    pub fn floats_at(&self) -> Option<Vector2<f64>> {
+        let stiffness = self.stiffness.fixed_view::<2, 2>(1, 1).into_owned();
+        let force = self.constant_force.fixed_rows::<2>(1).into_owned();
+        Some(stiffness.cholesky()?.solve(&force))
+    }
+
+    /// The pitch of that place, if it is not upright \[rad\].
+    pub fn unbalanced_pitch(&self) -> Option<f64> {
+        let pitch = self.floats_at()?[1];
+        (pitch.abs() > BALANCED_ANGLE).then_some(pitch)
+    }
+
+    /// The stiffness in pitch if heave is free to follow, C55 − C35²/C33 \[N m\].
+    pub(crate) fn righting_n_m(&self) -> f64 {
+        let [heave, coupled] = [self.stiffness[(1, 1)], self.stiffness[(1, 2)]];
+        let followed = if coupled == 0.0 {
+            0.0
+        } else {
+            coupled * coupled / heave
+        };
+        self.stiffness[(2, 2)] - followed
     }
 
     /// 𝓜 = M + A.

@@ -7,6 +7,7 @@ mod resonance;
 mod response;
 mod rest;
 
+pub(crate) use body::BALANCED_ANGLE;
 pub use body::{Body, Weight};
 pub use decay::{Decay, Swing, decay, decay_of_the_damping, swings};
 pub use natural::{Mode, Natural, eigenvalues, natural_of_the_file, natural_of_the_memory};

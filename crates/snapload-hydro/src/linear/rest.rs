@@ -162,9 +162,7 @@ pub fn rest_without_tension(
     if body.constant_force[0].abs() > 1e-9 * weight {
         return None;
     }
-    let stiffness = body.stiffness.fixed_view::<2, 2>(1, 1).into_owned();
-    let force = body.constant_force.fixed_rows::<2>(1).into_owned();
-    let place = stiffness.cholesky()?.solve(&force);
+    let place = body.floats_at()?;
     let q = Vector3::new(surge_m, place[0], place[1]);
     let distance = |line: &Line| LineGeometry::at(line, hydro.reference_m, &q).distance;
     let distances_m: Vec<f64> = lines.iter().map(distance).collect();
@@ -329,9 +327,10 @@ impl RestProblem<'_> {
         }
         let motions = null_space(&rows);
         let stiffness = reduced(&whole, &motions);
-        let stiff = stiffness.clone().symmetric_eigenvalues();
         let least = SINGULAR * self.force / self.length;
-        if stiff.iter().any(|value| *value <= least) {
+        // Three lines may leave no motion, and a matrix without entries has no eigenvalues.
+        let soft = |value: &f64| *value <= least;
+        if !stiffness.is_empty() && stiffness.clone().symmetric_eigenvalues().iter().any(soft) {
             return None;
         }
         Some(Rest {

@@ -9,8 +9,8 @@ use json::rows;
 
 pub use json::Json;
 pub use page::page;
-pub use summary::periods_summary;
 use summary::plain;
+pub use summary::{held_summary, periods_summary};
 
 use crate::coefficients::transport;
 use crate::digits::kilo;
@@ -33,8 +33,6 @@ const SAME_MASS: f64 = 0.01;
 /// A peak counts as a resonance if it is this close, relatively, to the frequency of a natural
 /// motion.
 const NEAR_RESONANCE: f64 = 0.02;
-/// A body floats upright if it pitches by less than this, in rad.
-const BALANCED_ANGLE: f64 = 0.01;
 /// Damping below this part of critical bounds nothing.
 const ZERO_DAMPING: f64 = 1e-6;
 
@@ -257,30 +255,14 @@ impl Floating {
         self.fine[response][0].peaks().map(of)
     }
 
-    /// The pitch by which the stiffness would balance the moment that is left over, if that is one to
-    /// speak of; none within if no stiffness rights the body.
-    fn unbalanced_pitch(&self) -> Option<Option<f64>> {
-        let (moment, righting) = (self.body.constant_force[2], self.body.stiffness[(2, 2)]);
-        if righting <= 0.0 {
-            return (moment.abs() > BALANCED_ANGLE * righting.abs()).then_some(None);
-        }
-        let pitch = moment / righting;
-        (pitch.abs() > BALANCED_ANGLE).then_some(Some(pitch))
-    }
-
     /// The warning that the body does not float upright without lines, if none are given.
     fn balance_warning(&self) -> Option<Warning> {
-        let pitch = self.unbalanced_pitch().filter(|_| self.rest.is_none())?;
-        let angle = match pitch {
-            Some(pitch) => format!(" ({:.1}° by its stiffness)", plain(pitch.to_degrees(), 0.1)),
-            None => String::new(),
-        };
+        let pitch = self.body.unbalanced_pitch();
+        let pitch = pitch.filter(|_| self.rest.is_none())?;
         let message = format!(
-            "a moment of {} kN m about the reference point is not balanced in the upright position of the file: \
-             without lines the body floats inclined{angle}, but its periods and response without lines are \
-             those of the upright body. There is no such moment if the centres of gravity and buoyancy lie in \
-             one vertical line",
-            kilo(&self.body.constant_force[2], 1)
+            "without lines the body floats at {:.1}° of pitch, but its periods and response without lines are \
+             those of the upright body: check its centre of gravity and its constant loads",
+            pitch.to_degrees()
         );
         Some(Warning::new("balance", message))
     }
@@ -301,10 +283,10 @@ impl Floating {
             );
             warnings.push(Warning::new("natural periods", message));
         }
-        let righting = self.body.stiffness[(2, 2)];
+        let righting = self.body.righting_n_m();
         if righting <= 0.0 {
             let message = format!(
-                "the stiffness in pitch is {} kN m: without lines the body turns over, and its response \
+                "the stiffness in pitch with heave free is {} kN m: without lines the body turns over, and its response \
                  in pitch has no meaning; lower its centre of gravity, or hold it by lines",
                 kilo(&righting, 1)
             );

@@ -3,7 +3,7 @@
 use super::{Floating, Report, ZERO_DAMPING};
 use crate::coefficients::FREEDOMS;
 use crate::digits::kilo;
-use crate::linear::{Mode, Natural, Peak};
+use crate::linear::{BALANCED_ANGLE, Mode, Natural, Peak};
 use crate::memory::{BlockQuality, EntryQuality};
 use std::f64::consts::PI;
 
@@ -110,9 +110,9 @@ impl Floating {
             let way = if lift > 0.0 { "lift" } else { "weight" };
             format!("{} kN of {way}", kilo(&lift.abs(), 1))
         });
-        let size = body.constant_force[2].abs();
-        let moment = self.unbalanced_pitch();
-        let moment = moment.map(|_| format!("a moment of {} kN m", kilo(&size, 1)));
+        let moment = body.constant_force[2];
+        let moment = (moment.abs() > BALANCED_ANGLE * body.stiffness[(2, 2)].abs())
+            .then(|| format!("a moment of {} kN m", kilo(&moment, 1)));
         let pitches = ", and their fairleads decide the pitch";
         let (left, pitches) = match (lift, moment) {
             (Some(lift), Some(moment)) => (format!("{lift} and {moment} are"), pitches),
@@ -156,9 +156,7 @@ impl Floating {
                 tensions.collect::<Vec<_>>().join(", "),
             );
             push_row("rest", message);
-            if !natural.is_empty() {
-                push_row("held", periods_summary(natural, modes));
-            }
+            push_row("held", held_summary(natural, modes));
         }
     }
 }
@@ -203,6 +201,14 @@ fn largest(peaks: &[(Peak, Option<f64>); 3]) -> String {
 fn three_digits(value: f64) -> String {
     let before = value.max(1e-9).log10().floor() as i32;
     format!("{value:.*}", (2 - before).clamp(0, 9) as usize)
+}
+
+/// The same of a body on its taut lines, as text: three independent ones leave it no motion.
+pub fn held_summary(natural: &[Natural], modes: &[Mode]) -> String {
+    match natural.is_empty() {
+        true => "none, as the taut lines allow no motion".to_owned(),
+        false => periods_summary(natural, modes),
+    }
 }
 
 /// Natural periods with their damping, as text.

@@ -1,7 +1,9 @@
 //! Reports on coefficients: they are complete, and files with less data give fewer results.
 
 use crate::common::{hydro, reading};
-use snapload_hydro::{EntryQuality, FitOptions, Format, Line, Reading, Report, Request, page};
+use snapload_hydro::{
+    EntryQuality, FitOptions, Format, GivenMemory, Line, Reading, Report, Request, page,
+};
 
 fn request() -> Request {
     Request {
@@ -54,6 +56,33 @@ fn everything_is_reported() {
         2
     );
     assert!(json["water"]["depth_m"].is_null());
+}
+
+/// Three lines that leave a body no motion are reported in words, on a page and in JSON.
+#[test]
+fn a_body_that_is_held_fast_is_reported() {
+    let mut request = request();
+    let line = |anchor: f64, fairlead: f64, length_m: f64| Line {
+        anchor_m: [anchor, -10.0],
+        fairlead_m: [fairlead, -1.2],
+        length_m,
+    };
+    request.lines = vec![
+        line(6.0, 2.0, 9.666),
+        line(-6.0, -2.0, 9.666),
+        line(-6.0, 2.0, 11.8),
+    ];
+    request.weight.mass_kg = Some(80_000.0);
+    let report = Report::new("pontoon", reading("pontoon-deep.nc"), &request).expect("a report");
+    let held = report
+        .summary()
+        .into_iter()
+        .find(|(label, _)| label == "held");
+    assert!(held.expect("a row").1.contains("allow no motion"));
+    let page = page(&report, "snapload hydro").expect("a page");
+    assert!(page.contains("allow no motion") && !page.contains("NaN"));
+    let json = serde_json::to_value(report.to_json()).expect("JSON");
+    assert_eq!(json["floating"]["rest"]["natural"], serde_json::json!([]));
 }
 
 /// A file without hydrostatics has a memory but no periods, and a message names what is missing.
@@ -204,6 +233,39 @@ fn a_moment_that_nothing_balances_is_reported() {
     assert!(message.contains(&expected), "{message}");
     let json = serde_json::to_value(turned.to_json()).expect("JSON");
     assert!(json["warnings"].to_string().contains("upright"));
+    // To the other side both have the other sign.
+    let other = report(-0.5);
+    let message = of(&other).concat();
+    assert!(message.contains(&format!("-{angle:.1}°")), "{message}");
+    let (_, message) = balance(&other).expect("a row");
+    let expected = format!("a moment of -{:.1} kN m", arm / 1e3);
+    assert!(message.contains(&expected), "{message}");
+}
+
+/// A symmetric body of any weight floats upright, and one whose centre of gravity is too high turns
+/// over, about whatever point its moment and its stiffness are.
+#[test]
+fn stability_does_not_depend_on_the_reference_point() {
+    for (z, turns) in [(-0.2, false), (1.5, true)] {
+        for x in [0.0, -0.5, 3.0] {
+            let mut reading = reading("pontoon-deep.nc");
+            reading.hydro = reading.hydro.about([x, 0.0]);
+            let mut request = request();
+            // Hydrostatics alone decide; no memory has to be fitted.
+            let last = reading.hydro.added_mass.last().expect("frequencies");
+            request.memory = Some(GivenMemory {
+                added_mass_inf: std::array::from_fn(|i| std::array::from_fn(|k| last[(i, k)])),
+                memory: Vec::new(),
+                reference_m: None,
+            });
+            request.weight.mass_kg = Some(85_000.0);
+            request.weight.centre_m = Some([0.0, z]);
+            let report = Report::new("pontoon", reading, &request).expect("a report");
+            let warned = |what| report.warnings.iter().any(|warning| warning.what == what);
+            assert!(!warned("balance"), "{x} {z}");
+            assert_eq!(warned("stability"), turns, "{x} {z}");
+        }
+    }
 }
 
 /// What a memory is off the file by is said of the entry that it is said of, and of a block that

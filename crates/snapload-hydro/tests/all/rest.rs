@@ -3,7 +3,7 @@
 
 use crate::common::{hydro, reference};
 use crate::linear::{body, file, given, near};
-use nalgebra::Complex;
+use nalgebra::{Complex, Vector3};
 use serde_json::Value;
 use snapload_hydro::{Body, Hydrodynamics, Line, Rest, Weight, rest};
 
@@ -96,6 +96,46 @@ fn small_motion(
         let ratio = row["damping_ratio"].as_f64().expect("a number");
         near(mode.damping_ratio, ratio, 1e-7, name);
     }
+}
+
+/// Three independent lines hold a body fast where their ends are as far apart as they are long and
+/// their pulls balance weight and water; then it has no small motion.
+#[test]
+fn three_lines_hold_a_body_fast() {
+    let hydro = hydro("pontoon-deep.nc");
+    let weight = Weight {
+        mass_kg: Some(80_000.0),
+        inertia_kg_m2: Some(133_000.0),
+        ..Weight::default()
+    };
+    let body = Body::new(&hydro, &weight).expect("a body");
+    let line = |anchor: f64, fairlead: f64, length_m: f64| Line {
+        anchor_m: [anchor, -10.0],
+        fairlead_m: [fairlead, -1.2],
+        length_m,
+    };
+    let lines = [
+        line(6.0, 2.0, 9.666),
+        line(-6.0, -2.0, 9.666),
+        line(-6.0, 2.0, 11.8),
+    ];
+    let found = rest(&hydro, &body, &lines).expect("a place of rest");
+    let mut left = body.constant_force - body.stiffness * found.q;
+    let (sine, cosine) = found.q[2].sin_cos();
+    for (line, pull) in lines.iter().zip(&found.tension_n) {
+        let [x, z] = line.fairlead_m;
+        let arm = [x * cosine + z * sine, z * cosine - x * sine];
+        let [dx, dz] = [0, 1].map(|k| found.q[k] + arm[k] - line.anchor_m[k]);
+        let apart = dx.hypot(dz);
+        assert!(
+            (apart - line.length_m).abs() < 1e-9 && *pull > 0.0,
+            "{found:?}"
+        );
+        let n = [dx / apart, dz / apart];
+        left -= Vector3::new(n[0], n[1], n[0] * arm[1] - n[1] * arm[0]) * *pull;
+    }
+    assert!(left.amax() < 1e-3, "{left}");
+    assert_eq!((found.taut, found.motions.ncols()), (vec![0, 1, 2], 0));
 }
 
 /// If no line holds the body in surge, or its weight is more than the lines from below can balance,

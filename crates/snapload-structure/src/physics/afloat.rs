@@ -216,6 +216,16 @@ fn without_rounding(displacement: f64) -> f64 {
     }
 }
 
+/// The body with all constant loads of the case, besides those of its lines.
+pub(super) fn loaded(structure: &Structure, afloat: &Afloat) -> snapload_hydro::Body {
+    let [pushed, lifted] = structure.body.constant_force_n;
+    let pushed = pushed + structure.drag_of_current_n();
+    snapload_hydro::Body {
+        constant_force: afloat.steady() + Vector3::new(pushed, lifted, 0.0),
+        ..afloat.body.clone()
+    }
+}
+
 /// Where it rests on its lines, and the small motion that they leave it there. Where no line holds it
 /// in surge, one that floats without tension rests at the surge of the case's start; one that would
 /// not has no place of rest that is known.
@@ -231,10 +241,7 @@ pub(super) fn rest_afloat(
     };
     let lines: Vec<Line> = structure.lines.iter().map(line).collect();
     let hydro = &afloat.report.reading.hydro;
-    let mut body = afloat.body.clone();
-    let [pushed, lifted] = structure.body.constant_force_n;
-    body.constant_force =
-        afloat.steady() + Vector3::new(pushed + structure.drag_of_current_n(), lifted, 0.0);
+    let body = loaded(structure, afloat);
     let place = match (rest(hydro, &body, &lines), structure.start_m) {
         (Ok(place), _) => place,
         (Err(_), Some(place_m)) => {

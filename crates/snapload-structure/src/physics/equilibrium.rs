@@ -365,13 +365,21 @@ impl SmallMotions {
 
     /// Whether the curvature is not negative along the free motions.
     fn is_stable(&self) -> bool {
-        if self.free.is_empty() {
-            return true;
-        }
         let basis = self.basis();
-        let curvatures = (basis.transpose() * self.curvature * basis).symmetric_eigen();
-        curvatures.eigenvalues.iter().all(|value| *value > -1e-6)
+        unstable_motion(basis.transpose() * self.curvature * basis).is_none()
     }
+}
+
+/// The motion along which the curvature of the energy is most negative, if it is by more than
+/// rounding, so that a balance is not one of rest; curvature and motion in the engine's units.
+pub(super) fn unstable_motion(curvature: DMatrix<f64>) -> Option<DVector<f64>> {
+    // A body that is held fast has no motion, and a matrix without entries no eigenvalues.
+    if curvature.is_empty() {
+        return None;
+    }
+    let frame = curvature.symmetric_eigen();
+    let (least, value) = frame.eigenvalues.argmin();
+    (value <= -1e-6).then(|| frame.eigenvectors.column(least).into_owned())
 }
 
 /// The tensions ≥ 0 of least sum of squares that balance the load, and the largest residual.

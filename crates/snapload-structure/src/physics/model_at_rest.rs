@@ -8,7 +8,7 @@ use super::equilibrium::{
 use super::model::{CURRENT, Model};
 use crate::structure::{IrregularSea, Structure, Water};
 use snapload::{CaseError, Simulation, StartError, State, Stop};
-use snapload_hydro::periods_summary;
+use snapload_hydro::{held_summary, periods_summary};
 
 /// A body turned by less than this at rest is upright: the resulting errors of its gaps are only
 /// rounding \[rad\].
@@ -189,10 +189,10 @@ impl ModelAtRest {
                 format!("without lines, about the body's centre: {free}"),
             ));
         }
-        if !self.modes_on_taut_lines.is_empty() {
+        if self.rest.tension_n.iter().any(|pull| *pull > 0.0) {
             let (natural, modes): (Vec<_>, Vec<_>) =
                 self.modes_on_taut_lines.iter().cloned().unzip();
-            let held = periods_summary(&natural, &modes);
+            let held = held_summary(&natural, &modes);
             rows.push(("taut", format!("while the lines stay taut: {held}")));
         }
         let stretched = self.modes_on_elastic_lines();

@@ -1,7 +1,7 @@
 //! Warnings of conditions outside the range of the theory: rules of thumb, each with its numbers.
 //! The texts are in `templates/warnings.txt`.
 
-use super::afloat::left_out;
+use super::afloat::{left_out, loaded};
 use super::equilibrium::Equilibrium;
 use super::model_at_rest::ModelAtRest;
 use super::waterline::Waterline;
@@ -139,7 +139,12 @@ fn heavy_lines(structure: &Structure) -> Option<Warning> {
 fn warnings_afloat(prepared: &ModelAtRest, afloat: &Afloat) -> Vec<Warning> {
     let (structure, rest) = (&prepared.structure, &prepared.rest);
     let report = &afloat.report;
-    let of_file = report.warnings.iter().map(|warning| Warning {
+    // The loads of the case, too, decide how the body floats without lines.
+    let of_file = report
+        .warnings
+        .iter()
+        .filter(|warning| warning.what != "balance");
+    let of_file = of_file.map(|warning| Warning {
         rule: warning.what,
         message: warning.message.clone(),
         decided_by: None,
@@ -158,7 +163,11 @@ fn warnings_afloat(prepared: &ModelAtRest, afloat: &Afloat) -> Vec<Warning> {
         true => "give body.position and displaced_volume for the place of rest",
         false => "compute them for the place of rest",
     };
+    // Pitch is clockwise.
+    let turned = loaded(structure, afloat).unbalanced_pitch();
+    let turned = turned.map_or(0.0, |pitch| -pitch.to_degrees());
     let mut found = vec![
+        warning_if(turned != 0.0, "balance", [turned, 0.0], ""),
         distribution_warning(rest),
         no_elastic_rest(rest),
         soft_lines_in_still_water(prepared),

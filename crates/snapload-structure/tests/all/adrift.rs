@@ -3,7 +3,7 @@
 use crate::afloat::{by_hand, case, parsed, structure};
 use snapload::analysis::no_progress;
 use snapload_hydro::TermRow;
-use snapload_structure::{ModelAtRest, assess, compare_elastic};
+use snapload_structure::{ModelAtRest, assess, compare_elastic, warnings};
 
 /// On lines that are slack where it floats a body rests as its weight and water have it, at the surge
 /// of its start, whether lines stretch or not: heave by (ρV − m) g / C33, and pitch by the arm of its
@@ -33,6 +33,42 @@ fn without_tension_it_rests_as_it_floats() {
         assert!((elastic_case.place_m[1] - rest.place_m[1]).abs() < 1e-9);
         assert!((elastic_case.theta_rad - rest.theta_rad).abs() < 1e-9);
     }
+}
+
+/// How a body floats without lines follows from all constant loads of the case: a centre of gravity to
+/// the left turns it counter-clockwise, and an opposite moment of the case balances it.
+#[test]
+fn the_loads_of_a_case_decide_whether_a_body_floats_upright() {
+    let warned = |arm: f64, moment: f64| {
+        let keys =
+            format!("[float]\ncentre_of_gravity = [{arm}, -0.2]\nconstant_moment = {moment}");
+        let text = case(-0.2, 2.0, 9.666, "", "duration = 2").replace("[float]", &keys);
+        let prepared = ModelAtRest::new(structure(&text)).unwrap();
+        let stiffness = prepared.structure.afloat.as_ref().unwrap().body.stiffness[(2, 2)];
+        let found = warnings(&prepared);
+        let found = found.into_iter().find(|w| w.rule == "balance");
+        (found.map(|w| w.message), stiffness)
+    };
+    let moment = 80_000.0 * 9.81 * 0.05;
+    for (arm, constant, turning) in [
+        (-0.05, 0.0, moment),
+        (0.05, 0.0, -moment),
+        (0.0, moment, moment),
+    ] {
+        let (message, stiffness) = warned(arm, constant);
+        let turned = format!(
+            "turned by {:.1} degrees",
+            (turning / stiffness).to_degrees()
+        );
+        assert!(
+            message
+                .as_ref()
+                .is_some_and(|found| found.contains(&turned)),
+            "{turned} {message:?}"
+        );
+    }
+    assert_eq!(warned(0.0, 0.0).0, None);
+    assert_eq!(warned(-0.05, -moment).0, None);
 }
 
 /// Where a line is too short for it to float without tension at its start, no place of rest is told.

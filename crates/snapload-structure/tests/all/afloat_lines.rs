@@ -120,6 +120,29 @@ fn taut_elastic_lines_answer_small_waves_as_the_frequency_domain_does() {
     }
 }
 
+/// Three independent lines leave a floating body no motion while they are taut, which the answers say.
+#[test]
+fn three_lines_hold_a_floating_body_fast() {
+    let text = case(-0.2, 2.0, 9.666, "", "duration = 5");
+    let third = "[[line]]\nanchor = [-6, -10]\nfairlead = [2, -1.2]\nlength = 11.8\n\
+                 stiffness = 1.2e8\n";
+    let structure = structure(&format!("{text}{third}"));
+    let prepared = ModelAtRest::new(structure.clone()).unwrap();
+    assert_eq!(
+        (prepared.rest.taut.len(), prepared.modes_on_taut_lines.len()),
+        (3, 0)
+    );
+    let summary = assess(structure, 0, &no_progress).unwrap().summary("case");
+    assert!(
+        summary.contains("none, as the taut lines allow no motion"),
+        "{summary}"
+    );
+    let law = elastic_lines(&prepared, 1.0).unwrap();
+    let elastic_case = prepared.with_elastic_lines(&law).unwrap();
+    run_elastic(&elastic_case, &law, f64::INFINITY, &no_progress).unwrap();
+    assert_eq!(prepared.modes_on_elastic_lines().len(), 3);
+}
+
 /// A body on one upright line at its centre, whose water forces are from textbook values.
 fn of_its_section(more: &str, line: &str) -> String {
     format!(

@@ -2,7 +2,8 @@
 
 use proptest::prelude::*;
 use proptest::test_runner::RngSeed;
-use snapload_structure::{Structure, equilibrium};
+use snapload::analysis::no_progress;
+use snapload_structure::{ModelAtRest, Structure, assess, elastic_lines, equilibrium};
 
 const EXAMPLE: &str = include_str!("../../../../docs/examples/cylinder.toml");
 
@@ -91,6 +92,85 @@ fn lines_too_long_to_hold_the_body_down_are_refused_with_a_reason() {
     assert!(
         error.contains("above the still water") && error.contains("shorten the lines"),
         "{error}"
+    );
+}
+
+/// A body on four soft lines from fairleads above its centre, which would turn over: upright it is in
+/// balance, but not at rest.
+const TOP_HEAVY: &str = "[body]\nshape = \"rectangle\"\nwidth = 4\nheight = 2\nmass = 20000\n\
+     displaced_volume = 40\nadded_mass = [20000, 40000, 30000]\nmoment_of_inertia = 30000\n\
+     position = [0, -5]\n[site]\ndepth = 15\n[run]\nrestitution = 0.5\nduration = 5\n";
+
+fn top_heavy(limiting: bool) -> Structure {
+    let mut text = TOP_HEAVY.to_owned();
+    let mut lines = vec![
+        (6.0, [0.2, -4.1], 12.3492914, 2e5),
+        (1.0, [0.4, -4.1], 10.9165, 2e5),
+    ];
+    lines.extend(limiting.then_some((2.0, [2.0, -6.0], 9.8, 4e6)));
+    for (anchor, [x, z], length, rate) in lines {
+        for side in [1.0, -1.0] {
+            text += &format!(
+                "[[line]]\nanchor = [{}, -15]\nfairlead = [{}, {z}]\nlength = {length}\n\
+                 spring_rate = {rate}\n",
+                side * anchor,
+                side * x
+            );
+        }
+    }
+    Structure::parse("top-heavy", &text).unwrap()
+}
+
+/// The potential energy of buoyancy and springs, by hand \[J\].
+fn energy(structure: &Structure, [x, z, theta]: [f64; 3]) -> f64 {
+    let (sine, cosine) = theta.sin_cos();
+    let spring = |line: &snapload_structure::LineSi| {
+        let [fx, fz] = [0, 1].map(|k| line.fairlead_m[k] - structure.body.position_m[k]);
+        let place = [x + fx * cosine - fz * sine, z + fx * sine + fz * cosine];
+        let apart = (place[0] - line.anchor_m[0]).hypot(place[1] - line.anchor_m[1]);
+        let stretch = (apart - line.length_m).max(0.0);
+        0.5 * line.spring_rate_n_m().unwrap() * stretch * stretch
+    };
+    structure.lines.iter().map(spring).sum::<f64>() - structure.net_buoyancy_n() * z
+}
+
+/// On elastic lines, too, a body rests where its energy is least in every direction: turned to
+/// where a slack line holds it, counter-clockwise of the two places that mirror each other.
+#[test]
+fn an_unstable_balance_on_elastic_lines_is_no_place_of_rest() {
+    let structure = top_heavy(true);
+    let prepared = ModelAtRest::new(structure.clone()).unwrap();
+    let law = elastic_lines(&prepared, 1.0).unwrap();
+    let rest = prepared.with_elastic_lines(&law).unwrap().rest;
+    let place = [rest.place_m[0], rest.place_m[1], rest.theta_rad];
+    let least = energy(&structure, place);
+    for step in 0..27 {
+        let aside =
+            [0, 1, 2].map(|k| place[k] + 1e-3 * f64::from(step / 3_i32.pow(k as u32) % 3 - 1));
+        assert!(
+            step == 13 || energy(&structure, aside) > least,
+            "{place:?} {aside:?}"
+        );
+    }
+    assert!(rest.theta_rad > 0.1, "{place:?}");
+    let mirrored = energy(&structure, [-place[0], place[1], -place[2]]);
+    assert!((mirrored - least).abs() < 1e-6, "{mirrored} {least}");
+
+    // Nothing stops this one: the more it turns, the lower its energy.
+    let turning = top_heavy(false);
+    let prepared = ModelAtRest::new(turning.clone()).unwrap();
+    let error = prepared.with_elastic_lines(&elastic_lines(&prepared, 1.0).unwrap());
+    let error = error.map(|_| ()).unwrap_err().to_string();
+    assert!(
+        error.contains("elastic lines that hold the body at rest"),
+        "{error}"
+    );
+    let assessment = assess(turning, 0, &no_progress).unwrap();
+    assert!(
+        assessment
+            .warnings
+            .iter()
+            .any(|w| w.rule == "rest on elastic lines")
     );
 }
 

@@ -11,14 +11,16 @@
 //! to which ½ qᵀCq − F_cᵀq of the hydrostatics is added for a floating body, q = (x, y, θ). It is
 //! found by the method of Levenberg and Marquardt (J. Nocedal and S. Wright, *Numerical
 //! Optimization* (2006), chapter 4): Newton's step with a multiple of the identity added to the
-//! second derivatives, large enough for the energy to decrease.
+//! second derivatives, large enough for the energy to decrease. It also ends at a balance that is
+//! no minimum if it begins on an axis of symmetry; such a balance is left along the motion in
+//! which the energy decreases, to both sides, and the search goes on.
 
 use super::body::BodyOnElasticLines;
 use super::law::ElasticLine;
-use crate::physics::equilibrium::{Equilibrium, check_submerged, moved};
+use crate::physics::equilibrium::{Equilibrium, check_submerged, moved, unstable_motion};
 use crate::physics::model::Model;
 use crate::physics::model_at_rest::ModelAtRest;
-use nalgebra::{Matrix3, Vector3};
+use nalgebra::{DMatrix, Matrix3, Vector3};
 use snapload::{CaseError, State};
 use std::f64::consts::FRAC_PI_2;
 
@@ -28,6 +30,15 @@ const BALANCED: f64 = 1e-12;
 const STEPS: usize = 400;
 /// Step of the difference quotients for the derivatives of rows.
 const DIFFERENCE: f64 = 1e-6;
+/// The largest turn of one step from an unstable balance, where long steps could pass over a place
+/// of rest \[rad\].
+const LARGEST_TURN: f64 = 0.2;
+/// How far an unstable balance is left, in the engine's units.
+const ASIDE: f64 = 1e-2;
+/// The most unstable balances that are left one after the other.
+const UNSTABLE_BALANCES: usize = 3;
+/// Energies that differ by less than this are equal, in the engine's units.
+const EQUAL_ENERGY: f64 = 1e-10;
 /// What lines have to do for a body to rest on them.
 const ELASTIC_LINES_THAT_HOLD: &str = "elastic lines that hold the body at rest";
 /// What is added to the second derivatives at first, and at most.
@@ -43,7 +54,7 @@ impl ModelAtRest {
         let still = self.model.still();
         let body = BodyOnElasticLines::new(&still, elastic_lines);
         let rest = self.model.at_rest(self.rest.place_m, self.rest.theta_rad);
-        let rest = least_energy(&body, rest)?;
+        let rest = stable_rest(&body, rest, UNSTABLE_BALANCES)?;
         if rest.theta.abs() >= FRAC_PI_2 {
             let shown = format!("(turned by {:.0} degrees)", rest.theta.abs().to_degrees());
             return Err(
@@ -145,7 +156,54 @@ fn curvature(body: &BodyOnElasticLines, at: &State) -> Matrix3<f64> {
     (curvature + curvature.transpose()) * 0.5
 }
 
-fn least_energy(body: &BodyOnElasticLines, start: State) -> Result<State, CaseError> {
+/// A minimum of V. A balance that is none is left to both sides; of the two minima found the one
+/// of less energy is taken, and of mirror images that on the first side.
+fn stable_rest(
+    body: &BodyOnElasticLines,
+    start: State,
+    unstable_balances: usize,
+) -> Result<State, CaseError> {
+    let largest_turn = match unstable_balances {
+        UNSTABLE_BALANCES => f64::INFINITY,
+        _ => LARGEST_TURN,
+    };
+    let balance = least_energy(body, start, largest_turn)?;
+    let curvature = curvature(body, &balance);
+    let curvature = DMatrix::from_fn(3, 3, |i, j| curvature[(i, j)]);
+    let Some(motion) = unstable_motion(curvature) else {
+        return Ok(balance);
+    };
+    let error = || {
+        let shown = "(the only balance found is unstable)".to_owned();
+        CaseError::value("line.stiffness", shown, ELASTIC_LINES_THAT_HOLD)
+            .with_hint("use stiffer lines, or add lines that keep the body from turning")
+    };
+    let left = unstable_balances.checked_sub(1).ok_or_else(error)?;
+    // An eigenvector has no sign of its own: a turn is counter-clockwise first.
+    let aside = ASIDE * -motion[motion.iamax()].signum();
+    let sides = [aside, -aside].map(|aside| {
+        let step = Vector3::new(motion[0], motion[1], motion[2]) * aside;
+        stable_rest(body, moved(&balance, &step), left)
+    });
+    let upright = sides
+        .into_iter()
+        .flatten()
+        .filter(|rest| rest.theta.abs() < FRAC_PI_2);
+    let lower = |one: State, other: State| {
+        let [energy_of_one, energy_of_other] = [one, other].map(|at| energy(body, &at).0);
+        match energy_of_other < energy_of_one - EQUAL_ENERGY {
+            true => other,
+            false => one,
+        }
+    };
+    upright.reduce(lower).ok_or_else(error)
+}
+
+fn least_energy(
+    body: &BodyOnElasticLines,
+    start: State,
+    largest_turn: f64,
+) -> Result<State, CaseError> {
     let mut at = start;
     let [mut damping, most] = DAMPING;
     let (mut least, mut gradient) = energy(body, &at);
@@ -164,11 +222,13 @@ fn least_energy(body: &BodyOnElasticLines, start: State) -> Result<State, CaseEr
         loop {
             let damped = second + Matrix3::identity() * (damping * scale.max(1.0));
             let step = damped.lu().solve(&-gradient);
-            let tried = step.map(|step| moved(&at, &step));
+            let shorter = |step: Vector3<f64>| step * (largest_turn / step[2].abs()).min(1.0);
+            let tried = step.map(|step| moved(&at, &shorter(step)));
             if let Some(tried) = tried
                 && let (energy, slope) = energy(body, &tried)
                 // Close to rest the values of V differ only by rounding, and its gradient decides.
-                && (energy < least || slope.amax() < 0.5 * gradient.amax())
+                && (energy < least
+                    || (energy < least + EQUAL_ENERGY && slope.amax() < 0.5 * gradient.amax()))
             {
                 (at, least, gradient) = (tried, energy, slope);
                 damping = (damping / 10.0).max(1e-15);
