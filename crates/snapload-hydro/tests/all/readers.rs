@@ -332,7 +332,10 @@ fn nemoh_is_read() {
     let degrees = excitation.replace("-1.570795", "-90.0");
     let error = from_nemoh(&radiation, &degrees, &given).expect_err("a refusal");
     let message = error.to_string();
-    assert!(message.contains("at ω = 0.1 rad/s = -90") && message.contains("radians"), "{message}");
+    assert!(
+        message.contains("at ω = 0.1 rad/s = -90") && message.contains("radians"),
+        "{message}"
+    );
     let no_zones = radiation.replace("Zone", "Surge");
     let error = from_nemoh(&no_zones, &excitation, &given).expect_err("a refusal");
     assert!(error.to_string().contains("Capytaine"), "{error}");
