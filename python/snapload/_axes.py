@@ -59,6 +59,7 @@ def cases_csv(cases: Any) -> bytes:
     if names is None:
         allowed = "a DataFrame, a dict of columns, or the path of a CSV or Parquet file"
         raise TypeError(f"cases, a {type(cases).__name__}, is not allowed; allowed: {allowed}")
+    _refuse_index(cases)
     counts = {key["name"] for key in _engine.keys() if key["kind"] == "int"}
     columns = []
     for name in map(str, names):
@@ -72,6 +73,22 @@ def cases_csv(cases: Any) -> bytes:
     text = StringIO()
     writer(text, lineterminator="\n").writerows([map(str, names), *zip(*columns, strict=True)])
     return text.getvalue().encode()
+
+
+def _refuse_index(cases: Any) -> None:
+    """Refuses a named index, and coordinates of a dataset: they would be left out, although they may be keys."""
+    if hasattr(cases, "coords"):
+        kind, names = "coordinates", [str(name) for name in cases.coords]
+        kept, dropped = ".to_dataframe().reset_index()", f".drop_vars({names})"
+    else:
+        levels = getattr(getattr(cases, "index", None), "names", ())
+        kind, names = "an index", [str(name) for name in levels if name is not None]
+        kept, dropped = ".reset_index()", ".reset_index(drop=True)"
+    if names:
+        raise ValueError(
+            f"cases with {kind} ({', '.join(names)}) is not allowed; allowed: columns alone; cases{kept} has columns "
+            f"of the same names, cases{dropped} leaves them out"
+        )
 
 
 def _cell(value: Any, count: bool) -> str:

@@ -18,7 +18,7 @@ from ._lazy_import import LazyModule
 from ._orbit import Orbit
 from ._orbit_base import STATE
 from ._progress import progress_bar
-from ._schema import attributes, attributes_as, attributes_in, units, with_scales
+from ._schema import attributes, attributes_as, attributes_in, units, with_own_names, with_scales
 from ._signature import with_keys
 from ._table import numbers, or_nan
 
@@ -108,7 +108,7 @@ def safe_basin(case: Case, *, trust: bool = True, progress: bool = True, **windo
     scales = {name: scale for name, (scale, _) in _distances(data["keys"]).items()}
     scales["cell"] = ", ".join(units()[key] or "1" for key in data["keys"])
     title = {"title": "A safe basin of a body on cables", **COMMON_ATTRIBUTES}
-    return xarray.Dataset(variables, coords, title | with_scales(measures, scales))
+    return with_own_names(xarray.Dataset(variables, coords, title | with_scales(measures, scales)))
 
 
 with_keys(safe_basin, defaults=False)
@@ -190,7 +190,8 @@ def basins_of_attraction(
         "periods": np.array([row["period"] for row in data["attractors"]], dtype=np.int64),
         **COMMON_ATTRIBUTES,
     }
-    array = xarray.DataArray(labels.reshape(shape), coords, tuple(coords), "attractor", attrs)
+    variables = {"attractor": (tuple(coords), labels.reshape(shape), attrs)}
+    array = with_own_names(xarray.Dataset(variables, coords)).attractor
     label_orbits = zip(numbers, orbits, strict=True)
     return array, {number: Orbit(case, orbit) for number, orbit in label_orbits if orbit is not None}
 
@@ -277,7 +278,9 @@ def erosion(
     if data["knee_between"] is not None:
         knees["knee_between"] = [or_nan(knee) for knee in data["knee_between"]]
     title = {"title": "Erosion of a safe basin of a body on cables", **COMMON_ATTRIBUTES}
-    return xarray.Dataset(variables, coords, title | with_scales(knees, dict.fromkeys(knees, units()[key])))
+    return with_own_names(
+        xarray.Dataset(variables, coords, title | with_scales(knees, dict.fromkeys(knees, units()[key])))
+    )
 
 
 with_keys(erosion, defaults=False)

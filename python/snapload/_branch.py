@@ -20,7 +20,7 @@ from ._lazy_import import LazyModule
 from ._orbit import Orbit
 from ._orbit_base import STATE, NoOrbitError, complex_array
 from ._progress import progress_bar
-from ._schema import attributes, attributes_as
+from ._schema import attributes, attributes_as, with_own_names
 from ._table import Table
 
 if TYPE_CHECKING:
@@ -157,7 +157,11 @@ class Branch:
             "arclength": ("point", column("arclength", np.float64), key_attributes["arclength"]),
         }
         title = {"title": "A branch of periodic orbits of a body on cables", **COMMON_ATTRIBUTES}
-        return xarray.Dataset(variables, coords, title)
+        points = with_own_names(xarray.Dataset(variables, coords, title))
+        # A branch does not change. Who changes values does so in a copy.
+        for variable in points.variables.values():
+            variable.values.flags.writeable = False
+        return points
 
     @cached_property
     def events(self) -> Table:

@@ -67,7 +67,11 @@ def converted_array(scales: Scales, array: Any) -> Any:
 
 
 def _variable(scales: Scales, name: Any, variable: Any) -> Any:
-    scale = _scale(name, variable.attrs) if variable.dtype.kind == "f" else ""
+    if variable.dtype.kind != "f":
+        return variable
+    scale = _scale(name, variable.attrs)
+    if scale or variable.attrs.get("units") == "1":
+        _refuse_computed(name, variable.attrs, scale)
     if not scale:
         return variable
     converted = variable.copy(data=variable.data * _factor(scales, name, scale, variable.data))
@@ -98,12 +102,25 @@ def _scale(name: Any, attrs: Any) -> str:
     """The scale of real numbers; empty if they are in SI units or have no dimension."""
     _refuse_own_units(name, attrs)
     scale: str = attrs.get("scale", "")
-    if not scale and "units" not in attrs and units().get(name, "?") not in ("", "1", "rad"):
+    known = "units" in attrs or attrs.get("quantity") == name or units().get(name, "?") in ("", "1", "rad")
+    if not scale and not known:
         raise ValueError(
             f"{name} is not allowed, as its unit is unknown; allowed: quantities whose metadata have units, and for "
-            "those in scales also scale, such as units = '1' and scale = 'L/T'"
+            "those in scales also scale and their own name, such as units = '1', scale = 'L/T' and quantity = 'rho1'"
         )
     return scale
+
+
+def _refuse_computed(name: Any, attrs: Any, scale: str) -> None:
+    """Refuses metadata that another quantity had. Files of earlier versions do not name the quantity."""
+    owner = attrs.get("quantity")
+    if owner == name or (owner is None and units().get(name) == (scale or "1")):
+        return
+    known = "of no known quantity" if owner is None else f"those of {owner}"
+    raise ValueError(
+        f"{name} is not allowed, as its metadata are {known}; allowed: results under their own names, so convert "
+        "first, then compute or rename; or metadata with units, scale and quantity, which is the name"
+    )
 
 
 def _refuse_own_units(name: Any, attrs: Any) -> None:

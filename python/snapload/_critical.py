@@ -17,7 +17,7 @@ from ._case import Case
 from ._lazy_import import LazyModule
 from ._progress import progress_bar
 from ._result import Result
-from ._schema import attributes
+from ._schema import attributes, with_own_names
 
 if TYPE_CHECKING:
     import matplotlib.axes
@@ -47,8 +47,9 @@ class CriticalForce(Result):
         All amplitudes whose runs pass their horizon of trust, as such intervals: each may end in another way, and
         exceed a limit or not [F].
     probability : numpy.recarray or None
-        With an ensemble, at each amplitude: ``f_o``; whether the end is ``certain``; ``count``, the number of members
-        that exceed a limit; ``part``, their fraction; and the 95 % interval of it from ``low`` to ``high``.
+        With an ensemble, at each amplitude: ``f_o``; whether the end is ``certain``, so that no members are run;
+        ``count``, the number of members that exceed a limit, NaN where none are run; ``part``, their fraction, which is
+        0 or 1 there; and the 95 % interval of it from ``low`` to ``high``, which are equal to it there.
     passes : dict of str to float or None
         With an ensemble, the smallest amplitudes at which at least 5, 50 and 95 % of the neighbours exceed a limit:
         ``p05``, ``p50``, ``p95``. At a larger amplitude the percentage may be lower again.
@@ -258,7 +259,7 @@ def critical_force(
             answer = _engine.probability(engine, step, largest, size, tolerance, members, seed, report_progress)
         ensemble_data = json.loads(answer)
         passes = ensemble_data["passes"]
-        kinds = [("f_o", "f8"), ("certain", "?"), ("count", "i8"), ("part", "f8"), ("low", "f8"), ("high", "f8")]
+        kinds = [("f_o", "f8"), ("certain", "?"), ("count", "f8"), ("part", "f8"), ("low", "f8"), ("high", "f8")]
         points = [tuple(point[name] for name, _ in kinds) for point in ensemble_data["probability"]]
         probability = np.array(points, dtype=kinds).view(np.recarray)
     return CriticalForce(
@@ -314,4 +315,4 @@ def _critical_over_keys(
     if any("error" in row for row in rows):
         variables["error"] = (dims, column("error", ""), about["error"])
     title = {"title": "Critical force of a body on cables that go slack and snap taut", **COMMON_ATTRIBUTES}
-    return xarray.Dataset(variables, {**coords, "f_o": ("f_o", forces, about["f_o"])}, title)
+    return with_own_names(xarray.Dataset(variables, {**coords, "f_o": ("f_o", forces, about["f_o"])}, title))

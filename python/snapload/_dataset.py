@@ -14,7 +14,7 @@ from xarray.core import indexing
 
 from . import _engine
 from ._axes import all_values
-from ._schema import attributes
+from ._schema import attributes, with_own_names
 
 #: Attributes that all datasets have.
 COMMON_ATTRIBUTES = {
@@ -65,7 +65,7 @@ def dataset(
         for name, (dims, column, column_attrs) in variables.items()
     }
     title = {"title": "A study of a body on cables that go slack and snap taut", **COMMON_ATTRIBUTES}
-    opened = xarray.Dataset(lazy, coords, {**title, **attrs})
+    opened = with_own_names(xarray.Dataset(lazy, coords, {**title, **attrs}))
     if chunks is None:
         return opened.load()
     if chunks == "auto" and sizes:

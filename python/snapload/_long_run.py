@@ -20,7 +20,7 @@ from ._lazy_import import LazyModule
 from ._orbit_base import STATE
 from ._progress import progress_bar
 from ._result import Result
-from ._schema import attributes, attributes_as, with_scales
+from ._schema import attributes, attributes_as, with_own_names, with_scales
 from ._signature import with_keys
 from ._table import numbers, or_nan
 
@@ -127,7 +127,7 @@ def section(
         stop = data["stop"]
         attrs |= {"stop": stop["reason"], "stop_certain": int(stop["certain"])}
         measures["stop_t"] = stop["t"]
-    return xarray.Dataset(variables, coords, attrs | with_scales(measures))
+    return with_own_names(xarray.Dataset(variables, coords, attrs | with_scales(measures)))
 
 
 @dataclass(frozen=True, repr=False, eq=False)
@@ -318,7 +318,7 @@ def orbit_diagram(
         "k": ("k", np.arange(keep + 1), {"long_name": "number of the period that is kept"}),
     }
     title = {"title": "The attractor of a body on cables against a key", **COMMON_ATTRIBUTES}
-    return xarray.Dataset(variables, coords, title)
+    return with_own_names(xarray.Dataset(variables, coords, title))
 
 
 with_keys(orbit_diagram, defaults=False)

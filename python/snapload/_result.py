@@ -12,11 +12,16 @@ from numpy.typing import NDArray
 class Result:
     """A result is equal to another if all its fields, including arrays, are; its repr has those in ``_repr_fields``.
 
-    NaN, which stands for what is not known, is equal to NaN.
+    NaN, which stands for what is not known, is equal to NaN. Arrays can not be written to, as a result does not change.
     """
 
     _repr_fields: ClassVar[tuple[str, ...]] = ()
     __hash__ = None  # type: ignore[assignment]
+
+    def __post_init__(self) -> None:
+        for name in _names(self):
+            if isinstance(value := getattr(self, name), np.ndarray):
+                value.flags.writeable = False
 
     def __eq__(self, other: object) -> bool:
         if type(self) is not type(other):

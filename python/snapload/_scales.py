@@ -189,7 +189,8 @@ class Scales:
             The same result with values in m, kg, N, s and rad, and with units in the metadata after the CF conventions.
             Numbers among the attributes of a dataset, such as ``lim`` of a safe basin, are converted, too: their scale
             is in another attribute, ``lim_scale``, instead of which there is ``lim_units`` afterwards. What is in SI
-            units already does not change.
+            units already does not change. Convert first, and compute afterwards: what xarray computes from a variable
+            keeps its metadata and often its name, as ``rho1**2`` does, and is then converted as ``rho1`` itself.
 
         Raises
         ------
@@ -197,8 +198,8 @@ class Scales:
             If the result is something else.
         ValueError
             If it is a result of a :class:`snapload.System`, which is in your own units; if it has numbers of unknown
-            unit, as those that are computed from results may have; or if numbers have no single unit, as in the table
-            of :func:`snapload.sensitivities`.
+            unit, or with metadata of a variable of another name, as those that are computed from results may have; or
+            if numbers have no single unit, as in the table of :func:`snapload.sensitivities`.
 
         See Also
         --------

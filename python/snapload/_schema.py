@@ -4,9 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from functools import cache
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from . import _engine
+
+if TYPE_CHECKING:
+    import xarray
 
 #: Pictures of xarray are labelled by long name and unit, in lines of so many letters. A second line lies outside the
 #: picture, so that a longer name gives way to that of the column.
@@ -46,6 +49,18 @@ def attributes_in(scale: str, long_name: str) -> dict[str, str]:
     if scale in ("", "1", "rad"):
         return {"long_name": long_name, "units": scale or "1"}
     return {"long_name": _with_scale(long_name, scale), "units": "1", "scale": scale}
+
+
+def with_own_names(result: xarray.Dataset) -> xarray.Dataset:
+    """A dataset with the name of each number and flag in its metadata, which `Scales.si` compares with the variable's.
+
+    Arithmetic of xarray keeps metadata, although the unit is another one, and flags become floats where it puts NaN
+    between them.
+    """
+    for name, variable in result.variables.items():
+        if variable.dtype.kind in "biufc":
+            variable.attrs["quantity"] = name
+    return result
 
 
 def with_scales(values: Mapping[str, Any], scales: Mapping[str, str] | None = None) -> dict[str, Any]:

@@ -61,7 +61,8 @@ def sweep(
         Seed of the random points; 0 if left out.
     cases : DataFrame, dict of str to array_like, or path-like, optional
         Cases to run instead of a grid, with one column per key and one row per case: a table of pandas, Polars or
-        PyArrow, or a CSV or Parquet file. For a missing cell the key has the value of `case`.
+        PyArrow, or a CSV or Parquet file. For a missing cell the key has the value of `case`. A named index is
+        refused.
     chunks : dict, int or "auto", optional
         With `out`, open the file lazily in chunks of Dask of this size, as :func:`snapload.open_study` does.
     threads : int, optional

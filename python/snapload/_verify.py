@@ -35,7 +35,8 @@ class Verification(Result):
     predicted : int or None
         The impact at which trust ends according to the ordinary run.
     compared : int
-        Number of impacts that both runs have, as far as they are known with many digits.
+        Number of impacts up to the first that is of another cable in the ordinary run, or missing there, as far as
+        they are known with many digits.
     end : str or None
         How the run with many digits ends; None if a cable stayed taut before, where the comparison ends, and
         if its digits are lost before.
@@ -44,7 +45,7 @@ class Verification(Result):
     impacts : int or None
         Number of impacts of that run up to there; None if its digits are lost before.
     differences : numpy.ndarray, shape (compared,)
-        The largest difference of time and states at each impact, relative where a value is above 1.
+        The largest difference of time and states at each of these impacts, relative where a value is above 1.
     exact : tuple of dict
         The impacts of the run with many digits, up to the last one that is known: ``t``, ``v_n`` and
         ``impulse`` as decimals in a str, which `decimal.Decimal` reads, with as many digits as are right; and

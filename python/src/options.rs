@@ -2,6 +2,7 @@
 
 use crate::errors::{error_of_case, internal_error};
 use pyo3::prelude::*;
+use pyo3::types::PyBool;
 use snapload::analysis::{MEMBERS, NONZERO_MEMBERS, SEED};
 use snapload::{Key, Kind, key_named};
 use snapload_orbits::{BASIN_TRANSIENT, KEEP, ORBIT_PERIODS, PERIODS, POINTS, STARTS};
@@ -58,7 +59,9 @@ pub(crate) fn whole(option: &str, value: &Bound<'_, PyAny>, most: Option<u64>) -
     if let (Kind::Count(low, _), Some(most)) = (key.kind, most) {
         key.kind = Kind::Count(low, most);
     }
-    let number = value.extract().ok();
+    // Python takes True for 1.
+    let is_flag = value.is_instance_of::<PyBool>();
+    let number = value.extract().ok().filter(|_| !is_flag);
     let number = number.filter(|number| key.takes_count(*number));
     match number {
         Some(number) => Ok(number),

@@ -89,6 +89,20 @@ def results():
     yield snapload.lyapunov_spectrum(point, periods=3)
 
 
+def test_arrays_of_results_can_not_be_written_to():
+    point = snapload.Case(body="point", r=1.7, e=0.35, f_o=1.4, nu=0.8, omega=3.1)
+    points = snapload.continuation(point.orbit(), "f_o", (1.3, 1.5)).points
+    spectrum = snapload.lyapunov_spectrum(point, periods=50)
+    critical, proof = snapload.critical_force(CHAOTIC, step=0.1, members=10), snapload.verify(CHAOTIC)
+    arrays = [*spectrum, critical.exceeding, critical.probability.part, proof.differences]
+    for array in (*arrays, *points.variables.values()):
+        with pytest.raises(ValueError, match="read-only|is a view"):
+            array[0] = array[-1]
+    copied = points.copy(deep=True)
+    copied.x[0] = 99
+    assert copied.x[0] == 99 != points.x[0]
+
+
 @pytest.mark.parametrize("result", list(results()), ids=lambda result: type(result).__name__)
 def test_results_compare_copy_and_pickle(result):
     for other in (pickle.loads(pickle.dumps(result)), copy.deepcopy(result), copy.copy(result)):

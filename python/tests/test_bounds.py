@@ -10,6 +10,7 @@ import numpy as np
 import pandas
 import pytest
 import snapload
+import xarray
 
 ROOT = Path(__file__).resolve().parents[2]
 CYLINDER = str(ROOT / "docs/examples/cylinder.toml")
@@ -130,6 +131,30 @@ def test_a_list_of_cases_is_named_in_errors(tmp_path: Path):
     with pytest.raises(ValueError) as error:
         snapload.sweep(CASE, cases=path)
     assert str(error.value).startswith(f'{path}: there is no key "f_oo"')
+
+
+def test_cases_have_no_index_that_would_be_left_out():
+    frame = pandas.DataFrame({"f_o": [0.1, 0.2], "e": [0.5, 0.6]})
+    indexed = frame.set_index("f_o")
+    two = frame.assign(r=[1.4, 1.5]).set_index(["f_o", "r"])
+    datasets = [indexed.to_xarray(), xarray.Dataset(frame).assign_coords(r=1.5)]
+    messages = [r"an index \(f_o\)", r"an index \(f_o, r\)", r"coordinates \(f_o\)", r"coordinates \(.*r\)"]
+    for cases, message in zip([indexed, two, *datasets], messages, strict=True):
+        with pytest.raises(ValueError, match=rf"^cases with {message} is not allowed; allowed: .*reset_index\(\)"):
+            snapload.sweep(CASE, cases=cases, progress=False)
+    listed = snapload.sweep(CASE.replace(t_end=1), cases=frame, progress=False)
+    for cases in (indexed.reset_index(), indexed.to_xarray().to_dataframe().reset_index()):
+        assert snapload.sweep(CASE.replace(t_end=1), cases=cases, progress=False).identical(listed)
+    # The index of a filtered frame has no name.
+    assert snapload.sweep(CASE, cases=frame[frame.e > 0.55], progress=False).f_o.values.tolist() == [0.2]
+
+
+def test_a_flag_is_no_number():
+    for flag in (True, False, np.True_):
+        with pytest.raises(ValueError, match=f"^random = .*{flag}.* is not allowed; allowed: "):
+            snapload.sweep(CASE, random=flag, f_o=(0.1, 0.2), progress=False)
+    with pytest.raises(ValueError, match="^seed = True is not allowed"):
+        snapload.ensemble(CASE, 10, seed=True)
 
 
 def test_random_points_without_a_range_report_how_to_give_one():

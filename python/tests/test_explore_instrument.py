@@ -8,8 +8,10 @@ import io
 import re
 from pathlib import Path
 
+import numpy as np
 import pytest
 from explore import comes_true, count, download, drawn, exact_time, read, settled, shown_is
+from PIL import Image
 from playwright.sync_api import Page, expect
 
 
@@ -255,8 +257,35 @@ def test_the_map_is_taken_away(open_page, command, tmp_path: Path):
         (float(row["f_o"]), float(row["e"])): (row["reason"], float(row["t"]), row["certain"] == "true") for row in rows
     }
     assert mapped == swept
-    png = download(page, "#map-png", tmp_path / "map.png")
-    assert png[:8] == b"\x89PNG\r\n\x1a\n"
+
+
+def legend_of(page: Page, path: Path) -> set[tuple[int, int, int]]:
+    """The colours beneath the map in its saved picture, which has two pixels per point."""
+    download(page, "#map-png", path)
+    with Image.open(path) as picture:
+        width, height = (2 * round(page.locator("#map").bounding_box()[side]) for side in ("width", "height"))
+        assert picture.width == width and picture.height > height
+        pixels = np.asarray(picture.convert("RGB"))[height:]
+    return set(map(tuple, pixels.reshape(-1, 3).tolist()))
+
+
+def test_a_saved_map_says_what_its_colours_mean(open_page, tmp_path: Path):
+    page = open_page(f"t=0&map={MAP},reason")
+    expect(page.locator("#map-progress")).to_have_text("66 runs", timeout=60_000)
+    swatches = page.locator("#map-legend .swatch:not(.hatched)")
+    fills = swatches.evaluate_all(
+        "all => all.map(one => getComputedStyle(one).backgroundColor.match(/\\d+/g).map(Number))"
+    )
+    expect(page.locator("#map-legend .hatched")).to_be_visible()
+    legend = legend_of(page, tmp_path / "map.png")
+    assert len(fills) > 1 and set(map(tuple, fills)) <= legend
+    # Numbers have a bar from the first to the last colour.
+    page.locator("#map-colour").select_option("rho1")
+    expect(page.locator("#map-legend .bar-key")).to_be_visible()
+    legend = legend_of(page, tmp_path / "map.png")
+    for end in (0x00224E, 0xFEE838):
+        colour = np.array([end >> 16, end >> 8 & 255, end & 255])
+        assert min(np.abs(np.array(one) - colour).max() for one in legend) <= 3
 
 
 def test_a_box_in_the_map_becomes_the_map(open_page):

@@ -23,6 +23,7 @@ def test_a_dataset_is_labelled(tmp_path: Path):
     study = snapload.sweep(snapload.Case(), f_o=f_o, e=e)
     assert study.rho1.dims == ("f_o", "e") and study.f_o.values.tolist() == [0.1, 0.3, 0.5]
     about = {"long_name": "rho1, in L/T", "units": "1", "scale": "L/T", "comment": "largest v_n of a snap"}
+    about["quantity"] = "rho1"
     assert study.rho1.attrs == about
     assert study.f_o.attrs["scale"] == "F" and study.e.attrs["units"] == "1"
     assert study.end.sel(f_o=0.3, e=0.9) == "settled"

@@ -10,6 +10,7 @@ import pickle
 import numpy as np
 import pytest
 import snapload
+import xarray
 from snapload._schema import units
 
 SCALES = snapload.Scales(length=5.0, mass=800.0, force=1000.0)
@@ -211,8 +212,77 @@ def test_what_is_computed_from_results_is_not_taken_for_a_result():
     for array in (squared, squared.rename("energy"), squared.rename(None)):
         with pytest.raises(ValueError, match="its unit is unknown; allowed: quantities whose metadata have units"):
             SCALES.si(array)
-    told = squared.assign_attrs(units="1", scale="L^2/T^2")
+    told = squared.assign_attrs(units="1", scale="L^2/T^2", quantity="rho1")
     np.testing.assert_allclose(SCALES.si(told), squared * 2.5**2)
+
+
+@pytest.mark.parametrize(
+    "compute",
+    [
+        lambda study: study.rho1 * study.t,
+        lambda study: study.rho1 / study.rho2,
+        # Both have one scale, which is not that of the product.
+        lambda study: study.rho1 * study.rho2,
+        lambda study: (0.5 * study.rho1**2).rename("energy"),
+        lambda study: study.assign(energy=0.5 * study.rho1**2),
+        lambda study: study.assign(product=study.rho1 * study.rho2),
+        lambda study: study.assign(quotient=study.rho1 / study.t),
+        lambda study: study.assign_coords(product=study.f_o * study.rho1),
+    ],
+)
+@pytest.mark.parametrize("keep", [True, False, "default"])
+def test_metadata_that_arithmetic_keeps_are_not_taken_for_those_of_the_result(compute, keep):
+    study = snapload.sweep(CAPSIZES, f_o=[0.3, 0.31], progress=False)
+    with xarray.set_options(keep_attrs=keep):
+        computed = compute(study)
+    with pytest.raises(ValueError, match="is not allowed, as its (metadata are|unit is unknown)"):
+        SCALES.si(computed)
+
+
+@pytest.mark.parametrize(
+    "choose",
+    [
+        lambda study: study.where(study.rho1 > 1),
+        lambda study: study.rho1.where(study.rho1 > 1),
+        lambda study: study.isel(f_o=0),
+        lambda study: study.rho1.sel(f_o=slice(0.3, 0.4)),
+        lambda study: study[["rho1", "t"]].mean("f_o"),
+        lambda study: study.rho1.max("f_o"),
+        lambda study: study[["rho1", "t"]].isel(e=0, drop=True).sortby("rho1"),
+        lambda study: xarray.concat([study, study], "again"),
+        lambda study: study.rho1.rolling(f_o=2).mean(),
+        lambda study: study.stack(case=("f_o", "e")).reset_index("case"),
+        lambda study: study.rho1.to_dataset(),
+        lambda study: copy.deepcopy(study),
+    ],
+)
+def test_what_is_chosen_from_a_result_is_converted(choose):
+    study = snapload.sweep(CAPSIZES, f_o=[0.3, 0.31, 0.5], e=[0.9, 0.8], progress=False)
+    chosen = choose(study)
+    brought = SCALES.si(chosen)
+    if not isinstance(chosen, xarray.DataArray):
+        np.testing.assert_allclose(brought.rho1, chosen.rho1 * 2.5)
+    else:
+        np.testing.assert_allclose(brought, chosen * 2.5)
+    if "f_o" in chosen.coords:
+        np.testing.assert_allclose(brought.f_o, chosen.f_o * 1000.0)
+
+
+def test_gaps_can_be_made_in_every_dataset(dataset):
+    # Whole numbers and flags become floats where xarray puts NaN between them.
+    gaps = dataset.where(dataset.coords[next(iter(dataset.dims))] != math.inf)
+    for name, variable in SCALES.si(gaps).data_vars.items():
+        if dataset[name].dtype.kind in "iu":
+            np.testing.assert_array_equal(variable, dataset[name])
+
+
+def test_a_file_without_the_names_of_quantities_is_converted():
+    """One that was written with an earlier version."""
+    study = snapload.sweep(CAPSIZES, f_o=[0.3, 0.31], progress=False)
+    brought = SCALES.si(study)
+    for variable in study.variables.values():
+        variable.attrs.pop("quantity", None)
+    np.testing.assert_array_equal(SCALES.si(study).rho1, brought.rho1)
 
 
 def test_a_motion_is_converted_once():

@@ -32,7 +32,7 @@ export function cividis(part) {
 let pattern = null;
 
 /** Lines across a cell, dark next to light so that they are visible on every colour. */
-function hatch(target) {
+export function hatch(target) {
   if (!pattern) {
     const tile = Object.assign(document.createElement("canvas"), { width: 6, height: 6 });
     const context = tile.getContext("2d");

@@ -17,10 +17,11 @@ import {
 } from "./cells.js";
 import { $, setProperties } from "./dom.js";
 import { mapCsv, sweepLine } from "./map-files.js";
+import { mapPicture } from "./map-picture.js";
 import { prepare } from "./plot.js";
 import { copy, save } from "./export.js";
 import { endColour } from "./theme.js";
-import { number, withSymbols, reasonText } from "./formatting.js";
+import { number, unitText, withSymbols, reasonText } from "./formatting.js";
 
 /** An open map is computed again this long after the last change of values. */
 const REST_MS = 500;
@@ -61,7 +62,7 @@ export class SweepMap {
     $("map-run").addEventListener("click", () => this.compute());
     $("map-stop").addEventListener("click", () => this.stop("stopped"));
     $("map-wider").addEventListener("click", () => this.#zoomOut());
-    $("map-png").addEventListener("click", () => this.canvas.toBlob((blob) => save(blob, "map.png"), "image/png"));
+    $("map-png").addEventListener("click", () => this.cells && this.#savePicture());
     $("map-csv").addEventListener("click", () => this.cells && save(mapCsv(this.cells, this.columns), "map.csv"));
     $("map-sweep").addEventListener("click", () => copy($("map-sweep"), sweepLine(state)));
     this.box.addEventListener("toggle", () => {
@@ -298,13 +299,9 @@ export class SweepMap {
     const colours = this.colours();
     const { context, width, height } = prepare(this.canvas);
     const { x, y } = cells;
-    const frame = frameOf(width, height, cells);
-    this.frame = frame;
-    paintCells(context, frame, cells, this.#paintOf(colours), (k) => this.#uncertain(k));
-    drawCellAxes(context, frame, cells, colours, [this.#axisWords(x), this.#axisWords(y)]);
-    const own = this.#place();
-    this.placed = String(own);
-    crosshair(context, frame, own);
+    const frame = (this.frame = frameOf(width, height, cells));
+    this.placed = String(this.#place());
+    this.#paintMap(context, frame, colours);
     if (this.drawn) outlineBox(context, frame, cells, this.drawn, colours);
     if (this.pointed) outline(context, frame, cells, this.pointed, colours);
     this.#legend(colours);
@@ -313,6 +310,29 @@ export class SweepMap {
       `Map of ${withSymbols(this.#column(state.map.colour).meaning)} over ${x.key} and ${y.key}, ${cells.done} of ${cells.count} runs computed. ` +
         "Arrow keys move, Enter runs the cell.",
     );
+  }
+
+  /** The cells with their axes, and the current run. */
+  #paintMap(context, frame, colours) {
+    const { cells } = this;
+    paintCells(context, frame, cells, this.#paintOf(colours), (k) => this.#uncertain(k));
+    drawCellAxes(context, frame, cells, colours, [this.#axisWords(cells.x), this.#axisWords(cells.y)]);
+    crosshair(context, frame, this.#place());
+  }
+
+  /** The map in the size of the page, with its legend. */
+  async #savePicture() {
+    // An exported picture always has the light theme.
+    const colours = this.colours("light");
+    const { clientWidth: width, clientHeight: height } = this.canvas;
+    const frame = frameOf(width, height, this.cells);
+    const entries = this.#legendEntries(colours);
+    const { meaning, unit } = this.#column(this.state.map.colour);
+    const words = withSymbols(meaning) + (unitText(unit) ? ` [${unitText(unit)}]` : "");
+    // On the page the field of the colour says what the numbers are.
+    if (entries.some(({ from }) => from)) entries.unshift({ words });
+    const paint = (context) => this.#paintMap(context, frame, colours);
+    save(await mapPicture({ width, height, colours, entries, paint }), "map.png");
   }
 
   #column(name) {
@@ -349,30 +369,43 @@ export class SweepMap {
   }
 
   #legend(colours) {
+    const html = this.#legendEntries(colours)
+      .map(({ from, hatched, fill, words }) => {
+        if (from) {
+          const shades = `linear-gradient(90deg,${CIVIDIS.join()})`;
+          return `<span>${from}</span><i class="bar-key" style="background:${shades}"></i><span>${words}</span>`;
+        }
+        if (hatched) return `<span><i class="swatch hatched"></i>${words}</span>`;
+        return `<span>${fill ? `<i class="swatch" style="background:${fill}"></i>` : ""}${words}</span>`;
+      })
+      .join("");
+    if ($("map-legend").innerHTML !== html) $("map-legend").innerHTML = html;
+  }
+
+  /**
+   * What the colours and the hatching mean: words, and before them a `fill`, hatching, or the bar of numbers, with the
+   * least of them, `from`, before it.
+   * @returns {{ words: string, fill?: string, hatched?: boolean, from?: string }[]}
+   */
+  #legendEntries(colours) {
     const { cells } = this;
     const { colour } = this.state.map;
-    const swatch = (paint, words) => `<span><i class="swatch" style="background:${paint}"></i>${words}</span>`;
     const refused = cells.error.filter(Boolean).length;
-    const parts = refused ? [swatch(colours.faint, `not allowed (${refused})`)] : [];
+    /** @type {{ words: string, fill?: string, hatched?: boolean, from?: string }[]} */
+    const parts = refused ? [{ fill: colours.faint, words: `not allowed (${refused})` }] : [];
     if (colour === "reason") {
       const counts = this.state.schema.stops.map((reason) => [reason, cells.reason.filter((one) => one === reason).length]);
+      const there = counts.filter(([, n]) => n);
       parts.unshift(
-        ...counts
-          .filter(([, n]) => n)
-          .map(([reason, n]) => swatch(endColour(colours, reason), `${reasonText(reason)} (${n})`)),
+        ...there.map(([reason, n]) => ({ fill: endColour(colours, reason), words: `${reasonText(reason)} (${n})` })),
       );
     } else {
       const { low, high, log } = this.#scale(colour);
-      parts.unshift(
-        `<span>${number(low, 3)}</span>`,
-        `<i class="bar-key" style="background:linear-gradient(90deg,${CIVIDIS.join()})"></i>`,
-        `<span>${number(high, 3)}${log ? ", logarithmic" : ""}</span>`,
-      );
+      parts.unshift({ from: number(low, 3), words: `${number(high, 3)}${log ? ", logarithmic" : ""}` });
     }
     const unsure = cells.reason.filter((_, k) => this.#uncertain(k)).length;
-    if (unsure) parts.push(`<span><i class="swatch hatched"></i>not certain: rounding may decide how they end (${unsure})</span>`);
-    const html = parts.join("");
-    if ($("map-legend").innerHTML !== html) $("map-legend").innerHTML = html;
+    if (unsure) parts.push({ hatched: true, words: `not certain: rounding may decide how they end (${unsure})` });
+    return parts;
   }
 }
 

@@ -85,11 +85,12 @@ export class SceneView {
       ["ρ<sub>3</sub> = Σ <i>v</i><sub>n</sub>", number(norms.rho3, 5), "rho3"],
       ["<i>y</i><sub>max</sub>", `${number(norms.y_max, 5)} L`, "y_max"],
       ["|<i>θ</i>|<sub>max</sub>", `${number(norms.theta_max, 5)} rad`, "theta_max"],
-      ["Hardest impulse", `${number(this.run.hardest, 5)} m L/T`],
+      ["Largest impulse", `${number(this.run.hardest, 5)} m L/T`, "impulse"],
       ["Time taut", `${number(timeTaut, 4)} T`],
     ];
     // Counts over the whole run are no more certain than its end.
-    const known = { impacts: this.run.horizon.t === null ? "" : "not certain", ...this.run.norms_known };
+    const impacts = this.run.horizon.t === null ? "" : "not certain";
+    const known = { impacts, impulse: this.run.cut ? "of the impacts shown" : "", ...this.run.norms_known };
     $("summary").innerHTML = rows
       .map(([term, value, name = ""]) => {
         const sum = `<span data-norm="${name}">${value}</span>`;

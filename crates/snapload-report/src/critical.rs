@@ -80,7 +80,8 @@ struct Passes {
 struct Point {
     f_o: f64,
     certain: bool,
-    count: usize,
+    /// None where no neighbour is run.
+    count: Option<usize>,
     part: f64,
     low: f64,
     high: f64,
@@ -88,12 +89,12 @@ struct Point {
 
 impl Point {
     fn new(point: &Exceeding) -> Self {
-        let [low, high] = point.share.interval();
+        let [low, high] = point.interval();
         Self {
             f_o: point.f_o,
-            certain: point.certain,
-            count: point.share.count,
-            part: point.share.part(),
+            certain: point.share.is_none(),
+            count: point.share.map(|share| share.count),
+            part: point.part,
             low,
             high,
         }
@@ -101,7 +102,8 @@ impl Point {
 }
 
 impl Probability {
-    /// The row of a curve for `members` neighbours at each amplitude, drawn with this seed.
+    /// The row of a curve for `members` neighbours at each amplitude that one run does not decide,
+    /// drawn with this seed.
     pub fn new(curve: &ExceedanceCurve, members: u32, seed: u64) -> Self {
         Self {
             members,
@@ -115,26 +117,26 @@ impl Probability {
         }
     }
 
-    /// A line for every amplitude at which the share is neither none nor all, or is not certain.
+    /// A line for every amplitude at which the share is neither none nor all.
     pub fn in_words(&self, text: &mut String) {
         let Passes { p05, p50, p95 } = self.passes;
         let from = |f_o: Option<f64>| match f_o {
             Some(f_o) => f_o.to_string(),
             None => "none".to_owned(),
         };
+        let points = &self.probability;
+        let open = points.iter().filter(|point| !point.certain).count();
         let _ = writeln!(
             text,
-            "Ensemble  {} at each f_o; the first f_o at which 5 % exceed a limit: {}, 50 %: {}, 95 %: {}",
+            "Ensemble  {} at each f_o that one run does not decide ({open} of {}); \
+             the first f_o at which 5 % exceed a limit: {}, 50 %: {}, 95 %: {}",
             neighbours(self.members as usize),
+            points.len(),
             from(p05),
             from(p50),
             from(p95)
         );
-        let points = &self.probability;
-        let all = self.members as usize;
-        let split = points
-            .iter()
-            .filter(|point| (1..all).contains(&point.count));
+        let split = points.iter().filter(|p| 0.0 < p.part && p.part < 1.0);
         let split: Vec<&Point> = split.collect();
         if !split.is_empty() {
             let _ = writeln!(text, "          {:<8} {:>8}  95 %", "f_o", "exceed");
@@ -149,10 +151,9 @@ impl Probability {
                 percent(point.high, f64::ceil)
             );
         }
-        let certain = points.iter().filter(|point| point.certain).count();
         let _ = writeln!(
             text,
-            "          all or none exceed at {} of {} f_o; {certain} of these are certain",
+            "          all or none exceed at {} of {} f_o",
             points.len() - split.len(),
             points.len()
         );

@@ -54,7 +54,7 @@ pub fn summary_lines(
     lines.push(("Trust", trust_in_words(trusted)));
     lines.extend(certified.map(|certified| ("Proved", certified.in_words())));
     lines.push(("Impacts", impacts(trusted)));
-    lines.extend(largest_snap(trusted).map(|largest_snap| ("Hardest", largest_snap)));
+    lines.extend(hardest(trusted));
     let norms = run.norms();
     let known = NormsKnown::of(norms, &NormErrors::of(run, &trusted.trust));
     let norm =
@@ -253,23 +253,33 @@ fn impacts(trusted: &RunWithTrust) -> String {
     text
 }
 
-/// The largest snap, with its number of known digits; past the horizon none are known.
-fn largest_snap(trusted: &RunWithTrust) -> Option<String> {
+/// The snap of the largest velocity, and the impact of the largest impulse if that is another.
+fn hardest(trusted: &RunWithTrust) -> Vec<(&'static str, String)> {
     let (impacts, errors) = (trusted.run.impacts(), &trusted.trust.errors);
-    let rows = impacts.iter().zip(errors).zip(1..);
-    let snaps = rows.filter(|((impact, _), _)| impact.v_n > 0.0);
-    let ((snap, error), number) =
-        snaps.max_by(|((p, _), _), ((q, _), _)| p.v_n.total_cmp(&q.v_n))?;
-    let horizon = trusted.trust.horizon;
-    let certain = horizon.is_none_or(|horizon| horizon.is_after(number));
-    Some(format!(
-        "v_n = {}, impulse {}, at t = {} in cable {} ({})",
-        digits(snap.v_n),
-        digits(snap.impulse),
-        digits(snap.t),
-        snap.cable + 1,
-        known(1.0, Some(*error).filter(|_| certain))
-    ))
+    let rows = || impacts.iter().zip(errors).zip(1..);
+    let snaps = rows().filter(|((impact, _), _)| impact.v_n > 0.0);
+    let Some(fastest) = snaps.max_by(|((p, _), _), ((q, _), _)| p.v_n.total_cmp(&q.v_n)) else {
+        return Vec::new();
+    };
+    // Its known digits; past the horizon none are known.
+    let in_words = |((impact, error), number): ((&Impact, &f64), usize)| {
+        let horizon = trusted.trust.horizon;
+        let certain = horizon.is_none_or(|horizon| horizon.is_after(number));
+        format!(
+            "v_n = {}, impulse {}, at t = {} in cable {} ({})",
+            digits(impact.v_n),
+            digits(impact.impulse),
+            digits(impact.t),
+            impact.cable + 1,
+            known(1.0, Some(*error).filter(|_| certain))
+        )
+    };
+    let ((snap, _), _) = fastest;
+    let harder = rows().filter(|((impact, _), _)| impact.impulse > snap.impulse);
+    let largest = harder.max_by(|((p, _), _), ((q, _), _)| p.impulse.total_cmp(&q.impulse));
+    let mut lines = vec![("Hardest", in_words(fastest))];
+    lines.extend(largest.map(|row| ("", format!("largest impulse: {}", in_words(row)))));
+    lines
 }
 
 /// The total duration of each mode.
@@ -311,6 +321,33 @@ mod tests {
     use super::*;
     use snapload::analysis::{Uncertainty, Unfinished, no_progress};
     use snapload::{Case, Outcome};
+
+    /// A body that is hit by a fast snap far from its centre, and by a slower one near it.
+    #[test]
+    fn the_largest_impulse_is_printed_where_another_snap_is_the_fastest() -> Result<(), Unfinished>
+    {
+        let words = |parameters| {
+            let case = Case::new(parameters)?;
+            let trusted = RunWithTrust::run_alone(&case, Uncertainty::default(), &no_progress)?;
+            let impulses = trusted.run.impacts().iter().map(|impact| impact.impulse);
+            let largest = format!("impulse {}, ", digits(impulses.fold(0.0, f64::max)));
+            Ok::<_, Unfinished>((hardest(&trusted), largest))
+        };
+        let (lines, largest) = words(Parameters {
+            r: 2.2,
+            a: 0.25,
+            b: 0.15,
+            x: 0.05,
+            vx: 0.2,
+            t_end: 30.0,
+            ..Parameters::STANDARD
+        })?;
+        assert_eq!(lines.len(), 2);
+        assert!(!lines[0].1.contains(&largest) && lines[1].1.contains(&largest));
+        let (lines, largest) = words(Parameters::STANDARD)?;
+        assert!(lines.len() == 1 && lines[0].1.contains(&largest));
+        Ok(())
+    }
 
     /// The summary counts the impacts as an outcome and a sweep do, and impulses passed into a taut
     /// cable beside them.

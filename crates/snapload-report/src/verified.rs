@@ -194,7 +194,18 @@ fn exact_end_in_words(found: &Verification) -> String {
 fn compared_in_words(found: &Verification, tolerance: f64) -> String {
     let known = found.impacts.len();
     if let Some(impact) = found.first_wrong.filter(|impact| *impact <= known) {
-        return format!("wrong by more than {tolerance:e} from impact {impact} on");
+        // Up to where the runs part each impact has a difference.
+        if impact <= found.differences.len() {
+            return format!("wrong by more than {tolerance:e} from impact {impact} on");
+        }
+        let parts = match found.run.impacts().len() < impact {
+            true => "missing",
+            false => "of another cable than in the true motion",
+        };
+        return match impact {
+            1 => format!("impact 1 is {parts}"),
+            _ => format!("impact {impact} is {parts}; correct to {tolerance:e} before it"),
+        };
     }
     // Where a cable stays taut the run with many digits ends, and with it the comparison.
     if found.t.is_some() && found.end.is_none() {
@@ -281,6 +292,29 @@ mod tests {
         assert!(json["end"].is_null() && json["compared"] != json["ordinary"]["impacts"]);
         assert!(words.contains("the ordinary run has"), "{words}");
         assert!(!words.contains("at the end"), "{words}");
+        Ok(())
+    }
+
+    /// Impacts are compared as long as those of the same number are of the same cable.
+    #[test]
+    fn nothing_is_compared_after_the_runs_part() -> Result<(), Unfinished> {
+        let case = Case::new(Parameters::STANDARD)?;
+        for tolerance in [1e-3, 0.5] {
+            let found = verify(&case, 60, tolerance, &no_progress)?;
+            let cables = found.run.impacts().iter().zip(&found.impacts);
+            let alike = cables.take_while(|(ours, exact)| ours.cable == exact.cable);
+            let alike = alike.count();
+            assert!(alike < found.impacts.len().min(found.run.impacts().len()));
+            assert_eq!(found.differences.len(), alike);
+            assert!(found.differences.iter().all(|d| *d < tolerance));
+            assert_eq!(found.first_wrong, Some(alike + 1));
+            let verified = Verified::new(found, tolerance);
+            assert_eq!(verified.row().compared, alike);
+            let words = verified.in_words();
+            let parts = format!("impact {} is of another cable than in", alike + 1);
+            assert!(words.contains(&parts), "{words}");
+            assert!(!words.contains("wrong by more than"), "{words}");
+        }
         Ok(())
     }
 

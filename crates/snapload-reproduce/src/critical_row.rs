@@ -106,29 +106,28 @@ impl CriticalRow {
         found.and_then(|(_, proved)| proved.as_ref())
     }
 
-    /// The number of neighbours that exceed at an amplitude.
-    pub(crate) fn neighbours(&self, f_o: f64) -> usize {
+    /// The part of the neighbours that exceed at an amplitude.
+    pub(crate) fn part_exceeding(&self, f_o: f64) -> f64 {
         let same = |at: f64| (at - f_o).abs() < 0.005;
         let found = self.probable.points.iter().find(|point| same(point.f_o));
-        found.map_or(0, |point| point.share.count)
+        found.map_or(0.0, |point| point.part)
     }
 
     /// Whether the published value agrees with the proof and with all neighbours, certainly does
     /// not, or is undecidable: it differs, but neighbours at or below it disagree.
     pub(crate) fn verdict(&self) -> Verdict {
-        let all = NEIGHBOURS as usize;
         let below = || {
             let points = self.probable.points.iter();
             points.filter(|point| point.f_o < self.published - 0.005)
         };
-        let at_published = self.neighbours(self.published);
+        let at_published = self.part_exceeding(self.published);
         let equal = self
             .first()
             .is_some_and(|(f_o, _)| (f_o - self.published).abs() < 0.005);
-        let none_below = below().all(|point| point.share.count == 0);
+        let none_below = below().all(|point| point.part == 0.0);
         match equal {
-            true if none_below && at_published == all => Verdict::Reproduced,
-            false if at_published == 0 || below().any(|point| point.share.count == all) => {
+            true if none_below && at_published == 1.0 => Verdict::Reproduced,
+            false if at_published == 0.0 || below().any(|point| point.part == 1.0) => {
                 Verdict::NotReproduced
             }
             _ => Verdict::NotDecidable,

@@ -19,8 +19,9 @@ pub struct Verification {
     pub run: Trajectory,
     /// The trust that was computed for it.
     pub trust: Trust,
-    /// Difference of the two runs at each impact that both have: the largest of the time and the
-    /// states' components, each relative to its value where that is above 1.
+    /// Difference of the two runs at each impact up to the first that is of another cable in the
+    /// ordinary run, or missing: the largest of the time and the states' components, each relative
+    /// to its value where that is above 1.
     pub differences: Vec<f64>,
     /// The first impact, numbered from 1, that differs by more than the tolerance, or that only one
     /// of them has, among those that many digits know. The end counts as the impact after the last.
@@ -130,7 +131,8 @@ struct Compared<'a, const WORDS: usize> {
     run: &'a Trajectory,
     neighbour: Neighbour<'a, WORDS>,
     differences: Vec<f64>,
-    /// The first impact, from 1, that the ordinary run does not have.
+    /// The first impact, from 1, that is of another cable in the ordinary run, or missing. Impacts
+    /// of the same number are not the same ones after it.
     parted: Option<usize>,
     impacts: Vec<ExactImpact>,
 }
@@ -152,13 +154,13 @@ impl<const WORDS: usize> Compared<'_, WORDS> {
         if !snaps && exact.v_n > Precise::ZERO {
             return false;
         }
-        match self.run.impacts().get(self.impacts.len()) {
-            Some(ours) if ours.cable == exact.cable => {
-                let ours = numbers(ours).map(Precise::from_f64);
-                self.differences.push(difference(ours, numbers(exact)));
-            }
-            _ => {
-                self.parted.get_or_insert(self.impacts.len() + 1);
+        if self.parted.is_none() {
+            match self.run.impacts().get(self.impacts.len()) {
+                Some(ours) if ours.cable == exact.cable => {
+                    let ours = numbers(ours).map(Precise::from_f64);
+                    self.differences.push(difference(ours, numbers(exact)));
+                }
+                _ => self.parted = Some(self.impacts.len() + 1),
             }
         }
         self.impacts.push(ExactImpact {

@@ -143,6 +143,21 @@ fn the_probability_of_exceeding_has_a_band() {
         (&points[29]["part"], &points[30]["part"]),
         (&0.0.into(), &1.0.into())
     );
+    // Where one run decides, no neighbour is run, and none is counted.
+    for point in points {
+        let (certain, part) = (point["certain"] == true, &point["part"]);
+        assert_eq!(point["count"].is_null(), certain, "{point}");
+        assert_eq!(
+            &point["low"] == part && &point["high"] == part,
+            certain,
+            "{point}"
+        );
+    }
+    let certain = points.iter().filter(|point| point["certain"] == true);
+    let open = points.len() - certain.count();
+    let text = output(&["critical", "--ensemble", "20", "--max", "0.33"]);
+    let run = format!("20 neighbours at each f_o that one run does not decide ({open} of 33); ");
+    assert!(text.contains(&run), "{text}");
 }
 
 #[test]

@@ -29,13 +29,13 @@ fn of_oracle(reference: &Json) -> Case {
 /// The impact at which trust ends, counted from 1; where it does not within the part of the run
 /// that is proven, the number of its impacts plus one.
 fn predicted(found: &Verification) -> usize {
-    let none = found.differences.len() + 1;
+    let none = found.impacts.len() + 1;
     let horizon = found.trust.horizon.map_or(none, |h| h.impact);
     horizon.min(none)
 }
 
 fn first_wrong(found: &Verification) -> usize {
-    found.first_wrong.unwrap_or(found.differences.len() + 1)
+    found.first_wrong.unwrap_or(found.impacts.len() + 1)
 }
 
 /// The prediction is the width of a distribution, and the proven difference is one draw from it.

@@ -19,10 +19,19 @@ pub struct ExceedanceCurve {
 pub struct Exceeding {
     /// The force amplitude.
     pub f_o: f64,
-    /// How many of the neighbours exceed.
-    pub share: Share,
-    /// Whether the run ends before its horizon of trust, so that its end holds for all neighbours.
-    pub certain: bool,
+    /// The part of the neighbours that exceed, from 0 to 1.
+    pub part: f64,
+    /// How many of those that were run exceed; none where the run ends before its horizon of trust,
+    /// as its end then holds for all neighbours and none is run.
+    pub share: Option<Share>,
+}
+
+impl Exceeding {
+    /// The interval that contains the probability with 95 % confidence: `part` itself where no
+    /// neighbour is run.
+    pub fn interval(self) -> [f64; 2] {
+        self.share.map_or([self.part; 2], Share::interval)
+    }
 }
 
 impl ExceedanceCurve {
@@ -57,7 +66,7 @@ impl ExceedanceCurve {
 
     /// The smallest amplitude at which the share of those that exceed reaches `part`.
     pub fn passes(&self, part: f64) -> Option<f64> {
-        let reached = self.points.iter().find(|point| point.share.part() >= part);
+        let reached = self.points.iter().find(|point| point.part >= part);
         reached.map(|point| point.f_o)
     }
 }
@@ -68,20 +77,14 @@ fn exceeding(
     on_progress: OnProgress,
 ) -> Result<Exceeding, Unfinished> {
     let (run, trust) = trusted_run(case, ensemble.uncertainty(), on_progress)?;
-    let certain = trust.decides_the_end();
-    let share = if certain {
-        let all = ensemble.count as usize;
-        Share {
-            count: if run.end().reason.exceeds() { all } else { 0 },
-            of: all,
-            clear: false,
-        }
-    } else {
-        ensemble.tally(on_progress)?.exceeding()
+    let share = match trust.decides_the_end() {
+        true => None,
+        false => Some(ensemble.tally(on_progress)?.exceeding()),
     };
+    let exceeds = f64::from(u8::from(run.end().reason.exceeds()));
     Ok(Exceeding {
         f_o: case.parameters().f_o,
+        part: share.map_or(exceeds, Share::part),
         share,
-        certain,
     })
 }

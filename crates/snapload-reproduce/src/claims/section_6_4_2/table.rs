@@ -155,14 +155,15 @@ mod tests {
             let of = NEIGHBOURS as usize;
             let known = at.iter().find(|(force, _)| *force == f_o);
             let count = known.map_or(if f_o < 0.305 { 0 } else { of }, |(_, count)| *count);
+            let share = Share {
+                count,
+                of,
+                clear: false,
+            };
             Exceeding {
                 f_o,
-                share: Share {
-                    count,
-                    of,
-                    clear: false,
-                },
-                certain: false,
+                part: share.part(),
+                share: Some(share),
             }
         };
         let proof = |f_o: f64| Proved {
