@@ -6,14 +6,15 @@
 //! ExcitationForce.tec          a zone for each β in degrees; its rows are ω, and |F| and arg F of each force
 //! ```
 //!
-//! arg F is in radians. The phase is that of e^{−iωt}: at low frequency arg F1 → −π/2 for β = 0, and arg F3 → 0. Source:
-//! Nemoh v2, `Solver/Main.f90`, which writes these files, and the files that come with it.
+//! arg F is in radians. The phase is that of e^{−iωt}: at low frequency arg F1 → −π/2 for β = 0, and
+//! arg F3 → 0. Source: Nemoh v2, `Solver/Main.f90`, which writes these files, and the files that come with it.
 
 use super::table::{Row, Table};
 use super::{Given, agreed_water};
 use crate::coefficients::{Hydrodynamics, Hydrostatics};
 use crate::error::HydroError;
 use nalgebra::{Complex, Matrix3, Vector3};
+use std::f64::consts::TAU;
 
 /// The degrees of freedom of one body, all six of which are in the files.
 const SIX: usize = 6;
@@ -106,9 +107,12 @@ fn along_x<'a, 'b>(
 /// Refuses phases that are no angles in radians.
 fn in_radians(wave: &Zone) -> Result<(), HydroError> {
     for row in &wave.rows {
-        // Fortran writes seven digits of ±2π.
+        // Fortran writes seven digits of ±2π, which may be rounded up.
         let phases = row.iter().skip(2).step_by(2);
-        if let Some(phase) = phases.into_iter().find(|phase| phase.abs() > 6.2832) {
+        if let Some(phase) = phases
+            .into_iter()
+            .find(|phase| phase.abs() > 1.000_01 * TAU)
+        {
             let what = format!("a phase in ExcitationForce.tec at ω = {} rad/s", row[0]);
             let expected = "−2π to 2π, in radians, is allowed; convert degrees to radians, and \
                             subtract whole turns";

@@ -30,8 +30,8 @@ const BALANCED: f64 = 1e-12;
 const STEPS: usize = 400;
 /// Step of the difference quotients for the derivatives of rows.
 const DIFFERENCE: f64 = 1e-6;
-/// The largest turn of one step from an unstable balance, where long steps could pass over a place
-/// of rest \[rad\].
+/// The largest turn of one step within 90 degrees, where a longer one could pass over a place of
+/// rest \[rad\].
 const LARGEST_TURN: f64 = 0.2;
 /// How far an unstable balance is left, in the engine's units.
 const ASIDE: f64 = 1e-2;
@@ -163,11 +163,7 @@ fn stable_rest(
     start: State,
     unstable_balances: usize,
 ) -> Result<State, CaseError> {
-    let largest_turn = match unstable_balances {
-        UNSTABLE_BALANCES => f64::INFINITY,
-        _ => LARGEST_TURN,
-    };
-    let balance = least_energy(body, start, largest_turn)?;
+    let balance = least_energy(body, start)?;
     let curvature = curvature(body, &balance);
     let curvature = DMatrix::from_fn(3, 3, |i, j| curvature[(i, j)]);
     let Some(motion) = unstable_motion(curvature) else {
@@ -199,11 +195,7 @@ fn stable_rest(
     upright.reduce(lower).ok_or_else(error)
 }
 
-fn least_energy(
-    body: &BodyOnElasticLines,
-    start: State,
-    largest_turn: f64,
-) -> Result<State, CaseError> {
+fn least_energy(body: &BodyOnElasticLines, start: State) -> Result<State, CaseError> {
     let mut at = start;
     let [mut damping, most] = DAMPING;
     let (mut least, mut gradient) = energy(body, &at);
@@ -219,6 +211,10 @@ fn least_energy(
             let step = second.lu().solve(&-gradient);
             return Ok(step.map_or(at, |step| moved(&at, &step)));
         }
+        let largest_turn = match at.theta.abs() < FRAC_PI_2 {
+            true => LARGEST_TURN,
+            false => f64::INFINITY,
+        };
         loop {
             let damped = second + Matrix3::identity() * (damping * scale.max(1.0));
             let step = damped.lu().solve(&-gradient);

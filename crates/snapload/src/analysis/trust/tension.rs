@@ -59,12 +59,11 @@ impl TautStep<'_> {
         let at_end = simulation.tensions_at_end(step);
         let goes_on = step.event.reached == Reached::default() && step.stop.is_none();
         let [first, last] = self.tangent.slopes_of_tensions(simulation, step);
-        let mut near = NearZero::default();
-        near.differ = self
-            .idle()
-            .iter()
-            .filter(|&cable| self.reach(cable, [&first[cable], &last[cable]]) > OF_ROUNDING)
-            .collect();
+        let moves = |&cable: &usize| self.reach(cable, [&first[cable], &last[cable]]) > OF_ROUNDING;
+        let mut near = NearZero {
+            differ: self.idle().iter().filter(moves).collect(),
+            fall: TautSet::SLACK,
+        };
         // A cable that lies along others carries nothing.
         for cable in step.carrying.iter() {
             let reach = self.reach(cable, [&first[cable], &last[cable]]);
