@@ -39,13 +39,14 @@ class CriticalForce(Result):
     t : float or None
         The time of that end [T].
     certain : bool
-        Whether the ends of all runs up to ``f_cr`` are certain; of all runs, if none exceeds a limit.
+        Whether the run of ``f_cr`` ends before its horizon of trust, and no smaller amplitude is ``uncertain``; if none
+        exceeds a limit, whether none is.
     exceeding : numpy.ndarray, shape (n, 2)
         All amplitudes that exceed a limit, as intervals ``[from, to]`` of adjacent amplitudes [F]. There may be several
         intervals, because a run with an amplitude above the critical one may settle.
     uncertain : numpy.ndarray, shape (n, 2)
-        All amplitudes whose runs pass their horizon of trust, as such intervals: each may end in another way, and
-        exceed a limit or not [F].
+        All amplitudes at which rounding decides, as such intervals [F]: the run passes its horizon of trust, and of 20
+        neighbours some exceed a limit and others do not.
     probability : numpy.recarray or None
         With an ensemble, at each amplitude: ``f_o``; whether the end is ``certain``, so that no members are run;
         ``count``, the number of members that exceed a limit, NaN where none are run; ``part``, their fraction, which is
@@ -301,7 +302,7 @@ def _critical_over_keys(
         "certain": (
             dims,
             np.array([row.get("certain", False) for row in rows]).reshape(shape),
-            {"long_name": "whether the ends of the runs up to f_cr are certain"},
+            {"long_name": "whether f_cr is certain"},
         ),
         "reason": (dims, column("reason", ""), {"long_name": "which limit is reached there"}),
         "t": (dims, column("t", np.nan), {**about["t"], "long_name": "when it is reached, in T"}),
@@ -309,7 +310,7 @@ def _critical_over_keys(
         "uncertain": (
             (*dims, "f_o"),
             within("uncertain"),
-            {"long_name": "whether the end of its run is not certain"},
+            {"long_name": "whether rounding decides"},
         ),
     }
     if any("error" in row for row in rows):

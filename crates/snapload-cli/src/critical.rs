@@ -9,7 +9,7 @@ use crate::outputs::Outputs;
 use crate::uncertainty::{UncertaintyArgs, with_option};
 use serde::Serialize;
 use snapload::analysis::{
-    CriticalForce, ExceedanceCurve, ForceScan, NONZERO_MEMBERS, OnProgress, Progress,
+    CriticalForce, ExceedanceCurve, ForceScan, NEIGHBOURS, NONZERO_MEMBERS, OnProgress, Progress,
 };
 use snapload::{CaseError, Value};
 use snapload_report::{CriticalRow, Probability, case_in_words};
@@ -19,8 +19,8 @@ use std::fmt::Write;
 const EXAMPLES: &str = "\
 The critical force is the smallest amplitude f_o = step, 2 step, ... whose run stops at a limit of the motion,
 such as the rotation limit or the upper bound. Runs with larger amplitudes may settle again, so all amplitudes
-that exceed a limit are listed as intervals. So are those whose runs pass their horizon of trust: each may end in
-another way, and whether they exceed is not certain. With --set stop_when_sliding=true a run ends when the body begins to
+that exceed a limit are listed as intervals. So are those at which rounding decides whether they exceed: their
+runs pass their horizon of trust, and neighbours disagree. With --set stop_when_sliding=true a run ends when the body begins to
 slide, as in the studies of the thesis's chapter 6.
 
 Examples:
@@ -94,9 +94,8 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
     outputs.finish(&answer, text)
 }
 
-/// What it means that amplitudes are uncertain, and what decides.
-const UNCERTAIN: &str = "their runs pass their horizon, and may end in another way\n          \
-                         (--ensemble N runs neighbours; snapload certify proves an end)";
+/// What decides where neighbours disagree.
+const DECIDED_BY: &str = "(--ensemble N gives the probability, snapload certify a proof)";
 
 /// The most values of another key.
 const MOST_VALUES: u64 = 100_000;
@@ -181,7 +180,11 @@ impl Answer {
                     _ => writeln!(text, "Critical  none up to f_o = {}{sure}", args.max),
                 };
                 if let Some(uncertain) = row.uncertain() {
-                    let _ = writeln!(text, "Uncertain f_o = {uncertain}: {UNCERTAIN}");
+                    let _ = writeln!(
+                        text,
+                        "Uncertain f_o = {uncertain}: some of {NEIGHBOURS} neighbours exceed, others do not\n          \
+                         {DECIDED_BY}"
+                    );
                 }
                 if let Some(curve) = curve {
                     curve.in_words(&mut text);
@@ -202,7 +205,10 @@ impl Answer {
                     let _ = writeln!(text, "{value:<12} {first:<8} {}", row.exceeding());
                 }
                 if points.iter().any(|point| !point.row.certain) {
-                    let _ = writeln!(text, "~ not certain: a run up to it passes its horizon");
+                    let _ = writeln!(
+                        text,
+                        "~ not certain: its run passes its horizon, or neighbours at or below it disagree"
+                    );
                 }
                 text
             }

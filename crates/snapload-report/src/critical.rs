@@ -10,7 +10,7 @@ use std::fmt::Write;
 pub struct CriticalRow {
     /// The smallest amplitude that exceeds; none if none does.
     pub f_cr: Option<f64>,
-    /// Whether the ends of the runs up to it are certain.
+    /// Whether its run ends before its horizon, and rounding decides at no smaller amplitude.
     pub certain: bool,
     /// The limit that its run reaches.
     pub reason: Option<&'static str>,
@@ -23,11 +23,11 @@ pub struct CriticalRow {
 impl CriticalRow {
     /// The row of a result.
     pub fn new(found: CriticalForce) -> Self {
-        let certain = found.is_certain();
         let CriticalForce {
             first,
             exceeding,
             uncertain,
+            certain,
         } = found;
         Self {
             f_cr: first.map(|first| first.f_o),
@@ -44,7 +44,7 @@ impl CriticalRow {
         in_words(&self.exceeding)
     }
 
-    /// Those whose runs may end in another way, in words; none if there are none.
+    /// Those at which rounding decides, in words; none if there are none.
     pub fn uncertain(&self) -> Option<String> {
         (!self.uncertain.is_empty()).then(|| in_words(&self.uncertain))
     }

@@ -1,9 +1,10 @@
 //! The critical force: the smallest force amplitude at which the rotation limit or the upper bound
 //! is reached (chapter 6.4.2), and all larger amplitudes of the scan that reach one of them.
 
+use crate::analysis::ensemble::Ensemble;
 use crate::analysis::outcomes::{ThreadResults, on_all_threads};
-use crate::analysis::progress::{Counter, OnProgress, Unfinished};
-use crate::analysis::trust::Certainty;
+use crate::analysis::progress::{Counter, OnProgress, Progress, Unfinished};
+use crate::analysis::trust::{Certainty, Uncertainty};
 use crate::batch::lanes::Lanes;
 use crate::case::Case;
 use crate::case::error::CaseError;
@@ -104,10 +105,16 @@ pub struct CriticalForce {
     /// All amplitudes that exceed, as intervals of neighbouring ones `[from, to]`. There may be
     /// several intervals: a run above the critical amplitude may settle.
     pub exceeding: Vec<[f64; 2]>,
-    /// All amplitudes whose runs pass their horizon of trust, as such intervals: each may end in
-    /// another way than its run, and exceed or not.
+    /// All amplitudes at which rounding decides, as such intervals: the run passes its horizon of
+    /// trust, and of [`NEIGHBOURS`] neighbours some exceed and others do not.
     pub uncertain: Vec<[f64; 2]>,
+    /// Whether the run of the first ends before its horizon, and no smaller amplitude is uncertain;
+    /// if none exceeds, whether none is uncertain.
+    pub certain: bool,
 }
+
+/// The neighbours of a run past its horizon, of which all must exceed if it does, and none if not.
+pub const NEIGHBOURS: u32 = 20;
 
 impl CriticalForce {
     /// Runs the case at every amplitude of the scan, on all threads that there are.
@@ -133,36 +140,56 @@ impl CriticalForce {
             Certainty::with_outcomes(Lanes::best(), cases, &counter)
         });
         let runs = runs.map(ThreadResults::into_vec)?;
-        let runs: Vec<Run> = amplitudes.into_iter().zip(runs).collect();
-        let exceeds = |(_, (outcome, _)): &Run| outcome.exceeds();
-        let first = runs.iter().find(|run| exceeds(run));
+        let all = runs.len() as f64;
+        let mut decided = Vec::with_capacity(runs.len());
+        for (case, (outcome, certainty)) in cases.iter().zip(&runs) {
+            let progress = Progress::new("force amplitudes", decided.len() as f64, all);
+            decided.push(
+                certainty.decides_the_end()
+                    || neighbours_agree(case, outcome, &|_| on_progress(progress))?,
+            );
+        }
+        let first = runs.iter().position(|(outcome, _)| outcome.exceeds());
+        let up_to = first.unwrap_or(runs.len());
         Ok(Self {
-            first: first.map(|(f_o, (outcome, _))| Exceedance {
-                f_o: *f_o,
-                reason: outcome.end.reason,
-                t: outcome.end.t,
+            certain: first.is_none_or(|first| runs[first].1.decides_the_end())
+                && decided[..up_to].iter().all(|decided| *decided),
+            first: first.map(|first| Exceedance {
+                f_o: amplitudes[first],
+                reason: runs[first].0.end.reason,
+                t: runs[first].0.end.t,
             }),
-            exceeding: intervals(&runs, exceeds),
-            uncertain: intervals(&runs, |(_, (_, certainty))| !certainty.decides_the_end()),
+            exceeding: intervals(&amplitudes, |k| runs[k].0.exceeds()),
+            uncertain: intervals(&amplitudes, |k| !decided[k]),
         })
-    }
-
-    /// Whether the ends of all runs up to the first amplitude that exceeds are certain; of all runs
-    /// if none exceeds.
-    pub fn is_certain(&self) -> bool {
-        let first = self.first.map_or(f64::INFINITY, |first| first.f_o);
-        self.uncertain.iter().all(|[from, _]| *from > first)
     }
 }
 
-/// An amplitude with the outcome of its run.
-type Run = (f64, (Outcome, Certainty));
+/// Whether all neighbours exceed if the run does, and none otherwise; they do not if some can not be
+/// drawn.
+fn neighbours_agree(
+    case: &Case,
+    outcome: &Outcome,
+    on_progress: OnProgress,
+) -> Result<bool, Unfinished> {
+    let ensemble = Ensemble::about(case, &Uncertainty::default(), NEIGHBOURS, 1);
+    match ensemble.tally(on_progress) {
+        Ok(ends) => {
+            let exceeding = ends.exceeding();
+            let expected = if outcome.exceeds() { exceeding.of } else { 0 };
+            Ok(exceeding.count == expected)
+        }
+        Err(Unfinished::Cancelled(cancelled)) => Err(cancelled.into()),
+        Err(_) => Ok(false),
+    }
+}
 
-/// The amplitudes whose runs are such, as intervals of neighbouring ones.
-fn intervals(runs: &[Run], is_such: impl Fn(&Run) -> bool) -> Vec<[f64; 2]> {
-    let alike = runs.chunk_by(|a, b| is_such(a) == is_such(b));
-    let such = alike.filter(|some| is_such(&some[0]));
-    such.map(|some| [some[0].0, some[some.len() - 1].0])
+/// The amplitudes, by number, that are such, as intervals of neighbouring ones.
+fn intervals(amplitudes: &[f64], is_such: impl Fn(usize) -> bool) -> Vec<[f64; 2]> {
+    let numbers: Vec<usize> = (0..amplitudes.len()).collect();
+    let alike = numbers.chunk_by(|a, b| is_such(*a) == is_such(*b));
+    let such = alike.filter(|some| is_such(some[0]));
+    such.map(|some| [some[0], some[some.len() - 1]].map(|k| amplitudes[k]))
         .collect()
 }
 

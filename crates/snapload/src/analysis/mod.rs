@@ -13,7 +13,7 @@ mod sensitivity;
 mod threads;
 mod trust;
 
-pub use critical::{CriticalForce, Exceedance, ForceScan};
+pub use critical::{CriticalForce, Exceedance, ForceScan, NEIGHBOURS};
 pub use digits::digits_within;
 pub use ensemble::{
     DEFAULT_CLOUD, DEFAULT_MEMBERS, Ensemble, EnsembleEnds, MEMBERS, NONZERO_MEMBERS, SEED, Share,

@@ -150,6 +150,7 @@ mod tests {
             first: None,
             exceeding: Vec::new(),
             uncertain: Vec::new(),
+            certain: true,
         };
         let share = |f_o: f64| {
             let of = NEIGHBOURS as usize;
