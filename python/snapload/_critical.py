@@ -214,8 +214,8 @@ def critical_force(
     -------
     CriticalForce or xarray.Dataset
         The smallest amplitude that exceeds a limit, and all others that do. With `over`, a dataset over those keys
-        with ``f_cr`` (NaN if no amplitude exceeds a limit), whether it is ``certain``, ``reason``, ``t``, and over these
-        keys and ``f_o`` which amplitudes exceed a limit (``exceeds``), and of which this is ``uncertain``.
+        with ``f_cr`` (NaN if no amplitude exceeds a limit), whether it is ``certain``, ``reason``, ``t``, and over
+        these keys and ``f_o`` which amplitudes exceed a limit (``exceeds``), and of which this is ``uncertain``.
 
     Raises
     ------
@@ -263,9 +263,7 @@ def critical_force(
         kinds = [("f_o", "f8"), ("certain", "?"), ("count", "f8"), ("part", "f8"), ("low", "f8"), ("high", "f8")]
         points = [tuple(point[name] for name, _ in kinds) for point in ensemble_data["probability"]]
         probability = np.array(points, dtype=kinds).view(np.recarray)
-    return CriticalForce(
-        **data, probability=probability, passes=passes, _step=step, _largest=largest
-    )
+    return CriticalForce(**data, probability=probability, passes=passes, _step=step, _largest=largest)
 
 
 def _critical_over_keys(

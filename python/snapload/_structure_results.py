@@ -220,11 +220,10 @@ class Seas(StructureResult):
 
     @property
     def standing(self) -> str:
-        """The verdict in one word: ``holds``, ``breaks``, ``open`` or ``unknown``.
+        """The verdict in one word.
 
-        ``breaks`` means that a line breaks in at least one record, or the body turns over or reaches the sea floor.
-        ``open`` means that the tensions are not reliable, that a line would break before anything is judged, or that
-        the records are too short or too few to tell whether one breaks in three hours.
+        It is ``holds``, ``breaks`` (in at least one record a line does, or the mooring fails), ``unknown``, or ``open``
+        if tensions are not reliable, a line would break before anything is judged, or records are too short or few.
 
         See Also
         --------
@@ -233,8 +232,8 @@ class Seas(StructureResult):
         Examples
         --------
         >>> import snapload
-        >>> sea = {"sea.hs": 2, "sea.tp": 6, "run.duration": 600}
-        >>> snapload.Structure.example().without("wave").replace(sea).seas(seeds=4).standing
+        >>> calm = snapload.Structure.example().without("wave")
+        >>> calm.replace({"sea.hs": 2, "sea.tp": 6, "run.duration": 600}).seas(seeds=4).standing
         'breaks'
         """
         return str(self.data["standing"])
@@ -245,7 +244,6 @@ class Seas(StructureResult):
 
         See Also
         --------
-        snapload.Seas.standing : The verdict in one word.
         snapload.Seas.largest_tensions_n : The largest tensions, on which it is based.
 
         Examples

@@ -7,7 +7,8 @@
 //! ```
 //!
 //! arg F is in radians. The phase is that of e^{−iωt}: at low frequency arg F1 → −π/2 for β = 0, and
-//! arg F3 → 0. Source: Nemoh v2, `Solver/Main.f90`, which writes these files, and the files that come with it.
+//! arg F3 → 0. Source: Nemoh v2, `Solver/Main.f90`, which writes these files, and the files that
+//! come with it.
 
 use super::table::{Row, Table};
 use super::{Given, agreed_water};

@@ -149,12 +149,8 @@ fn a_file_by_hand_is_read() {
         notes.contains("weighs") && notes.contains("the second, dynamic one"),
         "{notes}"
     );
-    for left_out in [
-        "Type rope: BA = -0.8 was left out: run.restitution has its place.",
-        "Type rope: Cd = 1.6, Ca = 1.0, CdAx = 0.1 left out: lines have no bending",
-        "Type poly: BA = 1e3|1e4 was left out",
-        "Type poly: Cd = 1.6",
-    ] {
+    let of_rope = "Type rope: Cd = 1.6, Ca = 1.0, CdAx = 0.1 left out: lines have no bending";
+    for left_out in [of_rope, "Type poly: BA = 1e3|1e4 was left out"] {
         assert!(notes.contains(left_out), "{left_out} {notes}");
     }
     assert_eq!(reading.notes.len(), 7, "{notes}");
