@@ -134,6 +134,16 @@ fn stiffness(hydro: &Hydrodynamics, warnings: &mut Vec<Warning>) -> Result<(), H
     Ok(())
 }
 
+/// Frequencies that are read as periods, or the other way round, are all too high.
+fn column_in_doubt(format: Format) -> &'static str {
+    match format {
+        Format::Wamit => {
+            ". Does the first column of the files hold what first_column says, by default periods?"
+        }
+        _ => "",
+    }
+}
+
 /// The limits of low frequency verify units and the sign of time:
 ///
 /// ```text
@@ -156,16 +166,10 @@ fn low_frequency(
     let k = wave_number(omega, water.depth_m, water.gravity_m_s2);
     let long = k * waterplane.sqrt() < LONG_WAVE;
     if !long {
-        // Frequencies that are read as periods, or the other way round, are all too high.
-        let column = match format {
-            Format::Wamit => {
-                ". Does the first column of the files hold what first_column says, by default periods?"
-            }
-            _ => "",
-        };
         let message = format!(
             "the lowest frequency, {omega:.3} rad/s, is too high to check phases and units in \
-             the limit of long waves; compute lower ones{column}"
+             the limit of long waves; compute lower ones{}",
+            column_in_doubt(format)
         );
         warnings.push(Warning::new("low frequencies", message));
         return Ok(());
