@@ -209,8 +209,7 @@ class Seas(StructureResult):
     --------
     >>> import snapload
     >>> sea = {"sea.hs": 2, "sea.tp": 6, "run.duration": 600}
-    >>> seas = snapload.Structure.example().without("wave").replace(sea).seas(seeds=4)
-    >>> seas.largest_tensions_n.size
+    >>> snapload.Structure.example().without("wave").replace(sea).seas(seeds=4).largest_tensions_n.size
     4
     """
 
@@ -232,8 +231,8 @@ class Seas(StructureResult):
         Examples
         --------
         >>> import snapload
-        >>> calm = snapload.Structure.example().without("wave")
-        >>> calm.replace({"sea.hs": 2, "sea.tp": 6, "run.duration": 600}).seas(seeds=4).standing
+        >>> sea = {"sea.hs": 2, "sea.tp": 6, "run.duration": 600}
+        >>> snapload.Structure.example().without("wave").replace(sea).seas(seeds=4).standing
         'breaks'
         """
         return str(self.data["standing"])
@@ -250,8 +249,7 @@ class Seas(StructureResult):
         --------
         >>> import snapload
         >>> sea = {"sea.hs": 2, "sea.tp": 6, "run.duration": 600}
-        >>> seas = snapload.Structure.example().without("wave").replace(sea).seas(seeds=4)
-        >>> "of 4 records" in seas.words
+        >>> "of 4 records" in snapload.Structure.example().without("wave").replace(sea).seas(seeds=4).words
         True
         """
         return str(self.data["words"])
