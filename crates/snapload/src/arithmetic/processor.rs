@@ -12,7 +12,6 @@
 //! are compiled twice, too. Over doubles, functions that are large and called from several places
 //! are [`Kernel`]s of their own, which another one dispatches: inlined at each call, they would
 //! make functions whose compilation takes more than linear time.
-//! time.
 #![cfg_attr(
     target_arch = "x86_64",
     expect(

@@ -125,12 +125,15 @@ pub(crate) fn acceleration<T: Real>(
     if taut.is_empty() {
         return free;
     }
-    let tension = some_tensions(system, around, state, memory_force, taut);
-    let mass = &system.body.mass;
-    taut.iter().fold(free, |acceleration, cable| {
-        let normal = system.cables[cable].normal(state);
-        mass.less(acceleration, &normal, tension[cable])
-    })
+    let (normals, mass) = (system.normals(state, taut), &system.body.mass);
+    let load = free_normal_accelerations(system, state, free, taut);
+    let w = |i: usize, j: usize| mass.coupling(&normals[i], &normals[j]);
+    let tension = solve(taut, w, &load);
+    let mut acceleration = free;
+    for cable in taut.iter() {
+        acceleration = mass.less(acceleration, &normals[cable], tension[cable]);
+    }
+    acceleration
 }
 
 /// The change of (ẍ, ÿ, θ̈) per force (f_x, f_y) and moment, by columns, with the cables of `taut`
@@ -193,29 +196,43 @@ impl TautCable {
             - spin * spin * n.dot(self.lever)
     }
 
-    /// δn and δs, and δb, for a deviation (δx, δy, δθ, δẋ, δẏ, δθ̇).
+    /// δn and δs, and δb, for deviations of 1 in x, y and θ.
     #[inline(always)]
-    fn change(&self, force: Vector2, spin: f64, by: &[f64; 6]) -> (Normal, f64) {
-        let [x, y, theta, vx, vy, vtheta] = *by;
+    fn changes_by_place(&self, force: Vector2, spin: f64) -> [(Normal, f64); 3] {
         let Self {
             normal: Normal { n, .. },
             lever,
             velocity,
             per_length,
         } = *self;
+        let moved = |x: f64, y: f64| {
+            let dn = Vector2 { x, y }.scaled(per_length);
+            let arm = lever.cross(dn);
+            let load = dn.dot(force) - spin * spin * dn.dot(lever);
+            (Normal { n: dn, arm }, load)
+        };
         let quarter = lever.quarter_turn();
-        let dn = Vector2 { x, y }
-            .plus_scaled(quarter, theta)
-            .scaled(per_length);
-        let turned = quarter.scaled(theta);
-        let arm = turned.cross(n) + lever.cross(dn);
-        let rate = Vector2 { x: vx, y: vy }
-            .plus_scaled(quarter, vtheta)
-            .plus_scaled(lever, -(spin * theta));
-        let load = dn.dot(force) + 2.0 * per_length * velocity.dot(rate)
-            - 2.0 * spin * vtheta * n.dot(lever)
-            - spin * spin * (dn.dot(lever) + n.dot(turned));
-        (Normal { n: dn, arm }, load)
+        let dn = quarter.scaled(per_length);
+        let arm = quarter.cross(n) + lever.cross(dn);
+        let load = dn.dot(force)
+            - 2.0 * per_length * spin * velocity.dot(lever)
+            - spin * spin * (dn.dot(lever) + n.dot(quarter));
+        let turned = (Normal { n: dn, arm }, load);
+        [moved(1.0, 0.0), moved(0.0, 1.0), turned]
+    }
+
+    /// δb for deviations of 1 in ẋ, ẏ and θ̇, which do not change n and s.
+    #[inline(always)]
+    fn changes_by_velocity(&self, spin: f64) -> [f64; 3] {
+        let Self {
+            normal: Normal { n, .. },
+            lever,
+            velocity,
+            per_length,
+        } = *self;
+        let by_velocity = velocity.scaled(2.0 * per_length);
+        let by_spin = by_velocity.dot(lever.quarter_turn()) - 2.0 * spin * n.dot(lever);
+        [by_velocity.x, by_velocity.y, by_spin]
     }
 }
 
@@ -248,21 +265,24 @@ pub(crate) fn slopes_of_acceleration(
     let two = TautCable::new(system, state, second.unwrap_or(first));
     let pair = Pair::new(&one.normal, &two.normal, inverse_inertia, second.is_some())?;
     let tension = pair.solved([one.load(force, spin), two.load(force, spin)]);
-    let pull = pair.acceleration_by_tensions([&one.normal, &two.normal], tension);
+    let both = [&one.normal, &two.normal];
+    let pull = pair.acceleration_by_tensions(both, tension);
     let mut slopes = [[0.0; 6]; 3];
-    for k in 0..6 {
-        let mut by = [0.0; 6];
-        by[k] = 1.0;
-        let (dg, db) = one.change(force, spin, &by);
-        let (dg_two, db_two) = two.change(force, spin, &by);
+    let by_place = [&one, &two].map(|cable| cable.changes_by_place(force, spin));
+    let by_velocity = [&one, &two].map(|cable| cable.changes_by_velocity(spin));
+    for k in 0..3 {
+        let [(dg, db), (dg_two, db_two)] = [by_place[0][k], by_place[1][k]];
         let turned = pair.acceleration_by_tensions([&dg, &dg_two], tension);
         let load = [
             db - along(&dg, &pull) - along(&one.normal, &turned),
             db_two - along(&dg_two, &pull) - along(&two.normal, &turned),
         ];
-        let more = pair.acceleration_by_tensions([&one.normal, &two.normal], pair.solved(load));
+        let more = pair.acceleration_by_tensions(both, pair.solved(load));
+        let load = [by_velocity[0][k], by_velocity[1][k]];
+        let braked = pair.acceleration_by_tensions(both, pair.solved(load));
         for i in 0..3 {
             slopes[i][k] = -(turned[i] + more[i]);
+            slopes[i][k + 3] = -braked[i];
         }
     }
     Some(slopes)
@@ -358,13 +378,25 @@ fn problem<T: Real>(
     set: TautSet,
 ) -> (impl Fn(usize, usize) -> T + Copy, PerCable<T>) {
     let free = system.free_acceleration(around, state, memory_force);
+    let load = free_normal_accelerations(system, state, free, set);
+    let (normals, mass) = (system.normals(state, set), &system.body.mass);
+    let w = move |i: usize, j: usize| mass.coupling(&normals[i], &normals[j]);
+    (w, load)
+}
+
+/// b: the normal accelerations that cables have without tensions.
+#[inline(always)]
+fn free_normal_accelerations<T: Real>(
+    system: &System<T>,
+    state: &State<T>,
+    free: [T; 3],
+    set: TautSet,
+) -> PerCable<T> {
     let mut load = [T::ZERO; MAX_CABLES];
     for cable in set.iter() {
         load[cable] = system.free_normal_acceleration(cable, state, free);
     }
-    let (normals, mass) = (system.normals(state, set), &system.body.mass);
-    let w = move |i: usize, j: usize| mass.coupling(&normals[i], &normals[j]);
-    (w, load)
+    load
 }
 
 #[cfg(test)]

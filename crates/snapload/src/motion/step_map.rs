@@ -72,7 +72,10 @@ impl Flow {
                 }
             }
             Some(phi) => {
-                let moved = phi.map(|row| combined(block, &row));
+                let mut moved = [[0.0; M]; 6];
+                for (moved, row) in moved.iter_mut().zip(phi) {
+                    *moved = combined(block, row);
+                }
                 block[..6].copy_from_slice(&moved);
             }
         }

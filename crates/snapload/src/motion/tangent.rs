@@ -37,9 +37,14 @@ use crate::motion::water_flow::{Slopes, WaterFlow, memory_rates, pace_of_memory}
 pub(crate) type Number = Dual<f64, 6>;
 
 /// Steps, for each expansion of the motion, in which Φ is integrated along taut motion; the length
-/// of an expansion follows the motion's own time scale. With the Runge-Kutta rule the error of Φ is
-/// about 1e-4.
+/// of an expansion follows the motion's own time scale. The error of Φ is below 1e-4.
 const SUBSTEPS: f64 = 3.0;
+/// The weights of four equidistant values in the cubic through them, half-way between two of them.
+const MIDDLES: [[f64; 4]; 3] = [
+    [0.3125, 0.9375, -0.3125, 0.0625],
+    [-0.0625, 0.5625, 0.5625, -0.0625],
+    [0.0625, -0.3125, 0.9375, 0.3125],
+];
 /// Near rest the motion has no time scale, but its deviations oscillate all the same: a step is no
 /// longer than this part of a radian of the fastest of them.
 const RADIANS: f64 = 0.5;
@@ -67,13 +72,15 @@ impl Kernel for Mapping<'_> {
         let pull = simulation.memory_force();
         let around = simulation.surroundings(step.t_end);
         let last = rate(system, &around, &step.before, pull, step.taut);
-        let rate_after = if step.taut == step.taut_after && system.flies_freely(step.taut) {
-            // In flight the acceleration is the force alone, which does not jump.
-            let State { vx, vy, vtheta, .. } = step.after;
-            [vx, vy, vtheta, last[3], last[4], last[5]]
-        } else {
-            rate(system, &around, &step.after, pull, step.taut_after)
-        };
+        let continues = step.taut == step.taut_after;
+        let rate_after =
+            if continues && (step.after == step.before || system.flies_freely(step.taut)) {
+                // In flight the acceleration is the force alone, which does not jump.
+                let State { vx, vy, vtheta, .. } = step.after;
+                [vx, vy, vtheta, last[3], last[4], last[5]]
+            } else {
+                rate(system, &around, &step.after, pull, step.taut_after)
+            };
         let mut begun = join(&first, 0.0).map(|component| [component]);
         let memory = if let Some(water) = &system.floating {
             let start = simulation.memory_at_start();
@@ -236,31 +243,47 @@ impl Tangent {
 
     /// Φ along a stretch with taut cables or drag: Φ̇ = A Φ, A = ∂ż/∂z along the motion, by the
     /// Runge-Kutta rule. The motion itself is accurate to rounding; for its deviation a few digits
-    /// are enough.
+    /// are enough. So A is evaluated between substeps only, and in their middles it is the cubic
+    /// through the four nearest values.
     #[inline(always)]
     fn driven_flow(&self, simulation: &Simulation, step: &Step) -> Matrix {
         let s = step.t_end - step.t_start;
         let system = simulation.system();
         let mut phi = identity();
-        let mut left = self.slopes_within(simulation, step, 0.0);
-        let pace = pace_of_deviations(&left, system.body.inertia());
+        let first = self.slopes_within(simulation, step, 0.0);
+        let pace = pace_of_deviations(&first, system.body.inertia());
         let pace = (SUBSTEPS / simulation.expansion()).max(pace / RADIANS);
         let count = (pace * s).ceil().max(1.0);
         let h = s / count;
-        for k in 0..count as u32 {
-            let at = f64::from(k) * h;
-            let mut ahead = [left; 2];
-            for (ahead, part) in ahead.iter_mut().zip([0.5, 1.0]) {
-                *ahead = self.slopes_within(simulation, step, at + part * h);
+        let count = count as u32;
+        let slopes = |k: f64| self.slopes_within(simulation, step, k * h);
+        let mut nodes = [first; 4];
+        for (node, k) in nodes.iter_mut().zip(0..=count).skip(1) {
+            *node = slopes(f64::from(k));
+        }
+        for k in 0..count {
+            if k > 1 && k + 2 <= count {
+                nodes.rotate_left(1);
+                nodes[3] = slopes(f64::from(k + 2));
             }
-            let [middle, right] = ahead;
+            // The substep is between the inner two nodes, but for the first and the last one.
+            let place = if k > 0 && k + 1 == count {
+                count.min(3) - 1
+            } else {
+                k.min(1)
+            } as usize;
+            let (left, right) = (nodes[place], nodes[place + 1]);
+            let middle = if count < 3 {
+                slopes(f64::from(k) + 0.5)
+            } else {
+                cubic(&nodes, MIDDLES[place])
+            };
             let k1 = change(&left, &phi);
             let k2 = change(&middle, &plus(&phi, &k1, 0.5 * h));
             let k3 = change(&middle, &plus(&phi, &k2, 0.5 * h));
             let k4 = change(&right, &plus(&phi, &k3, h));
             let outer = plus(&plus(&phi, &k1, h / 6.0), &k4, h / 6.0);
             phi = plus(&plus(&outer, &k2, h / 3.0), &k3, h / 3.0);
-            left = right;
         }
         phi.map(|[x, y, theta, vx, vy, vtheta, ..]| [x, y, theta, vx, vy, vtheta])
     }
@@ -378,6 +401,20 @@ fn change(lower: &[[f64; 6]; 3], w: &Columns) -> Columns {
         }
     }
     changed
+}
+
+/// A between the substeps, from four values of it.
+#[inline(always)]
+fn cubic(nodes: &[[[f64; 6]; 3]; 4], weights: [f64; 4]) -> [[f64; 6]; 3] {
+    let mut sum = [[0.0; 6]; 3];
+    for (node, weight) in nodes.iter().zip(weights) {
+        for (sum, row) in sum.iter_mut().zip(node) {
+            for (sum, entry) in sum.iter_mut().zip(row) {
+                *sum += weight * entry;
+            }
+        }
+    }
+    sum
 }
 
 /// w + h k.
