@@ -5,10 +5,11 @@
 //! W_12 > 0: it leaves, with the velocity −W_12 p
 //! ```
 //!
-//! Impulse and velocity are compared with what they vary by among the neighbours; in the run a
-//! velocity that is zero up to rounding keeps the cable taut. All neighbours have the closed cables
-//! closed, each at its own impact: where those determine the place, as for a point mass, the
-//! coupling does not vary, and zero is no doubt.
+//! Which of the two it is does not depend on how hard the cable snaps. So impulse and velocity are
+//! taken per impulse p of the snap, and compared with what that varies by among the neighbours: with
+//! the place alone. In the run a velocity that is zero up to rounding keeps the cable taut. All
+//! neighbours have the closed cables closed, each at its own impact: where those determine the
+//! place, as for a point mass, the coupling does not vary, and zero is no doubt.
 
 use crate::analysis::trust::HorizonCause;
 use crate::analysis::trust::causes::SIGMA_REACH;
@@ -32,22 +33,23 @@ pub(super) fn cause(
     met: &CovarianceFactor,
     keys: &[UncertainKey],
 ) -> Option<HorizonCause> {
-    let still = step.event.still;
-    if step.event.reached.gaps.is_empty() || still.is_empty() {
+    let (still, struck) = (step.event.still, step.event.reached.gaps);
+    if struck.is_empty() || still.is_empty() {
         return None;
     }
     let result = tangent.impact(step);
-    let snap = result.impulse.iter().fold(0.0, |p, q| q.value.max(p));
+    let snap = struck.iter().map(|i| result.impulse[i].value);
+    let snap = snap.fold(0.0, f64::max);
     let after = step.result.as_ref()?.after;
     let cable = still.iter().find(|&cable| {
-        let reaction = result.reaction(cable);
+        let reaction = result.reaction(cable, struck);
         let mut variance = met.variance_of_parts(&join(&reaction.slope, 0.0));
         for key in keys {
             variance += key.reactions[cable] * key.reactions[cable];
         }
         let reach = SIGMA_REACH * variance.sqrt();
-        let zero = zero_velocity(system, cable, [&after, &step.before]);
-        reach > CONSTANT * snap && reaction.value.abs() <= reach + zero
+        let zero = zero_velocity(system, cable, [&after, &step.before]) / snap;
+        reach > CONSTANT && reaction.value.abs() <= reach + zero
     })?;
     Some(HorizonCause::PassedImpulse { cable })
 }

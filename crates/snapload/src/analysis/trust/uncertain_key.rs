@@ -20,7 +20,7 @@ pub(super) struct UncertainKey {
     pub(super) deviation: Deviation,
     /// Those of the tensions at the start and at the end of the latest step, by cable.
     pub(super) tensions: [[f64; MAX_CABLES]; 2],
-    /// Those of the reactions of the cables that were taut at the latest impact.
+    /// Those of the reactions, per impulse, of the cables that were taut at the latest impact.
     pub(super) reactions: PerCable<f64>,
 }
 
@@ -90,8 +90,9 @@ impl UncertainKey {
             self.tensions = ends.map(|ends| ends.map(|tension| tension.slope[0] * self.size));
         }
         if let Some(result) = &step.result {
+            let struck = step.event.reached.gaps;
             for cable in step.event.still.iter() {
-                self.reactions[cable] = result.reaction(cable).slope[0] * self.size;
+                self.reactions[cable] = result.reaction(cable, struck).slope[0] * self.size;
             }
         }
         self.deviation = at(&step.after);
