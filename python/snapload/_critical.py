@@ -45,8 +45,8 @@ class CriticalForce(Result):
         All amplitudes that exceed a limit, as intervals ``[from, to]`` of adjacent amplitudes [F]. There may be several
         intervals, because a run with an amplitude above the critical one may settle.
     uncertain : numpy.ndarray, shape (n, 2)
-        All amplitudes at which rounding decides, as such intervals [F]: the run passes its horizon of trust, and of 20
-        neighbours some exceed a limit and others do not.
+        All amplitudes at which neighbours disagree, as such intervals [F]: the run passes its horizon of trust, and of
+        20 neighbours within rounding, or of the `members`, some exceed a limit and others do not.
     probability : numpy.recarray or None
         With an ensemble, at each amplitude: ``f_o``; whether the end is ``certain``, so that no members are run;
         ``count``, the number of members that exceed a limit, NaN where none are run; ``part``, their fraction, which is
@@ -250,20 +250,21 @@ def critical_force(
     members, seed = whole_number("members", members), whole_number("seed", seed)
     if uncertainty is not None and members == 0:
         raise ValueError("uncertainty needs neighbours, but none are run; give members, such as members=200")
-    data = json.loads(_engine.critical_force(engine, step, largest))
-    for name in ("exceeding", "uncertain"):
-        data[name] = np.array(data[name], dtype=np.float64).reshape(-1, 2)
     probability, passes = None, {}
-    if members > 0:
+    if members == 0:
+        data = json.loads(_engine.critical_force(engine, step, largest))
+    else:
         with progress_bar("force amplitudes", round(largest / step), progress, 0) as report_progress:
             size, tolerance = uncertainty_for_engine(uncertainty), number("tolerance", tolerance)
-            answer = _engine.probability(engine, step, largest, size, tolerance, members, seed, report_progress)
-        ensemble_data = json.loads(answer)
-        passes = ensemble_data["passes"]
+            options = (size, tolerance, members, seed, report_progress)
+            data = json.loads(_engine.critical_force_of_ensemble(engine, step, largest, *options))
+        passes = data["passes"]
         kinds = [("f_o", "f8"), ("certain", "?"), ("count", "f8"), ("part", "f8"), ("low", "f8"), ("high", "f8")]
-        points = [tuple(point[name] for name, _ in kinds) for point in ensemble_data["probability"]]
+        points = [tuple(point[name] for name, _ in kinds) for point in data["probability"]]
         probability = np.array(points, dtype=kinds).view(np.recarray)
-    return CriticalForce(**data, probability=probability, passes=passes, _step=step, _largest=largest)
+    f_cr, reason, t, certain = (data[name] for name in ("f_cr", "reason", "t", "certain"))
+    exceeding, uncertain = (np.array(data[name], dtype=np.float64).reshape(-1, 2) for name in ("exceeding", "uncertain"))
+    return CriticalForce(f_cr, reason, t, certain, exceeding, uncertain, probability, passes, step, largest)
 
 
 def _critical_over_keys(

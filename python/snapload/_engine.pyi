@@ -193,7 +193,7 @@ def critical_force(case: Case, step: float, max: float, /) -> str: ...
 def critical_force_over(
     study: Study, step: float, max: float, progress: Callable[[int], object] | None, /
 ) -> tuple[str, list[float]]: ...
-def probability(
+def critical_force_of_ensemble(
     case: Case,
     step: float,
     max: float,

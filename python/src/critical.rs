@@ -77,13 +77,13 @@ fn of_scan(error: CaseError) -> PyErr {
     })
 }
 
-/// The probability of exceeding at every amplitude, as JSON.
+/// The critical force by its neighbours, and the probability of exceeding at every amplitude, as JSON.
 #[pyfunction]
 #[expect(
     clippy::too_many_arguments,
     reason = "called by one function of Python, by position"
 )]
-pub(crate) fn probability(
+pub(crate) fn critical_force_of_ensemble(
     py: Python<'_>,
     case: &Case,
     step: f64,
@@ -108,5 +108,16 @@ pub(crate) fn probability(
         )
     })?;
     let curve = curve.map_err(error_of_work)?;
-    to_json(&Probability::new(&curve, members, seed))
+    to_json(&WithProbability {
+        row: CriticalRow::new(curve.critical_force()),
+        curve: Probability::new(&curve, members, seed),
+    })
+}
+
+#[derive(Serialize)]
+struct WithProbability {
+    #[serde(flatten)]
+    row: CriticalRow,
+    #[serde(flatten)]
+    curve: Probability,
 }

@@ -34,7 +34,7 @@ mod _engine {
     #[pymodule_export]
     use super::command::{command, reproduce};
     #[pymodule_export]
-    use super::critical::{critical_force, critical_force_over, probability};
+    use super::critical::{critical_force, critical_force_of_ensemble, critical_force_over};
     #[pymodule_export]
     use super::hydro::hydro;
     #[pymodule_export]

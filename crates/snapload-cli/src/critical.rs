@@ -20,7 +20,7 @@ const EXAMPLES: &str = "\
 The critical force is the smallest amplitude f_o = step, 2 step, ... whose run stops at a limit of the motion,
 such as the rotation limit or the upper bound. Runs with larger amplitudes may settle again, so all amplitudes
 that exceed a limit are listed as intervals. So are those at which rounding decides whether they exceed: their
-runs pass their horizon of trust, and neighbours disagree. With --set stop_when_sliding=true a run ends when the body begins to
+runs pass their horizon of trust, and neighbours disagree: 20 within rounding, or those of --ensemble. With --set stop_when_sliding=true a run ends when the body begins to
 slide, as in the studies of the thesis's chapter 6.
 
 Examples:
@@ -75,15 +75,27 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
     let answer = match &args.over {
         None => {
             let parameters = input.case.parameters();
-            let row = CriticalForce::scan(parameters, scan, &on_progress)?;
             let seed = args.uncertainty.seed();
-            let curve = args.ensemble.map(|members| {
-                ExceedanceCurve::scan(parameters, scan, &uncertainty, members, seed, &on_progress)
-                    .map(|curve| Probability::new(&curve, members, seed))
-            });
-            Answer::One {
-                row: CriticalRow::new(row),
-                curve: curve.transpose().map_err(with_option)?,
+            match args.ensemble {
+                None => Answer::One {
+                    row: CriticalRow::new(CriticalForce::scan(parameters, scan, &on_progress)?),
+                    curve: None,
+                },
+                Some(members) => {
+                    let curve = ExceedanceCurve::scan(
+                        parameters,
+                        scan,
+                        &uncertainty,
+                        members,
+                        seed,
+                        &on_progress,
+                    )
+                    .map_err(with_option)?;
+                    Answer::One {
+                        row: CriticalRow::new(curve.critical_force()),
+                        curve: Some(Probability::new(&curve, members, seed)),
+                    }
+                }
             }
         }
         Some(text) => over(&input, text, scan, &on_progress)
@@ -182,9 +194,12 @@ impl Answer {
                 if let Some(uncertain) = row.uncertain() {
                     let _ = writeln!(
                         text,
-                        "Uncertain f_o = {uncertain}: some of {NEIGHBOURS} neighbours exceed, others do not\n          \
-                         {DECIDED_BY}"
+                        "Uncertain f_o = {uncertain}: some of {} neighbours exceed, others do not",
+                        args.ensemble.unwrap_or(NEIGHBOURS)
                     );
+                    if curve.is_none() {
+                        let _ = writeln!(text, "          {DECIDED_BY}");
+                    }
                 }
                 if let Some(curve) = curve {
                     curve.in_words(&mut text);

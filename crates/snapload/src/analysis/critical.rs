@@ -12,6 +12,7 @@ use crate::case::parameters::Parameters;
 use crate::case::value::Value;
 use crate::model::rules::Stop;
 use crate::motion::outcome::Outcome;
+use crate::motion::trajectory::End;
 
 /// The force amplitudes that are tried: f_o = step, 2 step, … up to `max`.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -105,8 +106,9 @@ pub struct CriticalForce {
     /// All amplitudes that exceed, as intervals of neighbouring ones `[from, to]`. There may be
     /// several intervals: a run above the critical amplitude may settle.
     pub exceeding: Vec<[f64; 2]>,
-    /// All amplitudes at which rounding decides, as such intervals: the run passes its horizon of
-    /// trust, and of [`NEIGHBOURS`] neighbours some exceed and others do not.
+    /// All amplitudes at which neighbours disagree, as such intervals: the run passes its horizon of
+    /// trust, and of [`NEIGHBOURS`] neighbours within rounding, or of those of an
+    /// [`crate::analysis::ExceedanceCurve`], some exceed and others do not.
     pub uncertain: Vec<[f64; 2]>,
     /// Whether the run of the first ends before its horizon, and no smaller amplitude is uncertain;
     /// if none exceeds, whether none is uncertain.
@@ -149,20 +151,44 @@ impl CriticalForce {
                     || neighbours_agree(case, outcome, &|_| on_progress(progress))?,
             );
         }
-        let first = runs.iter().position(|(outcome, _)| outcome.exceeds());
-        let up_to = first.unwrap_or(runs.len());
-        Ok(Self {
-            certain: first.is_none_or(|first| runs[first].1.decides_the_end())
-                && decided[..up_to].iter().all(|decided| *decided),
-            first: first.map(|first| Exceedance {
-                f_o: amplitudes[first],
-                reason: runs[first].0.end.reason,
-                t: runs[first].0.end.t,
-            }),
-            exceeding: intervals(&amplitudes, |k| runs[k].0.exceeds()),
-            uncertain: intervals(&amplitudes, |k| !decided[k]),
-        })
+        let ends = runs.iter().zip(decided).zip(&amplitudes);
+        let ends = ends.map(|(((outcome, certainty), decided), f_o)| DecidedEnd {
+            f_o: *f_o,
+            end: outcome.end,
+            certain: certainty.decides_the_end(),
+            decided,
+        });
+        Ok(Self::of(&ends.collect::<Vec<_>>()))
     }
+
+    /// The answer from the end of the run at each amplitude.
+    pub(crate) fn of(ends: &[DecidedEnd]) -> Self {
+        let exceeds = |end: &DecidedEnd| end.end.reason.exceeds();
+        let first = ends.iter().position(exceeds);
+        let up_to = first.unwrap_or(ends.len());
+        Self {
+            certain: first.is_none_or(|first| ends[first].certain)
+                && ends[..up_to].iter().all(|end| end.decided),
+            first: first.map(|first| Exceedance {
+                f_o: ends[first].f_o,
+                reason: ends[first].end.reason,
+                t: ends[first].end.t,
+            }),
+            exceeding: intervals(ends, exceeds),
+            uncertain: intervals(ends, |end| !end.decided),
+        }
+    }
+}
+
+/// How the run at one amplitude ends.
+#[derive(Clone, Copy)]
+pub(crate) struct DecidedEnd {
+    pub(crate) f_o: f64,
+    pub(crate) end: End,
+    /// Whether it ends before its horizon of trust.
+    pub(crate) certain: bool,
+    /// Whether it does, or all neighbours exceed if it does, and none otherwise.
+    pub(crate) decided: bool,
 }
 
 /// Whether all neighbours exceed if the run does, and none otherwise; they do not if some can not be
@@ -184,12 +210,11 @@ fn neighbours_agree(
     }
 }
 
-/// The amplitudes, by number, that are such, as intervals of neighbouring ones.
-fn intervals(amplitudes: &[f64], is_such: impl Fn(usize) -> bool) -> Vec<[f64; 2]> {
-    let numbers: Vec<usize> = (0..amplitudes.len()).collect();
-    let alike = numbers.chunk_by(|a, b| is_such(*a) == is_such(*b));
-    let such = alike.filter(|some| is_such(some[0]));
-    such.map(|some| [some[0], some[some.len() - 1]].map(|k| amplitudes[k]))
+/// The amplitudes whose ends are such, as intervals of neighbouring ones.
+fn intervals(ends: &[DecidedEnd], is_such: impl Fn(&DecidedEnd) -> bool) -> Vec<[f64; 2]> {
+    let alike = ends.chunk_by(|a, b| is_such(a) == is_such(b));
+    let such = alike.filter(|some| is_such(&some[0]));
+    such.map(|some| [some[0].f_o, some[some.len() - 1].f_o])
         .collect()
 }
 

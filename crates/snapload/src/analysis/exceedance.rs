@@ -1,11 +1,12 @@
 //! The probability of exceeding the limits, against the force amplitude.
 
-use crate::analysis::critical::ForceScan;
+use crate::analysis::critical::{CriticalForce, DecidedEnd, ForceScan};
 use crate::analysis::ensemble::{Ensemble, Share};
 use crate::analysis::progress::{OnProgress, Progress, Unfinished};
 use crate::analysis::trust::{Uncertainty, trusted_run};
 use crate::case::Case;
 use crate::case::parameters::Parameters;
+use crate::motion::trajectory::End;
 
 /// The share of neighbours that exceed the limits, at every amplitude of a scan.
 #[derive(Clone, Debug, PartialEq)]
@@ -19,6 +20,8 @@ pub struct ExceedanceCurve {
 pub struct Exceeding {
     /// The force amplitude.
     pub f_o: f64,
+    /// How the run itself ends.
+    pub end: End,
     /// The part of the neighbours that exceed, from 0 to 1.
     pub part: f64,
     /// How many of those that were run exceed; none where the run ends before its horizon of trust,
@@ -64,6 +67,17 @@ impl ExceedanceCurve {
         Ok(Self { points })
     }
 
+    /// The critical force, with what these neighbours say of each amplitude.
+    pub fn critical_force(&self) -> CriticalForce {
+        let ends = self.points.iter().map(|point| DecidedEnd {
+            f_o: point.f_o,
+            end: point.end,
+            certain: point.share.is_none(),
+            decided: point.part == share_of_all(point.end),
+        });
+        CriticalForce::of(&ends.collect::<Vec<_>>())
+    }
+
     /// The smallest amplitude at which the share of those that exceed reaches `part`.
     pub fn passes(&self, part: f64) -> Option<f64> {
         let reached = self.points.iter().find(|point| point.part >= part);
@@ -81,10 +95,16 @@ fn exceeding(
         true => None,
         false => Some(ensemble.tally(on_progress)?.exceeding()),
     };
-    let exceeds = f64::from(u8::from(run.end().reason.exceeds()));
+    let end = *run.end();
     Ok(Exceeding {
         f_o: case.parameters().f_o,
-        part: share.map_or(exceeds, Share::part),
+        end,
+        part: share.map_or(share_of_all(end), Share::part),
         share,
     })
+}
+
+/// The share of neighbours that exceed if all end in this way.
+fn share_of_all(end: End) -> f64 {
+    f64::from(u8::from(end.reason.exceeds()))
 }

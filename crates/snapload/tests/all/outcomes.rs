@@ -1,7 +1,7 @@
 //! The outcomes of runs and of ensembles of runs.
 
 use snapload::analysis::{
-    CriticalForce, Ensemble, ForceScan, Uncertainty, Unfinished, no_progress,
+    CriticalForce, Ensemble, ExceedanceCurve, ForceScan, Uncertainty, Unfinished, no_progress,
 };
 use snapload::{Case, CaseError, Outcome, Parameters, Stop, named_case};
 
@@ -43,6 +43,35 @@ fn the_standard_case_exceeds_at_0_31_and_settles_at_0_4() -> Result<(), Unfinish
             .any(|[a, b]| (*a..=*b).contains(&f_o))
     };
     assert!(inside(0.31) && inside(0.5) && !inside(0.4) && !inside(0.3));
+    Ok(())
+}
+
+/// With an uncertain start some neighbours exceed below the critical force of the case itself: the
+/// amplitudes at which they disagree are uncertain, and so is that force.
+#[test]
+fn neighbours_of_an_ensemble_decide_what_is_uncertain() -> Result<(), Unfinished> {
+    let (standard, scan) = (&Parameters::STANDARD, ForceScan::new(0.01, 0.4)?);
+    let mut uncertainty = Uncertainty::default();
+    uncertainty.set("y", 1e-2)?;
+    let curve = ExceedanceCurve::scan(standard, scan, &uncertainty, 50, 1, &no_progress)?;
+    let (found, alone) = (
+        curve.critical_force(),
+        CriticalForce::scan(standard, scan, &no_progress)?,
+    );
+    assert_eq!(
+        (found.first, &found.exceeding),
+        (alone.first, &alone.exceeding)
+    );
+    for point in &curve.points {
+        let disagree = point
+            .share
+            .is_some_and(|share| (1..50).contains(&share.count));
+        let mut uncertain = found.uncertain.iter();
+        let listed = uncertain.any(|[from, to]| (*from..=*to).contains(&point.f_o));
+        assert!(listed || !disagree, "{}", point.f_o);
+    }
+    let below = |[from, _]: &[f64; 2]| found.first.is_some_and(|first| *from < first.f_o);
+    assert!(found.uncertain.iter().any(below) && !found.certain);
     Ok(())
 }
 

@@ -141,7 +141,7 @@ mod tests {
     use crate::proved::{Proved, amplitudes};
     use crate::study::Both;
     use snapload::analysis::{CriticalForce, ExceedanceCurve, Exceeding, ForceScan, Share};
-    use snapload::{CaseError, Stop};
+    use snapload::{CaseError, End, State, Stop};
 
     /// A row with a published value: proved ends of amplitudes up to 0.4, of which those from 0.31
     /// on exceed, and the numbers of exceeding neighbours at two of them.
@@ -152,6 +152,10 @@ mod tests {
             uncertain: Vec::new(),
             certain: true,
         };
+        let reason = |f_o: f64| match f_o < 0.305 {
+            true => Stop::Settled,
+            false => Stop::RotationLimit,
+        };
         let share = |f_o: f64| {
             let of = NEIGHBOURS as usize;
             let known = at.iter().find(|(force, _)| *force == f_o);
@@ -161,18 +165,21 @@ mod tests {
                 of,
                 clear: false,
             };
+            let end = End {
+                reason: reason(f_o),
+                t: 20.0,
+                t_limit: None,
+                state: State::default(),
+            };
             Exceeding {
                 f_o,
+                end,
                 part: share.part(),
                 share: Some(share),
             }
         };
         let proof = |f_o: f64| Proved {
-            reason: if f_o < 0.305 {
-                Stop::Settled
-            } else {
-                Stop::RotationLimit
-            },
+            reason: reason(f_o),
             t: "20.0".to_owned(),
             impacts: 9,
         };
