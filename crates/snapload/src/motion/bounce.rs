@@ -70,6 +70,11 @@ pub(crate) struct FlightFacts<L> {
     pub(crate) slope: L,
     /// A bound on the same gap in the late part.
     pub(crate) late: L,
+    /// The same slope of the gap that closes, and how deep it is before its last rise
+    /// ([`Openness`]).
+    pub(crate) struck_slope: L,
+    pub(crate) bend: L,
+    pub(crate) depth: L,
     /// The normal of the cable that closes, at the end.
     pub(crate) normal: Normal<L>,
     /// n·ρ of that cable.
@@ -276,6 +281,7 @@ fn impact_after_flight<L: Lane>(
         let rebounds = closes & (rounding * UNMOVED).below(-v_after);
         let (other, other_normal) = other_cable(two_cables, second, state, &rotation, jets);
         let closed = [L::ZERO; 2];
+        let [first_open, second_open] = openness;
         let lever = struck.lever(rotation.sine, rotation.cosine);
         Bounce {
             arrived,
@@ -301,8 +307,11 @@ fn impact_after_flight<L: Lane>(
             },
             facts: FlightFacts {
                 forces,
-                slope: L::select(second, openness[0].slope, openness[1].slope),
-                late: L::select(second, openness[0].late, openness[1].late),
+                slope: L::select(second, first_open.slope, second_open.slope),
+                late: L::select(second, first_open.late, second_open.late),
+                struck_slope: L::select(second, second_open.slope, first_open.slope),
+                bend: L::select(second, second_open.bend, first_open.bend),
+                depth: L::select(second, second_open.depth, first_open.depth),
                 normal,
                 swing: lever.dot(normal.n),
                 other: other_normal,

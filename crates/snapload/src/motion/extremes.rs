@@ -56,19 +56,81 @@ impl<T: Real> Extremes<T> {
     }
 }
 
-/// Whether a function with |f̈| ≤ `bound` has a maximum above zero inside \[0, s\].
+/// A place with value and rate there.
+type Place<T> = (T, (T, T));
+
+/// An instant is found to this part of the stretch that is searched.
+const INSTANT: f64 = 1e-6;
+
+/// The first instant inside \[0, s\] at which a function with |f̈| ≤ `bound` is above zero; none if
+/// it is not, or only on its way to a maximum at the end.
 #[inline(always)]
-pub(crate) fn rises_above_zero<T: Real>(f: &impl Fn(T) -> (T, T), s: T, bound: T) -> bool {
-    let mut record = T::ZERO;
-    search(
-        f,
-        (T::ZERO, f(T::ZERO)),
-        (s, f(s)),
-        bound,
-        bound,
-        &mut record,
-    );
-    record > T::ZERO
+pub(crate) fn first_above_zero<T: Real>(f: &impl Fn(T) -> (T, T), s: T, bound: T) -> Option<T> {
+    let least = s * INSTANT;
+    first_above([(T::ZERO, f(T::ZERO)), (s, f(s))], f, bound, least)
+}
+
+/// The same for a function that passes zero in its last rise: the first instant before that rise. On
+/// a stretch as long as the rate at its end over `bound` the rate does not change its sign.
+#[inline(always)]
+pub(crate) fn first_above_zero_before_last_rise<T: Real>(
+    f: &impl Fn(T) -> (T, T),
+    s: T,
+    bound: T,
+) -> Option<T> {
+    let least = s * INSTANT;
+    let mut last = (s, f(s));
+    while last.1.0 >= T::ZERO {
+        let back = last.1.1 / bound;
+        if back >= last.0 {
+            return None;
+        }
+        if back <= least * INSTANT {
+            let first = first_above([(T::ZERO, f(T::ZERO)), last], f, bound, least);
+            return first.or(Some(last.0));
+        }
+        let place = last.0 - back;
+        last = (place, f(place));
+    }
+    first_above([(T::ZERO, f(T::ZERO)), last], f, bound, least)
+}
+
+fn first_above<T: Real>(
+    [left, right]: [Place<T>; 2],
+    f: &impl Fn(T) -> (T, T),
+    bound: T,
+    least: T,
+) -> Option<T> {
+    let width = right.0 - left.0;
+    let falls = left.1.1 + bound * width <= T::ZERO;
+    let rises = right.1.1 - bound * width >= T::ZERO;
+    let stays_below = most_between([left, right], bound, bound) <= T::from_f64(RESOLUTION);
+    if falls || stays_below || rises && right.1.0 <= T::ZERO {
+        return None;
+    }
+    if left.1.0 > T::ZERO {
+        return Some(left.0);
+    }
+    let middle = left.0 + width * 0.5;
+    if !(left.0 < middle && middle < right.0) || right.1.0 > T::ZERO && width <= least {
+        return Some(left.0).filter(|_| right.1.0 > T::ZERO);
+    }
+    let centre = (middle, f(middle));
+    first_above([left, centre], f, bound, least)
+        .or_else(|| first_above([centre, right], f, bound, least))
+}
+
+/// A bound between two places: the maximum exceeds the values there by at most the effect of the
+/// curvature over the width, or of the rate at one of them and its possible increase.
+#[inline(always)]
+fn most_between<T: Real>([left, right]: [Place<T>; 2], up: T, bound: T) -> T {
+    let width = right.0 - left.0;
+    let bulge = bound * width * width * 0.125;
+    let gain = up.max(T::ZERO) * width * 0.5;
+    let from_left = left.1.0 + ((left.1.1 + gain) * width).max(T::ZERO);
+    let from_right = right.1.0 + ((gain - right.1.1) * width).max(T::ZERO);
+    let most = left.1.0.max(right.1.0) + bulge;
+    most.min(from_left).min(from_right)
 }
 
 /// The larger of `record` and the maximum over \[0, s\] of a function given with its derivative, by
@@ -83,8 +145,8 @@ pub(crate) fn highest<T: Real>(f: &impl Fn(T) -> (T, T), s: T, up: T, bound: T, 
 
 fn search<T: Real>(
     f: &impl Fn(T) -> (T, T),
-    left: (T, (T, T)),
-    right: (T, (T, T)),
+    left: Place<T>,
+    right: Place<T>,
     up: T,
     bound: T,
     record: &mut T,
@@ -96,14 +158,7 @@ fn search<T: Real>(
     {
         return;
     }
-    // The maximum exceeds the values at the ends by at most the effect of the curvature over the
-    // width, or of the rate at one end and its possible increase.
-    let bulge = bound * width * width * 0.125;
-    let gain = up.max(T::ZERO) * width * 0.5;
-    let from_left = left.1.0 + ((left.1.1 + gain) * width).max(T::ZERO);
-    let from_right = right.1.0 + ((gain - right.1.1) * width).max(T::ZERO);
-    let most = left.1.0.max(right.1.0) + bulge;
-    if most.min(from_left).min(from_right) <= *record + RESOLUTION {
+    if most_between([left, right], up, bound) <= *record + RESOLUTION {
         return;
     }
     // On a concave function, where the rate, taken as linear, passes through zero.

@@ -42,6 +42,21 @@ impl Limit {
         }
     }
 
+    /// A bound on |q̈| along a step, of each point of the body's outline.
+    #[inline(always)]
+    pub(crate) fn acceleration_bound<T: Real>(self, system: &System<T>, step: &impl Along<T>) -> T {
+        let theta_accel = step.derivative_bound(2, 2);
+        match self {
+            Self::Rotation => theta_accel,
+            Self::UpperBound => {
+                let [start, _] = step.ends();
+                let spin = start.vtheta.abs() + theta_accel * step.duration();
+                let turning = (spin * spin + theta_accel) * system.body.reach();
+                step.derivative_bound(2, 1) + turning
+            }
+        }
+    }
+
     /// A bound on q along a step, close where it is above `floor`.
     #[inline(always)]
     pub(crate) fn largest_along<T: Real>(
@@ -101,14 +116,11 @@ fn farthest_turned<T: Real>(step: &impl Along<T>, floor: T) -> T {
 fn highest<T: Real>(system: &System<T>, step: &impl Along<T>, floor: T) -> T {
     let ([start, end], s) = (step.ends(), step.duration());
     let y_accel = step.derivative_bound(2, 1);
-    let theta_accel = step.derivative_bound(2, 2);
-    let reach = system.body.reach();
-    let rough = start.y.max(end.y) + y_accel * s * s * 0.125 + reach;
+    let rough = start.y.max(end.y) + y_accel * s * s * 0.125 + system.body.reach();
     if rough < floor {
         return rough;
     }
-    let spin = start.vtheta.abs() + theta_accel * s;
-    let accel = y_accel + (spin * spin + theta_accel) * reach;
+    let accel = Limit::UpperBound.acceleration_bound(system, step);
     start
         .y
         .max(step.largest_seen(EVALUATIONS, |state| system.top(state)))

@@ -28,6 +28,7 @@ mod bounces;
 pub(crate) mod comparisons;
 mod event_laws;
 mod kernels;
+mod nearness;
 pub(super) mod within;
 
 pub(crate) use event_laws::zero_velocity;

@@ -55,7 +55,7 @@ use crate::motion::active_set::ActiveSet;
 use crate::motion::cable_series::CableSeries;
 use crate::motion::complementarity::Factored;
 use crate::motion::contact::{Contact, Contacts};
-use crate::motion::extremes::rises_above_zero;
+use crate::motion::extremes::first_above_zero;
 use crate::motion::limits::{EventSeries, Limits};
 use crate::motion::water_series::WaterSeries;
 use crate::motion::waves::sinusoids::Expanded;
@@ -419,7 +419,7 @@ impl<T: Real> Series<T> {
             (rate - STILL, accel)
         };
         let third = gap.derivative_bound(3, self.step, ORDER);
-        self.contacts[cable].resting && !rises_above_zero(&rate, s, third)
+        self.contacts[cable].resting && first_above_zero(&rate, s, third).is_none()
     }
 
     /// Bound on |g̈| of a slack cable over the step.

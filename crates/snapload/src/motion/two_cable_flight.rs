@@ -60,6 +60,10 @@ pub(crate) struct Openness<L: Lane> {
     pub(crate) slope: L,
     /// A bound on g in the late part.
     pub(crate) late: L,
+    /// If the cable closes at the end, ġ is at least its value there, less this times the time to
+    /// the end over that of the late part; and g is below zero by at least `depth` times the same.
+    pub(crate) bend: L,
+    pub(crate) depth: L,
 }
 
 impl<L: Lane> FlightEnd<L> {
@@ -367,9 +371,9 @@ impl<L: Lane> TwoCableFlight<L> {
             .mul_add(early, attachment.gap)
             .below(-attachment.gap_error);
 
-        let bound = (end.accel + shift_error)
-            .positive()
-            .mul_add(half, third * late * (1.0 / 6.0));
+        let rises = (end.accel + shift_error).positive();
+        let bend = (third * late).mul_add(half, rises) * (late * INFLATION);
+        let bound = rises.mul_add(half, third * late * (1.0 / 6.0));
         let slowest = shift_error.mul_add(-trial.to_root.abs(), end.rate);
         let bound = bound.mul_add(late * INFLATION, -slowest);
         let latest = bound.mul_add(late, end_value);
@@ -380,6 +384,8 @@ impl<L: Lane> TwoCableFlight<L> {
             open: early_open & late_open,
             slope,
             late: latest.larger(end_value),
+            bend,
+            depth: -latest,
         }
     }
 }

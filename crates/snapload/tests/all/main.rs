@@ -21,6 +21,7 @@ mod invariants;
 mod limits;
 mod linearised_motion;
 mod many_cables;
+mod near_events;
 mod outcomes;
 mod same_bits;
 mod starts;

@@ -86,6 +86,7 @@ impl<L: Lane> Followed<L> {
         let within_tolerance = known.below(self.tolerance * self.tolerance)
             & reach.meets_all(bounced)
             & reach.leaves_the_other_open(bounced)
+            & reach.rises_once(bounced)
             & reach.reaches_no_limit(bounced);
         self.parts.rotate();
         Through {
@@ -254,6 +255,15 @@ fn add_products<L: Lane>(half: &mut [L; COLUMNS / 2], more: [Option<L>; COLUMNS 
     }
 }
 
+/// The largest value of a gap in the early part of a flight of length `s`, given that at its start
+/// and a bound on its slope; what is compared with neighbours that spread from zero, if it was
+/// closed.
+#[inline(always)]
+fn largest_early<L: Lane>(gap: L, slope: L, s: L) -> L {
+    let largest = gap.larger(slope.mul_add(s * EARLY, gap));
+    L::select(gap.below(L::ZERO), largest, slope * s)
+}
+
 /// Standard deviation of the impact's location across the end of the cable that snaps.
 #[inline(always)]
 fn location<L: Lane>(bounced: &Bounced<L>, slant: L, moved: [L; 3]) -> L {
@@ -378,6 +388,23 @@ impl<L: Lane> Reach<L> {
         closes & rebounds & (self.met[6] * SQUARE).below(left * left)
     }
 
+    /// Whether the gap that closes is open by more than the neighbours' reach up to its last rise.
+    /// The reach is its rate at the end times that in time.
+    #[inline(always)]
+    fn rises_once(&self, bounced: &Bounced<L>) -> L::Mask {
+        const SQUARE: f64 = SIGMA_REACH * SIGMA_REACH * SAFE;
+        let [gap, _] = bounced.each(|k| bounced.from.gaps[k][0]);
+        let [length, _] = bounced.each(|k| bounced.two_cables.cables[k].length());
+        let (facts, s) = (bounced.facts, bounced.t - bounced.from.t);
+        let early = largest_early(gap, facts.struck_slope, s);
+        let largest = early.larger(-facts.depth);
+        let (bend, rate) = (facts.bend, length * bounced.v_n * 2.0);
+        let square = self.later * SQUARE;
+        largest.below(L::ZERO)
+            & (rate * rate * square).below(largest * largest)
+            & (bend * bend * square).below(facts.depth * facts.depth)
+    }
+
     /// Whether the other gap stays open by more than the neighbours' reach. A cable that was closed
     /// at the start of the flight is closed for all neighbours then, and their gaps spread from
     /// zero.
@@ -386,13 +413,7 @@ impl<L: Lane> Reach<L> {
         let [_, gap] = bounced.each(|k| bounced.from.gaps[k][0]);
         let [_, length] = bounced.each(|k| bounced.two_cables.cables[k].length());
         let s = bounced.t - bounced.from.t;
-        let slope = bounced.facts.slope;
-        let within = L::select(
-            gap.below(L::ZERO),
-            gap.larger(slope.mul_add(s * EARLY, gap)),
-            slope * s,
-        );
-        let largest = within
+        let largest = largest_early(gap, bounced.facts.slope, s)
             .larger(bounced.facts.late)
             .larger(bounced.other_gap[0]);
         const FACTOR: f64 = 4.0 * SIGMA_REACH * SIGMA_REACH * SAFE;

@@ -98,8 +98,7 @@ pub(super) fn cause(
         return Some(HorizonCause::Sticking { cable });
     }
     for cable in 0..simulation.system().cables.len() {
-        let known = step.event.closed.contains(cable) || step.taut.contains(cable);
-        if !known && may_snap(simulation, step, neighbours, cable) {
+        if !step.taut.contains(cable) && may_snap(simulation, step, neighbours, cable) {
             return Some(HorizonCause::NearMiss { cable });
         }
     }
@@ -256,26 +255,27 @@ fn may_or_may_not_stick(
     off <= neighbours.met.reach(&[x, y, theta, n.x, n.y, arm])
 }
 
-/// Whether a cable that stays slack comes within the neighbours' reach of being taut, along the
-/// stretch or at its end, which is at another time for each neighbour.
+/// Whether a slack cable comes within the neighbours' reach of being taut: along the stretch, or at
+/// its end, which is at another time for each neighbour, unless it closes there in all of them.
 #[inline(always)]
 fn may_snap(simulation: &Simulation, step: &Step, neighbours: &Neighbours, cable: usize) -> bool {
     let Neighbours { along, met, .. } = neighbours;
     let tether = &simulation.system().cables[cable];
     let per_place = 2.0 * tether.length();
+    let closes = step.event.closed.contains(cable);
+    let near_at_end = |margin: f64| !closes && simulation.contact(cable).gap > -margin;
     // A bound first: |n| = 1, and the arm is no longer than the lever.
     let [a, b] = tether.fairlead().components();
     let slopes = [1.0, 1.0, a.abs() + b.abs(), 0.0, 0.0, 0.0];
     let most = per_place * along.at_most(&slopes).max(met.at_most(&slopes));
-    if simulation.contact(cable).gap <= -most && !simulation.comes_near(step, cable, most) {
+    if !near_at_end(most) && !simulation.comes_near(step, cable, most) {
         return false;
     }
     let Normal { n, arm } = tether.normal(&step.before);
     let direction = [n.x, n.y, arm, 0.0, 0.0, 0.0];
     let margin = per_place * along.reach(&direction);
     let at_end = per_place * met.reach(&direction);
-    simulation.contact(cable).gap > -margin.max(at_end)
-        || simulation.comes_near(step, cable, margin)
+    near_at_end(margin.max(at_end)) || simulation.comes_near(step, cable, margin)
 }
 
 /// Whether neighbours may meet a stop rule that the run does not meet, or the other way round.
@@ -289,8 +289,10 @@ fn may_stop(simulation: &Simulation, step: &Step, neighbours: &Neighbours) -> bo
         let at_end = neighbours.met.at_most(&slopes);
         let within =
             |margin: f64| simulation.largest_within(step, limit, bound - margin) + margin >= bound;
-        !reached.limits.contains(limit)
-            && within(margin.max(at_end))
+        if reached.limits.contains(limit) {
+            return simulation.comes_near_limit(step, limit, margin);
+        }
+        within(margin.max(at_end))
             && (limit.quantity(system, before) + at_end >= bound || within(margin))
     });
     // One cable may stick as another leaves.

@@ -11,7 +11,6 @@ use crate::model::taut_set::{MAX_CABLES, TautSet};
 use crate::motion::active_set::tensions;
 use crate::motion::contact::Contact;
 use crate::motion::events::{EventFunction, HasEvents, Jet, Jets};
-use crate::motion::extremes::rises_above_zero;
 use crate::motion::flight::Flight;
 use crate::motion::limits::Along;
 use crate::motion::simulation::{Simulation, Step};
@@ -30,18 +29,7 @@ pub(in crate::motion) enum SegmentMotion<'a, T: Real> {
     Expanded(&'a Series<T>),
 }
 
-/// A gap to be evaluated, by the best instructions for it.
-struct GapAndRate<'a, T: Real>(&'a SegmentMotion<'a, T>, usize, T);
-
-impl<T: Real> Kernel for GapAndRate<'_, T> {
-    type Output = (T, T);
-    #[inline(always)]
-    fn run(self) -> (T, T) {
-        self.0.gap_and_rate(self.1, self.2)
-    }
-}
-
-/// Tensions to be evaluated, likewise.
+/// Tensions to be evaluated, by the best instructions for them.
 struct TensionsWithin<'a, T: Real>(&'a Simulation<T>, &'a Step<T>, T);
 
 impl<T: Real> Kernel for TensionsWithin<'_, T> {
@@ -98,7 +86,7 @@ impl<T: Real> SegmentMotion<'_, T> {
 
     /// g and ġ of a slack cable then.
     #[inline(always)]
-    fn gap_and_rate(&self, cable: usize, s: T) -> (T, T) {
+    pub(super) fn gap_and_rate(&self, cable: usize, s: T) -> (T, T) {
         match self {
             Self::Closed(flight) => flight.gap_and_rate(cable, s),
             Self::Expanded(series) => series.gap_and_rate(cable, s),
@@ -125,9 +113,9 @@ impl<T: Real> SegmentMotion<'_, T> {
 
 /// The latest step. The motion along it, which may have to be computed again, is computed only
 /// where it is needed.
-struct LatestStep<'a, T: Real> {
-    simulation: &'a Simulation<T>,
-    step: &'a Step<T>,
+pub(super) struct LatestStep<'a, T: Real> {
+    pub(super) simulation: &'a Simulation<T>,
+    pub(super) step: &'a Step<T>,
 }
 
 impl<T: Real> Along<T> for LatestStep<'_, T> {
@@ -204,7 +192,7 @@ impl<T: Real> Simulation<T> {
 
     /// The series of the latest segment; none if that has a closed form.
     #[inline(always)]
-    fn expanded(&self, taut: TautSet) -> Option<&Series<T>> {
+    pub(super) fn expanded(&self, taut: TautSet) -> Option<&Series<T>> {
         let series = self.series.as_deref();
         series.filter(|_| !self.system.has_closed_form(taut))
     }
@@ -278,50 +266,6 @@ impl<T: Real> Simulation<T> {
             (None, Some(_)) => false,
             (None, None) => self.flight.rested(cable),
         }
-    }
-
-    /// Whether a cable that is slack in the latest step came, before its end, within `margin` > 0
-    /// of a gap of zero. If a cable was closed at the start, its gap is zero there for all
-    /// neighbours, and the margin grows from zero; if it lost its tension there and opens
-    /// throughout, so it does for all neighbours, each from its own release.
-    #[inline(always)]
-    pub(crate) fn comes_near(&self, step: &Step<T>, cable: usize, margin: T) -> bool {
-        let s = step.t_end - step.t_start;
-        if s <= T::ZERO {
-            return false;
-        }
-        let acceleration = match self.expanded(step.taut) {
-            Some(series) if series.gap_opens_from_rest(cable, s) => return false,
-            Some(series) => series.gap_acceleration_bound(cable),
-            None => self.gap_acceleration_bound(step, cable),
-        };
-        let first = self.contact_at_start(step, cable).gap;
-        if first.max(self.contacts[cable].gap) + margin + acceleration * s * s * 0.125 < T::ZERO {
-            return false;
-        }
-        let (offset, slope) = if first < T::ZERO {
-            (margin, T::ZERO)
-        } else {
-            (T::ZERO, margin / s)
-        };
-        let motion = self.motion(step.taut);
-        let nearness = |s: T| {
-            let (gap, rate) = dispatch_over::<T, _>(GapAndRate(&motion, cable, s));
-            (gap + offset + slope * s, rate + slope)
-        };
-        rises_above_zero(&nearness, s, acceleration)
-    }
-
-    /// Bound on |g̈| = 2 |Ṗ² + d·P̈| along a flight.
-    #[inline(always)]
-    fn gap_acceleration_bound(&self, step: &Step<T>, cable: usize) -> T {
-        let tether = &self.system.cables[cable];
-        let (start, reach) = (&step.start, tether.fairlead().length());
-        let spin = start.vtheta.abs();
-        let accel = self.system.forcing.bounds()[0] + spin * spin * reach;
-        let s = step.t_end - step.t_start;
-        let speed = start.velocity().length() + spin * reach + accel * s;
-        (speed * speed + tether.length() * accel) * 2.0
     }
 
     /// A bound, along the latest step, on the quantity of a limit, close where it is above `floor`.

@@ -1,0 +1,105 @@
+//! Where the latest step comes near an event that it does not have, or not yet.
+
+use crate::arithmetic::processor::{Kernel, dispatch_over};
+use crate::arithmetic::real::Real;
+use crate::model::rules::Limit;
+use crate::motion::events::{EventFunction, HasEvents, Jets};
+use crate::motion::extremes::{first_above_zero, first_above_zero_before_last_rise};
+use crate::motion::simulation::within::{LatestStep, SegmentMotion};
+use crate::motion::simulation::{Simulation, Step};
+
+/// A gap to be evaluated, by the best instructions for it.
+struct GapAndRate<'a, T: Real>(&'a SegmentMotion<'a, T>, usize, T);
+
+impl<T: Real> Kernel for GapAndRate<'_, T> {
+    type Output = (T, T);
+    #[inline(always)]
+    fn run(self) -> (T, T) {
+        self.0.gap_and_rate(self.1, self.2)
+    }
+}
+
+impl<T: Real> Simulation<T> {
+    /// Whether a cable that is slack in the latest step came within `margin` > 0 of a gap of zero
+    /// before its end; if the cable closes there, before the last rise of its gap. If a cable was
+    /// closed at the start, its gap is zero there for all neighbours, and the margin grows from
+    /// zero; if it lost its tension there and opens throughout, so it does for all neighbours, each
+    /// from its own release.
+    #[inline(always)]
+    pub(crate) fn comes_near(&self, step: &Step<T>, cable: usize, margin: T) -> bool {
+        let s = step.t_end - step.t_start;
+        if s <= T::ZERO {
+            return false;
+        }
+        let acceleration = match self.expanded(step.taut) {
+            Some(series) if series.gap_opens_from_rest(cable, s) => return false,
+            Some(series) => series.gap_acceleration_bound(cable),
+            None => self.gap_acceleration_bound(step, cable),
+        };
+        let first = self.contact_at_start(step, cable).gap;
+        let last = self.contact(cable).gap;
+        if first.max(last) + margin + acceleration * s * s * 0.125 < T::ZERO {
+            return false;
+        }
+        let (offset, slope) = if first < T::ZERO {
+            (margin, T::ZERO)
+        } else {
+            (T::ZERO, margin / s)
+        };
+        let motion = self.motion(step.taut);
+        let nearness = |s: T| {
+            let (gap, rate) = dispatch_over::<T, _>(GapAndRate(&motion, cable, s));
+            (gap + offset + slope * s, rate + slope)
+        };
+        let near = if step.event.reached.gaps.contains(cable) {
+            first_above_zero_before_last_rise(&nearness, s, acceleration)
+        } else {
+            first_above_zero(&nearness, s, acceleration)
+        };
+        near.is_some()
+    }
+
+    /// Bound on |g̈| = 2 |Ṗ² + d·P̈| along a flight.
+    #[inline(always)]
+    fn gap_acceleration_bound(&self, step: &Step<T>, cable: usize) -> T {
+        let tether = &self.system().cables[cable];
+        let (start, reach) = (&step.start, tether.fairlead().length());
+        let spin = start.vtheta.abs();
+        let accel = self.system().forcing.bounds()[0] + spin * spin * reach;
+        let s = step.t_end - step.t_start;
+        let speed = start.velocity().length() + spin * reach + accel * s;
+        (speed * speed + tether.length() * accel) * 2.0
+    }
+
+    /// Whether the quantity of a limit that ends the latest step came within `margin` > 0 of its
+    /// bound before the last rise to it.
+    pub(crate) fn comes_near_limit(&self, step: &Step<T>, limit: Limit, margin: T) -> bool {
+        let s = step.t_end - step.t_start;
+        let motion = self.motion(step.taut);
+        let jets_at = |s: T| {
+            let mut jets = Jets::new();
+            match &motion {
+                SegmentMotion::Closed(flight) => flight.jets_at(s, &mut jets),
+                SegmentMotion::Expanded(series) => series.jets_at(s, &mut jets),
+            }
+            jets
+        };
+        let function = EventFunction::Limit(limit);
+        let ends = jets_at(s);
+        let count = ends.iter().filter(|jet| jet.function == function).count();
+        let latest = LatestStep {
+            simulation: self,
+            step,
+        };
+        let acceleration = limit.acceleration_bound(self.system(), &latest);
+        (0..count).any(|k| {
+            // Which of the points of the body's outline.
+            let nearness = |s: T| {
+                let jets = jets_at(s);
+                let jet = jets.iter().filter(|jet| jet.function == function).nth(k);
+                jet.map_or((-T::ONE, T::ZERO), |jet| (jet.value + margin, jet.rate))
+            };
+            s > T::ZERO && first_above_zero_before_last_rise(&nearness, s, acceleration).is_some()
+        })
+    }
+}

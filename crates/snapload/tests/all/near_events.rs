@@ -1,0 +1,81 @@
+//! Where trust ends because neighbours have, in flight, an event that the run nearly has.
+
+use crate::agrees_with_closed_forms::string;
+use snapload::analysis::{Horizon, HorizonCause, TrustMonitor, no_progress, record};
+use snapload::{Harmonic, Limit, LimitBounds, Rules, Simulation, State, System};
+
+/// The horizon of a run whose start may be off by `doubts`.
+fn horizon(system: &System, rules: Rules, start: State, doubts: [f64; 6]) -> Option<Horizon> {
+    let simulation = Simulation::new(system.clone(), rules, 0.0, start).unwrap();
+    let mut monitor = TrustMonitor::new(&simulation, &doubts, 1e3);
+    record(simulation, &no_progress, |simulation, step| {
+        monitor.follow(simulation, step);
+    })
+    .unwrap();
+    monitor.verdict().horizon
+}
+
+fn cause(horizon: Option<Horizon>) -> Option<HorizonCause> {
+    horizon.map(|horizon| horizon.cause)
+}
+
+/// A mass on a string of length 1, thrown so that its highest point is at 1 − `short` when it is
+/// below the anchor's vertical; then it falls, and the string snaps taut below.
+fn thrown(short: f64) -> State {
+    let vy = (2.0 * (1.0 - short)).sqrt();
+    State {
+        x: -0.3 * vy,
+        vx: 0.3,
+        vy,
+        ..State::default()
+    }
+}
+
+/// If y and ẏ are off by up to δ, the standard deviation of the height of the throw is δ for ẏ = √2:
+/// within three of them the string snaps at the top if δ is more than a third of what is missing.
+#[test]
+fn a_string_that_nearly_snaps_before_it_snaps_ends_trust() {
+    for short in [1e-6, 1e-4, 1e-3] {
+        for (part, near) in [(1.0, true), (0.5, true), (0.2, false), (0.0, false)] {
+            let doubt = part * short;
+            let (system, start) = (string(1.0, 1.0, 0.5), thrown(short));
+            let doubts = [0.0, doubt, 0.0, 0.0, doubt, 0.0];
+            let found = horizon(&system, Rules::until(5.0), start, doubts);
+            if near {
+                assert_eq!(cause(found), Some(HorizonCause::NearMiss { cable: 0 }));
+                assert_eq!(found.map(|found| found.impact), Some(1));
+            } else {
+                assert!(found.is_none_or(|found| found.impact > 1), "{found:?}");
+            }
+        }
+    }
+}
+
+/// y = v t + (1 − cos 2t)/5 has its maxima at cos 2t < 0 and sin 2t = −5v/2. A bound a little above
+/// one of them is reached half a turn of the wave later.
+#[test]
+fn a_limit_that_is_nearly_reached_before_it_is_reached_ends_trust() {
+    let v: f64 = 0.0225;
+    let above = 1e-6;
+    for turn in [2.0, 5.0, 8.0] {
+        let t = 0.5 * ((2.5 * v).asin() + std::f64::consts::PI * (1.0 + 2.0 * turn));
+        let top = v * t + 0.2 * (1.0 - (2.0 * t).cos());
+        let mut system = string(50.0, 0.0, 0.5);
+        system.forcing.harmonics = vec![Harmonic::with_phases(2.0, [0.0, 0.8], [0.0, 0.0])];
+        let rules = Rules {
+            limits: LimitBounds::none().with(Limit::UpperBound, top + above),
+            ..Rules::until(40.0)
+        };
+        let start = State {
+            vy: v,
+            ..State::default()
+        };
+        for (part, near) in [(3.0, true), (0.75, true), (0.4, false), (0.0, false)] {
+            // The standard deviation of the height is t δ/√3.
+            let doubt = part * above / t;
+            let found = horizon(&system, rules, start, [0.0, 0.0, 0.0, 0.0, doubt, 0.0]);
+            let expected = Some(HorizonCause::StopRule).filter(|_| near);
+            assert_eq!(cause(found), expected, "{turn} {part}");
+        }
+    }
+}
