@@ -115,6 +115,18 @@ impl<T: Real> Flight<T> {
         (jet.value, jet.rate)
     }
 
+    /// ġ and g̈ of a cable a time `s` into the flight.
+    #[inline(always)]
+    pub(crate) fn gap_rate_and_acceleration(&self, cable: usize, s: T) -> (T, T) {
+        let jet = self.attachments[cable].jet(s, &self.instant(s));
+        (jet.rate, jet.accel)
+    }
+
+    /// Bound on |g⃛| of a cable within a flight of length `s`.
+    pub(crate) fn gap_jerk_bound(&self, cable: usize, s: T) -> T {
+        self.attachments[cable].third(s)
+    }
+
     /// The gap of a cable at the flight's start, with its error.
     pub(crate) fn contact_at_start(&self, cable: usize) -> Contact<T> {
         let attachment = &self.attachments[cable];

@@ -55,7 +55,6 @@ use crate::motion::active_set::ActiveSet;
 use crate::motion::cable_series::CableSeries;
 use crate::motion::complementarity::Factored;
 use crate::motion::contact::{Contact, Contacts};
-use crate::motion::extremes::first_above_zero;
 use crate::motion::limits::{EventSeries, Limits};
 use crate::motion::water_series::WaterSeries;
 use crate::motion::waves::sinusoids::Expanded;
@@ -65,7 +64,7 @@ mod water;
 
 /// A displacement along a step of less than this, or than a taut cable's length, counts as rest: the
 /// terms need not converge relative to each other, only stay below its rounding \[L\], \[rad\].
-const STILL: f64 = 1e-12;
+pub(crate) const STILL: f64 = 1e-12;
 
 /// The gap of a cable, and its tension where it carries.
 #[derive(Clone, Copy, Debug, Default)]
@@ -410,16 +409,16 @@ impl<T: Real> Series<T> {
         self.contacts[cable].resting
     }
 
-    /// Whether a cable that was at rest at the start, such as one that has just lost its tension,
-    /// opens throughout up to a time `s`: ġ never increases.
-    pub(crate) fn gap_opens_from_rest(&self, cable: usize, s: T) -> bool {
-        let gap = &self.lines[cable].gap;
-        let rate = |s: T| {
-            let [_, rate, accel] = gap.jet(s, ORDER);
-            (rate - STILL, accel)
-        };
-        let third = gap.derivative_bound(3, self.step, ORDER);
-        self.contacts[cable].resting && first_above_zero(&rate, s, third).is_none()
+    /// ġ and g̈ of a slack cable a time `s` after the start.
+    #[inline(always)]
+    pub(crate) fn gap_rate_and_acceleration(&self, cable: usize, s: T) -> (T, T) {
+        let [_, rate, acceleration] = self.lines[cable].gap.jet(s, ORDER);
+        (rate, acceleration)
+    }
+
+    /// Bound on |g⃛| of a slack cable over the step.
+    pub(crate) fn gap_jerk_bound(&self, cable: usize) -> T {
+        self.lines[cable].gap.derivative_bound(3, self.step, ORDER)
     }
 
     /// Bound on |g̈| of a slack cable over the step.

@@ -66,6 +66,26 @@ fn a_tension_that_some_neighbours_lose_ends_trust() {
     }
 }
 
+/// A mass that has left its circle flies along a parabola inside it, in all neighbours, and snaps
+/// once more where that meets the circle again: until then nothing is in doubt.
+#[test]
+fn a_string_that_has_been_released_does_not_nearly_snap() {
+    for k in 1..30 {
+        let v = (2.0 + 0.1 * f64::from(k)).sqrt();
+        let lost = swung(v, 0.0, 9.0).1.unwrap();
+        // At the height h = (v² − 2)/3 above the anchor, on the circle, it leaves at the speed √h, up at an
+        // angle whose cosine is h: on this parabola it meets the circle again after 4 √(h (1 − h²)).
+        let h = (v * v - 2.0) / 3.0;
+        let flight = 4.0 * (h * (1.0 - h * h)).sqrt();
+        for doubt in [0.0, 1e-9, 1e-5] {
+            let (horizon, _) = swung(v, doubt, lost + 0.9 * flight);
+            assert_eq!(horizon, None, "{v} {doubt:e}");
+        }
+        let (horizon, _) = swung(v, 0.0, lost + 1.01 * flight);
+        assert!(horizon.is_none_or(|horizon| horizon.t > lost + flight - 1e-9));
+    }
+}
+
 /// Two cables that snap in turn, each half as fast as the one before, come to rest after five snaps
 /// below `v_stick`. Where one snap is about as fast as that, neighbours need one more or less.
 #[test]

@@ -7,6 +7,7 @@ use crate::motion::events::{EventFunction, HasEvents, Jets};
 use crate::motion::extremes::{first_above_zero, first_above_zero_before_last_rise};
 use crate::motion::simulation::within::{LatestStep, SegmentMotion};
 use crate::motion::simulation::{Simulation, Step};
+use crate::motion::taut_series::STILL;
 
 /// A gap to be evaluated, by the best instructions for it.
 struct GapAndRate<'a, T: Real>(&'a SegmentMotion<'a, T>, usize, T);
@@ -19,12 +20,24 @@ impl<T: Real> Kernel for GapAndRate<'_, T> {
     }
 }
 
+/// Its rate, likewise.
+struct GapRateAndAcceleration<'a, T: Real>(&'a SegmentMotion<'a, T>, usize, T);
+
+impl<T: Real> Kernel for GapRateAndAcceleration<'_, T> {
+    type Output = (T, T);
+    #[inline(always)]
+    fn run(self) -> (T, T) {
+        self.0.gap_rate_and_acceleration(self.1, self.2)
+    }
+}
+
 impl<T: Real> Simulation<T> {
     /// Whether a cable that is slack in the latest step came within `margin` > 0 of a gap of zero
     /// before its end; if the cable closes there, before the last rise of its gap. If a cable was
     /// closed at the start, its gap is zero there for all neighbours, and the margin grows from
-    /// zero; if it lost its tension there and opens throughout, so it does for all neighbours, each
-    /// from its own release.
+    /// zero. If it was at rest there, as one that has just lost its tension, it opens like −s³ or
+    /// −s² in all neighbours, each from its own release, and may come near only when it begins to
+    /// close again.
     #[inline(always)]
     pub(crate) fn comes_near(&self, step: &Step<T>, cable: usize, margin: T) -> bool {
         let s = step.t_end - step.t_start;
@@ -32,7 +45,6 @@ impl<T: Real> Simulation<T> {
             return false;
         }
         let acceleration = match self.expanded(step.taut) {
-            Some(series) if series.gap_opens_from_rest(cable, s) => return false,
             Some(series) => series.gap_acceleration_bound(cable),
             None => self.gap_acceleration_bound(step, cable),
         };
@@ -47,10 +59,20 @@ impl<T: Real> Simulation<T> {
             (T::ZERO, margin / s)
         };
         let motion = self.motion(step.taut);
-        let nearness = |s: T| {
+        let begun = if self.rested(step, cable) {
+            match begins_to_close(&motion, cable, s) {
+                Some(begun) => begun,
+                None => return false,
+            }
+        } else {
+            T::ZERO
+        };
+        let nearness = |later: T| {
+            let s = begun + later;
             let (gap, rate) = dispatch_over::<T, _>(GapAndRate(&motion, cable, s));
             (gap + offset + slope * s, rate + slope)
         };
+        let s = s - begun;
         let near = if step.event.reached.gaps.contains(cable) {
             first_above_zero_before_last_rise(&nearness, s, acceleration)
         } else {
@@ -102,4 +124,18 @@ impl<T: Real> Simulation<T> {
             s > T::ZERO && first_above_zero_before_last_rise(&nearness, s, acceleration).is_some()
         })
     }
+}
+
+/// When the gap of a cable that was at rest at the start of a motion of length `s` begins to close,
+/// if it does.
+fn begins_to_close<T: Real>(motion: &SegmentMotion<'_, T>, cable: usize, s: T) -> Option<T> {
+    let jerk = match motion {
+        SegmentMotion::Closed(flight) => flight.gap_jerk_bound(cable, s),
+        SegmentMotion::Expanded(series) => series.gap_jerk_bound(cable),
+    };
+    let rate = |s: T| {
+        let (rate, acceleration) = dispatch_over::<T, _>(GapRateAndAcceleration(motion, cable, s));
+        (rate - STILL, acceleration)
+    };
+    first_above_zero(&rate, s, jerk)
 }

@@ -93,6 +93,15 @@ impl<T: Real> SegmentMotion<'_, T> {
         }
     }
 
+    /// ġ and g̈ of a slack cable then.
+    #[inline(always)]
+    pub(super) fn gap_rate_and_acceleration(&self, cable: usize, s: T) -> (T, T) {
+        match self {
+            Self::Closed(flight) => flight.gap_rate_and_acceleration(cable, s),
+            Self::Expanded(series) => series.gap_rate_and_acceleration(cable, s),
+        }
+    }
+
     /// Bounds on ÿ, |ÿ| and |θ̈| along it.
     #[inline(always)]
     pub(in crate::motion) fn acceleration_bounds(&self, system: &System<T>) -> [T; 3] {
