@@ -29,6 +29,7 @@ pub(crate) mod comparisons;
 mod event_laws;
 mod kernels;
 mod nearness;
+mod tensions;
 pub(super) mod within;
 
 pub(crate) use event_laws::zero_velocity;

@@ -239,3 +239,40 @@ fn a_coupling_that_is_always_zero_is_no_doubt() -> Result<(), Unfinished> {
     }
     Ok(())
 }
+
+/// Two cables with h² = r² − 1 hold a mass in the corner under a unit weight and the force (f cos Ωt,
+/// ν f sin Ωt): each tension, a constant ± r/2 (f cos Ωt ± ν/h f sin Ωt), touches zero once in each
+/// turn of the force where f √(h² + ν²) = 1, at no particular instant of the computation's steps.
+#[test]
+fn a_tension_that_nearly_touches_zero_at_any_instant_ends_trust() -> Result<(), Unfinished> {
+    for k in 1..=12 {
+        let part = f64::from(k) / 12.0;
+        let (r, nu, omega) = (1.2 + part, 0.3 + part, 0.4 + 2.5 * part);
+        let touch = 1.0 / (r * r - 1.0 + nu * nu).sqrt();
+        let case = |f_o: f64| {
+            let numbers = [("r", r), ("nu", nu), ("omega", omega), ("f_o", f_o)];
+            let rest = [("y", 0.0), ("t_end", 20.0)];
+            rocking(&[numbers.as_slice(), &rest].concat(), "point")
+        };
+        // Within three standard deviations, which are √3 times the uncertainty.
+        for (below, size, near) in [
+            (1e-10, 1e-10, true),
+            (1e-7, 1e-7, true),
+            (1e-5, 7e-6, true),
+            (1e-5, 5e-6, false),
+            (1e-10, 0.0, false),
+        ] {
+            let mut uncertainty = Uncertainty::default();
+            uncertainty.set("f_o", size)?;
+            let (run, trust) = trusted_run(&case(touch - below)?, &uncertainty, &no_progress)?;
+            assert!(run.impacts().is_empty() && !case(touch + below)?.run().impacts().is_empty());
+            let cause = trust.horizon.map(|horizon| horizon.cause);
+            let tension = matches!(cause, Some(HorizonCause::Tension { .. }));
+            assert!(
+                tension == near && (near || cause.is_none()),
+                "{k} {below:e}: {cause:?}"
+            );
+        }
+    }
+    Ok(())
+}

@@ -27,6 +27,9 @@ use crate::motion::tangent::Tangent;
 /// A tension may change by so much without any uncertainty but rounding \[F\].
 const OF_ROUNDING: f64 = 1e-12;
 
+/// The least tension of a step is known to this part of what the tension varies by within it.
+const CLOSE: f64 = 1e-2;
+
 /// A step with taut cables and the spread of its neighbours.
 pub(super) struct TautStep<'a> {
     pub(super) simulation: &'a Simulation,
@@ -73,11 +76,20 @@ impl TautStep<'_> {
                 }
                 continue;
             }
-            // Its growth decides that a tension of zero rises, whatever rounding makes of the zero.
             let ([least, largest], end) = (ranges[cable], at_end[cable]);
-            let rises = self.is_first && end > reach;
-            let known = reach <= OF_ROUNDING && (rises || simulation.touches_zero(step, cable));
-            if known || least > reach && !falling.contains(cable) {
+            let is_near = |least: f64| least <= reach || falling.contains(cable);
+            if !is_near(least - CLOSE * (largest - least)) {
+                continue;
+            }
+            // Its growth decides that a tension of zero rises, whatever rounding makes of the zero;
+            // and one that only rounding tells from zero within the step touches it.
+            let at_start = simulation.tensions_at_start(step)[cable];
+            let rises = end > reach && (self.is_first || at_start > reach);
+            if reach <= OF_ROUNDING && (rises || simulation.touches_zero(step, cable)) {
+                continue;
+            }
+            let least = simulation.least_tension(step, cable);
+            if !is_near(least) {
                 continue;
             }
             if goes_on && end <= least + OF_ROUNDING && end + OF_ROUNDING < largest {

@@ -1,14 +1,13 @@
 //! The motion within the latest step.
 
-use crate::arithmetic::processor::{Kernel, dispatch_over};
+use crate::arithmetic::processor::Kernel;
 use crate::arithmetic::real::Real;
 use crate::model::floating::Complex;
 use crate::model::rules::Limit;
 use crate::model::state::State;
 use crate::model::surroundings::Surroundings;
 use crate::model::system::System;
-use crate::model::taut_set::{MAX_CABLES, TautSet};
-use crate::motion::active_set::tensions;
+use crate::model::taut_set::TautSet;
 use crate::motion::contact::Contact;
 use crate::motion::events::{EventFunction, HasEvents, Jet, Jets};
 use crate::motion::flight::Flight;
@@ -16,9 +15,6 @@ use crate::motion::limits::Along;
 use crate::motion::simulation::{Simulation, Step};
 use crate::motion::taut_series::Series;
 use std::borrow::Cow;
-
-/// The number of instants along a step at which tensions are evaluated.
-const INSTANTS: usize = 17;
 
 /// The motion along a segment.
 pub(in crate::motion) enum SegmentMotion<'a, T: Real> {
@@ -29,29 +25,7 @@ pub(in crate::motion) enum SegmentMotion<'a, T: Real> {
     Expanded(&'a Series<T>),
 }
 
-/// Tensions to be evaluated, by the best instructions for them.
-struct TensionsWithin<'a, T: Real>(&'a Simulation<T>, &'a Step<T>, T);
-
-impl<T: Real> Kernel for TensionsWithin<'_, T> {
-    type Output = [T; MAX_CABLES];
-    #[inline(always)]
-    fn run(self) -> Self::Output {
-        self.0.tensions_here(self.1, self.2)
-    }
-}
-
-/// The ranges of tensions to be found, likewise.
-struct TensionRanges<'a, T: Real>(&'a Simulation<T>, &'a Step<T>);
-
-impl<T: Real> Kernel for TensionRanges<'_, T> {
-    type Output = [[T; 2]; MAX_CABLES];
-    #[inline(always)]
-    fn run(self) -> Self::Output {
-        self.0.tension_ranges_here(self.1)
-    }
-}
-
-/// A state to be evaluated, likewise.
+/// A state to be evaluated, by the best instructions for it.
 pub(in crate::motion) struct StateAt<'a, T: Real>(
     pub(in crate::motion) &'a SegmentMotion<'a, T>,
     pub(in crate::motion) T,
@@ -310,83 +284,8 @@ impl<T: Real> Simulation<T> {
             .reduce(|a, b| if b.value > a.value { b } else { a })
     }
 
-    /// The least and the largest tension of each cable along the latest step, at seventeen evenly
-    /// spaced instants; 0 for a cable that is slack \[F\].
-    pub fn tension_ranges(&self, step: &Step<T>) -> [[T; 2]; MAX_CABLES] {
-        if step.taut.is_empty() {
-            return [[T::ZERO; 2]; MAX_CABLES];
-        }
-        dispatch_over::<T, _>(TensionRanges(self, step))
-    }
-
-    #[inline(always)]
-    fn tension_ranges_here(&self, step: &Step<T>) -> [[T; 2]; MAX_CABLES] {
-        let s = step.t_end - step.t_start;
-        let mut instants = [T::ZERO; INSTANTS];
-        for (k, instant) in instants.iter_mut().enumerate() {
-            *instant = s * (k as f64 / (INSTANTS - 1) as f64);
-        }
-        let mut ranges = [[T::ZERO; 2]; MAX_CABLES];
-        if let (Some(series), true) = (self.expanded(step.taut), step.taut == step.carrying) {
-            for cable in step.taut.iter() {
-                let tensions = series.tensions(cable, &instants);
-                ranges[cable] = [tensions[0]; 2];
-                for tension in tensions {
-                    widen(&mut ranges[cable], tension);
-                }
-            }
-            return ranges;
-        }
-        for (k, instant) in instants.into_iter().enumerate() {
-            let now = self.tensions_here(step, instant);
-            for cable in step.taut.iter() {
-                if k == 0 {
-                    ranges[cable] = [now[cable]; 2];
-                }
-                widen(&mut ranges[cable], now[cable]);
-            }
-        }
-        ranges
-    }
-
-    /// The tension of each cable at the end of the latest step, before the event there \[F\].
-    pub fn tensions_at_end(&self, step: &Step<T>) -> [T; MAX_CABLES] {
-        let s = step.t_end - step.t_start;
-        dispatch_over::<T, _>(TensionsWithin(self, step, s))
-    }
-
-    /// The tension of each cable at the start of the latest step \[F\].
-    pub(crate) fn tensions_at_start(&self, step: &Step<T>) -> [T; MAX_CABLES] {
-        dispatch_over::<T, _>(TensionsWithin(self, step, T::ZERO))
-    }
-
-    #[inline(always)]
-    fn tensions_here(&self, step: &Step<T>, s: T) -> [T; MAX_CABLES] {
-        let mut now = [T::ZERO; MAX_CABLES];
-        let Some(series) = self.expanded(step.taut) else {
-            return now;
-        };
-        if step.taut != step.carrying {
-            let around = self.surroundings(step.t_start + s);
-            let memory_force = series.memory_force(s);
-            let state = series.state(s);
-            return tensions(&self.system, &around, &state, memory_force, step.taut);
-        }
-        for cable in step.taut.iter() {
-            now[cable] = series.tension(cable, s);
-        }
-        now
-    }
-
     /// How far the latest Taylor series may be used.
     pub(crate) fn expansion(&self) -> T {
         self.series.as_ref().map_or(T::ZERO, |series| series.step())
     }
-}
-
-/// Extends a range so that it includes a value.
-#[inline(always)]
-fn widen<T: Real>([least, largest]: &mut [T; 2], value: T) {
-    *least = least.min(value);
-    *largest = largest.max(value);
 }
