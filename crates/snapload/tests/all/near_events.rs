@@ -1,8 +1,10 @@
 //! Where trust ends because neighbours have, in flight, an event that the run nearly has.
 
 use crate::agrees_with_closed_forms::string;
-use snapload::analysis::{Horizon, HorizonCause, TrustMonitor, no_progress, record};
-use snapload::{Harmonic, Limit, LimitBounds, Rules, Simulation, State, System};
+use snapload::analysis::{
+    Horizon, HorizonCause, TrustMonitor, Uncertainty, Unfinished, no_progress, record, trusted_run,
+};
+use snapload::{Case, Harmonic, Limit, LimitBounds, Parameters, Rules, Simulation, State, System};
 
 /// The horizon of a run whose start may be off by `doubts`.
 fn horizon(system: &System, rules: Rules, start: State, doubts: [f64; 6]) -> Option<Horizon> {
@@ -78,4 +80,35 @@ fn a_limit_that_is_nearly_reached_before_it_is_reached_ends_trust() {
             assert_eq!(cause(found), expected, "{turn} {part}");
         }
     }
+}
+
+/// A run that ends shortly before a snap is not certain if a neighbour has that snap before its end.
+/// Neighbours reach it the earlier, the earlier they had the snap before.
+#[test]
+fn an_end_before_which_a_neighbour_snaps_once_more_is_not_certain() -> Result<(), Unfinished> {
+    let case = |y: f64, t_end: f64| {
+        Case::new(Parameters {
+            y,
+            t_end,
+            ..Parameters::STANDARD
+        })
+    };
+    let (y, doubt) = (Parameters::STANDARD.y, 1e-7);
+    let mut uncertainty = Uncertainty::default();
+    uncertainty.set("y", doubt)?;
+    let times = |y: f64| -> Result<Vec<f64>, Unfinished> {
+        let run = case(y, 4.0)?.run();
+        Ok(run.impacts().iter().map(|impact| impact.t).collect())
+    };
+    let (run, lower, upper) = (times(y)?, times(y - doubt)?, times(y + doubt)?);
+    for k in 2..12 {
+        let sooner = run[k] - lower[k].min(upper[k]);
+        assert!(sooner > 1e-9 && run[k] - run[k - 1] > 100.0 * sooner, "{k}");
+        for (part, certain) in [(0.5, false), (0.9, false), (2.5, true)] {
+            let end = case(y, run[k] - part * sooner)?;
+            let (_, trust) = trusted_run(&end, &uncertainty, &no_progress)?;
+            assert_eq!(trust.decides_the_end(), certain, "{k} {part}");
+        }
+    }
+    Ok(())
 }

@@ -1,9 +1,12 @@
 //! The effect of a step on deviations, and who is told of it.
 
 use crate::analysis::trust::causes::{Approach, Closing};
+use crate::analysis::trust::parts::COLUMNS;
+use crate::model::rules::Stop;
 use crate::motion::bounce_map::BounceMap;
+use crate::motion::events::Reached;
 use crate::motion::simulation::{Simulation, Step};
-use crate::motion::step_map::StepMap;
+use crate::motion::step_map::{Block, StepMap};
 
 /// The effect of a step on deviations.
 pub(super) enum LinearMap<'a> {
@@ -52,6 +55,30 @@ impl LinearMap<'_> {
     pub(super) fn closing(&self, simulation: &Simulation, step: &Step) -> Option<Closing> {
         Closing::of(simulation, step, &self.approach())
     }
+}
+
+/// Carries deviations just before the end of a step to each neighbour's own event; to one time for
+/// all where the run ends without one.
+#[inline(always)]
+pub(super) fn meet(
+    step: &Step,
+    map: &StepMap,
+    w: &mut Block<COLUMNS>,
+    memory: &mut [[f64; COLUMNS]],
+) {
+    if step.stop != Some(Stop::EndTime) || step.event.reached != Reached::default() {
+        return map.carry_to_meet(w, memory);
+    }
+    let (state, [tau]) = w.split_at_mut(6) else {
+        return;
+    };
+    let rows = state.iter_mut().chain(memory);
+    for (row, rate) in rows.zip(map.rate().iter().chain(map.memory_rate())) {
+        for (entry, tau) in row.iter_mut().zip(*tau) {
+            *entry -= rate * tau;
+        }
+    }
+    *tau = [0.0; COLUMNS];
 }
 
 /// Receives the effect of each step on deviations. It is no closure, because a closure would be

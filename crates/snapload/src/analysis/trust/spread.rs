@@ -5,7 +5,7 @@ use crate::analysis::trust::causes::{
     Approach, Closing, Neighbours, Spread, cause, cause_at_start, may_stop_at_start,
 };
 use crate::analysis::trust::covariance::{CovarianceFactor, LARGEST_SPREAD};
-use crate::analysis::trust::linear_map::{LinearMap, Observer};
+use crate::analysis::trust::linear_map::{LinearMap, Observer, meet};
 use crate::analysis::trust::parts::{COLUMNS, squares};
 use crate::analysis::trust::passed_impulse;
 use crate::analysis::trust::rounding::{self, Rounding};
@@ -305,7 +305,7 @@ impl SpreadMonitor {
         let before = self.covariance.clone().with_seven();
         let along = before.carried(|w, memory| map.carry_along(w, memory), column(0));
         let met = along
-            .carried(|w, memory| map.carry_to_meet(w, memory), column(1))
+            .carried(|w, memory| meet(step, &map, w, memory), column(1))
             .with_part(&rounding.location, map.memory_rate(), rounding.late);
         let neighbours = Neighbours {
             along: Spread::of(&along),
