@@ -38,13 +38,17 @@ fn thrown(short: f64) -> State {
 #[test]
 fn a_string_that_nearly_snaps_before_it_snaps_ends_trust() {
     for short in [1e-6, 1e-4, 1e-3] {
-        for (part, near) in [(1.0, true), (0.5, true), (0.2, false), (0.0, false)] {
+        for (part, near) in [(1.0, true), (0.4, true), (0.3, false), (0.0, false)] {
             let doubt = part * short;
             let (system, start) = (string(1.0, 1.0, 0.5), thrown(short));
             let doubts = [0.0, doubt, 0.0, 0.0, doubt, 0.0];
             let found = horizon(&system, Rules::until(5.0), start, doubts);
             if near {
                 assert_eq!(cause(found), Some(HorizonCause::NearMiss { cable: 0 }));
+                // Neighbours that snap do so where 2 short < 6 δ − 0.91 t², t from the top.
+                let early = (4.0 * short / 0.91_f64).sqrt() + 1e-4;
+                let from_top = found.map(|found| found.t - start.vy).unwrap();
+                assert!(-early < from_top && from_top <= 1e-6, "{from_top}");
                 assert_eq!(found.map(|found| found.impact), Some(1));
             } else {
                 assert!(found.is_none_or(|found| found.impact > 1), "{found:?}");
@@ -78,6 +82,7 @@ fn a_limit_that_is_nearly_reached_before_it_is_reached_ends_trust() {
             let found = horizon(&system, rules, start, [0.0, 0.0, 0.0, 0.0, doubt, 0.0]);
             let expected = Some(HorizonCause::StopRule).filter(|_| near);
             assert_eq!(cause(found), expected, "{turn} {part}");
+            assert!(found.is_none_or(|found| t - 0.1 < found.t && found.t <= t + 1e-6));
         }
     }
 }

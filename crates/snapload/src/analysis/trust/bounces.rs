@@ -389,20 +389,30 @@ impl<L: Lane> Reach<L> {
     }
 
     /// Whether the gap that closes is open by more than the neighbours' reach up to its last rise.
-    /// The reach is its rate at the end times that in time.
+    /// At the end that is its rate times their reach in time; before, the normal had another
+    /// direction, by no more than the way over the cable's length.
     #[inline(always)]
     fn rises_once(&self, bounced: &Bounced<L>) -> L::Mask {
-        const SQUARE: f64 = SIGMA_REACH * SIGMA_REACH * SAFE;
+        const FACTOR: f64 = 8.0 * SIGMA_REACH * SIGMA_REACH * SAFE;
+        let (facts, before, s) = (bounced.facts, bounced.before, bounced.t - bounced.from.t);
         let [gap, _] = bounced.each(|k| bounced.from.gaps[k][0]);
         let [length, _] = bounced.each(|k| bounced.two_cables.cables[k].length());
-        let (facts, s) = (bounced.facts, bounced.t - bounced.from.t);
-        let early = largest_early(gap, facts.struck_slope, s);
-        let largest = early.larger(-facts.depth);
-        let (bend, rate) = (facts.bend, length * bounced.v_n * 2.0);
-        let square = self.later * SQUARE;
+        let [reach, _] = bounced.each(|k| bounced.two_cables.reach[k]);
+        let speed = before
+            .vtheta
+            .abs()
+            .mul_add(reach, before.velocity().length_bound());
+        let way = bounced.two_cables.force[0].mul_add(s, speed) * s;
+        let place = self.met[0] + (reach * reach).mul_add(self.met[2], self.met[1]);
+        let place = (speed * speed).mul_add(self.later, place) * 4.0;
+        let rate = length * bounced.v_n;
+        let square = (rate * rate).mul_add(self.later, place * way * way) * FACTOR;
+        let depth = facts.depth;
+        let largest = largest_early(gap, facts.struck_slope, s).larger(-depth);
+        let risen = depth * rate * 2.0;
         largest.below(L::ZERO)
-            & (rate * rate * square).below(largest * largest)
-            & (bend * bend * square).below(facts.depth * facts.depth)
+            & square.below(largest * largest)
+            & (square * facts.bend * facts.bend).below(risen * risen)
     }
 
     /// Whether the other gap stays open by more than the neighbours' reach. A cable that was closed

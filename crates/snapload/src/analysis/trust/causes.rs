@@ -74,7 +74,7 @@ impl Neighbours<'_> {
     }
 }
 
-/// Whether, and why, neighbours may leave the run's sequence of events at this step.
+/// Why, and when, neighbours may leave the run's sequence of events at this step, if they may.
 #[inline(always)]
 pub(super) fn cause(
     simulation: &Simulation,
@@ -82,30 +82,34 @@ pub(super) fn cause(
     approach: &Approach,
     neighbours: &Neighbours,
     closing: Option<Closing>,
-) -> Option<HorizonCause> {
+) -> Option<(HorizonCause, f64)> {
     let struck = step.event.reached.gaps;
     if struck.len() > 1 {
-        return Some(HorizonCause::Simultaneous);
+        return Some((HorizonCause::Simultaneous, step.t_end));
     }
     if let Some(Closing { cable, .. }) = closing.filter(|closing| {
         may_miss(approach, neighbours, closing) || may_not_have_opened(simulation, step, closing)
     }) {
-        return Some(HorizonCause::Graze { cable });
+        return Some((HorizonCause::Graze { cable }, step.t_end));
     }
     if let Some(Closing { cable, .. }) =
         closing.filter(|closing| may_or_may_not_stick(simulation, step, neighbours, closing))
     {
-        return Some(HorizonCause::Sticking { cable });
+        return Some((HorizonCause::Sticking { cable }, step.t_end));
     }
     for cable in 0..simulation.system().cables.len() {
-        if !step.taut.contains(cable) && may_snap(simulation, step, neighbours, cable) {
-            return Some(HorizonCause::NearMiss { cable });
+        if !step.taut.contains(cable)
+            && let Some(t) = may_snap(simulation, step, approach, neighbours, cable)
+        {
+            return Some((HorizonCause::NearMiss { cable }, t));
         }
     }
-    let may = may_stop(simulation, step, neighbours)
-        || may_fall_short(simulation, step, approach, neighbours)
-        || may_run_out_of_time(simulation, step, &neighbours.met);
-    may.then_some(HorizonCause::StopRule)
+    let stop = may_stop(simulation, step, neighbours).or_else(|| {
+        let may = may_fall_short(simulation, step, approach, neighbours)
+            || may_run_out_of_time(simulation, step, &neighbours.met);
+        may.then_some(step.t_end)
+    });
+    stop.map(|t| (HorizonCause::StopRule, t))
 }
 
 /// The cause at the start, if there is one: a cable that is closed in the run may be slack within
@@ -255,10 +259,17 @@ fn may_or_may_not_stick(
     off <= neighbours.met.reach(&[x, y, theta, n.x, n.y, arm])
 }
 
-/// Whether a slack cable comes within the neighbours' reach of being taut: along the stretch, or at
-/// its end, which is at another time for each neighbour, unless it closes there in all of them.
+/// When a slack cable first comes within the neighbours' reach of being taut, if it does: along the
+/// stretch, or at its end, which is at another time for each neighbour, unless it closes there in
+/// all of them.
 #[inline(always)]
-fn may_snap(simulation: &Simulation, step: &Step, neighbours: &Neighbours, cable: usize) -> bool {
+fn may_snap(
+    simulation: &Simulation,
+    step: &Step,
+    approach: &Approach,
+    neighbours: &Neighbours,
+    cable: usize,
+) -> Option<f64> {
     let Neighbours { along, met, .. } = neighbours;
     let tether = &simulation.system().cables[cable];
     let per_place = 2.0 * tether.length();
@@ -268,33 +279,73 @@ fn may_snap(simulation: &Simulation, step: &Step, neighbours: &Neighbours, cable
     let [a, b] = tether.fairlead().components();
     let slopes = [1.0, 1.0, a.abs() + b.abs(), 0.0, 0.0, 0.0];
     let most = per_place * along.at_most(&slopes).max(met.at_most(&slopes));
-    if !near_at_end(most) && !simulation.comes_near(step, cable, most) {
-        return false;
+    let first = simulation.comes_near(step, cable, most);
+    if first.is_none() && !near_at_end(most) {
+        return None;
     }
+    let near = first.and_then(|s| {
+        let reach = reach_within(simulation, step, approach, along, (cable, s));
+        simulation.comes_near(step, cable, per_place * reach)
+    });
     let Normal { n, arm } = tether.normal(&step.before);
     let direction = [n.x, n.y, arm, 0.0, 0.0, 0.0];
-    let margin = per_place * along.reach(&direction);
-    let at_end = per_place * met.reach(&direction);
-    near_at_end(margin.max(at_end)) || simulation.comes_near(step, cable, margin)
+    let at_end = along.reach(&direction).max(met.reach(&direction));
+    let at_end = near_at_end(per_place * at_end).then_some(step.t_end);
+    near.map(|s| (step.t_start + s).min(step.t_end)).or(at_end)
 }
 
-/// Whether neighbours may meet a stop rule that the run does not meet, or the other way round.
+/// How far neighbours reach along the normal of a cable a time `s` into a step. In a free flight, in
+/// which deviations only drift, with the normal there; if the cable was closed at the start, what
+/// they reach at the end if it grows in proportion to time. Otherwise with the normal at the end.
+fn reach_within(
+    simulation: &Simulation,
+    step: &Step,
+    approach: &Approach,
+    along: &Spread,
+    (cable, s): (usize, f64),
+) -> f64 {
+    let (tether, end) = (&simulation.system().cables[cable], &step.before);
+    if s == 0.0 || !simulation.system().flies_freely(step.taut) {
+        let Normal { n, arm } = tether.normal(end);
+        return along.reach(&[n.x, n.y, arm, 0.0, 0.0, 0.0]);
+    }
+    let now = simulation.within(step, s);
+    let (Normal { n, arm }, left) = (tether.normal(&now), step.t_end - step.t_start - s);
+    let [.., x, y, _] = approach.rate;
+    let later = n.x * (now.vx - end.vx + left * x) + n.y * (now.vy - end.vy + left * y);
+    let place = [n.x, n.y, arm];
+    let [by_vx, by_vy, by_spin] = place.map(|slope| -left * slope);
+    let direction = [n.x, n.y, arm, by_vx, by_vy, by_spin, later];
+    let reach = SIGMA_REACH * along.covariance.along_with_time(&direction);
+    if simulation.contact_at_start(step, cable).gap < 0.0 {
+        reach
+    } else {
+        reach * (s + left) / s
+    }
+}
+
+/// When neighbours may meet a stop rule that the run does not meet, or the other way round.
 #[inline(always)]
-fn may_stop(simulation: &Simulation, step: &Step, neighbours: &Neighbours) -> bool {
+fn may_stop(simulation: &Simulation, step: &Step, neighbours: &Neighbours) -> Option<f64> {
     let (system, rules) = (simulation.system(), simulation.rules());
     let (before, reached) = (&step.before, step.event.reached);
-    let exceeds = rules.limits.iter().any(|(limit, bound)| {
+    let exceeds = rules.limits.iter().filter_map(|(limit, bound)| {
         let slopes = limit.slope_bounds(system, bound);
         let margin = neighbours.along.at_most(&slopes);
         let at_end = neighbours.met.at_most(&slopes);
         let within =
             |margin: f64| simulation.largest_within(step, limit, bound - margin) + margin >= bound;
+        let near = || simulation.comes_near_limit(step, limit, margin);
         if reached.limits.contains(limit) {
-            return simulation.comes_near_limit(step, limit, margin);
+            return near();
         }
-        within(margin.max(at_end))
-            && (limit.quantity(system, before) + at_end >= bound || within(margin))
+        let may = within(margin.max(at_end))
+            && (limit.quantity(system, before) + at_end >= bound || within(margin));
+        may.then(|| near().unwrap_or(step.t_end - step.t_start))
     });
+    if let Some(s) = exceeds.reduce(f64::min) {
+        return Some((step.t_start + s).min(step.t_end));
+    }
     // One cable may stick as another leaves.
     let stuck = step.event.reached.gaps.intersection(step.taut_after);
     let sticks = step.taut_after.len() > step.taut.len() || !stuck.is_empty();
@@ -305,7 +356,7 @@ fn may_stop(simulation: &Simulation, step: &Step, neighbours: &Neighbours) -> bo
             let spread = neighbours.along.sizes[1].max(neighbours.met.sizes[1]);
             sticks && (before.y - height).abs() <= SIGMA_REACH * spread
         });
-    exceeds || settles
+    settles.then_some(step.t_end)
 }
 
 /// Whether neighbours may turn round just before a limit that the run still reaches, as in a graze:

@@ -1,7 +1,7 @@
 //! The spread of deviations: independent ones, added up.
 
 use crate::analysis::trust::parts::{COLUMNS, FactorParts, LAST, square, squares};
-use crate::motion::step_map::{Block, Deviation, combined};
+use crate::motion::step_map::{Block, Deviation, join};
 
 /// The number of parts that describe a deviation: as many as it has components.
 pub(super) const PARTS: usize = 7;
@@ -162,15 +162,18 @@ impl CovarianceFactor {
     /// Standard deviation of a linear function of the state.
     #[inline(always)]
     pub(super) fn along(&self, direction: &[f64; 6]) -> f64 {
-        let parts = combined(&self.parts.rows, direction);
-        let along =
-            |column: &Deviation| -> f64 { direction.iter().zip(column).map(|(l, w)| l * w).sum() };
-        let columns: f64 = self
-            .columns
-            .iter()
-            .map(|column| along(column).powi(2))
-            .sum();
-        (square(&parts) + columns).sqrt()
+        self.along_with_time(&join(direction, 0.0))
+    }
+
+    /// Standard deviation of a linear function of the state and the time.
+    #[inline(always)]
+    pub(super) fn along_with_time(&self, direction: &Deviation) -> f64 {
+        let mut variance = self.variance_of_parts(direction);
+        for column in &self.columns {
+            let along: f64 = direction.iter().zip(column).map(|(l, w)| l * w).sum();
+            variance += along * along;
+        }
+        variance.sqrt()
     }
 }
 

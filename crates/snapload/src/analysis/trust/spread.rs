@@ -182,7 +182,7 @@ impl SpreadMonitor {
         let bounced = simulation.bounced(step);
         let unknown = self.error_is_unknown();
         if unknown {
-            self.set_horizon(step, HorizonCause::Tolerance);
+            self.set_horizon(step.t_end, HorizonCause::Tolerance);
         }
         let error = match bounced {
             Some(bounced) if unknown || self.adds_by_signs() => {
@@ -286,8 +286,8 @@ impl SpreadMonitor {
             delay: map.delay(),
         };
         let closing = Closing::of(simulation, step, &approach);
-        if let Some(cause) = cause(simulation, step, &approach, &neighbours, closing) {
-            self.set_horizon(step, cause);
+        if let Some((cause, t)) = cause(simulation, step, &approach, &neighbours, closing) {
+            self.set_horizon(t, cause);
         }
     }
 
@@ -319,8 +319,9 @@ impl SpreadMonitor {
             let other = cause(simulation, step, &approach, &neighbours, closing).or_else(|| {
                 let tangent = self.tangent.as_deref()?;
                 passed_impulse::cause(simulation.system(), tangent, step, &met, &self.keys)
+                    .map(|cause| (cause, step.t_end))
             });
-            let other = other.map(|cause| self.horizon_after(step, cause));
+            let other = other.map(|(cause, t)| self.horizon_at(t, cause));
             let earlier = |a: Horizon, b: Horizon| if b.t < a.t { b } else { a };
             self.horizon = other.into_iter().chain(by_tension).reduce(earlier);
         }
@@ -362,7 +363,7 @@ impl SpreadMonitor {
         let before = near.differ.intersection(falling).iter().next();
         let cable = before.or_else(|| near.differ.iter().next());
         let mut horizon =
-            cable.map(|cable| self.horizon_after(step, HorizonCause::Tension { cable }));
+            cable.map(|cable| self.horizon_at(step.t_end, HorizonCause::Tension { cable }));
         if let (Some(_), Some(horizon)) = (before, &mut horizon) {
             horizon.t = since;
         }
@@ -387,7 +388,7 @@ impl SpreadMonitor {
         let all: f64 = before.iter().chain(after).sum();
         self.too_large |= !all.is_finite() || all >= LARGEST_SPREAD * LARGEST_SPREAD;
         if error > self.tolerance || self.too_large {
-            self.set_horizon(step, HorizonCause::Tolerance);
+            self.set_horizon(step.t_end, HorizonCause::Tolerance);
         }
         if self.error_is_unknown() {
             f64::INFINITY
@@ -398,14 +399,14 @@ impl SpreadMonitor {
 
     /// Records where trust ends; only the first call has an effect.
     #[inline(always)]
-    fn set_horizon(&mut self, step: &Step, cause: HorizonCause) {
-        self.horizon = self.horizon.or(Some(self.horizon_after(step, cause)));
+    fn set_horizon(&mut self, t: f64, cause: HorizonCause) {
+        self.horizon = self.horizon.or(Some(self.horizon_at(t, cause)));
     }
 
     #[inline(always)]
-    fn horizon_after(&self, step: &Step, cause: HorizonCause) -> Horizon {
+    fn horizon_at(&self, t: f64, cause: HorizonCause) -> Horizon {
         Horizon {
-            t: step.t_end,
+            t,
             impact: self.impacts + 1,
             cause,
         }

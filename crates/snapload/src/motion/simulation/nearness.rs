@@ -32,17 +32,17 @@ impl<T: Real> Kernel for GapRateAndAcceleration<'_, T> {
 }
 
 impl<T: Real> Simulation<T> {
-    /// Whether a cable that is slack in the latest step came within `margin` > 0 of a gap of zero
-    /// before its end; if the cable closes there, before the last rise of its gap. If a cable was
+    /// How long after its start a cable that is slack in the latest step first came within `margin` >
+    /// 0 of a gap of zero, if it did, before its end; if the cable closes there, before the last rise of its gap. If a cable was
     /// closed at the start, its gap is zero there for all neighbours, and the margin grows from
     /// zero. If it was at rest there, as one that has just lost its tension, it opens like −s³ or
     /// −s² in all neighbours, each from its own release, and may come near only when it begins to
     /// close again.
     #[inline(always)]
-    pub(crate) fn comes_near(&self, step: &Step<T>, cable: usize, margin: T) -> bool {
+    pub(crate) fn comes_near(&self, step: &Step<T>, cable: usize, margin: T) -> Option<T> {
         let s = step.t_end - step.t_start;
         if s <= T::ZERO {
-            return false;
+            return None;
         }
         let acceleration = match self.expanded(step.taut) {
             Some(series) => series.gap_acceleration_bound(cable),
@@ -51,7 +51,7 @@ impl<T: Real> Simulation<T> {
         let first = self.contact_at_start(step, cable).gap;
         let last = self.contact(cable).gap;
         if first.max(last) + margin + acceleration * s * s * 0.125 < T::ZERO {
-            return false;
+            return None;
         }
         let (offset, slope) = if first < T::ZERO {
             (margin, T::ZERO)
@@ -60,10 +60,7 @@ impl<T: Real> Simulation<T> {
         };
         let motion = self.motion(step.taut);
         let begun = if self.rested(step, cable) {
-            match begins_to_close(&motion, cable, s) {
-                Some(begun) => begun,
-                None => return false,
-            }
+            begins_to_close(&motion, cable, s)?
         } else {
             T::ZERO
         };
@@ -78,7 +75,7 @@ impl<T: Real> Simulation<T> {
         } else {
             first_above_zero(&nearness, s, acceleration)
         };
-        near.is_some()
+        Some(begun + near?)
     }
 
     /// Bound on |g̈| = 2 |Ṗ² + d·P̈| along a flight.
@@ -93,9 +90,9 @@ impl<T: Real> Simulation<T> {
         (speed * speed + tether.length() * accel) * 2.0
     }
 
-    /// Whether the quantity of a limit that ends the latest step came within `margin` > 0 of its
-    /// bound before the last rise to it.
-    pub(crate) fn comes_near_limit(&self, step: &Step<T>, limit: Limit, margin: T) -> bool {
+    /// How long after its start the quantity of a limit first came within `margin` > 0 of its bound
+    /// in the latest step, if it did; if the limit ends the step, before the last rise to it.
+    pub(crate) fn comes_near_limit(&self, step: &Step<T>, limit: Limit, margin: T) -> Option<T> {
         let s = step.t_end - step.t_start;
         let motion = self.motion(step.taut);
         let jets_at = |s: T| {
@@ -114,15 +111,21 @@ impl<T: Real> Simulation<T> {
             step,
         };
         let acceleration = limit.acceleration_bound(self.system(), &latest);
-        (0..count).any(|k| {
+        let near = |k: usize| {
             // Which of the points of the body's outline.
             let nearness = |s: T| {
                 let jets = jets_at(s);
                 let jet = jets.iter().filter(|jet| jet.function == function).nth(k);
                 jet.map_or((-T::ONE, T::ZERO), |jet| (jet.value + margin, jet.rate))
             };
-            s > T::ZERO && first_above_zero_before_last_rise(&nearness, s, acceleration).is_some()
-        })
+            if step.event.reached.limits.contains(limit) {
+                first_above_zero_before_last_rise(&nearness, s, acceleration)
+            } else {
+                first_above_zero(&nearness, s, acceleration)
+            }
+        };
+        let all = (0..count).filter(|_| s > T::ZERO).filter_map(near);
+        all.reduce(T::min)
     }
 }
 
