@@ -276,3 +276,57 @@ fn a_tension_that_nearly_touches_zero_at_any_instant_ends_trust() -> Result<(), 
     }
     Ok(())
 }
+
+/// Where e = 0 a cable that snaps beside a taut one stays taut if its tension is positive then. About
+/// one force it is zero: on one side of it both cables are taut for a moment, on the other never.
+#[test]
+fn a_snap_after_which_a_tension_is_about_zero_ends_trust() -> Result<(), Unfinished> {
+    let case = |f_o: f64| {
+        let start = [
+            ("x", 0.0057098136921360995),
+            ("y", 0.18184010012818216),
+            ("vx", 0.2058369849666401),
+            ("vy", -0.09270799956104736),
+        ];
+        let more = [
+            ("r", 1.0722091071023863),
+            ("nu", 1.325020903270321),
+            ("omega", 1.159686941951143),
+            ("t_end", 1.2),
+            ("f_o", f_o),
+        ];
+        rocking(&[start.as_slice(), &more].concat(), "point")
+    };
+    let both_taut = |f_o: f64| -> Result<bool, Unfinished> {
+        Ok(case(f_o)?.run().modes().iter().any(|m| m.taut.len() == 2))
+    };
+    let (mut below, mut above) = (0.79104, 0.79105);
+    assert!(both_taut(below)? && !both_taut(above)?);
+    for _ in 0..24 {
+        let middle = 0.5 * (below + above);
+        *(if both_taut(middle)? {
+            &mut below
+        } else {
+            &mut above
+        }) = middle;
+    }
+    for (off, size, near) in [
+        (-1e-7, 2e-7, true),
+        (1e-7, 2e-7, true),
+        (-1e-9, 1e-9, true),
+        (1e-9, 1e-9, true),
+        (-1e-6, 1e-9, false),
+        (1e-6, 1e-9, false),
+    ] {
+        let mut uncertainty = Uncertainty::default();
+        uncertainty.set("f_o", size)?;
+        let (_, trust) = trusted_run(&case(above + off)?, &uncertainty, &no_progress)?;
+        let cause = trust.horizon.map(|horizon| horizon.cause);
+        let tension = matches!(cause, Some(HorizonCause::Tension { .. }));
+        assert!(
+            tension == near && (near || cause.is_none()),
+            "{off:e} {size:e}: {cause:?}"
+        );
+    }
+    Ok(())
+}

@@ -49,6 +49,8 @@ pub(super) struct SpreadMonitor {
     /// The cables whose tension was near zero and fell at the end of the latest step, and since
     /// when it has been.
     falling: (TautSet, f64),
+    /// Whether the latest step that was no mere bounce ended with a snap.
+    after_snap: bool,
     /// Whether the spread is too large to be carried further.
     too_large: bool,
     pub(super) end_error: f64,
@@ -129,6 +131,7 @@ impl SpreadMonitor {
             steps: 0,
             horizon,
             falling: (TautSet::SLACK, 0.0),
+            after_snap: false,
             end_error: 0.0,
         }
     }
@@ -314,19 +317,21 @@ impl SpreadMonitor {
         };
         let approach = LinearMap::Step(&map).approach();
         let closing = Closing::of(simulation, step, &approach);
+        let mut after = met.carried(|w, _| map.carry_through(w), column(2));
         if self.horizon.is_none() {
             let by_tension = self.horizon_of_tension(simulation, step, &map, [&before, &along]);
             let other = cause(simulation, step, &approach, &neighbours, closing).or_else(|| {
-                let tangent = self.tangent.as_deref()?;
-                passed_impulse::cause(simulation.system(), tangent, step, &met, &self.keys)
+                let (tangent, keys) = (self.tangent.as_deref()?, &self.keys);
+                passed_impulse::cause(simulation.system(), tangent, step, &met, keys)
+                    .or_else(|| tension::cause_after_snap(simulation, step, tangent, &after, keys))
                     .map(|cause| (cause, step.t_end))
             });
             let other = other.map(|(cause, t)| self.horizon_at(t, cause));
             let earlier = |a: Horizon, b: Horizon| if b.t < a.t { b } else { a };
             self.horizon = other.into_iter().chain(by_tension).reduce(earlier);
         }
-        let mut after = met.carried(|w, _| map.carry_through(w), column(2));
         after.add_parts(&rounding.parts);
+        self.after_snap = !step.event.reached.gaps.is_empty();
         let squared = |sizes: Deviation| sizes.map(|size| size * size);
         let squares = [squared(neighbours.met.sizes), squared(after.sizes())];
         self.covariance = after;
@@ -357,6 +362,7 @@ impl SpreadMonitor {
             along,
             keys: &self.keys,
             is_first: self.steps == 0,
+            after_snap: self.after_snap,
         };
         let (falling, since) = self.falling;
         let near = taut.near_zero(falling);

@@ -18,6 +18,7 @@ use crate::analysis::trust::causes::SIGMA_REACH;
 use crate::analysis::trust::covariance::CovarianceFactor;
 use crate::analysis::trust::uncertain_key::UncertainKey;
 use crate::model::taut_set::TautSet;
+use crate::motion::active_set::{normal_acceleration, tensions};
 use crate::motion::complementarity::independent;
 use crate::motion::events::Reached;
 use crate::motion::simulation::{Simulation, Step};
@@ -29,6 +30,9 @@ const OF_ROUNDING: f64 = 1e-12;
 
 /// The least tension of a step is known to this part of what the tension varies by within it.
 const CLOSE: f64 = 1e-2;
+
+/// A short time against any forcing \[T\].
+const INSTANT: f64 = 1e-6;
 
 /// A step with taut cables and the spread of its neighbours.
 pub(super) struct TautStep<'a> {
@@ -43,6 +47,8 @@ pub(super) struct TautStep<'a> {
     pub(super) keys: &'a [UncertainKey],
     /// Whether the run begins with it.
     pub(super) is_first: bool,
+    /// Whether it begins with a snap.
+    pub(super) after_snap: bool,
 }
 
 /// The cables whose tension comes within reach of zero.
@@ -70,6 +76,10 @@ impl TautStep<'_> {
         // A cable that lies along others carries nothing.
         for cable in step.carrying.iter() {
             let reach = self.reach(cable, [&first[cable], &last[cable]]);
+            if self.after_snap && self.may_leave_at_once(cable, &first[cable]) {
+                near.differ = near.differ.with(cable);
+                continue;
+            }
             if step.event.reached.tensions.contains(cable) {
                 if may_stay(simulation, step, cable, reach) {
                     near.differ = near.differ.with(cable);
@@ -99,6 +109,24 @@ impl TautStep<'_> {
             }
         }
         near
+    }
+
+    /// Whether a cable that is taut after a snap leaves at once in some neighbours, each after its own
+    /// snap.
+    fn may_leave_at_once(&self, cable: usize, slopes: &[f64; 6]) -> bool {
+        let (simulation, step) = (self.simulation, self.step);
+        let pull = simulation.memory_force_within(step, 0.0);
+        let at = |t: f64| {
+            let around = simulation.surroundings(t);
+            tensions(simulation.system(), &around, &step.start, pull, step.taut)[cable]
+        };
+        let by_time = slope(at, step.t_start);
+        let mut variance = self.before.variance_of_parts(&join(slopes, by_time));
+        for key in self.keys {
+            variance += key.tensions[0][cable].powi(2);
+        }
+        let reach = SIGMA_REACH * variance.sqrt();
+        reach > OF_ROUNDING && at(step.t_start) <= reach
     }
 
     /// Taut cables that could carry, and have no tension along the step.
@@ -154,6 +182,42 @@ pub(super) fn cause_at_start(
         reach > OF_ROUNDING && acceleration.abs() <= reach
     })?;
     Some(HorizonCause::Start { cable })
+}
+
+/// The first cable that is at rest and slack after a snap although it is taut for some neighbours,
+/// each after its own snap, if there is one; `after` are the neighbours there.
+pub(super) fn cause_after_snap(
+    simulation: &Simulation,
+    step: &Step,
+    tangent: &Tangent,
+    after: &CovarianceFactor,
+    keys: &[UncertainKey],
+) -> Option<HorizonCause> {
+    if step.event.reached.gaps.is_empty() || step.stop.is_some() {
+        return None;
+    }
+    let (system, state) = (simulation.system(), simulation.state());
+    let (held, taut) = (simulation.memory_force(), simulation.carrying());
+    let slack = |cable: &usize| !simulation.taut().contains(*cable);
+    let cable = simulation.resting().iter().filter(slack).find(|&cable| {
+        let (acceleration, slopes) = tangent.normal_acceleration(simulation, cable);
+        let at = |t: f64| {
+            let around = simulation.surroundings(t);
+            normal_acceleration(system, &around, state, held, cable, taut)
+        };
+        let mut variance = after.variance_of_parts(&join(&slopes, slope(at, simulation.time())));
+        for key in keys {
+            variance += key.of_normal_acceleration(cable).powi(2);
+        }
+        let reach = SIGMA_REACH * variance.sqrt();
+        reach > OF_ROUNDING && acceleration.abs() <= reach
+    })?;
+    Some(HorizonCause::Tension { cable })
+}
+
+/// The derivative of a function of time.
+fn slope(at: impl Fn(f64) -> f64, t: f64) -> f64 {
+    (at(t + INSTANT) - at(t - INSTANT)) / (2.0 * INSTANT)
 }
 
 /// Whether a tension is lost so barely that it stays positive for a neighbour in which it is larger

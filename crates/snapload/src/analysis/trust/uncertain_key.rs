@@ -57,8 +57,8 @@ impl UncertainKey {
         })
     }
 
-    /// The standard deviation of the normal acceleration of a closed cable that carries nothing, at the
-    /// start, as far as it depends on the parameter.
+    /// The standard deviation of the normal acceleration of a closed cable that carries nothing, as far
+    /// as it depends on the parameter.
     pub(super) fn of_normal_acceleration(&self, cable: usize) -> f64 {
         let simulation = &self.simulation;
         let (system, state) = (simulation.system(), simulation.state());
