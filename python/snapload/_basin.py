@@ -54,9 +54,10 @@ def safe_basin(case: Case, *, trust: bool = True, progress: bool = True, **windo
         ``trusted``, whether the horizon of trust lies past the end. Attributes: the numbers of ``legal``, ``safe`` and
         ``undecided`` cells; ``fraction`` and ``gim``, the global integrity measure, with ``interval95``; and
         ``cell``, the size of a cell. If both keys are start values, there are also ``lim``, the distance of the
-        nearest unsafe start from the equilibrium, ``if``, the radius of the largest disc without unsafe starts, and
-        ``iim``, the smallest unsafe velocity. They are NaN where there is no such value; ``lim`` and ``iim`` are also
-        NaN where another start key is not 0, because the equilibrium is then not in the plane of the two keys. The
+        nearest unsafe start from the equilibrium, ``if``, the radius of the largest disc in the window without unsafe
+        starts, and ``iim``, the smallest unsafe velocity if one of the keys is a velocity. They are NaN where there is
+        no such value; ``lim`` and ``iim`` are also NaN where another start key is not 0, because the equilibrium is
+        then not in the plane of the two keys, and where legal starts beyond the window's border are nearer. The
         scale of such an attribute is in another one: ``lim_scale`` is ``L``, but ``L and L/T`` for a window of a
         position and a velocity, where a distance has no single unit.
 

@@ -208,7 +208,10 @@ fn points(erosion: &Erosion) -> Vec<(&'static str, Values)> {
         ("high", number(|m| m.interval[1])),
         ("lim", maybe(|m| m.lim)),
         ("if", maybe(|m| m.integrity_factor)),
-        ("iim", maybe(|m| m.iim)),
+        (
+            "iim",
+            Values::Numbers(erosion.points.iter().map(|(_, b)| b.iim()).collect()),
+        ),
     ]
 }
 

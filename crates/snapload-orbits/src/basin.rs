@@ -3,9 +3,9 @@
 //! J. M. T. Thompson, *Proc. R. Soc. A* 421 (1989) 195; M. S. Soliman & J. M. T. Thompson, *J.
 //! Sound Vib.* 135 (1989) 453; G. Rega & S. Lenci, *Nonlinear Anal.* 63 (2005) 902.
 
-use crate::distances::squared_distances;
+use crate::measures::{Measures, VELOCITIES};
 use snapload::analysis::{
-    Cancelled, Certainty, Counter, OnProgress, Progress, Share, Unfinished, on_all_threads,
+    Cancelled, Certainty, Counter, OnProgress, Progress, Unfinished, on_all_threads,
     outcomes_on_one_thread,
 };
 use snapload::{Case, CaseError, Lanes, Outcome, Parameters, Stop, Value};
@@ -45,34 +45,6 @@ pub struct Basin {
     pub measures: Measures,
 }
 
-/// Measures of the safe part of a window.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Measures {
-    /// Cells that are legal.
-    pub legal: usize,
-    /// Legal cells that reach no limit.
-    pub safe: usize,
-    /// Legal cells of which some neighbours end differently.
-    pub undecided: usize,
-    /// Undecided cells that reach no limit.
-    pub undecided_safe: usize,
-    /// Legal cells whose run has its horizon of trust before its end. Those among them that count
-    /// as decided were compared with more neighbours.
-    pub past_horizon: usize,
-    /// The part of the legal cells that is safe: the global integrity measure.
-    pub gim: f64,
-    /// Wilson's interval of 95 % about it.
-    pub interval: [f64; 2],
-    /// The least distance from the equilibrium to an unsafe cell: the local integrity measure. None
-    /// in a plane that does not hold the equilibrium.
-    pub lim: Option<f64>,
-    /// The radius of the largest disc without unsafe cells: the integrity factor.
-    pub integrity_factor: Option<f64>,
-    /// The least distance along the velocity: the impulsive integrity measure. None where there is no
-    /// local one.
-    pub iim: Option<f64>,
-}
-
 /// The distance of neighbours, along either key and along both.
 const NEIGHBOUR_DISTANCE: f64 = 1e-8;
 /// Where rounding may decide a run, neighbours at all of these distances are used.
@@ -88,7 +60,6 @@ const NEIGHBOURS: [[f64; 2]; 8] = [
     [-1.0, 1.0],
 ];
 const STARTS: [&str; 6] = ["x", "y", "theta", "vx", "vy", "vtheta"];
-const VELOCITIES: [&str; 3] = ["vx", "vy", "vtheta"];
 
 /// A window with more cells than this is refused as a typing error.
 const MOST_CELLS: usize = 100_000_000;
@@ -141,7 +112,7 @@ impl Window {
     }
 
     /// The case of a cell; none where its start is not legal.
-    fn case(&self, at: [f64; 2]) -> Option<Case> {
+    pub(crate) fn case(&self, at: [f64; 2]) -> Option<Case> {
         Case::new(self.parameters(at)).ok()
     }
 
@@ -231,6 +202,14 @@ impl Basin {
             neighbours_run: trust,
             measures,
         })
+    }
+
+    /// The impulsive integrity measure; none where both keys are velocities, each of which has its
+    /// own ([`Measures::iim`]).
+    pub fn iim(&self) -> Option<f64> {
+        let both = self.window.keys.iter().all(|key| VELOCITIES.contains(key));
+        let [first, second] = self.measures.iim;
+        first.or(second).filter(|_| !both)
     }
 
     /// The number of cells that ended in each way.
@@ -348,89 +327,4 @@ fn run_neighbours(
         }
     }
     Ok(())
-}
-
-impl Measures {
-    fn of(window: &Window, cells: &[Cell]) -> Self {
-        let legal = cells.iter().filter(|cell| cell.end.is_some()).count();
-        let unsafe_cells = cells.iter().filter(|cell| cell.escapes()).count();
-        let undecided = cells.iter().filter(|cell| !cell.decided).count();
-        let undecided_cells = cells.iter().filter(|cell| !cell.decided);
-        let undecided_safe = undecided_cells.filter(|cell| !cell.escapes()).count();
-        let past_horizon = cells.iter().filter(|cell| !cell.trusted).count();
-        let safe = legal - unsafe_cells;
-        let integrity_factor = match window.are_starts() {
-            true => largest_disc(window, cells),
-            false => None,
-        };
-        let [lim, iim] = match window.are_starts() && window.keys_off_equilibrium().is_empty() {
-            true => [
-                nearest_unsafe(window, cells),
-                nearest_along_velocity(window, cells),
-            ],
-            false => [None; 2],
-        };
-        let share = Share {
-            count: safe,
-            of: legal,
-            clear: false,
-        };
-        Self {
-            legal,
-            safe,
-            undecided,
-            undecided_safe,
-            past_horizon,
-            gim: share.part(),
-            interval: share.interval(),
-            lim,
-            integrity_factor,
-            iim,
-        }
-    }
-}
-
-/// Distance of the nearest unsafe cell from the equilibrium, where all start values are 0.
-fn nearest_unsafe(window: &Window, cells: &[Cell]) -> Option<f64> {
-    let escaping = cells.iter().enumerate().filter(|(_, cell)| cell.escapes());
-    let distance = |(k, _)| {
-        let [a, b] = window.at(k);
-        a.hypot(b)
-    };
-    escaping.map(distance).min_by(f64::total_cmp)
-}
-
-/// The largest distance of a safe cell from the nearest unsafe one.
-fn largest_disc(window: &Window, cells: &[Cell]) -> Option<f64> {
-    let marked: Vec<bool> = cells.iter().map(Cell::escapes).collect();
-    if !marked.contains(&true) {
-        return None;
-    }
-    let sizes = [window.values[0].len(), window.values[1].len()];
-    let squares = squared_distances(&marked, sizes, window.cell());
-    let safe = cells
-        .iter()
-        .zip(&squares)
-        .filter(|(cell, _)| cell.end.is_some());
-    safe.map(|(_, square)| square.sqrt()).max_by(f64::total_cmp)
-}
-
-/// Distance along the velocity, in the row of cells nearest to the equilibrium in the other key.
-fn nearest_along_velocity(window: &Window, cells: &[Cell]) -> Option<f64> {
-    let axis = window
-        .keys
-        .iter()
-        .position(|key| VELOCITIES.contains(key))?;
-    let other = 1 - axis;
-    let nearest = window.values[other]
-        .iter()
-        .map(|v| v.abs())
-        .min_by(f64::total_cmp)?;
-    let escaping = cells
-        .iter()
-        .enumerate()
-        .filter(|(k, cell)| cell.escapes() && window.at(*k)[other].abs() == nearest);
-    escaping
-        .map(|(k, _)| window.at(k)[axis].abs())
-        .min_by(f64::total_cmp)
 }

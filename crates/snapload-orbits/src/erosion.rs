@@ -1,6 +1,7 @@
 //! Erosion of safe basins: how much of a window is safe as a third key changes.
 
-use crate::basin::{Basin, Measures, Window};
+use crate::basin::{Basin, Window};
+use crate::measures::Measures;
 use snapload::analysis::{OnProgress, Progress, Unfinished};
 use snapload::{CaseError, Value};
 
@@ -138,8 +139,10 @@ mod tests {
                 gim: safe as f64 / 100.0,
                 interval: [0.0, 1.0],
                 lim: None,
+                lim_at_most: None,
                 integrity_factor: None,
-                iim: None,
+                disc_meets_border: false,
+                iim: [None; 2],
             },
         };
         let points = (0u8..).map(f64::from).zip(counts.iter().map(basin));

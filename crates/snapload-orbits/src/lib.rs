@@ -39,6 +39,7 @@ mod exponents;
 mod hybrid;
 mod impact_map;
 mod lap;
+mod measures;
 mod moored;
 mod moored_searches;
 mod multipliers;
@@ -61,7 +62,7 @@ mod switch;
 
 pub use attraction::{Attraction, Attractor, CellOutcome};
 pub use attractor::{ATTRACTOR_PERIODS, Starts, TRANSIENT, attracts, find_orbits, of_attractor};
-pub use basin::{Basin, Cell, Measures, Window};
+pub use basin::{Basin, Cell, Window};
 pub use branch::{Branch, BranchEnd, BranchOptions, BranchPoint};
 pub use branch_events::{BranchEvent, Kind};
 pub use branch_rows::{BranchRow, branch_summary};
@@ -75,6 +76,7 @@ pub use hybrid::{
 };
 pub use impact_map::{ImpactPoint, Impacts, MOST_KEPT};
 pub use lap::{Lap, Leg, Linearised};
+pub use measures::Measures;
 pub use moored::{Cables, Moored};
 pub use moored_searches::OnLap;
 pub use multipliers::{Multipliers, Stability, multipliers};

@@ -177,7 +177,7 @@ impl BasinRow {
             gim: measures.gim,
             lim: measures.lim,
             r#if: measures.integrity_factor,
-            iim: measures.iim,
+            iim: basin.iim(),
             cell: Widths([(first, height), (second, width)]),
         }
     }

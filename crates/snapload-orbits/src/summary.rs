@@ -226,18 +226,31 @@ pub fn basin_summary(basin: &Basin) -> String {
             "Nearest   unsafe start {lim:.4} from the equilibrium (LIM)"
         );
     }
-    text += &distances_undefined_text(&basin.window);
-    if let Some(radius) = m.integrity_factor {
+    if let Some(lim) = m.lim_at_most {
         let _ = writeln!(
             text,
-            "Disc      of radius {radius:.4} without unsafe starts (IF)"
+            "Nearest   unsafe start at most {lim:.4} from the equilibrium (LIM unknown): nearer starts lie beyond the \
+             window's border"
         );
     }
-    if let Some(speed) = m.iim {
+    text += &distances_undefined_text(&basin.window);
+    if let Some(radius) = m.integrity_factor {
+        let limited = match m.disc_meets_border {
+            true => "; the window's border limits it",
+            false => "",
+        };
         let _ = writeln!(
             text,
-            "Velocity  {speed:.4} is the least unsafe one in the row nearest to the equilibrium (IIM)"
+            "Disc      of radius {radius:.4} without unsafe starts (IF){limited}"
         );
+    }
+    for (key, speed) in basin.window.keys.iter().zip(m.iim) {
+        if let Some(speed) = speed {
+            let _ = writeln!(
+                text,
+                "Velocity  {key} of {speed:.4} is the least unsafe one in the row of the equilibrium (IIM)"
+            );
+        }
     }
     text
 }

@@ -140,7 +140,7 @@ fn a_plane_without_the_equilibrium_has_no_distances_from_it() {
     assert!(basin_summary(&basin).contains(&format!("{lim:.4} from the equilibrium (LIM)")));
     window.base.vy = -0.2;
     let basin = Basin::of(window, false, &no_progress).unwrap();
-    assert_eq!((basin.measures.lim, basin.measures.iim), (None, None));
+    assert_eq!((basin.measures.lim, basin.iim()), (None, None));
     assert!(basin.measures.integrity_factor.is_some());
     let words = basin_summary(&basin);
     assert!(
@@ -187,4 +187,85 @@ fn measures_do_not_hang_on_the_order_of_the_cells() {
     );
     let [radius, turned] = [one, other].map(|measures| measures.integrity_factor.unwrap());
     assert!(radius > 0.1 && (radius - turned).abs() < 1e-12);
+}
+
+/// Starts at the equilibrium with a velocity, a point mass's plane of two velocities.
+fn velocities(first: (&'static str, [i32; 2]), second: (&'static str, [i32; 2])) -> Window {
+    let values = |[low, high]: [i32; 2]| (low..=high).map(|k| f64::from(k) * 0.04).collect();
+    Window {
+        base: Parameters {
+            y: 0.0,
+            t_end: 30.0,
+            ..Parameters::STANDARD
+        },
+        keys: [first.0, second.0],
+        values: [values(first.1), values(second.1)],
+    }
+}
+
+/// A disc in a part of a window is one of the whole window, and an unsafe start of a part one of the
+/// whole. What lies beyond the border of a part is not known from it.
+#[test]
+fn a_part_of_a_window_has_no_larger_disc_than_the_whole() {
+    let of = |x: [i32; 2], y: [i32; 2]| {
+        Basin::of(velocities(("vx", x), ("vy", y)), false, &no_progress).unwrap()
+    };
+    let whole = of([-20, 20], [-20, 20]);
+    let (lim, disc) = (
+        whole.measures.lim.unwrap(),
+        whole.measures.integrity_factor.unwrap(),
+    );
+    for (x, y) in [
+        ([-10, 2], [-10, 5]),
+        ([-10, 7], [-10, 7]),
+        ([-3, 3], [-3, 3]),
+    ] {
+        let part = of(x, y);
+        let words = basin_summary(&part);
+        assert!(part.measures.integrity_factor.unwrap() <= disc, "{words}");
+        assert!(
+            words.contains("(IF); the window's border limits it"),
+            "{words}"
+        );
+        assert!(part.measures.lim.is_none_or(|part| part == lim), "{words}");
+    }
+    let aside = of([5, 10], [8, 10]);
+    let words = basin_summary(&aside);
+    assert_eq!((aside.measures.lim, aside.iim()), (None, None), "{words}");
+    assert!(aside.measures.lim_at_most.unwrap() > lim, "{words}");
+    assert!(
+        words.contains("from the equilibrium (LIM unknown)"),
+        "{words}"
+    );
+}
+
+/// Either velocity has its own impulsive measure, whichever is named first: the least unsafe one in
+/// the row in which the other is 0.
+#[test]
+fn either_velocity_has_its_own_impulsive_measure() {
+    let axes = [("vx", [-20, 20]), ("vy", [-20, 20])];
+    let [one, other] = [[0, 1], [1, 0]]
+        .map(|[a, b]| Basin::of(velocities(axes[a], axes[b]), false, &no_progress).unwrap());
+    let [x, y] = one.measures.iim.map(|speed| speed.unwrap());
+    assert_eq!(other.measures.iim, [Some(y), Some(x)]);
+    assert_eq!((one.iim(), other.iim()), (None, None));
+    let words = basin_summary(&one);
+    for (key, speed) in [("vx", x), ("vy", y)] {
+        assert!(
+            words.contains(&format!("{key} of {speed:.4} is the least")),
+            "{words}"
+        );
+        let in_row = one.cells.iter().enumerate().filter(|(k, cell)| {
+            let [vx, vy] = one.window.at(*k);
+            cell.escapes() && (if key == "vx" { vy } else { vx }) == 0.0
+        });
+        let along = in_row.map(|(k, _)| one.window.at(k).map(f64::abs).into_iter().sum::<f64>());
+        assert_eq!(along.min_by(f64::total_cmp), Some(speed));
+    }
+    let above = Window {
+        keys: ["vx", "y"],
+        values: [one.window.values[0].clone(), vec![0.3, 0.32]],
+        ..one.window.clone()
+    };
+    assert_eq!(Basin::of(above, false, &no_progress).unwrap().iim(), None);
 }
