@@ -167,10 +167,11 @@ class Branch:
     def events(self) -> Table:
         """Bifurcations and other events along the branch, in the order of its points.
 
-        Columns ``kind`` (fold, period_doubling, neimark_sacker, graze, corner, tension_lost, or a limit such as
-        rotation_limit or upper_bound), ``value`` of the key, ``arclength``, the state ``x`` to ``vtheta``, ``cable``
-        (0 if no cable is involved), ``t`` within the period, ``normal_acceleration`` and ``sqrt_coefficient`` of a
-        graze, ``largest_multiplier``, and ``admissible`` (1 or 0). Missing values are NaN.
+        Columns ``kind`` (fold, period_doubling, neimark_sacker, branch_point, graze, corner, tension_lost, or a limit
+        such as rotation_limit or upper_bound), ``value`` of the key, ``arclength``, the state ``x`` to ``vtheta``,
+        ``cable`` (0 if no cable is involved), ``t`` within the period, ``normal_acceleration`` and
+        ``sqrt_coefficient`` of a graze, ``largest_multiplier``, ``admissible`` (1 or 0), and ``located`` (0 where the
+        event lies just before this point, and its value is not known more accurately). Missing values are NaN.
 
         See Also
         --------

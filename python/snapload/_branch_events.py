@@ -21,6 +21,7 @@ def events_table(along: str, rows: list[dict[str, Any]]) -> Table:
     whole_numbers = {
         "cable": np.array([row["cable"] or 0 for row in rows], dtype=np.int64),
         "admissible": np.array([row["admissible"] for row in rows], dtype=np.int64),
+        "located": np.array([row["between"] is None for row in rows], dtype=np.int64),
     }
     return Table._from_columns(
         [
@@ -44,5 +45,6 @@ def events_table(along: str, rows: list[dict[str, Any]]) -> Table:
             ),
             ("largest_multiplier", "1", "largest |multiplier|", np.array(largest, dtype=np.float64)),
             ("admissible", "", "whether the orbit is admissible", whole_numbers["admissible"]),
+            ("located", "", "whether the event is located", whole_numbers["located"]),
         ]
     )

@@ -29,6 +29,7 @@ _MARKERS = {
     "fold": "o",
     "period_doubling": "s",
     "neimark_sacker": "D",
+    "branch_point": "p",
     "graze": "^",
     "corner": "X",
     "tension_lost": "v",

@@ -202,6 +202,7 @@ fn short(kind: Kind) -> &'static str {
         Kind::Fold => "fold",
         Kind::PeriodDoubling => "doubling",
         Kind::NeimarkSacker => "torus",
+        Kind::BranchPoint => "crossing",
         Kind::Graze => "graze",
         Kind::Corner => "corner",
         Kind::TensionLost => "slack",

@@ -1,7 +1,9 @@
 //! Events along a branch: test functions, and their zeros.
 
-use crate::continuation::BranchStep;
+use crate::branch_point::branch_point;
+use crate::continuation::{BranchStep, Unknowns};
 use crate::hybrid::{DURATION, Family, Hybrid, Jet, Point, constant};
+use crate::multipliers::Multipliers;
 use crate::orbit::Orbit;
 use crate::survey::{Extreme, root};
 use nalgebra::DVector;
@@ -16,6 +18,8 @@ pub enum Kind {
     PeriodDoubling,
     /// |μ| = 1 for a complex pair: a torus begins.
     NeimarkSacker,
+    /// μ = 1 where another branch crosses this one, as at the end of a symmetry.
+    BranchPoint,
     /// A surface is touched with zero velocity.
     Graze,
     /// Two surfaces are struck at one instant.
@@ -33,6 +37,7 @@ impl Kind {
             Self::Fold,
             Self::PeriodDoubling,
             Self::NeimarkSacker,
+            Self::BranchPoint,
             Self::Graze,
             Self::Corner,
             Self::TensionLost,
@@ -46,6 +51,7 @@ impl Kind {
             Self::Fold => "fold",
             Self::PeriodDoubling => "period_doubling",
             Self::NeimarkSacker => "neimark_sacker",
+            Self::BranchPoint => "branch_point",
             Self::Graze => "graze",
             Self::Corner => "corner",
             Self::TensionLost => "tension_lost",
@@ -76,6 +82,9 @@ pub struct BranchEvent {
     pub is_own_snap: bool,
     /// The length along the branch from the orbit with which it was started.
     pub arclength: f64,
+    /// Between which values of the first parameter it lies, where it is not located: the orbit is
+    /// then that of a point of the branch just beyond it.
+    pub between: Option<[f64; 2]>,
     /// The position between the two points of the branch.
     pub(crate) sigma: f64,
 }
@@ -85,6 +94,36 @@ pub struct BranchEvent {
 const SPECIAL_WITHIN: f64 = 1e-6;
 
 impl BranchEvent {
+    /// An event without a contact, at a position between the two points of a branch.
+    pub(crate) fn plain(kind: Kind, orbit: Orbit, sigma: f64) -> Self {
+        Self {
+            kind,
+            value: orbit.at,
+            orbit,
+            surface: None,
+            t: None,
+            normal_acceleration: None,
+            sqrt_coefficient: None,
+            is_own_snap: false,
+            arclength: sigma,
+            between: None,
+            sigma,
+        }
+    }
+
+    /// Whether a branch ends there.
+    pub(crate) fn ends_branch(&self) -> bool {
+        self.kind == Kind::Corner || (self.kind == Kind::Graze && self.is_own_snap)
+    }
+
+    /// Whether a multiplier is on the unit circle there.
+    pub(crate) fn is_bifurcation(&self) -> bool {
+        matches!(
+            self.kind,
+            Kind::Fold | Kind::PeriodDoubling | Kind::NeimarkSacker | Kind::BranchPoint
+        )
+    }
+
     /// The event at an orbit that is itself special, such as one that was found as an event of a
     /// branch before.
     pub fn here(kind: Kind, orbit: &Orbit) -> Option<Self> {
@@ -102,20 +141,14 @@ impl BranchEvent {
             Kind::PeriodDoubling => at(-1.0),
             Kind::NeimarkSacker => values.iter().filter(|value| pair(value)).count() == 1,
             Kind::Graze => gap.is_some() || speed.is_some(),
-            _ => false,
+            Kind::BranchPoint | Kind::Corner | Kind::TensionLost | Kind::Limit(_) => false,
         };
         let nearest = gap.or(speed).filter(|_| kind == Kind::Graze);
         is_there.then(|| Self {
-            kind,
-            value: orbit.at,
-            orbit: orbit.clone(),
             surface: nearest.map(|extreme| extreme.surface),
             t: nearest.map(|extreme| extreme.t),
-            normal_acceleration: None,
-            sqrt_coefficient: None,
             is_own_snap: gap.is_none() && speed.is_some(),
-            arclength: 0.0,
-            sigma: 0.0,
+            ..Self::plain(kind, orbit.clone(), 0.0)
         })
     }
 }
@@ -126,6 +159,7 @@ pub(crate) enum Test {
     Fold,
     PeriodDoubling,
     NeimarkSacker,
+    BranchPoint,
     Speed,
     Gap,
     Corner,
@@ -140,6 +174,7 @@ impl Test {
             Self::Fold,
             Self::PeriodDoubling,
             Self::NeimarkSacker,
+            Self::BranchPoint,
             Self::Speed,
             Self::Gap,
             Self::Corner,
@@ -155,11 +190,54 @@ const NOT_CROSSING: f64 = 1e-9;
 /// The largest value of a test function that is accepted as a zero.
 const ZERO: f64 = 1e-6;
 
-/// The values of all test functions; NaN for those that do not exist.
-pub(crate) fn tests_of(orbit: &Orbit, tangent: &DVector<f64>) -> Vec<(Test, f64)> {
-    Test::all()
-        .map(|test| (test, value(test, orbit, tangent)))
-        .collect()
+/// The step of difference quotients of exact derivatives.
+pub(crate) const DIFFERENCE: f64 = 3e-6;
+
+/// A point of a branch, as far as the events before and after it are concerned.
+pub(crate) struct Tested {
+    /// The values of all test functions; NaN for those that do not exist.
+    tests: Vec<(Test, f64)>,
+    multipliers: Multipliers,
+}
+
+impl Tested {
+    pub(crate) fn new(orbit: &Orbit, tangent: &DVector<f64>) -> Self {
+        let tests = Test::all().map(|test| (test, value(test, orbit, tangent)));
+        Self {
+            tests: tests.collect(),
+            multipliers: orbit.multipliers.clone(),
+        }
+    }
+
+    /// The test functions that change their signs up to another point, with their values here and
+    /// there.
+    pub(crate) fn changed<'a>(
+        &'a self,
+        other: &'a Self,
+    ) -> impl Iterator<Item = (Test, f64, f64)> + 'a {
+        let both = self.tests.iter().zip(&other.tests);
+        both.map(|((test, a), (_, b))| (*test, *a, *b))
+            .filter(|(_, a, b)| a.is_finite() && b.is_finite() && (*a < 0.0) != (*b < 0.0))
+    }
+
+    /// The kind of event by which the number of multipliers outside the unit circle certainly
+    /// changes up to other multipliers, by the one nearest to the circle; none if it may be the
+    /// same.
+    pub(crate) fn stability_changes(&self, other: &Multipliers) -> Option<Kind> {
+        let [[low, high], [other_low, other_high]] =
+            [&self.multipliers, other].map(Multipliers::outside);
+        if low <= other_high && other_low <= high {
+            return None;
+        }
+        let values = self.multipliers.values.iter().chain(&other.values);
+        let off = |[re, im]: &[f64; 2]| (re.hypot(*im) - 1.0).abs();
+        let nearest = values.min_by(|a, b| off(a).total_cmp(&off(b)))?;
+        Some(match *nearest {
+            [_, im] if im != 0.0 => Kind::NeimarkSacker,
+            [re, _] if re < 0.0 => Kind::PeriodDoubling,
+            _ => Kind::BranchPoint,
+        })
+    }
 }
 
 fn value(test: Test, orbit: &Orbit, tangent: &DVector<f64>) -> f64 {
@@ -179,6 +257,12 @@ fn value(test: Test, orbit: &Orbit, tangent: &DVector<f64>) -> f64 {
             cleared(product(multipliers.iter().map(|[re, im]| [1.0 + re, *im])))
         }
         Test::NeimarkSacker => cleared(pairs(multipliers)),
+        // The determinant of the derivatives bordered by the direction, up to a factor without a
+        // zero: where the branch turns back both are zero.
+        Test::BranchPoint => {
+            let along = cleared(tangent[tangent.len() - 1]);
+            cleared(product(multipliers.iter().map(|[re, im]| [1.0 - re, *im]))) / along
+        }
         Test::Speed => extreme(survey.least_speed, f64::NAN),
         Test::Gap => extreme(survey.largest_gap, -1.0),
         Test::Corner => extreme(survey.corner_gap, -1.0),
@@ -213,6 +297,12 @@ pub(crate) fn located<F: Family>(
     after: f64,
 ) -> Option<BranchEvent> {
     let (continuation, tangent) = (branch_step.continuation, branch_step.tangent);
+    if test == Test::BranchPoint {
+        let guess = branch_step.length * before / (before - after);
+        let (u, sigma) = branch_point(branch_step, guess)?;
+        let orbit = orbit_of(branch_step, &u);
+        return Some(BranchEvent::plain(Kind::BranchPoint, orbit, sigma));
+    }
     let orbit_at = |sigma: f64| {
         let (u, ..) = continuation.corrected(branch_step.from, tangent, sigma)?;
         let direction = continuation.tangent(&u, tangent)?;
@@ -232,6 +322,7 @@ pub(crate) fn located<F: Family>(
         Test::Fold => (Kind::Fold, None),
         Test::PeriodDoubling => (Kind::PeriodDoubling, None),
         Test::NeimarkSacker => (Kind::NeimarkSacker, None),
+        Test::BranchPoint => (Kind::BranchPoint, None),
         Test::Speed => (Kind::Graze, survey.least_speed),
         Test::Gap => (Kind::Graze, survey.largest_gap),
         Test::Corner => (Kind::Corner, survey.corner_gap),
@@ -240,29 +331,30 @@ pub(crate) fn located<F: Family>(
     };
     let grazes = extreme.filter(|_| kind == Kind::Graze);
     let acceleration = grazes.map(|extreme| normal_acceleration(branch_step, &orbit, &extreme));
-    // If events have passed the section, they are numbered from there.
     let (u, ..) = continuation.corrected(branch_step.from, tangent, sigma)?;
-    let renumbered = continuation.renumbered(&u);
-    let orbit = renumbered.map_or(orbit, |(moved, u, _)| {
-        Orbit::of(&moved.lap(u.at), &u.closed())
-    });
+    let orbit = orbit_of(branch_step, &u);
     let orbit = match kind {
         Kind::Graze => orbit.at_graze(),
         _ => orbit,
     };
     let restitution = continuation.family.snap_contraction(orbit.at).sqrt();
     Some(BranchEvent {
-        kind,
-        value: orbit.at,
         surface: extreme.map(|extreme| extreme.surface),
         t: extreme.map(|extreme| extreme.t),
         normal_acceleration: acceleration,
         sqrt_coefficient: acceleration.map(|a| (1.0 + restitution) * (2.0 * a).max(0.0).sqrt()),
         is_own_snap: test == Test::Speed,
-        arclength: sigma,
-        sigma,
-        orbit,
+        ..BranchEvent::plain(kind, orbit, sigma)
     })
+}
+
+/// The orbit at a point of a step; if events have passed the section, they are numbered from there.
+fn orbit_of<F: Family>(branch_step: &BranchStep<F>, u: &Unknowns) -> Orbit {
+    let continuation = branch_step.continuation;
+    match continuation.renumbered(u) {
+        Some((moved, u, _)) => Orbit::of(&moved.lap(u.at), &u.closed()),
+        None => Orbit::of(&continuation.lap(u.at), &u.closed()),
+    }
 }
 
 /// a = −g̈/2r of a surface at an instant of a lap.

@@ -42,6 +42,8 @@ pub(crate) struct EventRow {
     multipliers: Vec<[f64; 2]>,
     admissible: bool,
     arclength: f64,
+    /// Between which values it lies, where it is not located.
+    between: Option<[f64; 2]>,
 }
 
 #[derive(Serialize)]
@@ -98,6 +100,7 @@ impl EventRow {
             multipliers: event.orbit.multipliers.values.clone(),
             admissible: event.orbit.is_admissible(),
             arclength: event.arclength,
+            between: event.between,
         }
     }
 }
@@ -115,11 +118,17 @@ pub fn branch_summary(along: &str, branch: &Branch) -> String {
     );
     for event in &branch.events {
         let kind = event.kind.name().replace('_', " ");
-        let _ = write!(
-            text,
-            "          {kind:<16} {along} = {:.12}",
-            event.value[0]
-        );
+        let _ = match event.between {
+            None => write!(
+                text,
+                "          {kind:<16} {along} = {:.12}",
+                event.value[0]
+            ),
+            Some([a, b]) => write!(
+                text,
+                "          {kind:<16} {along} between {a:.9} and {b:.9}, not located"
+            ),
+        };
         if let (Some(surface), Some(t)) = (event.surface, event.t) {
             let _ = write!(text, "  cable {} at t = {t:.6}", surface + 1);
         }

@@ -9,7 +9,7 @@
 //! The first two do not divide by the speed of a snap, so that they are smooth through grazes.
 
 use crate::bordered::{null_vectors, solved};
-use crate::branch_events::{BranchEvent, Kind};
+use crate::branch_events::{BranchEvent, DIFFERENCE, Kind};
 use crate::continuation::{Continuation, Unknowns};
 use crate::hybrid::{DURATION, Family, Hybrid, Jet, Point, constant};
 use crate::orbit::Orbit;
@@ -40,8 +40,6 @@ pub(crate) struct Contact {
 
 /// Steps of Newton's method towards the time of a surface's closest approach.
 const MOST_STEPS: usize = 8;
-/// The step of difference quotients.
-const STEP: f64 = 3e-6;
 
 impl Condition {
     /// The condition that an event satisfies; none if its kind has no curve.
@@ -107,7 +105,7 @@ impl Condition {
                 step[i] = by;
                 self.value(continuation, &u.moved(variables, &step))
             };
-            slopes[i] = (at(STEP)? - at(-STEP)?) / (2.0 * STEP);
+            slopes[i] = (at(DIFFERENCE)? - at(-DIFFERENCE)?) / (2.0 * DIFFERENCE);
         }
         slopes
             .iter()

@@ -25,6 +25,9 @@ pub struct Multipliers {
 
 /// A modulus this close to 1 counts as 1.
 const NEUTRAL: f64 = 1e-9;
+/// A modulus this close to 1 is certainly neither inside nor outside of the unit circle: two
+/// multipliers that meet there are known to half of the digits.
+const NEAR_CIRCLE: f64 = 1e-6;
 
 /// The stability of an orbit by its multipliers.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -55,6 +58,15 @@ impl Multipliers {
     /// |μ| of the largest.
     pub fn largest(&self) -> f64 {
         self.values.first().map_or(0.0, |[re, im]| re.hypot(*im))
+    }
+
+    /// The least and the greatest number of them that may be outside the unit circle: those that
+    /// certainly are, and those that are not certainly inside.
+    pub(crate) fn outside(&self) -> [usize; 2] {
+        [1.0 + NEAR_CIRCLE, 1.0 - NEAR_CIRCLE].map(|least| {
+            let sizes = self.values.iter().map(|[re, im]| re.hypot(*im));
+            sizes.filter(|size| *size > least).count()
+        })
     }
 
     /// The stability that they imply.

@@ -3,6 +3,7 @@
 #![allow(clippy::unwrap_used, clippy::panic)]
 
 mod basins;
+mod branch_points;
 mod branches;
 mod closed_forms;
 mod common;

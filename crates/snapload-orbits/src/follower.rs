@@ -1,0 +1,327 @@
+//! Follows a branch in one direction, step by step.
+
+use crate::branch::{BranchEnd, BranchOptions, BranchPoint, point};
+use crate::branch_events::{BranchEvent, Kind, Test, Tested, located};
+use crate::continuation::{BranchStep, Continuation, Unknowns};
+use crate::hybrid::{Family, Point};
+use crate::orbit::Orbit;
+use crate::survey::root;
+use nalgebra::DVector;
+use snapload::analysis::{Cancelled, OnProgress, Progress};
+
+/// The longest and the shortest step, in units of the first.
+const LONGEST_STEP: f64 = 6.0;
+const SHORTEST_STEP: f64 = 1e-7;
+/// From the first number of the corrector's iterations on, the next step is made shorter; up to the
+/// second, longer.
+const SHORTEN_FROM: usize = 5;
+const LENGTHEN_TO: usize = 3;
+/// An event that is not located lies between two points of no more than this part of the first step.
+const RESOLVED: f64 = 1e-3;
+/// Two events whose parameters and states differ by no more than these are one: where a branch
+/// turns back the first is the square of the second.
+const SAME_VALUE: f64 = 1e-6;
+const SAME_STATE: f64 = 1e-2;
+/// The time between two events does not change by more than this in one step.
+const LONGEST_TIME_CHANGE: f64 = 0.3;
+/// A gap of more than this, by which a cable would have to be longer, ends a branch.
+const LARGEST_GAP: f64 = 0.02;
+/// A branch that returns to its first point within this part of its step is closed.
+const CLOSED_WITHIN: f64 = 0.5;
+/// A closed branch is at least this many steps long.
+const CLOSED_AFTER: f64 = 10.0;
+/// A value this close to the border of the range is set to the border.
+const ON_BORDER: f64 = 1e-13;
+
+/// The branch in one direction.
+pub(crate) struct HalfBranch {
+    pub(crate) points: Vec<BranchPoint>,
+    pub(crate) events: Vec<BranchEvent>,
+    pub(crate) end: BranchEnd,
+    pub(crate) closed: bool,
+}
+
+impl HalfBranch {
+    pub(crate) fn empty(at: f64, because: &str) -> Self {
+        Self {
+            points: Vec::new(),
+            events: Vec::new(),
+            end: BranchEnd {
+                at,
+                because: because.to_owned(),
+            },
+            closed: false,
+        }
+    }
+}
+
+/// The next point of a branch, its distance, and the number of the corrector's iterations.
+struct Stepped {
+    at: Unknowns,
+    length: f64,
+    steps: usize,
+    direction: DVector<f64>,
+    /// Whether it is on the border of the range.
+    is_last: bool,
+}
+
+/// Follows branches.
+pub(crate) struct Follower<'a> {
+    options: &'a BranchOptions,
+    on_progress: OnProgress<'a>,
+    done: usize,
+}
+
+impl<'a> Follower<'a> {
+    pub(crate) fn new(options: &'a BranchOptions, on_progress: OnProgress<'a>) -> Self {
+        Self {
+            options,
+            on_progress,
+            done: 0,
+        }
+    }
+
+    pub(crate) fn run<F: Family>(
+        &mut self,
+        continuation: &Continuation<F>,
+        start: &Unknowns,
+        tangent: &DVector<f64>,
+        orbit: &Orbit,
+    ) -> Result<HalfBranch, Cancelled> {
+        let mut continuation = continuation.clone();
+        let (mut here, mut tangent) = (start.clone(), tangent.clone());
+        let mut tested = Tested::new(orbit, &tangent);
+        let mut half = HalfBranch::empty(orbit.at[0], "");
+        let (mut step, mut arclength) = (self.options.step, 0.0);
+        while half.end.because.is_empty() {
+            if half.points.len() >= self.options.most {
+                half.end.because = format!("the limit of {} points is reached", self.options.most);
+                break;
+            }
+            let Some(there) = self.stepped(&continuation, &here, &tangent, step) else {
+                step *= 0.5;
+                if step < self.options.step * SHORTEST_STEP {
+                    half.end.because = "Newton's method finds no further point".to_owned();
+                }
+                continue;
+            };
+            let found = Orbit::of(&continuation.lap(there.at.at), &there.at.closed());
+            let reached = Tested::new(&found, &there.direction);
+            let branch_step = BranchStep {
+                continuation: &continuation,
+                from: &here,
+                tangent: &tangent,
+                length: there.length,
+            };
+            let Some(events) = self.events(&branch_step, [&tested, &reached], &found) else {
+                step = 0.5 * there.length;
+                continue;
+            };
+            let ended = self.take(events, arclength, &mut half);
+            arclength += there.length;
+            let ended = ended.or_else(|| {
+                half.end.at = found.at[0];
+                self.reason_to_end(&found, arclength, start, orbit)
+            });
+            if let Some(because) = ended {
+                half.closed = because.contains("closed");
+                half.end.because = because;
+                break;
+            }
+            (here, tangent, tested) = (there.at, there.direction, reached);
+            let renumbered = renumber_events(&mut continuation, &mut here, &mut tangent);
+            if there.length > 0.0 {
+                half.points
+                    .push(point(renumbered.unwrap_or(found), arclength));
+            }
+            if there.is_last {
+                half.end.because = "the end of the range".to_owned();
+            }
+            self.report()?;
+            step = self.next_step(step, there.steps);
+        }
+        Ok(half)
+    }
+
+    fn report(&mut self) -> Result<(), Cancelled> {
+        self.done += 1;
+        let of = (2 * self.options.most) as f64;
+        Progress::new("points", self.done as f64, of).report(self.on_progress)
+    }
+
+    /// The next point, if the corrector finds one near enough; it is on the border of the range if
+    /// the step would pass that.
+    fn stepped<F: Family>(
+        &self,
+        continuation: &Continuation<F>,
+        here: &Unknowns,
+        tangent: &DVector<f64>,
+        step: f64,
+    ) -> Option<Stepped> {
+        let (at, steps, direction) = stepped(continuation, here, tangent, step)?;
+        let [low, high] = self.options.range;
+        let border = at.at[0].clamp(low, high);
+        let beyond = |u: &Unknowns| u.at[0] - border;
+        let mut there = Stepped {
+            is_last: beyond(&at) != 0.0,
+            at,
+            length: step,
+            steps,
+            direction,
+        };
+        if there.is_last {
+            let of = |sigma: f64| {
+                let found = continuation.corrected(here, tangent, sigma);
+                found.map_or(f64::NAN, |(u, ..)| beyond(&u))
+            };
+            there.length = match beyond(here) {
+                0.0 => 0.0,
+                before => root(&of, (0.0, before), (step, beyond(&there.at))),
+            };
+            (there.at, _, there.direction) = continuation.corrected(here, tangent, there.length)?;
+            if beyond(&there.at).abs() > ON_BORDER * border.abs().max(1.0) {
+                return None;
+            }
+            there.at.at[0] = border;
+        }
+        Some(there)
+    }
+
+    /// The length of the next step, from the number of the corrector's iterations.
+    fn next_step(&self, step: f64, steps: usize) -> f64 {
+        match steps {
+            SHORTEN_FROM.. => step * 0.6,
+            0..=LENGTHEN_TO => (step * 1.4).min(self.options.step * LONGEST_STEP),
+            _ => step,
+        }
+    }
+
+    /// The events between two points in their order, up to one that ends the branch; none if a
+    /// shorter step may show an event that this one passes over.
+    fn events<F: Family>(
+        &self,
+        branch_step: &BranchStep<F>,
+        [before, after]: [&Tested; 2],
+        beyond: &Orbit,
+    ) -> Option<Vec<BranchEvent>> {
+        let changed = || before.changed(after);
+        let located = changed().filter_map(|(test, a, b)| located(branch_step, test, a, b));
+        let mut found: Vec<BranchEvent> = located.collect();
+        found.sort_by(|a, b| a.sigma.total_cmp(&b.sigma));
+        if let Some(last) = found.iter().position(BranchEvent::ends_branch) {
+            found.truncate(last + 1);
+        }
+        let crosses = |event: &BranchEvent| event.kind == Kind::BranchPoint;
+        if let Some(crossing) = found.iter().find(|event| crosses(event)).cloned() {
+            // A branch that turns back where another crosses it has no fold there.
+            found.retain(|event| event.kind != Kind::Fold || !is_same(event, &crossing));
+        }
+        let end = found.last().filter(|event| event.ends_branch());
+        if end.is_some_and(|end| end.kind == Kind::Graze) {
+            // The multipliers are infinite where v_n is zero.
+            return Some(found);
+        }
+        let multipliers = &end.map_or(beyond, |end| &end.orbit).multipliers;
+        let passed_over = before
+            .stability_changes(multipliers)
+            .filter(|_| !found.iter().any(BranchEvent::is_bifurcation));
+        let not_crossed = end.is_none()
+            && !found.iter().any(crosses)
+            && changed().any(|(test, ..)| test == Test::BranchPoint);
+        let resolved = branch_step.length <= self.options.step * RESOLVED;
+        if (passed_over.is_some() || not_crossed) && !resolved {
+            return None;
+        }
+        if let Some(kind) = passed_over {
+            let mut event = BranchEvent::plain(kind, beyond.clone(), branch_step.length);
+            event.between = Some([branch_step.from.at[0], beyond.at[0]]);
+            let place =
+                found.len() - usize::from(found.last().is_some_and(BranchEvent::ends_branch));
+            found.insert(place, event);
+        }
+        Some(found)
+    }
+
+    /// Takes events within the range; returns why the branch ends at the last, if it does.
+    fn take(
+        &self,
+        events: Vec<BranchEvent>,
+        arclength: f64,
+        half: &mut HalfBranch,
+    ) -> Option<String> {
+        let [low, high] = self.options.range;
+        let mut because = None;
+        for mut event in events {
+            event.arclength = arclength + event.sigma;
+            if event.ends_branch() {
+                half.end.at = event.value[0];
+                because = Some(match event.kind {
+                    Kind::Corner => "corner: two cables snap at once, and come in the other order beyond it",
+                    _ => "graze: a snap of the sequence has zero velocity here, and a negative one beyond it",
+                }
+                .to_owned());
+            }
+            if (low..=high).contains(&event.value[0]) {
+                half.events.push(event);
+            }
+        }
+        because
+    }
+
+    /// Why a branch ends at a point that it has reached.
+    fn reason_to_end(
+        &self,
+        found: &Orbit,
+        arclength: f64,
+        start: &Unknowns,
+        first: &Orbit,
+    ) -> Option<String> {
+        let gap = found.survey.largest_gap.map_or(0.0, |gap| gap.value);
+        if gap > LARGEST_GAP {
+            return Some(format!("a cable would have to be longer by {LARGEST_GAP}"));
+        }
+        let near = |z: &Point| crate::distance(z, &start.z);
+        let same = found.lap.sequence == first.lap.sequence;
+        let back = near(&found.z).max((found.at[0] - start.at[0]).abs());
+        (arclength > CLOSED_AFTER * self.options.step
+            && same
+            && back < CLOSED_WITHIN * self.options.step)
+            .then(|| "the branch is closed".to_owned())
+    }
+}
+
+fn is_same(event: &BranchEvent, other: &BranchEvent) -> bool {
+    (event.value[0] - other.value[0]).abs() < SAME_VALUE
+        && crate::distance(&event.orbit.z, &other.orbit.z) < SAME_STATE
+}
+
+/// Renumbers the events if one has passed the section; returns the orbit then.
+fn renumber_events<F: Family>(
+    continuation: &mut Continuation<F>,
+    here: &mut Unknowns,
+    tangent: &mut DVector<f64>,
+) -> Option<Orbit> {
+    let mut orbit = None;
+    while let Some((moved, renumbered, shift)) = continuation.renumbered(here) {
+        *tangent = moved.tangent_after(&renumbered, tangent, shift)?;
+        (*continuation, *here) = (moved, renumbered);
+        orbit = Some(Orbit::of(&continuation.lap(here.at), &here.closed()));
+    }
+    orbit
+}
+
+/// The next point, if the corrector finds one near enough, and the direction there.
+fn stepped<F: Family>(
+    continuation: &Continuation<F>,
+    here: &Unknowns,
+    tangent: &DVector<f64>,
+    step: f64,
+) -> Option<(Unknowns, usize, DVector<f64>)> {
+    let (next, steps, direction) = continuation.corrected(here, tangent, step)?;
+    let moved = here.durations.iter().zip(&next.durations);
+    let most = moved.map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
+    let off = here.distance(&next);
+    let turned = direction.dot(tangent);
+    (most < LONGEST_TIME_CHANGE && off <= 2.0 * step && turned > 0.9)
+        .then_some((next, steps, direction))
+}
