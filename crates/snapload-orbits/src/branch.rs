@@ -1,7 +1,7 @@
 //! Branches: an orbit as a parameter changes, with the bifurcations and other events along it.
 
 use crate::branch_events::{BranchEvent, Kind};
-use crate::continuation::{Continuation, Unknowns};
+use crate::continuation::{Continuation, Goal, Unknowns};
 use crate::follower::{Follower, HalfBranch};
 use crate::hybrid::Family;
 use crate::orbit::{NoOrbit, Orbit};
@@ -82,12 +82,21 @@ impl Branch {
             });
         };
         let mut follower = Follower::new(options, on_progress);
-        let backward = follower.run(&continuation, &start, &(-&up), orbit)?;
+        let first = Goal {
+            sequence: continuation.sequence.clone(),
+            at: start.clone(),
+        };
+        let mut backward = follower.run(&continuation, &start, &(-&up), orbit, &first)?;
         let forward = if backward.closed {
             HalfBranch::empty(orbit.at[0], "the branch is closed")
         } else {
-            follower.run(&continuation, &start, &up, orbit)?
+            // A limited number of points may end the first half before it is round.
+            let last = backward.last.take().unwrap_or(first);
+            follower.run(&continuation, &start, &up, orbit, &last)?
         };
+        if forward.closed {
+            backward.end.because.clone_from(&forward.end.because);
+        }
         Ok(joined(orbit, backward, forward))
     }
 }
@@ -143,7 +152,11 @@ impl Branch {
         let orbit = Orbit::of(&continuation.lap(start.at), &start.closed());
         let mut follower = Follower::new(options, on_progress);
         let doubled = HalfBranch::empty(orbit.at[0], "the period doubling");
-        let forward = follower.run(&continuation, &start, &apart, &orbit)?;
+        let first = Goal {
+            sequence: continuation.sequence.clone(),
+            at: start.clone(),
+        };
+        let forward = follower.run(&continuation, &start, &apart, &orbit, &first)?;
         Ok(Some(joined(&orbit, doubled, forward)))
     }
 }

@@ -40,6 +40,8 @@ impl<F: Family> Clone for Continuation<'_, F> {
     }
 }
 
+/// Two corrected points of a branch that differ by less than this are one.
+pub(crate) const SAME: f64 = 1e-8;
 /// The most steps of the corrector.
 const MOST_STEPS: usize = 12;
 /// A point is on the branch if its residual is below this.
@@ -63,6 +65,19 @@ impl Unknowns {
             durations: self.durations.clone(),
             residual: 0.0,
         }
+    }
+
+    /// How far along a unit vector another point of the same sequence lies, by all unknowns and as
+    /// many parameters as the vector has.
+    pub(crate) fn along(&self, tangent: &DVector<f64>, variables: &[usize], other: &Self) -> f64 {
+        let state = variables.iter().map(|&i| other.z[i] - self.z[i]);
+        let times = other.durations.iter().zip(&self.durations);
+        let parameters = other.at.iter().zip(&self.at);
+        let parts = state.chain(times.chain(parameters).map(|(a, b)| a - b));
+        parts
+            .zip(tangent.iter())
+            .map(|(part, unit)| part * unit)
+            .sum()
     }
 
     pub(crate) fn moved(&self, variables: &[usize], by: &DVector<f64>) -> Self {
@@ -242,6 +257,31 @@ impl<F: Family> Continuation<'_, F> {
         }
         Some(if agrees < 0.0 { -tangent } else { tangent })
     }
+}
+
+impl<F: Family> BranchStep<'_, F> {
+    /// How far along the step it comes to a given point of the branch, if it does.
+    pub(crate) fn passes(&self, goal: &Goal) -> Option<f64> {
+        let continuation = self.continuation;
+        if goal.sequence != continuation.sequence {
+            return None;
+        }
+        let variables = continuation.family.variables();
+        let sigma = self.from.along(self.tangent, variables, &goal.at);
+        let within = sigma > 0.0 && sigma <= self.length;
+        let near = self.from.distance(&goal.at) <= 2.0 * self.length;
+        let (there, ..) = (within && near)
+            .then(|| continuation.corrected(self.from, self.tangent, sigma))
+            .flatten()?;
+        (there.distance(&goal.at) < SAME).then_some(sigma)
+    }
+}
+
+/// A point to which a closed branch or curve returns.
+#[derive(Clone)]
+pub(crate) struct Goal {
+    pub(crate) sequence: Sequence,
+    pub(crate) at: Unknowns,
 }
 
 /// The step from one point of a branch to the next.

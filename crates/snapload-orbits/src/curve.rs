@@ -77,10 +77,6 @@ const SHORTEN_FROM: usize = 7;
 const LENGTHEN_TO: usize = 4;
 /// A gap of more than this, by which a cable would have to be longer, ends a curve.
 const LARGEST_GAP: f64 = 0.02;
-/// A curve that returns to its first point within the first of these parts of its step is closed,
-/// if it is at least as many steps long as the second says.
-const CLOSED_WITHIN: f64 = 0.5;
-const CLOSED_AFTER: f64 = 10.0;
 
 impl Curve {
     /// The kinds of special orbits that have curves.
@@ -184,6 +180,14 @@ impl HalfCurve {
         }
     }
 
+    /// Closes it at its first point, which becomes its last one, too.
+    fn close<F: Family>(&mut self, first: &OnCurve<F>, arclength: f64) {
+        self.end.at = first.here.at;
+        self.end.because = "the curve is closed".to_owned();
+        self.closed = true;
+        self.points.push(point(first, first.orbit(), arclength));
+    }
+
     /// Ends at a border that is passed at this arclength; its last point is on the border if that
     /// was found.
     fn end_on<F: Family>(&mut self, border: Border<F>, arclength: f64, ranges: &[[f64; 2]; 2]) {
@@ -276,11 +280,8 @@ struct Follower<'a> {
 
 impl Follower<'_> {
     fn run<F: Family>(&mut self, mut on_curve: OnCurve<F>) -> Result<HalfCurve, Cancelled> {
-        let (start, first) = (
-            on_curve.here.clone(),
-            on_curve.continuation.sequence.clone(),
-        );
-        let mut half = HalfCurve::empty(start.at, "");
+        let first = on_curve.copied();
+        let mut half = HalfCurve::empty(first.here.at, "");
         let mut margins = self.margins(&on_curve, &on_curve.orbit());
         let (mut step, mut arclength) = (self.options.step, 0.0);
         while half.end.because.is_empty() {
@@ -304,6 +305,10 @@ impl Follower<'_> {
                 }
                 continue;
             };
+            if let Some(sigma) = on_curve.passes(&first, step).filter(|_| border.is_none()) {
+                half.close(&first, arclength + sigma);
+                break;
+            }
             if let Some(border) = border {
                 half.end_on(border, arclength, &self.options.ranges);
                 break;
@@ -312,13 +317,6 @@ impl Follower<'_> {
             half.end.at = next.here.at;
             if let Some(because) = reason_to_end(&next, &orbit) {
                 half.end.because = because;
-                break;
-            }
-            let far = arclength > CLOSED_AFTER * self.options.step;
-            let back = next.here.distance(&start) < CLOSED_WITHIN * self.options.step;
-            if far && back && next.continuation.sequence == first {
-                half.end.because = "the curve is closed".to_owned();
-                half.closed = true;
                 break;
             }
             (on_curve, margins) = (next, reached);

@@ -2,8 +2,8 @@
 
 use crate::branch::{BranchEnd, BranchOptions, BranchPoint, point};
 use crate::branch_events::{BranchEvent, Kind, Test, Tested, located};
-use crate::continuation::{BranchStep, Continuation, Unknowns};
-use crate::hybrid::{Family, Point};
+use crate::continuation::{BranchStep, Continuation, Goal, Unknowns};
+use crate::hybrid::Family;
 use crate::orbit::Orbit;
 use crate::survey::root;
 use nalgebra::DVector;
@@ -26,10 +26,6 @@ const SAME_STATE: f64 = 1e-2;
 const LONGEST_TIME_CHANGE: f64 = 0.3;
 /// A gap of more than this, by which a cable would have to be longer, ends a branch.
 const LARGEST_GAP: f64 = 0.02;
-/// A branch that returns to its first point within this part of its step is closed.
-const CLOSED_WITHIN: f64 = 0.5;
-/// A closed branch is at least this many steps long.
-const CLOSED_AFTER: f64 = 10.0;
 /// A value this close to the border of the range is set to the border.
 const ON_BORDER: f64 = 1e-13;
 
@@ -39,6 +35,10 @@ pub(crate) struct HalfBranch {
     pub(crate) events: Vec<BranchEvent>,
     pub(crate) end: BranchEnd,
     pub(crate) closed: bool,
+    /// Its length.
+    arclength: f64,
+    /// Its last point.
+    pub(crate) last: Option<Goal>,
 }
 
 impl HalfBranch {
@@ -51,7 +51,18 @@ impl HalfBranch {
                 because: because.to_owned(),
             },
             closed: false,
+            arclength: 0.0,
+            last: None,
         }
+    }
+
+    /// Closes it at a point of the branch itself, which becomes its last one.
+    fn close<F: Family>(&mut self, goal: &Goal, sigma: f64, continuation: &Continuation<F>) {
+        let orbit = Orbit::of(&continuation.lap(goal.at.at), &goal.at.closed());
+        self.end.at = orbit.at[0];
+        self.end.because = "the branch is closed".to_owned();
+        self.closed = true;
+        self.points.push(point(orbit, self.arclength + sigma));
     }
 }
 
@@ -87,12 +98,13 @@ impl<'a> Follower<'a> {
         start: &Unknowns,
         tangent: &DVector<f64>,
         orbit: &Orbit,
+        goal: &Goal,
     ) -> Result<HalfBranch, Cancelled> {
         let mut continuation = continuation.clone();
         let (mut here, mut tangent) = (start.clone(), tangent.clone());
         let mut tested = Tested::new(orbit, &tangent);
         let mut half = HalfBranch::empty(orbit.at[0], "");
-        let (mut step, mut arclength) = (self.options.step, 0.0);
+        let mut step = self.options.step;
         while half.end.because.is_empty() {
             if half.points.len() >= self.options.most {
                 half.end.because = format!("the limit of {} points is reached", self.options.most);
@@ -113,26 +125,19 @@ impl<'a> Follower<'a> {
                 tangent: &tangent,
                 length: there.length,
             };
-            let Some(events) = self.events(&branch_step, [&tested, &reached], &found) else {
+            let tests = [&tested, &reached];
+            if !self.take(&branch_step, tests, &found, goal, &mut half) {
                 step = 0.5 * there.length;
                 continue;
-            };
-            let ended = self.take(events, arclength, &mut half);
-            arclength += there.length;
-            let ended = ended.or_else(|| {
-                half.end.at = found.at[0];
-                self.reason_to_end(&found, arclength, start, orbit)
-            });
-            if let Some(because) = ended {
-                half.closed = because.contains("closed");
-                half.end.because = because;
+            }
+            if !half.end.because.is_empty() {
                 break;
             }
             (here, tangent, tested) = (there.at, there.direction, reached);
             let renumbered = renumber_events(&mut continuation, &mut here, &mut tangent);
             if there.length > 0.0 {
-                half.points
-                    .push(point(renumbered.unwrap_or(found), arclength));
+                let orbit = renumbered.unwrap_or(found);
+                half.points.push(point(orbit, half.arclength));
             }
             if there.is_last {
                 half.end.because = "the end of the range".to_owned();
@@ -140,6 +145,10 @@ impl<'a> Follower<'a> {
             self.report()?;
             step = self.next_step(step, there.steps);
         }
+        half.last = Some(Goal {
+            sequence: continuation.sequence,
+            at: here,
+        });
         Ok(half)
     }
 
@@ -242,51 +251,56 @@ impl<'a> Follower<'a> {
         Some(found)
     }
 
-    /// Takes events within the range; returns why the branch ends at the last, if it does.
-    fn take(
+    /// Takes the events of a step to an orbit, and ends the branch where one of them, its goal or
+    /// the orbit itself does; false if the step has to be shorter.
+    fn take<F: Family>(
         &self,
-        events: Vec<BranchEvent>,
-        arclength: f64,
+        step: &BranchStep<F>,
+        tests: [&Tested; 2],
+        found: &Orbit,
+        goal: &Goal,
         half: &mut HalfBranch,
-    ) -> Option<String> {
+    ) -> bool {
+        let Some(events) = self.events(step, tests, found) else {
+            return false;
+        };
+        let closes = step.passes(goal);
         let [low, high] = self.options.range;
-        let mut because = None;
+        half.end.at = found.at[0];
         for mut event in events {
-            event.arclength = arclength + event.sigma;
+            if closes.is_some_and(|sigma| event.sigma >= sigma) {
+                break;
+            }
+            event.arclength = half.arclength + event.sigma;
             if event.ends_branch() {
                 half.end.at = event.value[0];
-                because = Some(match event.kind {
+                half.end.because = match event.kind {
                     Kind::Corner => "corner: two cables snap at once, and come in the other order beyond it",
                     _ => "graze: a snap of the sequence has zero velocity here, and a negative one beyond it",
                 }
-                .to_owned());
+                .to_owned();
             }
             if (low..=high).contains(&event.value[0]) {
                 half.events.push(event);
             }
         }
-        because
-    }
-
-    /// Why a branch ends at a point that it has reached.
-    fn reason_to_end(
-        &self,
-        found: &Orbit,
-        arclength: f64,
-        start: &Unknowns,
-        first: &Orbit,
-    ) -> Option<String> {
-        let gap = found.survey.largest_gap.map_or(0.0, |gap| gap.value);
-        if gap > LARGEST_GAP {
-            return Some(format!("a cable would have to be longer by {LARGEST_GAP}"));
+        if half.end.because.is_empty() {
+            match closes {
+                Some(sigma) => half.close(goal, sigma, step.continuation),
+                None => half.end.because = reason_to_end(found),
+            }
         }
-        let near = |z: &Point| crate::distance(z, &start.z);
-        let same = found.lap.sequence == first.lap.sequence;
-        let back = near(&found.z).max((found.at[0] - start.at[0]).abs());
-        (arclength > CLOSED_AFTER * self.options.step
-            && same
-            && back < CLOSED_WITHIN * self.options.step)
-            .then(|| "the branch is closed".to_owned())
+        half.arclength += step.length;
+        true
+    }
+}
+
+/// Why a branch ends at a point that it has reached; empty if it does not.
+fn reason_to_end(found: &Orbit) -> String {
+    let gap = found.survey.largest_gap.map_or(0.0, |gap| gap.value);
+    match gap > LARGEST_GAP {
+        true => format!("a cable would have to be longer by {LARGEST_GAP}"),
+        false => String::new(),
     }
 }
 

@@ -171,7 +171,8 @@ impl Framed {
         let own = |at: [f64; 2]| [0, 1].iter().all(|i| self.is_at_equilibrium(*i, at[*i]));
         let least = |which: Start| {
             let starts = self.starts.iter().enumerate();
-            let at = starts.filter_map(|(k, start)| (*start == which).then(|| self.at(k)));
+            let of_kind = starts.filter(|(_, start)| **start == which);
+            let at = of_kind.map(|(k, _)| self.at(k));
             at.filter(|at| which == Start::Unsafe || !own(*at))
                 .filter_map(&distance)
                 .min_by(f64::total_cmp)

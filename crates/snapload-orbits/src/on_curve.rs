@@ -2,7 +2,7 @@
 
 use crate::branch_events::BranchEvent;
 use crate::condition::Condition;
-use crate::continuation::{Continuation, Unknowns, bordered};
+use crate::continuation::{Continuation, SAME, Unknowns, bordered};
 use crate::hybrid::Family;
 use crate::orbit::Orbit;
 use nalgebra::{DMatrix, DVector};
@@ -64,7 +64,7 @@ impl<'a, F: Family> OnCurve<'a, F> {
         }
     }
 
-    fn copied(&self) -> Self {
+    pub(crate) fn copied(&self) -> Self {
         Self {
             continuation: self.continuation.clone(),
             condition: self.condition.clone(),
@@ -126,6 +126,19 @@ impl<'a, F: Family> OnCurve<'a, F> {
             offset += step;
         }
         None
+    }
+
+    /// How far along a step it comes to a given point of the curve, if it does.
+    pub(crate) fn passes(&self, goal: &Self, length: f64) -> Option<f64> {
+        if goal.continuation.sequence != self.continuation.sequence {
+            return None;
+        }
+        let variables = self.continuation.family.variables();
+        let sigma = self.here.along(&self.tangent, variables, &goal.here);
+        let within = sigma > 0.0 && sigma <= length;
+        let near = self.here.distance(&goal.here) <= 2.0 * length;
+        let (there, _) = (within && near).then(|| self.corrected(sigma)).flatten()?;
+        (there.distance(&goal.here) < SAME).then_some(sigma)
     }
 
     /// The point a length `sigma` further along.

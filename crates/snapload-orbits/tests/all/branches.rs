@@ -2,8 +2,9 @@
 
 use crate::common::{number, parameters, point, reference};
 use serde_json::Value as Json;
+use snapload::Parameters;
 use snapload::analysis::no_progress;
-use snapload_orbits::{Branch, BranchOptions, Moored, Orbit, OrbitRequest};
+use snapload_orbits::{Branch, BranchOptions, Kind, Moored, Orbit, OrbitRequest};
 
 fn branch(reference: &Json, start: [f64; 6], range: [f64; 2]) -> Branch {
     let base = parameters(&reference["base"]);
@@ -120,5 +121,42 @@ fn a_branch_ends_on_the_borders_of_its_range() {
         );
         let last = branch.points.last().unwrap();
         assert!(last.orbit.return_error.unwrap() < 1e-12);
+    }
+}
+
+/// A closed branch is gone round once, however long its steps are and however many points each
+/// half may have: it ends where it began, and has the same events, each once.
+#[test]
+fn a_closed_branch_is_gone_round_once() {
+    let case = Parameters {
+        inertia: None,
+        a: 0.0,
+        r: 1.7,
+        e: 0.35,
+        f_o: 1.4,
+        nu: 0.8,
+        omega: 3.1,
+        ..Parameters::STANDARD
+    };
+    let keys = [Some("omega"), None];
+    let family = Moored::case(case, keys);
+    let start = [-0.2688, 0.3830, 0.0, 0.8084, -0.4263, 0.0];
+    let at = Moored::values(&case, keys);
+    let orbit = Orbit::find(&family, at, &start, &OrbitRequest::default()).unwrap();
+    for (step, most) in [(0.01, 800), (0.005, 800), (0.02, 800), (0.02, 36)] {
+        let options = BranchOptions {
+            range: [-5.0, 5.0],
+            step,
+            most,
+        };
+        let branch = Branch::of(&family, &orbit, &options, &no_progress).unwrap();
+        for end in &branch.ends {
+            assert_eq!(end.because, "the branch is closed");
+        }
+        let [first, last] = [branch.points.first(), branch.points.last()].map(Option::unwrap);
+        assert!(snapload_orbits::distance(&first.orbit.z, &last.orbit.z) < 1e-8);
+        let kinds = branch.events.iter().map(|event| event.kind);
+        let folds = kinds.clone().filter(|kind| *kind == Kind::Fold).count();
+        assert_eq!((folds, kinds.count()), (2, 3), "step {step}");
     }
 }
