@@ -1,7 +1,7 @@
 //! Stroboscopic sections of long motions, and diagrams of them against a key.
 
 use crate::exponents::{Directions, exponents};
-use crate::hybrid::Point;
+use crate::hybrid::{Point, distance};
 use crate::impact_map::Impacts;
 use snapload::analysis::{Cancelled, OnProgress, Progress};
 use snapload::{CaseError, Parameters, PrescribedTaut, Simulation, State, Step, Stop, Tangent};
@@ -56,6 +56,10 @@ const KNOWN: f64 = 1e10;
 /// that follows.
 const SAME: f64 = 1e-8;
 const LAPS: usize = 8;
+/// Whether the motion still approaches one of fewer periods is seen in at least this many laps, if
+/// distances change by more than this.
+const FEWEST_LAPS: usize = 5;
+const KNOWN_DISTANCE: f64 = 1e-12;
 /// The longest period that is searched for.
 pub const LONGEST_PERIOD: usize = 64;
 
@@ -135,9 +139,36 @@ impl Section {
         let points = &self.points;
         let repeats = |n: &usize| {
             let from = points.len() - n * self.laps();
-            (from..points.len()).all(|k| crate::distance(&points[k], &points[k - n]) <= SAME)
+            (from..points.len()).all(|k| distance(&points[k], &points[k - n]) <= SAME)
         };
-        (1..=self.longest_period()).find(repeats)
+        let found = (1..=self.longest_period()).find(repeats)?;
+        let approached = |d: &usize| found.is_multiple_of(*d) && self.approaches(found, *d);
+        (1..found).find(approached).or(Some(found))
+    }
+
+    /// Whether a motion that returns after `n` periods to within the accuracy approaches one of `d`
+    /// periods, a part of them: slowly, so that points `d` apart still differ by more, but by less
+    /// from lap to lap.
+    fn approaches(&self, n: usize, d: usize) -> bool {
+        let laps = self.laps();
+        let end = self.points.len();
+        if laps < FEWEST_LAPS || end < n * laps + d {
+            return false;
+        }
+        let off = |lap: usize| {
+            let last = end - n * (laps - 1 - lap);
+            let apart = (last - n..last).map(|k| distance(&self.points[k], &self.points[k - d]));
+            apart.fold(0.0, f64::max)
+        };
+        // A geometric sequence of distances, from its values at three laps.
+        let half = (laps - 1) / 2;
+        let [first, middle, last] = [0, half, 2 * half].map(off);
+        let [before, after] = [first - middle, middle - last];
+        if before < KNOWN_DISTANCE || after <= 0.0 || after >= before {
+            return false;
+        }
+        let limit = last - after * after / (before - after);
+        limit < 0.5 * last
     }
 
     /// Whether the time at which it stopped is known in spite of rounding, as far as deviations grow

@@ -233,3 +233,37 @@ fn what_was_taut_in_the_beginning_does_not_count() {
         assert!((a - b).abs() < 0.05, "{a} {b}");
     }
 }
+
+/// A point mass whose cables snap many times in a period and stick.
+const CHATTERING: Parameters = Parameters {
+    inertia: None,
+    a: 0.0,
+    r: 1.7,
+    e: 0.35,
+    nu: 0.8,
+    omega: 3.1,
+    ..Parameters::STANDARD
+};
+
+/// A motion that approaches an orbit with a multiplier near -1 returns after two periods long before
+/// it does so after one. It is a motion of one period, however early that is looked at.
+#[test]
+fn a_motion_that_alternates_ever_less_is_no_motion_of_two_periods() {
+    let case = Parameters {
+        f_o: 1.0,
+        ..CHATTERING
+    };
+    let of = |periods: u64| {
+        let options = SectionOptions {
+            phase: 0.0,
+            skip: periods - 100,
+            keep: 100,
+            exponents: false,
+            impacts: false,
+        };
+        Section::of(&case, &options, &no_progress).unwrap().period()
+    };
+    for periods in [800, 900, 1000, 1200, 1600] {
+        assert_eq!(of(periods), Some(1), "{periods}");
+    }
+}
