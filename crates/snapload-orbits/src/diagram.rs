@@ -29,13 +29,7 @@ impl DiagramPoint {
 
     /// Snaps per period.
     pub fn snaps(&self) -> Option<f64> {
-        let periods = self
-            .section
-            .points
-            .len()
-            .checked_sub(1)
-            .filter(|n| *n > 0)?;
-        Some(self.section.snaps as f64 / periods as f64)
+        self.section.snaps_per_period(self.period)
     }
 }
 

@@ -59,12 +59,12 @@ fn exponents(section: &Section) -> Vec<ExponentRow> {
 impl SectionRow {
     /// Of a section.
     pub fn new(section: &Section, phase: f64) -> Self {
-        let periods = section.points.len().saturating_sub(1);
+        let period = section.stop.is_none().then(|| section.period()).flatten();
         let points = section.points.iter().zip(section.first..);
         Self {
             phase,
-            period: section.stop.is_none().then(|| section.period()).flatten(),
-            snaps: (periods > 0).then(|| section.snaps as f64 / periods as f64),
+            period,
+            snaps: section.snaps_per_period(period),
             exponents: exponents(section),
             y_max: section.y_max,
             theta_max: section.theta_max,

@@ -13,8 +13,8 @@ pub struct Section {
     pub points: Vec<Point>,
     /// The index k of the first of them, which is the number of periods left out.
     pub first: u64,
-    /// Snaps in the kept periods.
-    pub snaps: u64,
+    /// Snaps in each of the kept periods.
+    pub snaps: Vec<u64>,
     /// The impacts one by one, if they were requested.
     pub impacts: Option<Impacts>,
     /// The Lyapunov exponents over the kept periods, the largest first, each with its standard
@@ -120,7 +120,7 @@ impl Section {
             section: Section {
                 points: Vec::new(),
                 first: options.skip,
-                snaps: 0,
+                snaps: Vec::new(),
                 impacts: options.impacts.then(Impacts::default),
                 exponents: Vec::new(),
                 end: (*z, t),
@@ -169,6 +169,15 @@ impl Section {
         }
         let limit = last - after * after / (before - after);
         limit < 0.5 * last
+    }
+
+    /// The mean number of snaps in a period of the forcing, over whole laps of a motion of `period`
+    /// periods.
+    pub fn snaps_per_period(&self, period: Option<usize>) -> Option<f64> {
+        let count = self.snaps.len();
+        let over = period.map_or(count, |n| count - count % n);
+        let snaps: u64 = self.snaps[count - over..].iter().sum();
+        (over > 0).then(|| snaps as f64 / over as f64)
     }
 
     /// Whether the time at which it stopped is known in spite of rounding, as far as deviations grow
@@ -234,7 +243,11 @@ impl Follow {
             self.sections_within(&step, last);
             if step.t_end > kept_from {
                 let snaps = step.impacts().filter(|impact| impact.v_n > 0.0);
-                self.section.snaps += snaps.count() as u64;
+                let count = snaps.count() as u64;
+                self.section.snaps.resize(self.section.points.len(), 0);
+                if let Some(last) = self.section.snaps.last_mut() {
+                    *last += count;
+                }
                 if let Some(impacts) = &mut self.section.impacts {
                     impacts.take(&step, self.period);
                 }
@@ -256,6 +269,10 @@ impl Follow {
         if section.stop.is_none() {
             section.points.push(section.end.0);
         }
+        // A period that a stop cuts short does not count.
+        section
+            .snaps
+            .resize(section.points.len().saturating_sub(1), 0);
         section.exponents = exponents(&self.logs, section.first, self.period);
         Ok(())
     }

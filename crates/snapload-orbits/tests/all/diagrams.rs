@@ -267,3 +267,51 @@ fn a_motion_that_alternates_ever_less_is_no_motion_of_two_periods() {
         assert_eq!(of(periods), Some(1), "{periods}");
     }
 }
+
+/// Snaps per period are those of whole periods, and of whole laps: in a lap of n periods their number
+/// is whole. A period that a stop cuts short does not count, as the table of impacts has it.
+#[test]
+fn snaps_are_those_of_whole_laps() {
+    let of = |case: &Parameters, skip: u64, keep: u64| {
+        let options = SectionOptions {
+            phase: 0.0,
+            skip,
+            keep,
+            exponents: false,
+            impacts: true,
+        };
+        Section::of(case, &options, &no_progress).unwrap()
+    };
+    let six = of(
+        &Parameters {
+            f_o: 0.97,
+            ..CHATTERING
+        },
+        900,
+        100,
+    );
+    assert_eq!(six.period(), Some(6));
+    let snaps = six.snaps_per_period(Some(6)).unwrap() * 6.0;
+    assert!((snaps - snaps.round()).abs() < 1e-9, "{snaps}");
+    let standard = Parameters {
+        f_o: 0.5,
+        ..Parameters::STANDARD
+    };
+    let fast = Parameters {
+        f_o: 3.2,
+        y: 0.3,
+        ..CHATTERING
+    };
+    for case in [standard, fast] {
+        let cut = of(&case, 0, 40);
+        assert!(cut.stop.is_some());
+        let whole = cut.points.len() - 1;
+        let end = std::f64::consts::TAU / case.omega * whole as f64;
+        let impacts = cut.impacts.as_ref().unwrap().points.iter();
+        let within = impacts.filter(|impact| impact.t <= end).count();
+        assert_eq!(
+            cut.snaps_per_period(None),
+            Some(within as f64 / whole as f64)
+        );
+    }
+}
