@@ -204,8 +204,8 @@ impl HalfCurve {
     }
 }
 
-/// The stability by the multipliers other than the one nearest to 1 or to −1, or than the pair
-/// nearest to the unit circle.
+/// The stability by the multipliers other than the one nearest to 1 or to −1, or than the pair of a
+/// torus.
 fn others(kind: Kind, orbit: &Orbit) -> Stability {
     let mut left = orbit.multipliers.clone();
     let mut take = |off: &dyn Fn([f64; 2]) -> f64| {
@@ -219,11 +219,9 @@ fn others(kind: Kind, orbit: &Orbit) -> Stability {
         Kind::Fold => take(&|[re, im]| (re - 1.0).hypot(im)),
         Kind::PeriodDoubling => take(&|[re, im]| (re + 1.0).hypot(im)),
         Kind::NeimarkSacker => {
-            for _ in 0..2 {
-                take(&|[re, im]| match im {
-                    0.0 => f64::INFINITY,
-                    im => (re.hypot(im) - 1.0).abs(),
-                });
+            if let Some([i, j]) = left.pair_of_torus() {
+                left.values.remove(j);
+                left.values.remove(i);
             }
         }
         _ => {}
@@ -258,14 +256,16 @@ fn point<F: Family>(on_curve: &OnCurve<F>, orbit: Orbit, arclength: f64) -> Curv
 }
 
 /// The borders at which a curve ends, as numbers that are negative beyond them: the four sides of
-/// the ranges, a corner, a snap of zero velocity.
-const BORDERS: [&str; 6] = [
+/// the ranges, a corner, a snap of zero velocity, and where the pair of a torus becomes real.
+const BORDERS: [&str; 8] = [
     "the end of the range",
     "the end of the range",
     "the end of the range",
     "the end of the range",
     "corner: two cables snap at once, and come in the other order beyond it",
     "graze: another snap of the sequence has zero velocity here, and a negative one beyond it",
+    "resonance 1:1: both multipliers of the pair are 1 here, and real beyond it",
+    "resonance 1:2: both multipliers of the pair are -1 here, and real beyond it",
 ];
 
 /// A point this close to a border counts as on it.
@@ -343,7 +343,7 @@ impl Follower<'_> {
     }
 
     /// The distance to each border.
-    fn margins<F: Family>(&self, on_curve: &OnCurve<F>, orbit: &Orbit) -> [f64; 6] {
+    fn margins<F: Family>(&self, on_curve: &OnCurve<F>, orbit: &Orbit) -> [f64; 8] {
         let [[a, b], [c, d]] = self.options.ranges;
         let [x, y] = orbit.at;
         let corner = orbit.survey.corner_gap;
@@ -355,7 +355,14 @@ impl Follower<'_> {
             .filter(|(k, (event, _))| own != Some(*k) && !event.struck().is_empty());
         let slowest = others.map(|(_, (_, speed))| *speed);
         let slowest = slowest.fold(f64::INFINITY, f64::min);
-        [x - a, b - x, y - c, d - y, corner, slowest]
+        let trace = match on_curve.condition.kind() {
+            Kind::NeimarkSacker => orbit.multipliers.pair_of_torus(),
+            _ => None,
+        };
+        let trace = trace.map(|pair| pair.map(|k| orbit.multipliers.values[k][0]).iter().sum());
+        let resonances = trace.map_or([f64::INFINITY; 2], |sum: f64| [2.0 - sum, 2.0 + sum]);
+        let [one, two] = resonances;
+        [x - a, b - x, y - c, d - y, corner, slowest, one, two]
     }
 
     /// The first border between two points.
@@ -363,8 +370,8 @@ impl Follower<'_> {
         &self,
         on_curve: &OnCurve<'a, F>,
         step: f64,
-        before: &[f64; 6],
-        after: &[f64; 6],
+        before: &[f64; 8],
+        after: &[f64; 8],
     ) -> Option<Border<'a, F>> {
         let crossed = (0..before.len()).filter(|&k| before[k] >= 0.0 && after[k] < 0.0);
         let border = |number: usize| {
@@ -394,8 +401,7 @@ struct Border<'a, F: Family> {
 /// Why a curve ends at a point that it has reached.
 fn reason_to_end<F: Family>(on_curve: &OnCurve<F>, orbit: &Orbit) -> Option<String> {
     if !on_curve.condition.is_met(orbit) {
-        let because = "the pair of multipliers is real from here on: a resonance of 1:1 or 1:2";
-        return Some(because.to_owned());
+        return Some("the pair of multipliers is not on the unit circle from here on".to_owned());
     }
     let gap = orbit.survey.largest_gap.map_or(0.0, |gap| gap.value);
     (gap > LARGEST_GAP).then(|| format!("a cable would have to be longer by {LARGEST_GAP}"))

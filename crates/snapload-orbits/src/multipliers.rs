@@ -60,6 +60,18 @@ impl Multipliers {
         self.values.first().map_or(0.0, |[re, im]| re.hypot(*im))
     }
 
+    /// The places of the two whose product is nearest to 1, in their order: on the unit circle they
+    /// are the pair of a torus, and on its curve, where they become real, still the same.
+    pub(crate) fn pair_of_torus(&self) -> Option<[usize; 2]> {
+        let values = &self.values;
+        let off = |[i, j]: &[usize; 2]| {
+            let ([a, b], [c, d]) = (values[*i], values[*j]);
+            (a * c - b * d - 1.0).hypot(a * d + b * c)
+        };
+        let pairs = (0..values.len()).flat_map(|j| (0..j).map(move |i| [i, j]));
+        pairs.min_by(|one, other| off(one).total_cmp(&off(other)))
+    }
+
     /// The least and the greatest number of them that may be outside the unit circle: those that
     /// certainly are, and those that are not certainly inside.
     pub(crate) fn outside(&self) -> [usize; 2] {

@@ -2,6 +2,7 @@
 
 use crate::closed_forms::{bouncing, bouncing_from, table};
 use crate::common::{parameters, reference};
+use snapload::Parameters;
 use snapload::analysis::no_progress;
 use snapload_orbits::{
     Branch, BranchEvent, BranchOptions, Curve, CurveOptions, CurvePoint, Family, Kind, Moored,
@@ -276,4 +277,57 @@ fn coefficients_of_folds_have_a_sign_along_the_curve() {
     assert!(pairs.count() > 15, "{known:?}");
     let near = |value: f64| known.iter().any(|a| (a.abs() / value - 1.0).abs() < 0.1);
     assert!(near(2.76588) && near(5.1487), "{known:?}");
+}
+
+/// A Neimark-Sacker curve ends where both multipliers of its pair are 1 or -1. That is a point of the
+/// curve, and the same one whatever its steps.
+#[test]
+fn a_curve_of_tori_ends_at_its_resonance() {
+    let case = Parameters {
+        inertia: None,
+        a: 0.0,
+        r: 1.7,
+        e: 0.35,
+        f_o: 1.4,
+        nu: 0.8,
+        omega: 3.1,
+        ..Parameters::STANDARD
+    };
+    let keys = [Some("omega"), Some("e")];
+    let family = Moored::case(case, keys);
+    let start = [-0.2688, 0.3830, 0.0, 0.8084, -0.4263, 0.0];
+    let at = Moored::values(&case, keys);
+    let orbit = Orbit::find(&family, at, &start, &OrbitRequest::default()).unwrap();
+    let options = BranchOptions {
+        range: [1.5, 5.0],
+        step: 0.01,
+        most: 500,
+    };
+    let branch = Branch::of(&family, &orbit, &options, &no_progress).unwrap();
+    let event = branch.event(Kind::NeimarkSacker, None).unwrap();
+    let ends = [0.01, 0.03].map(|step| {
+        let curve = curve(&family, event, [[1.5, 5.0], [0.1, 1.0]], step);
+        let mut both = [curve.points.first(), curve.points.last()].map(|point| {
+            let orbit = &point.unwrap().orbit;
+            let sizes = orbit.multipliers.values.iter();
+            let at = sizes.filter(|[re, im]| (re.abs() - 1.0).hypot(*im) < 1e-4);
+            (orbit.at, at.map(|[re, _]| re.signum()).collect::<Vec<_>>())
+        });
+        for ((at, signs), end) in both.iter().zip(&curve.ends) {
+            assert_eq!(*at, end.at);
+            let name = if signs[0] > 0.0 { "1:1" } else { "1:2" };
+            assert_eq!(signs.len(), 2, "{signs:?}");
+            assert!(
+                end.because.contains(&format!("resonance {name}")),
+                "{}",
+                end.because
+            );
+        }
+        both.sort_by(|a, b| a.0[0].total_cmp(&b.0[0]));
+        both.map(|(at, _)| at)
+    });
+    println!("{ends:?}");
+    for (one, other) in ends[0].as_flattened().iter().zip(ends[1].as_flattened()) {
+        assert!((one - other).abs() < 1e-7, "{ends:?}");
+    }
 }
