@@ -7,7 +7,9 @@ use crate::moored::Moored;
 use crate::orbit_search::NEARLY_TAUT;
 use crate::section::SectionOptions;
 use snapload::analysis::UNCERTAIN_KEYS;
-use snapload::{Case, CaseError, Key, Kind, Parameters, Value, check_entry, key_named};
+use snapload::{
+    Case, CaseError, Key, Kind, Parameters, Value, check_entry, key_named, natural_inertia,
+};
 
 /// Periods of the forcing for which a motion is followed.
 pub const PERIODS: Key = Key::option("periods", Kind::Count(1, 100_000_000));
@@ -114,6 +116,7 @@ pub fn branch_options(
 ) -> Result<(&'static str, f64, BranchOptions), CaseError> {
     let (key, value) = followed_key("along", parameters, key)?;
     check_range(key, value, [low, high])?;
+    check_inertia(parameters, key, [low, high])?;
     let step = checked_step(step)?;
     let range = [low, high];
     Ok((key, value, BranchOptions { range, step, most }))
@@ -138,6 +141,7 @@ pub fn curve_options(
             None => usual_range(key, value)?,
         };
         check_range(key, value, range)?;
+        check_inertia(parameters, key, range)?;
         Ok::<_, CaseError>((key, range))
     };
     let [(first, a), (second, b)] = [of(keys[0])?, of(keys[1])?];
@@ -204,6 +208,31 @@ fn check_range(key: &str, value: f64, [low, high]: [f64; 2]) -> Result<(), CaseE
         return Err(CaseError::value(key, range, allowed));
     }
     Ok(())
+}
+
+/// Refuses to follow an orbit to b = 0 where the inertia is the natural one of the size, which jumps
+/// there: an orbit on one side is none on the other.
+fn check_inertia(
+    parameters: &Parameters,
+    key: &str,
+    [low, high]: [f64; 2],
+) -> Result<(), CaseError> {
+    let follows = parameters.inertia == natural_inertia(parameters.a, parameters.b);
+    match parameters
+        .inertia
+        .filter(|_| key == "b" && low == 0.0 && follows)
+    {
+        None => Ok(()),
+        Some(inertia) => Err(CaseError::value(
+            key,
+            format!("{low}:{high}"),
+            format!(
+                "a range that begins above 0, as the default inertia jumps from a^2 at b = 0 to (a^2 + b^2)/3 \
+                 above it; or another inertia than the default one, such as inertia = {:.9}",
+                inertia * (1.0 + 1e-6)
+            ),
+        )),
+    }
 }
 
 fn checked_step(step: f64) -> Result<f64, CaseError> {

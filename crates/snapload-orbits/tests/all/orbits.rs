@@ -5,8 +5,8 @@ use serde_json::Value as Json;
 use snapload::Parameters;
 use snapload_certificate::ExactCase;
 use snapload_orbits::{
-    Family, Lap, Moored, Orbit, OrbitRequest, Point, Stability, distance, followed_key,
-    orbit_summary,
+    Family, Lap, Moored, Orbit, OrbitRequest, Point, Stability, branch_options, distance,
+    followed_key, orbit_summary,
 };
 
 /// The orbit near the reference's, from a start at a distance of 1e-4.
@@ -210,6 +210,25 @@ fn a_point_mass_is_not_followed_along_its_size() {
         assert!(refused.contains("of this body"), "{refused}");
     }
     assert_eq!(followed_key("along", &case, "r").unwrap(), ("r", 1.7));
+}
+
+/// The default inertia is that of a ring at b = 0 and that of a rectangle above it.
+#[test]
+fn an_orbit_is_not_followed_through_the_jump_of_the_default_inertia() {
+    let of = |case: &Parameters, low: f64| branch_options(case, "b", [low, 0.2], 0.01, 100);
+    let refused = of(&Parameters::STANDARD, 0.0).unwrap_err().to_string();
+    assert!(refused.contains("default inertia jumps") && refused.contains("inertia = 0.01000001"));
+    let wide = Parameters {
+        b: 0.1,
+        inertia: snapload::natural_inertia(0.1, 0.1),
+        ..Parameters::STANDARD
+    };
+    assert!(of(&wide, 0.0).is_err() && of(&wide, 0.05).is_ok());
+    let own = Parameters {
+        inertia: Some(0.01000001),
+        ..Parameters::STANDARD
+    };
+    assert!(of(&own, 0.0).is_ok());
 }
 
 /// The section is away from the events, so that all residuals take part.
