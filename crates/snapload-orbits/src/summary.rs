@@ -7,6 +7,7 @@ use crate::erosion::{Erosion, KNEE, decided_part};
 use crate::orbit::Orbit;
 use crate::section::Section;
 use crate::sequence::{Sequence, symbol_text};
+use snapload::TautSet;
 use snapload::analysis::START_KEYS;
 use std::fmt::Write;
 
@@ -23,6 +24,7 @@ pub fn orbit_summary(orbit: &Orbit) -> String {
         orbit.length,
         events_text(&orbit.lap.sequence)
     );
+    text += &always_taut_text(&orbit.lap.sequence);
     if orbit.smallest_periods < orbit.periods {
         let _ = writeln!(
             text,
@@ -75,6 +77,18 @@ pub(crate) fn periods(n: usize) -> String {
 
 fn of_the_forcing(n: usize) -> String {
     format!("{} of the forcing", periods(n))
+}
+
+/// The cables that are taut during the whole lap, and so have no events.
+fn always_taut_text(sequence: &Sequence) -> String {
+    let sets = sequence.taut_sets().into_iter();
+    let always = sets.reduce(TautSet::intersection).unwrap_or(TautSet::SLACK);
+    let cables: Vec<String> = always.iter().map(|cable| (cable + 1).to_string()).collect();
+    match cables.len() {
+        0 => String::new(),
+        1 => format!("Taut      cable {} all the time\n", cables[0]),
+        _ => format!("Taut      cables {} all the time\n", cables.join(", ")),
+    }
 }
 
 /// The events of a sequence in whole words, where the symbol abbreviates them.

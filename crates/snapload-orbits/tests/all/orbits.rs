@@ -231,6 +231,21 @@ fn an_orbit_is_not_followed_through_the_jump_of_the_default_inertia() {
     assert!(of(&own, 0.0).is_ok());
 }
 
+/// A cable that is taut during the whole lap has no event, and is named all the same.
+#[test]
+fn cables_that_are_always_taut_are_named() {
+    for (name, line) in [
+        ("slide_stable", Some("Taut      cable 2 all the time\n")),
+        ("rock_circle", Some("Taut      cables 1, 2 all the time\n")),
+        ("volley", None),
+    ] {
+        let reference = orbits().into_iter().find(|orbit| orbit["name"] == name);
+        let text = orbit_summary(&found(&reference.unwrap(), 1e-4));
+        assert_eq!(text.contains("Taut"), line.is_some(), "{text}");
+        assert!(line.is_none_or(|line| text.contains(line)), "{text}");
+    }
+}
+
 /// The section is away from the events, so that all residuals take part.
 #[test]
 fn durations_in_turn_and_all_unknowns_together_give_one_step() {
