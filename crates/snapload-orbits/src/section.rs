@@ -21,6 +21,9 @@ pub struct Section {
     /// error, which is NaN if there are too few periods; empty if they were not requested. For a
     /// direction that contact closes it is −∞.
     pub exponents: Vec<[f64; 2]>,
+    /// How often in the kept periods one more cable became taut to stay so: the number of times
+    /// that at least one was, at least two, and so on.
+    pub contacts: Vec<u64>,
     /// The state at the end of the motion, and its time.
     pub end: (Point, f64),
     /// The highest y and the largest |θ|.
@@ -123,6 +126,7 @@ impl Section {
                 snaps: Vec::new(),
                 impacts: options.impacts.then(Impacts::default),
                 exponents: Vec::new(),
+                contacts: Vec::new(),
                 end: (*z, t),
                 y_max: z[1],
                 theta_max: z[2].abs(),
@@ -178,6 +182,13 @@ impl Section {
         let over = period.map_or(count, |n| count - count % n);
         let snaps: u64 = self.snaps[count - over..].iter().sum();
         (over > 0).then(|| snaps as f64 / over as f64)
+    }
+
+    fn count_contacts(&mut self, before: usize, after: usize) {
+        self.contacts.resize(self.contacts.len().max(after), 0);
+        for count in self.contacts.iter_mut().take(after).skip(before) {
+            *count += 1;
+        }
     }
 
     /// Whether the time at which it stopped is known in spite of rounding, as far as deviations grow
@@ -248,6 +259,8 @@ impl Follow {
                 if let Some(last) = self.section.snaps.last_mut() {
                     *last += count;
                 }
+                self.section
+                    .count_contacts(step.taut.len(), step.taut_after.len());
                 if let Some(impacts) = &mut self.section.impacts {
                     impacts.take(&step, self.period);
                 }

@@ -116,12 +116,22 @@ pub(crate) fn exponent_text([mean, error]: [f64; 2]) -> String {
 }
 
 /// The exponents of a section in a line.
-fn exponents_text(exponents: &[[f64; 2]]) -> String {
+fn exponents_text(section: &Section) -> String {
+    let exponents = &section.exponents;
     let left = exponents.iter().filter(|[mean, _]| mean.is_finite());
     let mut all: Vec<String> = left.map(|both| exponent_text(*both)).collect();
     let closed = exponents.len() - all.len();
     if closed > 0 {
-        all.push(format!("{closed} of -inf (directions closed by contact)"));
+        // Each taut cable closes two directions, for good.
+        let times = section.contacts.get(closed.div_ceil(2) - 1).copied();
+        let times = match times.unwrap_or(0) {
+            0 => String::new(),
+            1 => ", once".to_owned(),
+            n => format!(", {n} times"),
+        };
+        all.push(format!(
+            "{closed} of -inf (directions closed by contact{times})"
+        ));
     }
     all.join(", ")
 }
@@ -177,7 +187,7 @@ pub fn section_summary(section: &Section) -> String {
         ),
     };
     if !section.exponents.is_empty() {
-        let all = exponents_text(&section.exponents);
+        let all = exponents_text(section);
         let _ = writeln!(text, "Exponents per unit of time: {all}");
     }
     if let Some(kept) = &section.impacts {
@@ -210,6 +220,12 @@ pub fn diagram_summary(key: &str, found: &[DiagramPoint]) -> String {
             Some(stop) => writeln!(text, "{value:<12} {}", stop.label()),
             None => writeln!(text, "{value:<12} {period:<7} {snaps:<8} {exponent}"),
         };
+    }
+    let none = found
+        .iter()
+        .filter(|at| at.stop().is_none() && at.period.is_none());
+    if let Some(longest) = none.map(|at| at.section.longest_period()).max() {
+        let _ = writeln!(text, "none: no period of the forcing up to {longest}");
     }
     text
 }

@@ -315,3 +315,47 @@ fn snaps_are_those_of_whole_laps() {
         );
     }
 }
+
+/// A chaotic motion whose cables are both taut once in the kept periods has no finite exponent. The
+/// text says how often that was, as the steps of the run have it.
+#[test]
+fn how_often_contact_closed_the_directions_is_said() {
+    let case = Parameters {
+        f_o: 1.06,
+        ..CHATTERING
+    };
+    let (skip, keep) = (100, 900);
+    let options = SectionOptions {
+        phase: 0.0,
+        skip,
+        keep,
+        exponents: true,
+        impacts: false,
+    };
+    let found = Section::of(&case, &options, &no_progress).unwrap();
+    let mut rules = case.rules();
+    (rules.settled_below, rules.sliding_above) = (None, None);
+    let period = std::f64::consts::TAU / case.omega;
+    rules.t_end = period * (skip + keep) as f64;
+    rules.max_impacts = u64::MAX;
+    let state = snapload::State::from_components(snapload_orbits::start_of(&case));
+    let mut run = snapload::Simulation::new(case.system(), rules, 0.0, state).unwrap();
+    let (mut rests, mut taut) = (0, 0);
+    while let Some(step) = run.step() {
+        let both = step.taut_after.len();
+        rests += u64::from(both == 2 && taut < 2 && step.t_end > period * skip as f64);
+        taut = both;
+    }
+    let text = section_summary(&found);
+    println!("{rests} {text}");
+    assert_eq!(
+        (found.period(), found.contacts.get(1)),
+        (None, Some(&rests))
+    );
+    assert!(
+        text.contains(&format!(
+            "4 of -inf (directions closed by contact, {rests} times)"
+        )),
+        "{text}"
+    );
+}
