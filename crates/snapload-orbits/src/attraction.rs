@@ -1,10 +1,10 @@
 //! Basins of attraction: the attractor that each start of a window leads to.
 
-use crate::basin::Window;
 use crate::hybrid::{Point, distance};
 use crate::moored::Moored;
 use crate::orbit::{Orbit, OrbitRequest};
 use crate::section::{Section, SectionOptions, start_of};
+use crate::window::Window;
 use snapload::analysis::{Counter, OnProgress, Unfinished, in_parallel, no_progress};
 use snapload::{Case, Parameters, Stop};
 

@@ -2,40 +2,11 @@
 
 use crate::branch_events::{BranchEvent, Kind};
 use crate::continuation::{Continuation, Goal, Unknowns};
-use crate::follower::{Follower, HalfBranch};
+use crate::follower::{BranchEnd, BranchOptions, BranchPoint, Follower, HalfBranch, point};
 use crate::hybrid::Family;
 use crate::orbit::{NoOrbit, Orbit};
 use crate::switch::doubled;
 use snapload::analysis::{Cancelled, OnProgress};
-
-/// How a branch is followed.
-#[derive(Clone, Copy, Debug)]
-pub struct BranchOptions {
-    /// The least and the greatest value of the parameter.
-    pub range: [f64; 2],
-    /// The length of the first step, in the space of state, times and parameter.
-    pub step: f64,
-    /// The most points in either direction.
-    pub most: usize,
-}
-
-/// A point of a branch.
-#[derive(Clone, Debug)]
-pub struct BranchPoint {
-    /// The orbit, which may be inadmissible.
-    pub orbit: Orbit,
-    /// The length along the branch from the orbit with which it was started.
-    pub arclength: f64,
-}
-
-/// Where a branch ends, and why.
-#[derive(Clone, Debug, PartialEq)]
-pub struct BranchEnd {
-    /// The value of the parameter.
-    pub at: f64,
-    /// Why.
-    pub because: String,
-}
 
 /// A branch of orbits.
 #[derive(Clone, Debug)]
@@ -159,10 +130,6 @@ impl Branch {
         let forward = follower.run(&continuation, &start, &apart, &orbit, &first)?;
         Ok(Some(joined(&orbit, doubled, forward)))
     }
-}
-
-pub(crate) fn point(orbit: Orbit, arclength: f64) -> BranchPoint {
-    BranchPoint { orbit, arclength }
 }
 
 fn joined(orbit: &Orbit, backward: HalfBranch, forward: HalfBranch) -> Branch {

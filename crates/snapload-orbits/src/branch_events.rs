@@ -190,9 +190,6 @@ const NOT_CROSSING: f64 = 1e-9;
 /// The largest value of a test function that is accepted as a zero.
 const ZERO: f64 = 1e-6;
 
-/// The step of difference quotients of exact derivatives.
-pub(crate) const DIFFERENCE: f64 = 3e-6;
-
 /// A point of a branch, as far as the events before and after it are concerned.
 pub(crate) struct Tested {
     /// The values of all test functions; NaN for those that do not exist.

@@ -12,8 +12,7 @@
 //! meet; where a small asymmetry keeps them apart it is not.
 
 use crate::bordered::null_vectors;
-use crate::branch_events::DIFFERENCE;
-use crate::continuation::{BranchStep, Unknowns};
+use crate::continuation::{BranchStep, DIFFERENCE, Unknowns};
 use crate::hybrid::Family;
 use nalgebra::{DMatrix, DVector};
 

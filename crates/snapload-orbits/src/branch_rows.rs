@@ -1,7 +1,8 @@
 //! Branches in the form of their JSON, and as text.
 
-use crate::branch::{Branch, BranchEnd, BranchPoint};
+use crate::branch::Branch;
 use crate::branch_events::BranchEvent;
+use crate::follower::{BranchEnd, BranchPoint};
 use crate::hybrid::Point;
 use crate::orbit_row::StabilityRow;
 use serde::Serialize;

@@ -9,8 +9,8 @@
 //! The first two do not divide by the speed of a snap, so that they are smooth through grazes.
 
 use crate::bordered::{null_vectors, solved};
-use crate::branch_events::{BranchEvent, DIFFERENCE, Kind};
-use crate::continuation::{Continuation, Unknowns};
+use crate::branch_events::{BranchEvent, Kind};
+use crate::continuation::{Continuation, DIFFERENCE, Unknowns};
 use crate::hybrid::{DURATION, Family, Hybrid, Jet, Point, constant};
 use crate::orbit::Orbit;
 use nalgebra::{DMatrix, DVector};

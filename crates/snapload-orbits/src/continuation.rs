@@ -42,6 +42,8 @@ impl<F: Family> Clone for Continuation<'_, F> {
 
 /// Two corrected points of a branch that differ by less than this are one.
 pub(crate) const SAME: f64 = 1e-8;
+/// The step of difference quotients of exact derivatives.
+pub(crate) const DIFFERENCE: f64 = 3e-6;
 /// The most steps of the corrector.
 const MOST_STEPS: usize = 12;
 /// A point is on the branch if its residual is below this.

@@ -1,7 +1,8 @@
 //! Erosion of safe basins: how much of a window is safe as a third key changes.
 
-use crate::basin::{Basin, Window};
+use crate::basin::Basin;
 use crate::measures::Measures;
+use crate::window::Window;
 use snapload::analysis::{OnProgress, Progress, Unfinished};
 use snapload::{CaseError, Value};
 

@@ -1,6 +1,5 @@
 //! Follows a branch in one direction, step by step.
 
-use crate::branch::{BranchEnd, BranchOptions, BranchPoint, point};
 use crate::branch_events::{BranchEvent, Kind, Test, Tested, located};
 use crate::continuation::{BranchStep, Continuation, Goal, Unknowns};
 use crate::hybrid::Family;
@@ -8,6 +7,35 @@ use crate::orbit::Orbit;
 use crate::survey::root;
 use nalgebra::DVector;
 use snapload::analysis::{Cancelled, OnProgress, Progress};
+
+/// How a branch is followed.
+#[derive(Clone, Copy, Debug)]
+pub struct BranchOptions {
+    /// The least and the greatest value of the parameter.
+    pub range: [f64; 2],
+    /// The length of the first step, in the space of state, times and parameter.
+    pub step: f64,
+    /// The most points in either direction.
+    pub most: usize,
+}
+
+/// A point of a branch.
+#[derive(Clone, Debug)]
+pub struct BranchPoint {
+    /// The orbit, which may be inadmissible.
+    pub orbit: Orbit,
+    /// The length along the branch from the orbit with which it was started.
+    pub arclength: f64,
+}
+
+/// Where a branch ends, and why.
+#[derive(Clone, Debug, PartialEq)]
+pub struct BranchEnd {
+    /// The value of the parameter.
+    pub at: f64,
+    /// Why.
+    pub because: String,
+}
 
 /// The longest and the shortest step, in units of the first.
 const LONGEST_STEP: f64 = 6.0;
@@ -28,6 +56,10 @@ const LONGEST_TIME_CHANGE: f64 = 0.3;
 const LARGEST_GAP: f64 = 0.02;
 /// A value this close to the border of the range is set to the border.
 const ON_BORDER: f64 = 1e-13;
+
+pub(crate) fn point(orbit: Orbit, arclength: f64) -> BranchPoint {
+    BranchPoint { orbit, arclength }
+}
 
 /// The branch in one direction.
 pub(crate) struct HalfBranch {

@@ -61,17 +61,19 @@ mod sequence;
 mod summary;
 mod survey;
 mod switch;
+mod window;
 
 pub use attraction::{Attraction, Attractor, CellOutcome};
 pub use attractor::{ATTRACTOR_PERIODS, Starts, TRANSIENT, attracts, find_orbits, of_attractor};
-pub use basin::{Basin, Cell, Window};
-pub use branch::{Branch, BranchEnd, BranchOptions, BranchPoint};
+pub use basin::Basin;
+pub use branch::Branch;
 pub use branch_events::{BranchEvent, Kind};
 pub use branch_rows::{BranchRow, branch_summary};
 pub use curve::{Curve, CurveEnd, CurveOptions, CurvePoint};
 pub use curve_rows::{CurveRow, curve_summary};
 pub use diagram::{DiagramPoint, diagram};
 pub use erosion::{Erosion, KNEE};
+pub use follower::{BranchEnd, BranchOptions, BranchPoint};
 pub use hybrid::{
     DURATION, Family, Hybrid, Jet, Limits, PARAMETER, Point, Simulated, TIME, constant, distance,
     values, variable,
@@ -100,3 +102,4 @@ pub use summary::{
     section_summary, without_points_summary,
 };
 pub use survey::{Extreme, Survey, survey};
+pub use window::{Cell, Window};

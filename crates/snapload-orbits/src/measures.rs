@@ -1,7 +1,7 @@
 //! Measures of the safe part of a window.
 
-use crate::basin::{Cell, Window};
 use crate::distances::squared_distances;
+use crate::window::{Cell, Window};
 use snapload::analysis::Share;
 
 /// Measures of the safe part of a window.

@@ -4,9 +4,10 @@
 //! generic and are compiled with the settings of this crate, so that they are fast in a program
 //! that leaves its own code unoptimised.
 
-use crate::branch::{Branch, BranchOptions};
+use crate::branch::Branch;
 use crate::branch_events::BranchEvent;
 use crate::curve::{Curve, CurveOptions};
+use crate::follower::BranchOptions;
 use crate::hybrid::{Family, Hybrid, Point};
 use crate::moored::Moored;
 use crate::orbit::{NoOrbit, Orbit, OrbitRequest};

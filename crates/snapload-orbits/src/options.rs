@@ -1,7 +1,7 @@
 //! Checks of the options of the questions, shared by the command and Python.
 
-use crate::branch::BranchOptions;
 use crate::curve::CurveOptions;
+use crate::follower::BranchOptions;
 use crate::hybrid::{Family, Hybrid, Point};
 use crate::moored::Moored;
 use crate::orbit_search::NEARLY_TAUT;

@@ -1,12 +1,13 @@
 //! The answers as a few lines of text.
 
 use crate::attraction::Attraction;
-use crate::basin::{Basin, Window};
+use crate::basin::Basin;
 use crate::diagram::DiagramPoint;
 use crate::erosion::{Erosion, KNEE, decided_part};
 use crate::orbit::Orbit;
 use crate::section::Section;
 use crate::sequence::{Sequence, symbol_text};
+use crate::window::Window;
 use snapload::TautSet;
 use snapload::analysis::START_KEYS;
 use std::fmt::Write;
