@@ -264,6 +264,23 @@ fn largest_early<L: Lane>(gap: L, slope: L, s: L) -> L {
     L::select(gap.below(L::ZERO), largest, slope * s)
 }
 
+/// Whether the gap that closes is below zero by more than a margin, given its square, up to its last
+/// rise.
+#[inline(always)]
+pub(super) fn is_open_before_last_rise<L: Lane>(
+    bounced: &Bounced<L>,
+    square_of_margin: L,
+) -> L::Mask {
+    let (facts, s) = (bounced.facts, bounced.t - bounced.from.t);
+    let [gap, _] = bounced.each(|k| bounced.from.gaps[k][0]);
+    let [length, _] = bounced.each(|k| bounced.two_cables.cables[k].length());
+    let largest = largest_early(gap, facts.struck_slope, s).larger(-facts.depth);
+    let risen = facts.depth * length * bounced.v_n * 2.0;
+    largest.below(L::ZERO)
+        & square_of_margin.below(largest * largest)
+        & (square_of_margin * facts.bend * facts.bend).below(risen * risen)
+}
+
 /// Standard deviation of the impact's location across the end of the cable that snaps.
 #[inline(always)]
 fn location<L: Lane>(bounced: &Bounced<L>, slant: L, moved: [L; 3]) -> L {
@@ -394,8 +411,7 @@ impl<L: Lane> Reach<L> {
     #[inline(always)]
     fn rises_once(&self, bounced: &Bounced<L>) -> L::Mask {
         const FACTOR: f64 = 8.0 * SIGMA_REACH * SIGMA_REACH * SAFE;
-        let (facts, before, s) = (bounced.facts, bounced.before, bounced.t - bounced.from.t);
-        let [gap, _] = bounced.each(|k| bounced.from.gaps[k][0]);
+        let (before, s) = (bounced.before, bounced.t - bounced.from.t);
         let [length, _] = bounced.each(|k| bounced.two_cables.cables[k].length());
         let [reach, _] = bounced.each(|k| bounced.two_cables.reach[k]);
         let speed = before
@@ -407,12 +423,7 @@ impl<L: Lane> Reach<L> {
         let place = (speed * speed).mul_add(self.later, place) * 4.0;
         let rate = length * bounced.v_n;
         let square = (rate * rate).mul_add(self.later, place * way * way) * FACTOR;
-        let depth = facts.depth;
-        let largest = largest_early(gap, facts.struck_slope, s).larger(-depth);
-        let risen = depth * rate * 2.0;
-        largest.below(L::ZERO)
-            & square.below(largest * largest)
-            & (square * facts.bend * facts.bend).below(risen * risen)
+        is_open_before_last_rise(bounced, square)
     }
 
     /// Whether the other gap stays open by more than the neighbours' reach. A cable that was closed

@@ -1,6 +1,7 @@
 //! Where neighbours may have another event than the run.
 
 use crate::analysis::trust::HorizonCause;
+use crate::analysis::trust::bounces::is_open_before_last_rise;
 use crate::analysis::trust::covariance::CovarianceFactor;
 use crate::model::cable::Normal;
 use crate::motion::active_set::normal_acceleration;
@@ -279,6 +280,11 @@ fn may_snap(
     let [a, b] = tether.fairlead().components();
     let slopes = [1.0, 1.0, a.abs() + b.abs(), 0.0, 0.0, 0.0];
     let most = per_place * along.at_most(&slopes).max(met.at_most(&slopes));
+    // So is what is known of a bounce.
+    let bounced = simulation.bounced(step).filter(|_| closes);
+    if bounced.is_some_and(|bounced| is_open_before_last_rise(&bounced, most * most)) {
+        return None;
+    }
     let first = simulation.comes_near(step, cable, most);
     if first.is_none() && !near_at_end(most) {
         return None;
