@@ -12,11 +12,31 @@ const BEYOND: usize = 30;
 const FARTHEST: f64 = 8.0;
 /// Relocations of the poles.
 const RELOCATIONS: usize = 60;
+/// Couplings below this part of the diagonal are taken as zero, as for a mirror-symmetric body, or
+/// for surge and pitch about the point at which they do not couple.
+const COUPLED: f64 = 1e-3;
+
+/// The largest damping of an entry, and its frequency.
+pub(super) fn largest_damping(hydro: &Hydrodynamics, i: usize, j: usize) -> (f64, f64) {
+    let values = hydro.damping_entry(i, j).into_iter().enumerate();
+    let (at, value) =
+        values.map(|(k, b)| (k, b.abs())).fold(
+            (0, 0.0),
+            |most, next| if next.1 > most.1 { next } else { most },
+        );
+    (value, hydro.omega_rad_s[at])
+}
+
+/// Whether the waves that one motion makes act on another.
+pub(super) fn coupled(hydro: &Hydrodynamics, i: usize, j: usize) -> bool {
+    let largest = |i: usize, j: usize| largest_damping(hydro, i, j).0;
+    largest(i, j) > COUPLED * (largest(i, i) * largest(j, j)).sqrt()
+}
 
 /// The samples to which one block is fitted.
 pub(super) struct Block {
     pub freedoms: Vec<usize>,
-    /// Entries i ≤ j by index in `freedoms`.
+    /// Entries i ≤ j that are not zero, by index in `freedoms`.
     pub entries: Vec<(usize, usize)>,
     pub samples: Samples,
     /// The number of samples from the file, without those beyond its last frequency.
@@ -35,8 +55,10 @@ impl Block {
         });
         let omega: Vec<f64> = hydro.omega_rad_s.iter().copied().chain(beyond).collect();
         let size = freedoms.len();
+        // A zero entry can not be fitted relative to itself, and has no residues.
         let entries: Vec<(usize, usize)> = (0..size)
             .flat_map(|i| (i..size).map(move |j| (i, j)))
+            .filter(|(i, j)| i == j || coupled(hydro, freedoms[*i], freedoms[*j]))
             .collect();
         let mut values = DMatrix::zeros(omega.len(), entries.len());
         let (mut kernels, mut scale) = (Vec::new(), Vec::new());
@@ -55,12 +77,7 @@ impl Block {
                 values[(k, e)] = Complex::new(damping, omega * difference);
             }
             let own_values = values.column(e).rows(0, own).norm_squared();
-            scale.push(
-                (own_values / own as f64)
-                    .sqrt()
-                    .max(f64::MIN_POSITIVE)
-                    .recip(),
-            );
+            scale.push((own_values / own as f64).sqrt().recip());
             kernels.push(Kernel::new(&curve, last));
         }
         let unit = freedoms.iter().map(|i| {

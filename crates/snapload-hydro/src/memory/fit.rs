@@ -1,6 +1,6 @@
 //! Fits a memory to the coefficients of a file.
 
-use super::block::{Block, residues};
+use super::block::{Block, coupled, largest_damping, residues};
 use super::curve::{DampingCurve, added_mass_at_infinity};
 use super::irregular::irregular;
 use super::passivity::Nearest;
@@ -20,8 +20,6 @@ const GOOD_FIT: f64 = 0.01;
 pub(super) const POOR_FIT: f64 = 0.02;
 /// The increase of the error that passivity may cause.
 pub(super) const PASSIVITY_MISFIT: f64 = 0.02;
-/// Couplings below this part of the diagonal are taken as zero, as for a mirror-symmetric body.
-const COUPLED: f64 = 1e-3;
 
 /// Options of the fit.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -49,16 +47,7 @@ pub struct Fit {
 
 /// The groups of coupled degrees of freedom that make waves.
 fn blocks(hydro: &Hydrodynamics) -> Vec<Vec<usize>> {
-    let largest = |i: usize, j: usize| {
-        let values = hydro.damping_entry(i, j).into_iter().enumerate();
-        let (at, value) = values
-            .map(|(k, b)| (k, b.abs()))
-            .fold(
-                (0, 0.0),
-                |most, next| if next.1 > most.1 { next } else { most },
-            );
-        (value, hydro.omega_rad_s[at])
-    };
+    let largest = |i: usize, j: usize| largest_damping(hydro, i, j);
     let (force, omega) = [largest(0, 0), largest(1, 1)]
         .into_iter()
         .fold((0.0, 1.0), |a, b| if b.0 > a.0 { b } else { a });
@@ -68,18 +57,17 @@ fn blocks(hydro: &Hydrodynamics) -> Vec<Vec<usize>> {
         let unit = if i == 2 { length * length } else { 1.0 };
         largest(i, i).0 > 1e-6 * force * unit
     };
-    let coupled =
-        |i: usize, j: usize| largest(i, j).0 > COUPLED * (largest(i, i).0 * largest(j, j).0).sqrt();
-    let present: Vec<usize> = (0..3).filter(|i| makes_waves(*i)).collect();
-    if present.contains(&1) && (coupled(0, 1) || coupled(1, 2)) {
-        return vec![present];
+    let mut blocks: Vec<Vec<usize>> = Vec::new();
+    for i in [1, 0, 2].into_iter().filter(|i| makes_waves(*i)) {
+        let joins = |block: &Vec<usize>| block.iter().any(|j| coupled(hydro, i, *j));
+        let (joined, mut others): (Vec<_>, Vec<_>) = blocks.into_iter().partition(joins);
+        let mut block = joined.concat();
+        block.push(i);
+        block.sort_unstable();
+        others.push(block);
+        blocks = others;
     }
-    let heave: Vec<usize> = present.iter().copied().filter(|i| *i == 1).collect();
-    let others: Vec<usize> = present.into_iter().filter(|i| *i != 1).collect();
-    [heave, others]
-        .into_iter()
-        .filter(|block| !block.is_empty())
-        .collect()
+    blocks
 }
 
 /// A fit of one block.

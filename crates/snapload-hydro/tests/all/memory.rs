@@ -159,6 +159,27 @@ fn middling_files_are_taken_with_warnings() {
     assert!(steps, "{:?}", sparse.warnings);
 }
 
+/// Surge and pitch that do not couple, as about the point where they do not or as in a file that
+/// has no such rows, have memories of their own, each as good as with the coupling.
+#[test]
+fn freedoms_without_coupling_are_fitted() {
+    let mut body = hydro("pontoon-deep.nc");
+    for matrix in body.added_mass.iter_mut().chain(&mut body.damping) {
+        (matrix[(0, 2)], matrix[(2, 0)]) = (0.0, 0.0);
+    }
+    let fit = fit(&body, FitOptions::default()).expect("a fit");
+    let names: Vec<String> = fit.entries.iter().map(|entry| entry.name()).collect();
+    assert_eq!(names, ["heave", "surge", "pitch"]);
+    for entry in &fit.entries {
+        assert!(entry.rms < 0.01 && entry.kernel_rms < 0.01, "{entry:?}");
+    }
+    assert_eq!(fit.memory.kernel(0.3)[(0, 2)], 0.0);
+    let least = fit.memory.least_eigenvalue(body.range_rad_s()[1]);
+    assert!(least > -1e-5, "{least}");
+    assert_eq!(fit.blocks.len(), 3);
+    assert!(fit.warnings.is_empty(), "{:?}", fit.warnings);
+}
+
 /// The transform is the integral of the memory.
 #[test]
 fn the_transform_is_that_of_the_kernel() {
