@@ -84,6 +84,8 @@ struct VerdictText<'a> {
     end: &'static str,
     /// Whether a line goes slack in the time that is judged, and in all.
     slack: [bool; 2],
+    /// The lines that are slack at rest and stay so in the judged time.
+    unloaded: Vec<usize>,
     /// The lines that would break, each with its utilisation and how.
     broken: Vec<(usize, f64, &'static str)>,
     /// The line with the largest utilisation that is known.
@@ -235,10 +237,11 @@ fn verdict(
         standing,
         outcome,
         end: end_text(outcome.stop),
-        slack: [
-            outcome.lines.iter().any(|line| line.least_n == Some(0.0)),
-            outcome.lines.iter().any(|line| line.slack_fraction > 0.0),
-        ],
+        slack: goes_slack(outcome),
+        unloaded: (1..)
+            .zip(&outcome.lines)
+            .filter_map(|(number, line)| line.stays_slack().then_some(number))
+            .collect(),
         worst: worst.map_or((0, 0.0), |(number, _, u)| (*number, *u)),
         broken,
         transient_s: structure.transient_s,
@@ -253,6 +256,19 @@ fn verdict(
         standing,
         words: paragraph(&text),
     }
+}
+
+/// Whether a line goes slack in the time that is judged, and in all. One that is never taut there
+/// does not.
+fn goes_slack(outcome: &Outcome) -> [bool; 2] {
+    let judged = |line: &LineOutcome| line.least_n == Some(0.0) && !line.stays_slack();
+    // The time in which it is slack is a sum of steps.
+    let always_slack = |line: &LineOutcome| line.stays_slack() && line.slack_fraction > 1.0 - 1e-9;
+    let in_all = |line: &LineOutcome| line.slack_fraction > 0.0 && !always_slack(line);
+    [
+        outcome.lines.iter().any(judged),
+        outcome.lines.iter().any(in_all),
+    ]
 }
 
 /// How a line would break.

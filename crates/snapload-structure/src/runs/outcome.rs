@@ -47,6 +47,11 @@ impl LineOutcome {
         let no_snap = (self.snaps + self.impacts_while_taut == 0).then_some(0.0);
         Some(self.peak_n.or(no_snap)?.max(self.largest_taut_n))
     }
+
+    /// Whether it is slack at rest and never becomes taut in the judged time.
+    pub(crate) fn stays_slack(&self) -> bool {
+        self.slack_used.is_some_and(|used| used < 1.0) && self.largest_n() == Some(0.0)
+    }
 }
 
 /// The outcome of one run.
