@@ -261,6 +261,7 @@ pub(super) fn rest_afloat(
                 taut: Vec::new(),
                 indeterminate: false,
                 by_stiffness: None,
+                either_side: false,
                 not_on_elastic_lines: false,
                 elastic_tension_n: None,
             };
@@ -283,6 +284,7 @@ pub(super) fn rest_afloat(
         tension_n: place.tension_n,
         indeterminate: false,
         by_stiffness: None,
+        either_side: false,
         not_on_elastic_lines: false,
         elastic_tension_n: None,
     };

@@ -47,6 +47,9 @@ pub struct Equilibrium {
     /// Set if the stretch of the lines changes the distribution of the load: `tension_n` are then
     /// the tensions by stiffness.
     pub by_stiffness: Option<DistributionByStiffness>,
+    /// Whether the body would rest as well on elastic lines turned to the other side, with the same
+    /// energy.
+    pub either_side: bool,
     /// The tensions of a floating body's elastic lines, if their sum differs and the lines
     /// share it in the same proportions \[N\].
     pub elastic_tension_n: Option<Vec<f64>>,
@@ -95,6 +98,7 @@ pub fn equilibrium(structure: &Structure) -> Result<Equilibrium, CaseError> {
         rests: true,
         indeterminate: dependent(system, &taut, &best),
         by_stiffness: None,
+        either_side: false,
         not_on_elastic_lines: false,
         elastic_tension_n: None,
         taut,

@@ -193,7 +193,11 @@ fn rest_text(rest: &Equilibrium) -> String {
         );
     }
     let turned = decimals(&rest.theta_rad.to_degrees(), 2);
-    format!("x = {x} m, z = {z} m, turned by {turned} degrees")
+    let either = match rest.either_side {
+        true => " or as far to the other side, where the lines carry one another's loads",
+        false => "",
+    };
+    format!("x = {x} m, z = {z} m, turned by {turned} degrees{either}")
 }
 
 /// The troughs of all waves of tension: how many of them are slack, and the lowest of the others.

@@ -418,3 +418,31 @@ fn snaps_on_elastic_lines_are_those_of_another_program() {
         assert!((pull.peak_n / peak - 1.0).abs() < 1e-5, "{pull:?} {known}");
     }
 }
+
+/// A top-heavy body on lines that mirror each other rests turned to one side as well as to the
+/// other. Of whatever stiffness they are, the side is the same.
+#[test]
+fn a_body_turns_to_the_same_side_on_lines_of_any_stiffness() {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR"));
+    let memory = folder.join("tests/data/pontoon-memory.json");
+    let example = include_str!("../../../../docs/examples/pontoon.toml");
+    let example = example.replace("[float]", &format!("[float]\nmemory = {memory:?}"));
+    for (height_m, stiffness_n) in [
+        (1.1, 8e5),
+        (1.1, 2e6),
+        (1.2, 1e6),
+        (1.2, 1.05e6),
+        (1.4, 2e6),
+    ] {
+        let centre = format!("centre_of_gravity = [0, {height_m}]");
+        let text = example.replace("centre_of_gravity = [0, -0.2]", &centre);
+        let stiffness = format!("[[line]]\nstiffness = {stiffness_n}");
+        let prepared = ModelAtRest::new(structure(&text.replace("[[line]]", &stiffness))).unwrap();
+        let law = elastic_lines(&prepared, 1.0).unwrap();
+        let rest = prepared.with_elastic_lines(&law).unwrap().rest;
+        assert!(
+            rest.theta_rad > 0.1 && rest.either_side,
+            "{height_m} {rest:?}"
+        );
+    }
+}

@@ -13,7 +13,9 @@
 //! Optimization* (2006), chapter 4): Newton's step with a multiple of the identity added to the
 //! second derivatives, large enough for the energy to decrease. It also ends at a balance that is
 //! no minimum if it begins on an axis of symmetry; such a balance is left along the motion in
-//! which the energy decreases, to both sides, and the search goes on.
+//! which the energy decreases, to both sides, and the search goes on. But rounding may take it from
+//! such an axis to either side before it has reached the balance, so that a second search begins
+//! where the lines are stretched and the body has not yet turned.
 
 use super::body::BodyOnElasticLines;
 use super::law::ElasticLine;
@@ -37,8 +39,13 @@ const LARGEST_TURN: f64 = 0.2;
 const ASIDE: f64 = 1e-2;
 /// The most unstable balances that are left one after the other.
 const UNSTABLE_BALANCES: usize = 3;
-/// Energies that differ by less than this are equal, in the engine's units.
+/// Energies that differ by no more than their rounding, in the engine's units.
 const EQUAL_ENERGY: f64 = 1e-10;
+/// The same for minima: mirror images on coefficients of a panel code, which are not quite
+/// symmetric.
+const SAME_MINIMUM: f64 = 1e-6;
+/// The least difference in turn of two places of rest \[rad\].
+const APART: f64 = 1e-4;
 /// What lines have to do for a body to rest on them.
 const ELASTIC_LINES_THAT_HOLD: &str = "elastic lines that hold the body at rest";
 /// What is added to the second derivatives at first, and at most.
@@ -53,8 +60,8 @@ impl ModelAtRest {
     pub fn with_elastic_lines(&self, elastic_lines: &[ElasticLine]) -> Result<Self, CaseError> {
         let still = self.model.still();
         let body = BodyOnElasticLines::new(&still, elastic_lines);
-        let rest = self.model.at_rest(self.rest.place_m, self.rest.theta_rad);
-        let rest = stable_rest(&body, rest, UNSTABLE_BALANCES)?;
+        let start = self.model.at_rest(self.rest.place_m, self.rest.theta_rad);
+        let (rest, either_side) = place_of_rest(&body, start)?;
         if rest.theta.abs() >= FRAC_PI_2 {
             let shown = format!("(turned by {:.0} degrees)", rest.theta.abs().to_degrees());
             return Err(
@@ -79,6 +86,7 @@ impl ModelAtRest {
             tension_n,
             indeterminate: false,
             by_stiffness: None,
+            either_side,
             not_on_elastic_lines: false,
             elastic_tension_n: None,
         };
@@ -156,18 +164,51 @@ fn curvature(body: &BodyOnElasticLines, at: &State) -> Matrix3<f64> {
     (curvature + curvature.transpose()) * 0.5
 }
 
-/// A minimum of V. A balance that is none is left to both sides; of the two minima found the one
-/// of less energy is taken, and of mirror images that on the first side.
+/// The place of rest, and whether there is one with the same energy that is turned to the other
+/// side.
+fn place_of_rest(body: &BodyOnElasticLines, start: State) -> Result<(State, bool), CaseError> {
+    let stable = |start: State| stable_rest(body, start, UNSTABLE_BALANCES);
+    let direct = stable(start);
+    let stretched = least_energy(body, start, false).and_then(stable);
+    let found = [&direct, &stretched].into_iter().flatten().flatten();
+    let found: Vec<State> = found.copied().collect();
+    let Some(rest) = lowest(body, &found) else {
+        return direct.map(|found| (found[0], false));
+    };
+    let [least, turn] = [energy(body, &rest).0, rest.theta.abs()];
+    let other_side = |other: &State| {
+        let opposite = other.theta * rest.theta < 0.0 && turn.min(other.theta.abs()) > APART;
+        opposite && (energy(body, other).0 - least).abs() < SAME_MINIMUM
+    };
+    Ok((rest, found.iter().any(other_side)))
+}
+
+/// Of places of rest within 90 degrees the one of least energy, and of those with the same the one
+/// that is turned counter-clockwise, for which θ is negative.
+fn lowest(body: &BodyOnElasticLines, places: &[State]) -> Option<State> {
+    let lower = |one: State, other: State| {
+        let more = energy(body, &other).0 - energy(body, &one).0;
+        match more < -SAME_MINIMUM || (more < SAME_MINIMUM && other.theta < one.theta - APART) {
+            true => other,
+            false => one,
+        }
+    };
+    let upright = places.iter().copied();
+    let upright = upright.filter(|rest| rest.theta.abs() < FRAC_PI_2);
+    upright.reduce(lower)
+}
+
+/// Minima of V, at least one. A balance that is none is left to both sides.
 fn stable_rest(
     body: &BodyOnElasticLines,
     start: State,
     unstable_balances: usize,
-) -> Result<State, CaseError> {
-    let balance = least_energy(body, start)?;
+) -> Result<Vec<State>, CaseError> {
+    let balance = least_energy(body, start, true)?;
     let curvature = curvature(body, &balance);
     let curvature = DMatrix::from_fn(3, 3, |i, j| curvature[(i, j)]);
     let Some(motion) = unstable_motion(curvature) else {
-        return Ok(balance);
+        return Ok(vec![balance]);
     };
     let error = || {
         let shown = "(the only balance found is unstable)".to_owned();
@@ -181,31 +222,37 @@ fn stable_rest(
         let step = Vector3::new(motion[0], motion[1], motion[2]) * aside;
         stable_rest(body, moved(&balance, &step), left)
     });
-    let upright = sides
-        .into_iter()
-        .flatten()
-        .filter(|rest| rest.theta.abs() < FRAC_PI_2);
-    let lower = |one: State, other: State| {
-        let [energy_of_one, energy_of_other] = [one, other].map(|at| energy(body, &at).0);
-        match energy_of_other < energy_of_one - EQUAL_ENERGY {
-            true => other,
-            false => one,
-        }
-    };
-    upright.reduce(lower).ok_or_else(error)
+    let mut minima: Vec<State> = sides.into_iter().flatten().flatten().collect();
+    minima.retain(|rest| rest.theta.abs() < FRAC_PI_2);
+    if minima.is_empty() {
+        return Err(error());
+    }
+    Ok(minima)
 }
 
-fn least_energy(body: &BodyOnElasticLines, start: State) -> Result<State, CaseError> {
+/// A balance at which V is less than at the start, of the body free to turn or at the rotation of
+/// the start.
+fn least_energy(body: &BodyOnElasticLines, start: State, turns: bool) -> Result<State, CaseError> {
+    let energy = |at: &State| {
+        let (energy, mut gradient) = energy(body, at);
+        gradient[2] = if turns { gradient[2] } else { 0.0 };
+        (energy, gradient)
+    };
     let mut at = start;
     let [mut damping, most] = DAMPING;
-    let (mut least, mut gradient) = energy(body, &at);
+    let (mut least, mut gradient) = energy(&at);
     for _ in 0..STEPS {
         let scale = body
             .elastic_lines
             .iter()
             .map(|elastic_line| elastic_line.rate)
             .sum::<f64>();
-        let second = curvature(body, &at);
+        let mut second = curvature(body, &at);
+        if !turns {
+            second.fill_row(2, 0.0);
+            second.fill_column(2, 0.0);
+            second[(2, 2)] = 1.0;
+        }
         if gradient.amax() <= BALANCED * scale.max(1.0) {
             // A last Newton step reduces the error to rounding.
             let step = second.lu().solve(&-gradient);
@@ -221,7 +268,7 @@ fn least_energy(body: &BodyOnElasticLines, start: State) -> Result<State, CaseEr
             let shorter = |step: Vector3<f64>| step * (largest_turn / step[2].abs()).min(1.0);
             let tried = step.map(|step| moved(&at, &shorter(step)));
             if let Some(tried) = tried
-                && let (energy, slope) = energy(body, &tried)
+                && let (energy, slope) = energy(&tried)
                 // Close to rest the values of V differ only by rounding, and its gradient decides.
                 && (energy < least
                     || (energy < least + EQUAL_ENERGY && slope.amax() < 0.5 * gradient.amax()))
