@@ -6,7 +6,7 @@ use crate::outputs::Outputs;
 use serde::Serialize;
 use snapload_hydro::digits::digits;
 use snapload_hydro::{
-    Decay, FREEDOMS, Floating, Hydrodynamics, Swing, decay, rest_without_tension, swings,
+    Body, Decay, FREEDOMS, Hydrodynamics, Swing, decay, rest_without_tension, swings,
 };
 use snapload_report::tables::in_digits;
 use snapload_structure::labelled_row;
@@ -76,13 +76,8 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
     let fit = &report.fit;
     let from = args.from;
     check_release(from)?;
-    let motion = decay(
-        &floating.body,
-        &fit.memory,
-        &fit.added_mass_inf,
-        from,
-        times,
-    );
+    let body = floating.body.afloat();
+    let motion = decay(&body, &fit.memory, &fit.added_mass_inf, from, times);
     let motion = motion.map_err(bad)?;
     if let Some(out) = out {
         outputs.write(out, |out| out.write_all(table(&motion).as_bytes()))?;
@@ -100,7 +95,7 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
             damping_ratio: swing.damping_ratio,
         }));
     }
-    if let Some(note) = measured_from(floating, &report.reading.hydro) {
+    if let Some(note) = measured_from(&body, &report.reading.hydro) {
         text += &labelled_row("measured", &note);
     }
     if rows.iter().any(|row| row.damping_ratio < 0.0) {
@@ -140,8 +135,8 @@ const NEGATIVE_DAMPING_NOTE: &str = "a damping below zero occurs in a freedom in
 
 /// From where displacements are measured, if not from the position of the file: the motion is linear
 /// about the position in which the body floats without lines.
-fn measured_from(floating: &Floating, hydro: &Hydrodynamics) -> Option<String> {
-    let at = rest_without_tension(hydro, &floating.body, &[], 0.0).map(|(q, _)| q);
+fn measured_from(body: &Body, hydro: &Hydrodynamics) -> Option<String> {
+    let at = rest_without_tension(hydro, body, &[], 0.0).map(|(q, _)| q);
     match at {
         Some(q) if q[1].abs() < SMALL && q[2].abs() < SMALL => None,
         Some(q) => Some(format!(

@@ -34,6 +34,8 @@ pub struct Body {
     pub damping: Matrix3<f64>,
     /// Weight and buoyancy at the mean position, and other constant forces.
     pub constant_force: Vector3<f64>,
+    /// The reference point's height above the still water \[m\].
+    pub level_m: f64,
 }
 
 impl Body {
@@ -74,6 +76,7 @@ impl Body {
             stiffness: stiffness(hydro, mass_kg, centre_m)?,
             damping: Matrix3::zeros(),
             constant_force: weight_and_buoyancy(hydro, mass_kg, x),
+            level_m: hydro.reference_m[1],
         })
     }
 
@@ -83,29 +86,48 @@ impl Body {
         self.mass[(2, 2)] - (mz * mz + mx * mx) / self.mass_kg
     }
 
-    /// Heave and pitch in which it floats without lines under its constant forces \[m, rad\]; none if
-    /// water does not hold it up and upright.
-    pub fn floats_at(&self) -> Option<Vector2<f64>> {
+    /// The body about where it floats without lines. Free of lines a lift F raises it by F/C33, which
+    /// moves its weight and what is left of its buoyancy up. With vertical sides at the waterline,
+    ///
+    /// ```text
+    /// C55 + z_O F + F²/(2 C33)
+    /// ```
+    ///
+    /// with z_O the reference point's height above the still water, on which the sum does not depend:
+    /// weight and buoyancy are equal there. C itself is that of a body held at the reference point.
+    pub fn afloat(&self) -> Self {
+        let mut body = self.clone();
+        let (lift, heave) = (self.constant_force[1], self.stiffness[(1, 1)]);
+        if heave > 0.0 {
+            body.stiffness[(2, 2)] += self.level_m * lift + 0.5 * lift * lift / heave;
+        }
+        body
+    }
+
+    /// Heave and pitch that balance its constant forces by C \[m, rad\]; none if water does not hold
+    /// it up and upright.
+    pub(crate) fn balance(&self) -> Option<Vector2<f64>> {
         let stiffness = self.stiffness.fixed_view::<2, 2>(1, 1).into_owned();
         let force = self.constant_force.fixed_rows::<2>(1).into_owned();
         Some(stiffness.cholesky()?.solve(&force))
     }
 
-    /// The pitch of that place, if it is not upright \[rad\].
+    /// The pitch in which it floats without lines, if it is not upright \[rad\].
     pub fn unbalanced_pitch(&self) -> Option<f64> {
-        let pitch = self.floats_at()?[1];
+        let pitch = self.afloat().balance()?[1];
         (pitch.abs() > BALANCED_ANGLE).then_some(pitch)
     }
 
-    /// The stiffness in pitch if heave is free to follow, C55 − C35²/C33 \[N m\].
+    /// The stiffness in pitch without lines if heave is free to follow, C55 − C35²/C33 \[N m\].
     pub(crate) fn righting_n_m(&self) -> f64 {
-        let [heave, coupled] = [self.stiffness[(1, 1)], self.stiffness[(1, 2)]];
+        let stiffness = self.afloat().stiffness;
+        let [heave, coupled] = [stiffness[(1, 1)], stiffness[(1, 2)]];
         let followed = if coupled == 0.0 {
             0.0
         } else {
             coupled * coupled / heave
         };
-        self.stiffness[(2, 2)] - followed
+        stiffness[(2, 2)] - followed
     }
 
     /// 𝓜 = M + A.

@@ -162,7 +162,7 @@ pub fn rest_without_tension(
     if body.constant_force[0].abs() > 1e-9 * weight {
         return None;
     }
-    let place = body.floats_at()?;
+    let place = body.balance()?;
     let q = Vector3::new(surge_m, place[0], place[1]);
     let distance = |line: &Line| LineGeometry::at(line, hydro.reference_m, &q).distance;
     let distances_m: Vec<f64> = lines.iter().map(distance).collect();

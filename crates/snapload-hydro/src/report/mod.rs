@@ -200,8 +200,9 @@ impl Floating {
         body.damping += fit.damping + Matrix3::from_diagonal(&request.damping.into());
         body.constant_force += Vector3::from(request.force);
         let (memory, inf) = (&fit.memory, &fit.added_mass_inf);
-        let natural = natural_of_the_file(hydro, &body)?;
-        let modes = natural_of_the_memory(&body, memory, inf, &natural)?;
+        let free = body.afloat();
+        let natural = natural_of_the_file(hydro, &free)?;
+        let modes = natural_of_the_memory(&free, memory, inf, &natural)?;
         let own = natural.iter().map(|natural| natural.omega_rad_s);
         let damped = modes.iter().map(|mode| mode.eigenvalue.norm());
         let frequencies: Vec<f64> = own.chain(damped).collect();
@@ -209,11 +210,11 @@ impl Floating {
         for excitation in &hydro.excitation {
             let direction = excitation.direction;
             responses.push([
-                response_of_the_file(hydro, &body, direction)?,
-                response_of_the_memory(hydro, &body, memory, inf, direction)?,
+                response_of_the_file(hydro, &free, direction)?,
+                response_of_the_memory(hydro, &free, memory, inf, direction)?,
             ]);
             let exponentials = (memory, inf);
-            let close = fine_responses(hydro, &body, exponentials, direction, &frequencies)?;
+            let close = fine_responses(hydro, &free, exponentials, direction, &frequencies)?;
             fine.push(close);
         }
         let rest = match request.lines.is_empty() {

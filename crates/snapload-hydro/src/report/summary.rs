@@ -106,23 +106,31 @@ impl Floating {
     fn balance_summary(&self) -> Option<String> {
         let body = &self.body;
         let lift = body.constant_force[1];
-        let lift = (lift.abs() > BALANCED_HEAVE_M * body.stiffness[(1, 1)].abs()).then(|| {
+        let rise = lift / body.stiffness[(1, 1)].abs();
+        let lift = (rise.abs() > BALANCED_HEAVE_M).then(|| {
             let way = if lift > 0.0 { "lift" } else { "weight" };
             format!("{} kN of {way}", kilo(&lift.abs(), 1))
         });
         let moment = body.constant_force[2];
         let moment = (moment.abs() > BALANCED_ANGLE * body.stiffness[(2, 2)].abs())
             .then(|| format!("a moment of {} kN m", kilo(&moment, 1)));
-        let pitches = ", and their fairleads decide the pitch";
-        let (left, pitches) = match (lift, moment) {
-            (Some(lift), Some(moment)) => (format!("{lift} and {moment} are"), pitches),
-            (Some(lift), None) => (format!("{lift} are"), pitches),
-            (None, Some(moment)) => (format!("{moment} is"), ""),
+        let left = match (lift, moment) {
+            (Some(lift), Some(moment)) => format!("{lift} and {moment} are"),
+            (Some(lift), None) => format!("{lift} are"),
+            (None, Some(moment)) => {
+                return Some(format!(
+                    "{moment} is not balanced: lines must hold the body; periods and responses are those of the \
+                     upright body"
+                ));
+            }
             (None, None) => return None,
         };
+        let way = if rise > 0.0 { "higher" } else { "lower" };
         Some(format!(
-            "{left} not balanced: lines must hold the body{pitches}; periods and responses are those of a \
-             body held upright at the reference point"
+            "{left} not balanced: lines must hold the body, and their fairleads decide the pitch; periods and \
+             responses are those without lines, upright and {:.2} m {way}, by the file's coefficients and for \
+             vertical sides",
+            rise.abs()
         ))
     }
 

@@ -1,8 +1,10 @@
 //! Reports on coefficients: they are complete, and files with less data give fewer results.
 
 use crate::common::{hydro, reading};
+use crate::linear::near;
 use snapload_hydro::{
-    EntryQuality, FitOptions, Format, GivenMemory, Line, Reading, Report, Request, page,
+    Body, EntryQuality, FitOptions, Format, GivenMemory, Line, Reading, Report, Request, Weight,
+    page,
 };
 
 fn request() -> Request {
@@ -264,6 +266,36 @@ fn stability_does_not_depend_on_the_reference_point() {
             let warned = |what| report.warnings.iter().any(|warning| warning.what == what);
             assert!(!warned("balance"), "{x} {z}");
             assert_eq!(warned("stability"), turns, "{x} {z}");
+        }
+    }
+}
+
+/// Where a box floats without lines, and how it rolls there, by the hydrostatics of a box of its own
+/// draft, about whatever point the file is: BM − BG = b²/(12 d) + d/2 − (height of G above the keel).
+#[test]
+fn a_body_without_lines_has_the_hydrostatics_of_where_it_floats() {
+    let (length, breadth, draft, gravity, density) = (20.0, 4.0, 1.2, 9.81, 1025.0);
+    for mass in [50_000.0, 80_000.0, 115_000.0] {
+        let floats = mass / (density * length * breadth);
+        let above_keel = draft - 0.2;
+        let metacentric = breadth * breadth / (12.0 * floats) + 0.5 * floats - above_keel;
+        for z in [0.0, -0.2, 1.0] {
+            let hydro = hydro("pontoon-deep.nc").about([0.0, z]);
+            let weight = Weight {
+                mass_kg: Some(mass),
+                centre_m: Some([0.05, -0.2]),
+                inertia_kg_m2: Some(1.6 * mass),
+            };
+            let body = Body::new(&hydro, &weight).expect("a body");
+            let righting = body.afloat().stiffness[(2, 2)];
+            near(
+                righting,
+                mass * gravity * metacentric,
+                0.01,
+                "the stiffness",
+            );
+            let pitch = body.unbalanced_pitch().expect("a pitch");
+            near(pitch, 0.05 / metacentric, 0.01, "the pitch");
         }
     }
 }
