@@ -101,7 +101,7 @@ class Hydro(Result):
         ----------
         path : str or os.PathLike
             Capytaine file (``.nc``), one of the WAMIT files ``.1``, ``.3`` and ``.hst`` with the others in the same
-            folder, or Nemoh folder.
+            folder, or Nemoh folder (for its memory alone, as it has no hydrostatic stiffness).
         **options
             Options of the analysis. By default each has the value of the file, or is not used:
 

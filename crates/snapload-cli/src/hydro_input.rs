@@ -14,7 +14,7 @@ use std::path::{Path, PathBuf};
 #[derive(clap::Args)]
 pub(crate) struct HydroArgs {
     /// Capytaine file (.nc), WAMIT file (.1, .3 or .hst) with the others in the same folder, or Nemoh
-    /// folder of results
+    /// folder of results (for its memory alone, as it has no hydrostatic stiffness)
     #[arg(value_name = "FILE")]
     file: PathBuf,
     /// Density of the water in kg/m³, if the file does not give it

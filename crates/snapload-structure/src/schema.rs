@@ -66,7 +66,7 @@ const SITE: &[Key] = &[
 #[rustfmt::skip] // one row a key
 const FLOAT: &[Key] = &[
     Key::new("file", "", Kind::Text, Derived("textbook values of the outline's section"),
-        "coefficients of a panel code, beside this file: Capytaine's .nc, WAMIT's .1, Nemoh's folder"),
+        "coefficients of a panel code, beside this file: Capytaine's .nc or WAMIT's .1"),
     Key::new("deep_water", "", Kind::Flag, Flag(false), "accept coefficients of deep water although the site is not deep"),
     Key::new("centre_of_gravity", "m", PLACE, Derived("the file's"), "[x, z] of the centre of gravity; body.moment_of_inertia is about it"),
     Key::new("damping", "N s/m", Kind::PerFreedom(1e18), Derived("none"),

@@ -46,6 +46,12 @@ impl Body {
     /// [`HydroError::Value`] if a number is not possible.
     pub fn new(hydro: &Hydrodynamics, weight: &Weight) -> Result<Self, HydroError> {
         let statics = &hydro.hydrostatics;
+        // First, as no given mass makes up for it.
+        let file_stiffness = statics.stiffness.ok_or_else(|| {
+            let advice = "the file does not have it (hydrostatic_stiffness of Capytaine, a .hst file of \
+                          WAMIT; Nemoh writes none with its results), and it can not be given otherwise";
+            HydroError::missing("the hydrostatic stiffness", advice)
+        })?;
         let need = |what: &str, value: Option<f64>| {
             let advice = "neither the file nor the case has it; give it";
             value.ok_or_else(|| HydroError::missing(what, advice))
@@ -73,7 +79,7 @@ impl Body {
             mass_kg,
             centre_m,
             mass: mass_matrix(mass_kg, [x, z], about_o),
-            stiffness: stiffness(hydro, mass_kg, centre_m)?,
+            stiffness: stiffness(hydro, &file_stiffness, mass_kg, centre_m)?,
             damping: Matrix3::zeros(),
             constant_force: weight_and_buoyancy(hydro, mass_kg, x),
             level_m: hydro.reference_m[1],
@@ -195,15 +201,11 @@ fn mass_matrix(m: f64, [x, z]: [f64; 2], inertia: f64) -> Matrix3<f64> {
 /// ```
 fn stiffness(
     hydro: &Hydrodynamics,
+    file: &Matrix3<f64>,
     mass_kg: f64,
     centre_m: [f64; 2],
 ) -> Result<Matrix3<f64>, HydroError> {
     let statics = &hydro.hydrostatics;
-    let Some(file) = statics.stiffness else {
-        let advice =
-            "the file does not have it (hydrostatic_stiffness, or a .hst file); compute it";
-        return Err(HydroError::missing("the hydrostatic stiffness", advice));
-    };
     let mut stiffness = Matrix3::zeros();
     for (i, j) in [(1, 1), (1, 2), (2, 1), (2, 2)] {
         stiffness[(i, j)] = 0.5 * (file[(i, j)] + file[(j, i)]);

@@ -93,13 +93,15 @@ fn files_without_hydrostatics_are_reported() {
     let mut bare = hydro("sphere.nc");
     bare.hydrostatics = Default::default();
     let reading = Reading::new(Format::Nemoh, bare).expect("a reading");
+    // No mass or centre of gravity makes up for the stiffness, so that it is the one that is named.
     let report = Report::new("sphere", reading, &request()).expect("a report");
     let summary = report.summary();
     let missing = summary
         .iter()
         .find(|(label, _)| label == "omitted")
         .expect("a row");
-    assert!(missing.1.contains("the mass is missing"), "{missing:?}");
+    let named = missing.1.contains("the hydrostatic stiffness is missing");
+    assert!(named && missing.1.contains("Nemoh"), "{missing:?}");
     assert_eq!(
         page(&report, "").expect("a page").matches("<svg").count(),
         4
