@@ -253,6 +253,9 @@ impl Reader {
             let allowed = format!("a name from LINE TYPES: {known}");
             return Err(row.refuse("LineType", name, &allowed, ""));
         };
+        if let Some(other) = types.find(|other| other.words[0] == name) {
+            return Err(other.refuse("TypeName", name, "a name that no other type has", ""));
+        }
         let mass = kind.number(2, "Mass/m")?;
         self.give(row, table, "mass_per_length", mass)?;
         if let Some(stiffness) = self.stiffness(kind, index + 1)? {

@@ -332,6 +332,14 @@ fn edits_that_a_case_can_not_have_are_reported() {
         error.contains("ID") && error.contains("no other line has"),
         "{error}"
     );
+
+    // A type is named by lines.
+    let twice = text.replace(kind, &format!("{kind}\n{kind}"));
+    let error = moordyn::read("lines.txt", &twice).unwrap_err().to_string();
+    assert!(
+        error.contains("TypeName = line1") && error.contains("no other type has"),
+        "{error}"
+    );
 }
 
 /// A line that is added to a body which starts elsewhere is attached where the tables have it.
