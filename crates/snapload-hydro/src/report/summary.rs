@@ -118,9 +118,12 @@ impl Floating {
             (Some(lift), Some(moment)) => format!("{lift} and {moment} are"),
             (Some(lift), None) => format!("{lift} are"),
             (None, Some(moment)) => {
+                let balanced = match body.unbalanced_pitch() {
+                    Some(pitch) => format!("balanced at {:.1}° of pitch", pitch.to_degrees()),
+                    None => "not balanced: lines must hold the body".to_owned(),
+                };
                 return Some(format!(
-                    "{moment} is not balanced: lines must hold the body; periods and responses are those of the \
-                     upright body"
+                    "{moment} is {balanced}; periods and responses are those of the upright body"
                 ));
             }
             (None, None) => return None,

@@ -209,7 +209,7 @@ fn an_inertia_that_is_not_given_with_a_mass_is_reported() {
 /// A centre of gravity beside that of buoyancy turns the body by its weight's arm over the stiffness,
 /// which is told in words and in JSON; one under it does not.
 #[test]
-fn a_moment_that_nothing_balances_is_reported() {
+fn a_moment_that_turns_the_body_is_reported() {
     let report = |x: f64| {
         let mut request = request();
         request.weight.centre_m = Some([x, -0.2]);
@@ -233,7 +233,10 @@ fn a_moment_that_nothing_balances_is_reported() {
     let message = of(&turned).concat();
     assert!(message.contains(&format!("{angle:.1}°")), "{message}");
     let (_, message) = balance(&turned).expect("a row");
-    let expected = format!("a moment of {:.1} kN m is not balanced", arm / 1e3);
+    let expected = format!(
+        "a moment of {:.1} kN m is balanced at {angle:.1}°",
+        arm / 1e3
+    );
     assert!(message.contains(&expected), "{message}");
     let json = serde_json::to_value(turned.to_json()).expect("JSON");
     assert!(json["warnings"].to_string().contains("upright"));
