@@ -444,7 +444,9 @@ fn a_line_that_stays_slack_does_not_go_slack() {
         assert!(words.starts_with(said), "{words}");
     }
     // The others do in a higher wave.
-    let high = assess(structure(&text), 0, &no_progress).unwrap();
-    let words = high.verdict().words;
+    let words = assess(structure(&text), 0, &no_progress)
+        .unwrap()
+        .verdict()
+        .words;
     assert!(words.starts_with("Lines go slack and snap"), "{words}");
 }

@@ -22,6 +22,7 @@ use crate::arithmetic::plane::Vector2;
 use crate::model::cable::Normal;
 use crate::model::state::State;
 use crate::motion::bounce::{Bounce, FlightFacts};
+use crate::motion::two_cable_flight::EARLY;
 use crate::motion::two_cables::{AfterImpact, TwoCableSystem};
 
 /// Deviations (w, τ) side by side: a row for each of their seven components.
@@ -77,6 +78,29 @@ impl<'a, L: Lane> Bounced<'a, L> {
             L::select(self.second, second, first),
             L::select(self.second, first, second),
         ]
+    }
+
+    /// The largest value of a gap in the early part of a flight of length `s`, given that at its
+    /// start and a bound on its slope; what is compared with neighbours that spread from zero, if
+    /// it was closed.
+    #[inline(always)]
+    pub(crate) fn largest_early(gap: L, slope: L, s: L) -> L {
+        let largest = gap.larger(slope.mul_add(s * EARLY, gap));
+        L::select(gap.below(L::ZERO), largest, slope * s)
+    }
+
+    /// Whether the gap that closes is below zero by more than a margin, given its square, up to its
+    /// last rise.
+    #[inline(always)]
+    pub(crate) fn is_open_before_last_rise(&self, square_of_margin: L) -> L::Mask {
+        let (facts, s) = (self.facts, self.t - self.from.t);
+        let [gap, _] = self.each(|k| self.from.gaps[k][0]);
+        let [length, _] = self.each(|k| self.two_cables.cables[k].length());
+        let largest = Self::largest_early(gap, facts.struck_slope, s).larger(-facts.depth);
+        let risen = facts.depth * length * self.v_n * 2.0;
+        largest.below(L::ZERO)
+            & square_of_margin.below(largest * largest)
+            & (square_of_margin * facts.bend * facts.bend).below(risen * risen)
     }
 }
 

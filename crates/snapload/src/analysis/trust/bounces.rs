@@ -20,7 +20,6 @@ use crate::arithmetic::lane::{Lane, Mask};
 use crate::arithmetic::plane::Vector2;
 use crate::model::cable::Normal;
 use crate::motion::bounce_map::{BounceMap, Bounced, Rows};
-use crate::motion::two_cable_flight::EARLY;
 
 /// Bounds are computed in rounded arithmetic; this factor makes them safe.
 const SAFE: f64 = 1.001;
@@ -255,32 +254,6 @@ fn add_products<L: Lane>(half: &mut [L; COLUMNS / 2], more: [Option<L>; COLUMNS 
     }
 }
 
-/// The largest value of a gap in the early part of a flight of length `s`, given that at its start
-/// and a bound on its slope; what is compared with neighbours that spread from zero, if it was
-/// closed.
-#[inline(always)]
-fn largest_early<L: Lane>(gap: L, slope: L, s: L) -> L {
-    let largest = gap.larger(slope.mul_add(s * EARLY, gap));
-    L::select(gap.below(L::ZERO), largest, slope * s)
-}
-
-/// Whether the gap that closes is below zero by more than a margin, given its square, up to its last
-/// rise.
-#[inline(always)]
-pub(super) fn is_open_before_last_rise<L: Lane>(
-    bounced: &Bounced<L>,
-    square_of_margin: L,
-) -> L::Mask {
-    let (facts, s) = (bounced.facts, bounced.t - bounced.from.t);
-    let [gap, _] = bounced.each(|k| bounced.from.gaps[k][0]);
-    let [length, _] = bounced.each(|k| bounced.two_cables.cables[k].length());
-    let largest = largest_early(gap, facts.struck_slope, s).larger(-facts.depth);
-    let risen = facts.depth * length * bounced.v_n * 2.0;
-    largest.below(L::ZERO)
-        & square_of_margin.below(largest * largest)
-        & (square_of_margin * facts.bend * facts.bend).below(risen * risen)
-}
-
 /// Standard deviation of the impact's location across the end of the cable that snaps.
 #[inline(always)]
 fn location<L: Lane>(bounced: &Bounced<L>, slant: L, moved: [L; 3]) -> L {
@@ -423,7 +396,7 @@ impl<L: Lane> Reach<L> {
         let place = (speed * speed).mul_add(self.later, place) * 4.0;
         let rate = length * bounced.v_n;
         let square = (rate * rate).mul_add(self.later, place * way * way) * FACTOR;
-        is_open_before_last_rise(bounced, square)
+        bounced.is_open_before_last_rise(square)
     }
 
     /// Whether the other gap stays open by more than the neighbours' reach. A cable that was closed
@@ -434,7 +407,7 @@ impl<L: Lane> Reach<L> {
         let [_, gap] = bounced.each(|k| bounced.from.gaps[k][0]);
         let [_, length] = bounced.each(|k| bounced.two_cables.cables[k].length());
         let s = bounced.t - bounced.from.t;
-        let largest = largest_early(gap, bounced.facts.slope, s)
+        let largest = Bounced::largest_early(gap, bounced.facts.slope, s)
             .larger(bounced.facts.late)
             .larger(bounced.other_gap[0]);
         const FACTOR: f64 = 4.0 * SIGMA_REACH * SIGMA_REACH * SAFE;

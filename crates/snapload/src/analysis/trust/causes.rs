@@ -1,7 +1,6 @@
 //! Where neighbours may have another event than the run.
 
 use crate::analysis::trust::HorizonCause;
-use crate::analysis::trust::bounces::is_open_before_last_rise;
 use crate::analysis::trust::covariance::CovarianceFactor;
 use crate::model::cable::Normal;
 use crate::motion::active_set::normal_acceleration;
@@ -282,7 +281,7 @@ fn may_snap(
     let most = per_place * along.at_most(&slopes).max(met.at_most(&slopes));
     // So is what is known of a bounce.
     let bounced = simulation.bounced(step).filter(|_| closes);
-    if bounced.is_some_and(|bounced| is_open_before_last_rise(&bounced, most * most)) {
+    if bounced.is_some_and(|bounced| bounced.is_open_before_last_rise(most * most)) {
         return None;
     }
     let first = simulation.comes_near(step, cable, most);
