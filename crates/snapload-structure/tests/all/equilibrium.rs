@@ -1,9 +1,12 @@
 //! Positions of rest: known ones, and the conditions of a minimum for random moorings.
 
+use crate::verdicts::structure;
 use proptest::prelude::*;
 use proptest::test_runner::RngSeed;
 use snapload::analysis::no_progress;
-use snapload_structure::{ModelAtRest, Structure, assess, elastic_lines, equilibrium};
+use snapload_structure::{
+    ModelAtRest, Structure, assess, compare_elastic, elastic_lines, equilibrium,
+};
 
 const EXAMPLE: &str = include_str!("../../../../docs/examples/cylinder.toml");
 
@@ -261,4 +264,29 @@ proptest! {
             }
         }
     }
+}
+
+/// A line that is slack at rest and never becomes taut does not go slack; the verdict says so.
+#[test]
+fn a_line_that_stays_slack_does_not_go_slack() {
+    let third = "[[line]]\nanchor = [0, -10]\nfairlead = [1.061, -4.561]\nlength = 6\n\
+                 type = \"studless chain\"\ndiameter = 0.038\n[site]";
+    let text = EXAMPLE.replace("[site]", third);
+    let text = text.replace("[run]", "[run]\nduration = 60\ntransient = 20");
+    let calm = structure(&text.replace("height = 2\n", "height = 0.02\n"));
+    let assessment = assess(calm.clone(), 0, &no_progress).unwrap();
+    let loaded = |line: usize| assessment.outcome.lines[line].least_n.unwrap() > 0.0;
+    assert_eq!([0, 1, 2].map(loaded), [true, true, false]);
+    let calm = ModelAtRest::new(calm).unwrap();
+    let on_elastic = compare_elastic(calm, 1.0, f64::INFINITY, &no_progress).unwrap();
+    for words in [assessment.verdict().words, on_elastic.verdict().words] {
+        let said = "No line goes slack. Line 3 is slack at rest and stays so in the judged time.";
+        assert!(words.starts_with(said), "{words}");
+    }
+    // The others do in a higher wave.
+    let words = assess(structure(&text), 0, &no_progress)
+        .unwrap()
+        .verdict()
+        .words;
+    assert!(words.starts_with("Lines go slack and snap"), "{words}");
 }

@@ -425,28 +425,3 @@ fn soft_lines_are_soft_in_still_water_too() {
     assert_eq!(assessment.verdict().standing, VerdictKind::Open);
     assert!(!rules(&in_still_water(EXAMPLE)).contains(&"instant snap"));
 }
-
-/// A line that is slack at rest and never becomes taut does not go slack; the verdict says so.
-#[test]
-fn a_line_that_stays_slack_does_not_go_slack() {
-    let third = "[[line]]\nanchor = [0, -10]\nfairlead = [1.061, -4.561]\nlength = 6\n\
-                 type = \"studless chain\"\ndiameter = 0.038\n[site]";
-    let text = EXAMPLE.replace("[site]", third);
-    let text = text.replace("[run]", "[run]\nduration = 60\ntransient = 20");
-    let calm = structure(&text.replace("height = 2\n", "height = 0.02\n"));
-    let assessment = assess(calm.clone(), 0, &no_progress).unwrap();
-    let loaded = |line: usize| assessment.outcome.lines[line].least_n.unwrap() > 0.0;
-    assert_eq!([0, 1, 2].map(loaded), [true, true, false]);
-    let calm = ModelAtRest::new(calm).unwrap();
-    let on_elastic = compare_elastic(calm, 1.0, f64::INFINITY, &no_progress).unwrap();
-    for words in [assessment.verdict().words, on_elastic.verdict().words] {
-        let said = "No line goes slack. Line 3 is slack at rest and stays so in the judged time.";
-        assert!(words.starts_with(said), "{words}");
-    }
-    // The others do in a higher wave.
-    let words = assess(structure(&text), 0, &no_progress)
-        .unwrap()
-        .verdict()
-        .words;
-    assert!(words.starts_with("Lines go slack and snap"), "{words}");
-}
