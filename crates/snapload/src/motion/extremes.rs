@@ -63,7 +63,7 @@ type Place<T> = (T, (T, T));
 const INSTANT: f64 = 1e-6;
 
 /// The first instant inside \[0, s\] at which a function with |f̈| ≤ `bound` is above zero; none if
-/// it is not, or only on its way to a maximum at the end.
+/// it is not. If it is at the start, and falls, that is left out.
 #[inline(always)]
 pub(crate) fn first_above_zero<T: Real>(f: &impl Fn(T) -> (T, T), s: T, bound: T) -> Option<T> {
     let least = s * INSTANT;
@@ -108,12 +108,13 @@ fn first_above<T: Real>(
     if falls || stays_below || rises && right.1.0 <= T::ZERO {
         return None;
     }
-    if left.1.0 > T::ZERO {
+    if left.1.0 > T::ZERO && left.1.1 >= T::ZERO {
         return Some(left.0);
     }
     let middle = left.0 + width * 0.5;
-    if !(left.0 < middle && middle < right.0) || right.1.0 > T::ZERO && width <= least {
-        return Some(left.0).filter(|_| right.1.0 > T::ZERO);
+    let crosses = left.1.0 <= T::ZERO && right.1.0 > T::ZERO;
+    if !(left.0 < middle && middle < right.0) || width <= least && (crosses || left.1.0 > T::ZERO) {
+        return crosses.then_some(left.0);
     }
     let centre = (middle, f(middle));
     first_above([left, centre], f, bound, least)
@@ -191,5 +192,27 @@ mod tests {
             .fold(0.0, f64::max);
         assert!((highest(&wave, 2.0, 49.0, 49.0, 0.0) - known).abs() < 1e-10);
         assert_eq!(highest(&throw, 3.0, -1.0, 1.0, 7.0), 7.0);
+    }
+
+    /// −½ − cos 3s passes zero at cos 3s = −½, and again in its last rise before s = 2.9; a parabola
+    /// that begins above zero passes it at 1 + √½ alone.
+    #[test]
+    fn finds_where_a_function_first_passes_zero() {
+        let near = |found: Option<f64>, place: f64| {
+            found.is_some_and(|found| place - 1e-5 < found && found <= place)
+        };
+        let wave = |s: f64| (-0.5 - (3.0 * s).cos(), 3.0 * (3.0 * s).sin());
+        let first = 2.0 * std::f64::consts::PI / 9.0;
+        assert!(near(first_above_zero(&wave, 2.9, 9.0), first));
+        let before = |s: f64| first_above_zero_before_last_rise(&wave, s, 9.0);
+        assert!(near(before(2.9), first));
+        assert_eq!(before(0.9), None);
+        let parabola = |s: f64| ((s - 1.0).powi(2) - 0.5, 2.0 * (s - 1.0));
+        assert!(near(
+            first_above_zero(&parabola, 2.0, 2.0),
+            1.0 + 0.5_f64.sqrt()
+        ));
+        assert_eq!(first_above_zero(&parabola, 1.7, 2.0), None);
+        assert_eq!(first_above_zero_before_last_rise(&parabola, 2.0, 2.0), None);
     }
 }

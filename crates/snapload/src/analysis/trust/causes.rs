@@ -12,6 +12,11 @@ use crate::motion::step_map::Deviation;
 /// Neighbours are assumed to be within this many standard deviations.
 pub(super) const SIGMA_REACH: f64 = 3.0;
 
+/// When a cable comes near is found by so many trials at most, each with the neighbours' reach at
+/// the instant found by the one before, until it is within this part of the step.
+const TRIALS: usize = 16;
+const SAME_INSTANT: f64 = 1e-3;
+
 /// The spread of the neighbours at some instant.
 pub(super) struct Spread<'a> {
     covariance: &'a CovarianceFactor,
@@ -288,10 +293,18 @@ fn may_snap(
     if first.is_none() && !near_at_end(most) {
         return None;
     }
-    let near = first.and_then(|s| {
+    let mut near = first;
+    for _ in 0..TRIALS {
+        let Some(s) = near else {
+            break;
+        };
         let reach = reach_within(simulation, step, approach, along, (cable, s));
-        simulation.comes_near(step, cable, per_place * reach)
-    });
+        near = simulation.comes_near(step, cable, per_place * reach);
+        let moved = near.map_or(0.0, |next| (next - s).abs());
+        if moved <= SAME_INSTANT * (step.t_end - step.t_start) {
+            break;
+        }
+    }
     let Normal { n, arm } = tether.normal(&step.before);
     let direction = [n.x, n.y, arm, 0.0, 0.0, 0.0];
     let at_end = along.reach(&direction).max(met.reach(&direction));
@@ -310,7 +323,8 @@ fn reach_within(
     (cable, s): (usize, f64),
 ) -> f64 {
     let (tether, end) = (&simulation.system().cables[cable], &step.before);
-    if s == 0.0 || !simulation.system().flies_freely(step.taut) {
+    let was_open = simulation.contact_at_start(step, cable).gap < 0.0;
+    if !simulation.system().flies_freely(step.taut) || s == 0.0 && !was_open {
         let Normal { n, arm } = tether.normal(end);
         return along.reach(&[n.x, n.y, arm, 0.0, 0.0, 0.0]);
     }
@@ -322,7 +336,7 @@ fn reach_within(
     let [by_vx, by_vy, by_spin] = place.map(|slope| -left * slope);
     let direction = [n.x, n.y, arm, by_vx, by_vy, by_spin, later];
     let reach = SIGMA_REACH * along.covariance.along_with_time(&direction);
-    if simulation.contact_at_start(step, cable).gap < 0.0 {
+    if was_open {
         reach
     } else {
         reach * (s + left) / s
