@@ -263,7 +263,8 @@ def critical_force(
         points = [tuple(point[name] for name, _ in kinds) for point in data["probability"]]
         probability = np.array(points, dtype=kinds).view(np.recarray)
     f_cr, reason, t, certain = (data[name] for name in ("f_cr", "reason", "t", "certain"))
-    exceeding, uncertain = (np.array(data[name], dtype=np.float64).reshape(-1, 2) for name in ("exceeding", "uncertain"))
+    intervals = (data[name] for name in ("exceeding", "uncertain"))
+    exceeding, uncertain = (np.array(pairs, dtype=np.float64).reshape(-1, 2) for pairs in intervals)
     return CriticalForce(f_cr, reason, t, certain, exceeding, uncertain, probability, passes, step, largest)
 
 
