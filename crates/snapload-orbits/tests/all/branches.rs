@@ -1,8 +1,7 @@
 //! Branches in one key, and the events along them.
 
-use crate::common::{number, parameters, point, reference};
+use crate::common::{number, parameters, point, reference, tori};
 use serde_json::Value as Json;
-use snapload::Parameters;
 use snapload::analysis::no_progress;
 use snapload_orbits::{Branch, BranchOptions, Kind, Moored, Orbit, OrbitRequest};
 
@@ -128,19 +127,9 @@ fn a_branch_ends_on_the_borders_of_its_range() {
 /// half may have: it ends where it began, and has the same events, each once.
 #[test]
 fn a_closed_branch_is_gone_round_once() {
-    let case = Parameters {
-        inertia: None,
-        a: 0.0,
-        r: 1.7,
-        e: 0.35,
-        f_o: 1.4,
-        nu: 0.8,
-        omega: 3.1,
-        ..Parameters::STANDARD
-    };
+    let (case, start) = tori();
     let keys = [Some("omega"), None];
     let family = Moored::case(case, keys);
-    let start = [-0.2688, 0.3830, 0.0, 0.8084, -0.4263, 0.0];
     let at = Moored::values(&case, keys);
     let orbit = Orbit::find(&family, at, &start, &OrbitRequest::default()).unwrap();
     for (step, most) in [(0.01, 800), (0.005, 800), (0.02, 800), (0.02, 36)] {

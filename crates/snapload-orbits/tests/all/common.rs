@@ -41,3 +41,19 @@ pub fn parameters(case: &Json) -> Parameters {
 pub fn relative(a: f64, b: f64) -> f64 {
     (a - b).abs() / b.abs()
 }
+
+/// A point mass with a closed branch in ω, along which orbits become tori, and the start of an orbit
+/// on it.
+pub(crate) fn tori() -> (Parameters, [f64; 6]) {
+    let case = Parameters {
+        inertia: None,
+        a: 0.0,
+        r: 1.7,
+        e: 0.35,
+        f_o: 1.4,
+        nu: 0.8,
+        omega: 3.1,
+        ..Parameters::STANDARD
+    };
+    (case, [-0.2688, 0.3830, 0.0, 0.8084, -0.4263, 0.0])
+}

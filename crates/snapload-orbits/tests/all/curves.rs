@@ -1,8 +1,7 @@
 //! Curves of special orbits in two keys, against closed forms and against branches in one key.
 
 use crate::closed_forms::{bouncing, bouncing_from, table};
-use crate::common::{parameters, reference};
-use snapload::Parameters;
+use crate::common::{parameters, reference, tori};
 use snapload::analysis::no_progress;
 use snapload_orbits::{
     Branch, BranchEvent, BranchOptions, Curve, CurveOptions, CurvePoint, Family, Kind, Moored,
@@ -283,19 +282,9 @@ fn coefficients_of_folds_have_a_sign_along_the_curve() {
 /// curve, and the same one whatever its steps.
 #[test]
 fn a_curve_of_tori_ends_at_its_resonance() {
-    let case = Parameters {
-        inertia: None,
-        a: 0.0,
-        r: 1.7,
-        e: 0.35,
-        f_o: 1.4,
-        nu: 0.8,
-        omega: 3.1,
-        ..Parameters::STANDARD
-    };
+    let (case, start) = tori();
     let keys = [Some("omega"), Some("e")];
     let family = Moored::case(case, keys);
-    let start = [-0.2688, 0.3830, 0.0, 0.8084, -0.4263, 0.0];
     let at = Moored::values(&case, keys);
     let orbit = Orbit::find(&family, at, &start, &OrbitRequest::default()).unwrap();
     let options = BranchOptions {
