@@ -16,7 +16,7 @@ from ._arguments import number, unmasked, whole_number
 from ._lazy_import import LazyModule
 from ._motion import Motion
 from ._schema import units
-from ._table import Table
+from ._table import Table, or_nan
 
 if TYPE_CHECKING:
     import matplotlib.axes
@@ -263,9 +263,9 @@ class BaseOrbit:
         return f"<pre>{escape(str(self))}</pre>"
 
 
-def complex_array(pairs: Iterable[tuple[float, float]]) -> NDArray[np.complex128]:
-    """Pairs of real and imaginary parts as complex numbers."""
-    return np.array([complex(*pair) for pair in pairs], dtype=np.complex128)
+def complex_array(pairs: Iterable[tuple[float | None, float | None]]) -> NDArray[np.complex128]:
+    """Pairs of real and imaginary parts as complex numbers, NaN where there is none as at a snap of zero velocity."""
+    return np.array([complex(or_nan(real), or_nan(imaginary)) for real, imaginary in pairs], dtype=np.complex128)
 
 
 def orbit_or_error(orbit: _engine.Orbit | None, why: str) -> _engine.Orbit:

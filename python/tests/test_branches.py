@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 import snapload
 from conftest import ROOT
+from snapload._orbit_base import complex_array
 
 REFERENCE = json.loads((ROOT / "crates/snapload-orbits/tests/data/orbits.json").read_text(encoding="utf-8"))
 BRANCHES = {branch["name"]: branch for branch in REFERENCE["branches"]}
@@ -144,3 +145,9 @@ def test_pictures_tell_parts_of_a_branch_apart():
         branch.plot("z")
     with pytest.raises(TypeError, match=r"allowed: an orbit of a snapload\.Case"):
         snapload.continuation("orbit", "f_o", (0, 1))
+
+
+def test_multipliers_that_are_infinite_are_no_numbers():
+    # At a graze of its own snap an orbit's derivatives are infinite, and JSON has none.
+    missing, real = complex_array([(None, None), (0.5, 0.0)])
+    assert np.isnan(missing) and real == 0.5
