@@ -2,8 +2,8 @@
 //! is reached (chapter 6.4.2), and all larger amplitudes of the scan that reach one of them.
 
 use crate::analysis::ensemble::Ensemble;
-use crate::analysis::outcomes::{ThreadResults, on_all_threads};
-use crate::analysis::progress::{Counter, OnProgress, Progress, Unfinished};
+use crate::analysis::outcomes::{ThreadResults, on_all_threads, outcomes_on_one_thread};
+use crate::analysis::progress::{Cancelled, Counter, OnProgress, Unfinished};
 use crate::analysis::trust::{Certainty, Uncertainty};
 use crate::batch::lanes::Lanes;
 use crate::case::Case;
@@ -118,6 +118,12 @@ pub struct CriticalForce {
 /// The neighbours of a run past its horizon, of which all must exceed if it does, and none if not.
 pub const NEIGHBOURS: u32 = 20;
 
+/// So many of them are run first.
+const FIRST_NEIGHBOURS: u32 = 4;
+
+/// Of so many runs at once, which fills all lanes and needs little memory.
+const AT_ONCE: usize = 1000;
+
 impl CriticalForce {
     /// Runs the case at every amplitude of the scan, on all threads that there are.
     ///
@@ -142,14 +148,17 @@ impl CriticalForce {
             Certainty::with_outcomes(Lanes::best(), cases, &counter)
         });
         let runs = runs.map(ThreadResults::into_vec)?;
-        let all = runs.len() as f64;
-        let mut decided = Vec::with_capacity(runs.len());
-        for (case, (outcome, certainty)) in cases.iter().zip(&runs) {
-            let progress = Progress::new("force amplitudes", decided.len() as f64, all);
-            decided.push(
-                certainty.decides_the_end()
-                    || neighbours_agree(case, outcome, &|_| on_progress(progress))?,
-            );
+        let undecided = |k: &usize| !runs[*k].1.decides_the_end();
+        let undecided: Vec<usize> = (0..runs.len()).filter(undecided).collect();
+        let all = undecided.len() as u64 * u64::from(NEIGHBOURS);
+        let counter = Counter::new("neighbours", 0, all, on_progress);
+        let mut decided = vec![true; runs.len()];
+        for some in undecided.chunks(AT_ONCE) {
+            let past_horizon: Vec<_> = some.iter().map(|k| (&cases[*k], &runs[*k].0)).collect();
+            let agree = neighbours_agree(&past_horizon, &counter)?;
+            for (k, agree) in some.iter().zip(agree) {
+                decided[*k] = agree;
+            }
         }
         let ends = runs.iter().zip(decided).zip(&amplitudes);
         let ends = ends.map(|(((outcome, certainty), decided), f_o)| DecidedEnd {
@@ -191,23 +200,34 @@ pub(crate) struct DecidedEnd {
     pub(crate) decided: bool,
 }
 
-/// Whether all neighbours exceed if the run does, and none otherwise; they do not if some can not be
-/// drawn.
-fn neighbours_agree(
-    case: &Case,
-    outcome: &Outcome,
-    on_progress: OnProgress,
-) -> Result<bool, Unfinished> {
-    let ensemble = Ensemble::about(case, &Uncertainty::default(), NEIGHBOURS, 1);
-    match ensemble.tally(on_progress) {
-        Ok(ends) => {
-            let exceeding = ends.exceeding();
-            let expected = if outcome.exceeds() { exceeding.of } else { 0 };
-            Ok(exceeding.count == expected)
+/// For each run, whether all its neighbours exceed if it does, and none otherwise; they do not if
+/// some can not be drawn. The neighbours of all runs are run side by side: the first few, which
+/// mostly show where they disagree, and then the others of those that agree so far.
+fn neighbours_agree(runs: &[(&Case, &Outcome)], counter: &Counter) -> Result<Vec<bool>, Cancelled> {
+    let about = |case| Ensemble::about(case, &Uncertainty::default(), NEIGHBOURS, 1);
+    let ensembles: Vec<Ensemble> = runs.iter().map(|(case, _)| about(case)).collect();
+    let mut agree = vec![true; runs.len()];
+    for members in [0..FIRST_NEIGHBOURS, FIRST_NEIGHBOURS..NEIGHBOURS] {
+        let mut neighbours = Vec::new();
+        for (k, ensemble) in ensembles.iter().enumerate() {
+            let members = members.clone().filter(|_| agree[k]);
+            match members
+                .map(|index| ensemble.member(index))
+                .collect::<Result<Vec<_>, _>>()
+            {
+                Ok(cases) => neighbours.extend(cases.into_iter().map(|case| (k, case))),
+                Err(_) => agree[k] = false,
+            }
         }
-        Err(Unfinished::Cancelled(cancelled)) => Err(cancelled.into()),
-        Err(_) => Ok(false),
+        let outcomes = on_all_threads(neighbours.len(), |numbers| {
+            outcomes_on_one_thread(numbers.map(|n| neighbours[n].1.clone()), counter)
+        })?;
+        for ((k, _), outcome) in neighbours.iter().zip(outcomes.iter()) {
+            agree[*k] &= outcome.exceeds() == runs[*k].1.exceeds();
+        }
+        counter.add((runs.len() * members.len() - neighbours.len()) as u64)?;
     }
+    Ok(agree)
 }
 
 /// The amplitudes whose ends are such, as intervals of neighbouring ones.
