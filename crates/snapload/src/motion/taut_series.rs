@@ -192,7 +192,7 @@ impl<T: Real> Series<T> {
                 .iter()
                 .filter(|&cable| self.holds(cable))
                 .collect();
-            self.choose_event_series();
+            self.choose_event_series(system, start, memory);
         })
     }
 

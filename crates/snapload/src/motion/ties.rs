@@ -32,6 +32,10 @@ use crate::motion::waves::Waves;
 const ZERO: f64 = 4.0;
 /// A tension decides once it is this many times what counts as zero \[F\].
 const CLEAR: f64 = 16.0;
+/// A tension below this part of its summands counts as zero where taut cables depend on each other:
+/// without a tension that much below zero its cable opens by more than
+/// [`SHARED`](crate::motion::least_norm::SHARED).
+const NEGLIGIBLE: f64 = 3e-8;
 /// Tensions are first evaluated 2^−LATER of a step later, then at each doubling of that, up to half
 /// a step.
 const LATER: i32 = 28;
@@ -138,22 +142,101 @@ impl<T: Real> Instant<'_, T> {
 
     /// Below what the tension of each of some independent cables counts as zero.
     pub(crate) fn zero_tensions(&self, carrying: TautSet) -> PerCable<T> {
-        let normals = self.system.normals(self.state, carrying);
-        let mass = &self.system.body.mass;
-        let w = |i: usize, j: usize| mass.coupling(&normals[i], &normals[j]);
-        let ready = Factored::new(carrying, w);
-        let accelerations = self.normal_accelerations(carrying, carrying);
-        let mut zero = [T::ZERO; MAX_CABLES];
-        for source in carrying.iter() {
-            let mut load = [T::ZERO; MAX_CABLES];
-            load[source] = accelerations[source].1;
-            let tension = ready.solve(&load);
-            for cable in carrying.iter() {
-                zero[cable] += tension[cable].abs();
-            }
-        }
-        zero
+        let rounding = T::EPSILON * ZERO;
+        self.sizes_of_tensions(carrying).map(|size| size * rounding)
     }
+
+    /// The sums of the absolute values of all summands of the tensions of some independent cables.
+    fn sizes_of_tensions(&self, carrying: TautSet) -> PerCable<T> {
+        let (system, state) = (self.system, self.state);
+        let tension = tensions(system, self.around, state, self.memory_force, carrying);
+        sizes_of_tensions(system, state, self.memory_force, carrying, &tension)
+    }
+
+    /// The first different set that is taut along the motion of `active` after a time `from`, at
+    /// which released cables have lost their tension; none if there is none within half a step.
+    ///
+    /// Where other closed cables remain, one of them may take over the load of a carrying cable
+    /// that has lost its tension. The instant itself does not decide which; so the problem on
+    /// accelerations is solved a little later on the same motion, where the tension would be
+    /// negative: by more than counts as zero, or, where it never is, by more than rounding.
+    #[cold]
+    #[inline(never)]
+    pub(crate) fn taken_over(
+        &self,
+        series: &Series<T>,
+        from: T,
+        active: ActiveSet,
+        released: TautSet,
+        around: impl Fn(T) -> Surroundings<T>,
+    ) -> Option<ActiveSet> {
+        let sizes = self.sizes_of_tensions(active.carrying);
+        let next = |s: T| {
+            let (state, held) = (series.state(s), series.memory_force(s));
+            taut_next(self.system, &around(s), &state, held, active.taut)
+        };
+        [T::from_decimal(NEGLIGIBLE), T::EPSILON * (ZERO * CLEAR)]
+            .into_iter()
+            .find_map(|part| {
+                let pushes = |cable: usize, s: T| series.tension(cable, s) < -(sizes[cable] * part);
+                instants_after(series, from)
+                    .filter(|&s| released.iter().any(|cable| pushes(cable, s)))
+                    .map(next)
+                    .find(|next| *next != active)
+            })
+    }
+}
+
+/// Below what the tension of each of some independent cables counts as zero where taut cables depend
+/// on each other, given these tensions.
+#[cold]
+#[inline(never)]
+pub(crate) fn negligible_tensions<T: Real>(
+    system: &System<T>,
+    state: &State<T>,
+    memory_force: [T; 3],
+    carrying: TautSet,
+    tension: &PerCable<T>,
+) -> PerCable<T> {
+    let part = T::from_decimal(NEGLIGIBLE);
+    sizes_of_tensions(system, state, memory_force, carrying, tension).map(|size| size * part)
+}
+
+/// [`Instant::sizes_of_tensions`], given the tensions.
+fn sizes_of_tensions<T: Real>(
+    system: &System<T>,
+    state: &State<T>,
+    memory_force: [T; 3],
+    carrying: TautSet,
+    tension: &PerCable<T>,
+) -> PerCable<T> {
+    let free_size = size_of_free_acceleration(system, state, memory_force);
+    let normals = system.normals(state, carrying);
+    let w = |i: usize, j: usize| system.body.mass.coupling(&normals[i], &normals[j]);
+    let ready = Factored::new(carrying, w);
+    let mut sizes = [T::ZERO; MAX_CABLES];
+    for source in carrying.iter() {
+        let mut load = [T::ZERO; MAX_CABLES];
+        load[source] = carrying
+            .iter()
+            .fold(size_of_load(system, source, state, free_size), |size, j| {
+                size + (w(source, j) * tension[j]).abs()
+            });
+        let parts = ready.solve(&load);
+        for cable in carrying.iter() {
+            sizes[cable] += parts[cable].abs();
+        }
+    }
+    sizes
+}
+
+/// Instants after a time `from` of an expansion at which tensions are evaluated, from 2^−LATER of a
+/// step later on.
+fn instants_after<T: Real>(series: &Series<T>, from: T) -> impl Iterator<Item = T> {
+    let (step, last) = (series.step(), series.step() * BEYOND);
+    (1..=LATER)
+        .map(move |k| from + step * 0.5_f64.powi(LATER + 1 - k))
+        .take_while(move |&s| s <= last)
 }
 
 /// The first time after `from` at which the tensions of all of some cables are more than rounding;
@@ -168,10 +251,7 @@ pub(crate) fn first_clear<T: Real>(
         let known = |cable: usize| series.tension(cable, s).abs() > zero[cable] * CLEAR;
         cables.iter().all(known)
     };
-    (1..=LATER)
-        .map(|k| from + series.step() * 0.5_f64.powi(LATER + 1 - k))
-        .take_while(|&s| s <= series.step() * BEYOND)
-        .find(clear)
+    instants_after(series, from).find(clear)
 }
 
 impl<T: Real> Tie<'_, T> {

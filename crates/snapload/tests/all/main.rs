@@ -16,6 +16,7 @@ mod drag;
 mod floating;
 mod floating_random;
 mod floating_trust;
+mod held_bodies;
 mod horizons;
 mod invariants;
 mod limits;

@@ -15,12 +15,6 @@ use crate::motion::projection::project_velocity;
 use crate::motion::simulation::{CONVERGING, Event, LastImpacts, Simulation};
 use crate::motion::ties::{Instant, first_clear};
 
-/// A tension below this is negative by more than rounding: the cable would have to push \[F\].
-const NEGATIVE_TENSION: f64 = -1e-7;
-/// After a tension is lost the motion is first evaluated 2^−LATER of a step later, then at each
-/// doubling of that, up to half a step.
-const LATER: i32 = 28;
-
 /// Up to what the normal velocity of a cable counts as zero at an impact, from the state after it
 /// and before it.
 #[inline(always)]
@@ -198,12 +192,11 @@ impl<T: Real> Simulation<T> {
     }
 
     /// Whether tensions that reach zero at a crossing are positive again before they are negative by
-    /// more than rounding. If cables depend on each other, [`Simulation::release`] decides.
+    /// more than rounding.
     #[cold]
     #[inline(never)]
     pub(super) fn only_touches(&self, crossing: &Crossing<T>) -> bool {
-        let ActiveSet { taut, carrying } = self.active;
-        let (Some(series), true) = (&self.series, taut == carrying) else {
+        let Some(series) = &self.series else {
             return false;
         };
         let (s, tensions) = (crossing.s, crossing.reached.tensions);
@@ -213,38 +206,36 @@ impl<T: Real> Simulation<T> {
             state: &series.state(s),
             memory_force: series.memory_force(s),
         };
-        let clear = first_clear(series, s, tensions, &now.zero_tensions(carrying));
+        let zero = now.zero_tensions(self.active.carrying);
+        let clear = first_clear(series, s, tensions, &zero);
         let rises = |s: T| tensions.iter().all(|i| series.tension(i, s) > T::ZERO);
         clear.is_some_and(rises)
     }
 
-    /// Cables lose their tension: they open, whatever sign rounding gives to a tension of zero.
-    ///
-    /// Where other closed cables remain, one of them may take over the load of a carrying cable
-    /// that has lost its tension. The instant itself does not decide which; so the problem on
-    /// accelerations is solved a little later on the same motion, where the tension would be
-    /// negative.
+    /// Cables lose their tension: they open, whatever sign rounding gives to a tension of zero,
+    /// unless others take over.
     fn release(&mut self, released: TautSet) {
         self.end_slow_row();
-        let ActiveSet { taut, carrying } = self.active;
-        self.active = if let (Some(series), true) = (&self.series, taut != carrying) {
-            let since = self.t - self.begun;
-            let clear = |&later: &T| {
-                let tension = |cable| series.tension(cable, since + later);
-                released
-                    .iter()
-                    .any(|cable| tension(cable) < T::from_decimal(NEGATIVE_TENSION))
-            };
-            let steps = (0..LATER).map(|k| series.step() * 0.5_f64.powi(LATER - k));
-            let last = series.step() * 0.5;
-            let later = steps.into_iter().find(clear).unwrap_or(last);
-            let state = series.state(since + later);
-            let memory_force = series.memory_force(since + later);
-            self.taut_next(self.t + later, &state, memory_force, taut)
-        } else {
-            let kept = released.iter().fold(taut, TautSet::without);
+        self.active = self.taken_over(released).unwrap_or_else(|| {
+            let kept = released.iter().fold(self.active.taut, TautSet::without);
             self.taut_next(self.t, &self.state, self.memory_force(), kept)
+        });
+    }
+
+    /// The taut cables after some have lost their tension, if cables depend on each other.
+    fn taken_over(&self, released: TautSet) -> Option<ActiveSet> {
+        let series = self.series.as_ref()?;
+        if self.active.taut == self.active.carrying {
+            return None;
+        }
+        let now = Instant {
+            system: &self.system,
+            around: &self.surroundings(self.t),
+            state: &self.state,
+            memory_force: self.memory_force(),
         };
+        let around = |s: T| self.surroundings(self.begun + s);
+        now.taken_over(series, self.t - self.begun, self.active, released, around)
     }
 
     /// Checks the rules that apply at events; `stuck` are the cables that just stuck.

@@ -2,13 +2,16 @@
 
 use crate::arithmetic::polynomial::{ORDER, Polynomial};
 use crate::arithmetic::real::Real;
+use crate::model::floating::Complex;
+use crate::model::state::State;
+use crate::model::system::System;
+use crate::model::taut_set::MAX_CABLES;
 use crate::motion::active_set::ActiveSet;
 use crate::motion::events::{EventFunction, HasEvents, Jet, Jets};
 use crate::motion::limits::{EventSeries, TautMotion};
 use crate::motion::taut_series::Series;
+use crate::motion::ties::negligible_tensions;
 
-/// A tension that stays below this along a whole step counts as zero \[F\].
-const ZERO_TENSION: f64 = 1e-7;
 /// The tolerance for the length of a taut cable without tension, as a multiple of that of a resting
 /// one.
 const TAUT_TOLERANCE: f64 = 64.0;
@@ -28,10 +31,28 @@ impl<T: Real> Series<T> {
 
     /// Chooses the event functions of the step; those that provably are not reached are left out.
     #[inline(always)]
-    pub(super) fn choose_event_series(&mut self) {
+    pub(super) fn choose_event_series(
+        &mut self,
+        system: &System<T>,
+        start: &State<T>,
+        memory: &[Complex<T>],
+    ) {
         let step = self.step;
         self.event_series.clear();
         let ActiveSet { taut, carrying } = self.active;
+        let negligible = (taut != carrying).then(|| {
+            let mut tension = [T::ZERO; MAX_CABLES];
+            for cable in carrying.iter() {
+                tension[cable] = self.lines[cable].tension[0];
+            }
+            negligible_tensions(
+                system,
+                start,
+                system.memory_force(memory),
+                carrying,
+                &tension,
+            )
+        });
         let idle = |cable: usize| taut.contains(cable) && !carrying.contains(cable);
         for cable in (0..self.lines.len()).filter(|&cable| !idle(cable)) {
             let line = &self.lines[cable];
@@ -51,10 +72,10 @@ impl<T: Real> Series<T> {
                 }
             };
             // If not all taut cables carry, one whose tension is zero throughout has no event.
-            let nothing = taut != carrying
-                && carrying.contains(cable)
-                && event.series.derivative_bound(0, step, event.order)
-                    <= T::from_decimal(ZERO_TENSION);
+            let nothing = negligible.is_some_and(|negligible| {
+                carrying.contains(cable)
+                    && event.series.derivative_bound(0, step, event.order) <= negligible[cable]
+            });
             if !nothing && !event.stays_negative(step) {
                 self.event_series.push(event);
             }
