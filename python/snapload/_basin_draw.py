@@ -23,6 +23,7 @@ _ENDS = {
     "end_time": ("#56B4E9", "continues"),
     "sliding_start": ("#56B4E9", "slides"),
     "impact_limit": ("#56B4E9", "continues"),
+    "standstill": (REFERENCE, "not computed"),
     "rotation_limit": (VERMILION, "rotation limit"),
     "upper_bound": ("#7A3B00", "upper bound"),
 }

@@ -15,6 +15,7 @@ Reason = Literal[
     "sliding_start",
     "end_time",
     "impact_limit",
+    "standstill",
 ]
 
 #: The same as names.

@@ -71,6 +71,7 @@ fn case_summary((outcome, certainty): &(Outcome, Certainty)) -> String {
         Stop::EndTime if outcome.sliding > 0.0 => format!("slides on one cable at times{past}"),
         Stop::EndTime => format!("continues to snap, {about}{snaps} times by t = {t:.0}"),
         Stop::ImpactLimit => format!("snaps more than {snaps} times by t = {about}{t:.1}"),
+        Stop::Standstill => format!("can not be computed beyond t = {about}{t:.1}"),
         limit => format!("reaches the {} at t = {about}{t:.1}", limit.label()),
     }
 }

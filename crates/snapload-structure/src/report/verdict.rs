@@ -226,7 +226,7 @@ fn verdict(
         VerdictKind::Open
     } else if !broken.is_empty() {
         VerdictKind::Breaks
-    } else if outcome.stop == Stop::ImpactLimit || !all_known {
+    } else if matches!(outcome.stop, Stop::ImpactLimit | Stop::Standstill) || !all_known {
         VerdictKind::Unknown
     } else if early.as_ref().is_some_and(Early::breaks) {
         VerdictKind::Open

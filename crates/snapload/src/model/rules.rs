@@ -54,18 +54,21 @@ pub enum Stop {
     EndTime,
     /// More impacts than allowed.
     ImpactLimit,
+    /// The time no longer increases, and no cable snaps: the computation can not go on.
+    Standstill,
 }
 
 impl Stop {
     /// All variants. In tables of numbers each is stored as its index here, so that a new one has
     /// to come last.
-    pub const ALL: [Self; 6] = [
+    pub const ALL: [Self; 7] = [
         Self::Settled,
         Self::RotationLimit,
         Self::UpperBound,
         Self::SlidingStart,
         Self::EndTime,
         Self::ImpactLimit,
+        Self::Standstill,
     ];
 
     /// Its name in files and in programs; its name for people; the end of a sentence about it.
@@ -96,6 +99,11 @@ impl Stop {
                 "impact_limit",
                 "impact limit",
                 "there were more impacts than allowed",
+            ],
+            Self::Standstill => [
+                "standstill",
+                "standstill",
+                "the computation stood still: its time no longer increased",
             ],
         }
     }
@@ -261,8 +269,9 @@ mod tests {
             Stop::SlidingStart => 3,
             Stop::EndTime => 4,
             Stop::ImpactLimit => 5,
+            Stop::Standstill => 6,
         };
-        assert!(Stop::ALL.into_iter().map(stop).eq(0..6));
+        assert!(Stop::ALL.into_iter().map(stop).eq(0..7));
         // Where only the name is known, as in files, people read it with blanks instead of
         // underscores.
         for stop in Stop::ALL {

@@ -41,6 +41,9 @@ use within::StateAt;
 /// converging series.
 const CONVERGING: u32 = 5;
 
+/// A motion whose time does not increase in more steps than this, without a snap, stands still.
+const MOST_IDLE: u64 = 1000;
+
 /// A motion in progress.
 ///
 /// It allocates memory only when it is made and at its first segment without a closed form; it uses
@@ -71,7 +74,7 @@ pub struct Simulation<T: Real = f64> {
     series: Option<Box<Series<T>>>,
     extremes: Extremes<T>,
     impacts: u64,
-    /// Steps of zero length since the time last increased.
+    /// Steps of zero length since the time last increased or a cable snapped.
     standstill: u64,
     /// Snaps in a row that were slower than `v_stick`, and their cables.
     slow_snaps: u32,
@@ -295,6 +298,7 @@ impl<T: Real> Simulation<T> {
             return None;
         }
         let (t_start, start, mut active) = (self.t, self.state, self.active);
+        let impacts = self.impacts;
         let mut result = None;
         let event = match &self.next_bounce() {
             Some(bounce) => self.take(bounce, &mut result),
@@ -312,7 +316,7 @@ impl<T: Real> Simulation<T> {
         if self.stop.is_none() && event.reached != Reached::default() {
             self.check_rules(event.reached.gaps.intersection(self.active.taut));
         }
-        self.check_progress(t_start);
+        self.check_progress(t_start, impacts);
         Some(Step {
             t_start,
             start,
@@ -378,6 +382,7 @@ impl<T: Real> Simulation<T> {
                 self.touching = crossing.reached.tensions;
                 crossing.reached = Reached::default();
             }
+            self.hold_closed(&mut crossing.reached);
             crossing
         })
     }

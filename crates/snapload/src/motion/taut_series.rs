@@ -190,7 +190,7 @@ impl<T: Real> Series<T> {
             self.active.taut = active
                 .taut
                 .iter()
-                .filter(|&cable| self.holds(cable))
+                .filter(|&cable| self.holds(system, cable))
                 .collect();
             self.choose_event_series(system, start, memory);
         })

@@ -129,7 +129,10 @@ fn the_motion_does_not_depend_on_the_unit_of_force() {
                 if *error > 1e-6 {
                     break;
                 }
-                if a.cable != b.cable || (a.t - b.t).abs() > 1e-6 { println!("differs {about}: {a:?} {b:?} {:?}", trust.horizon); break; }
+                if a.cable != b.cable || (a.t - b.t).abs() > 1e-6 {
+                    println!("differs {about}: {a:?} {b:?} {:?}", trust.horizon);
+                    break;
+                }
                 compared += 1;
             }
         }

@@ -9,10 +9,10 @@ use crate::model::taut_set::TautSet;
 use crate::motion::active_set::{ActiveSet, normal_acceleration, taut_next};
 use crate::motion::bounce::UNMOVED;
 use crate::motion::contact::Contact;
-use crate::motion::events::Crossing;
+use crate::motion::events::{Crossing, Reached};
 use crate::motion::impact::{ImpactResult, impact};
 use crate::motion::projection::project_velocity;
-use crate::motion::simulation::{CONVERGING, Event, LastImpacts, Simulation};
+use crate::motion::simulation::{CONVERGING, Event, LastImpacts, MOST_IDLE, Simulation};
 use crate::motion::ties::{Instant, first_clear};
 
 /// Up to what the normal velocity of a cable counts as zero at an impact, from the state after it
@@ -162,16 +162,26 @@ impl<T: Real> Simulation<T> {
         };
     }
 
-    /// Where bounces accumulate the time may not change from one to the next; steps of zero length
-    /// are counted like impacts, so that every run ends.
-    pub(super) fn check_progress(&mut self, t_start: T) {
-        self.standstill = if self.t > t_start {
+    /// Counts steps of zero length without a snap, so that every run ends. Where bounces accumulate
+    /// the time may not change from one to the next, but these are counted as impacts.
+    pub(super) fn check_progress(&mut self, t_start: T, impacts: u64) {
+        self.standstill = if self.t > t_start || self.impacts > impacts {
             0
         } else {
             self.standstill + 1
         };
-        if self.stop.is_none() && self.standstill > self.rules.max_impacts {
-            self.stop = Some(Stop::ImpactLimit);
+        if self.stop.is_none() && self.standstill > MOST_IDLE {
+            self.stop = Some(Stop::Standstill);
+        }
+    }
+
+    /// Where taut cables leave the body no freedom, a gap closes by rounding only: its cable is at
+    /// rest with the body.
+    #[inline(always)]
+    pub(super) fn hold_closed(&mut self, reached: &mut Reached) {
+        if !reached.gaps.is_empty() && self.system.is_held_by(self.active.carrying) {
+            self.active.taut = self.active.taut.union(reached.gaps);
+            reached.gaps = TautSet::SLACK;
         }
     }
 
