@@ -20,6 +20,7 @@ pub(crate) mod projection;
 pub(crate) mod sampling;
 pub(crate) mod segments;
 pub(crate) mod simulation;
+pub(crate) mod sizes;
 pub(crate) mod start;
 pub(crate) mod step_map;
 pub(crate) mod tangent;

@@ -297,8 +297,7 @@ impl<T: Real> Simulation<T> {
         if self.stop.is_some() {
             return None;
         }
-        let (t_start, start, mut active) = (self.t, self.state, self.active);
-        let impacts = self.impacts;
+        let (t_start, start, mut active, impacts) = (self.t, self.state, self.active, self.impacts);
         let mut result = None;
         let event = match &self.next_bounce() {
             Some(bounce) => self.take(bounce, &mut result),

@@ -299,3 +299,54 @@ impl<T: Real> Simulation<T> {
         limit
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::analysis::TrustMonitor;
+    use crate::model::body::Body;
+    use crate::model::cable::Cable;
+    use crate::model::forcing::Forcing;
+    use crate::model::rules::Rules;
+    use crate::motion::simulation::Step;
+
+    /// A run that stands still ends as such, however many impacts are allowed, and not certainly.
+    #[test]
+    fn a_standstill_is_told_and_is_not_certain() {
+        for max_impacts in [3, u64::MAX] {
+            let system = System {
+                body: Body::point(),
+                cables: vec![Cable::new([0.0, 0.0], [0.0, 0.0], 1.0)],
+                forcing: Forcing {
+                    constant: [0.0, -1.0].into(),
+                    harmonics: Vec::new(),
+                },
+                drag: None,
+                floating: None,
+                restitution: 0.5,
+            };
+            let rules = Rules {
+                max_impacts,
+                ..Rules::until(1.0)
+            };
+            let start = State::default();
+            let mut simulation = Simulation::new(system, rules, 0.0, start).expect("slack");
+            let mut monitor = TrustMonitor::new(&simulation, &[0.0; 6], 1e-3);
+            let mut moved = simulation.clone();
+            let step = moved.step().expect("a flight");
+            for _ in 0..MOST_IDLE {
+                simulation.check_progress(0.0, 0);
+                assert_eq!(simulation.stop(), None);
+            }
+            simulation.check_progress(0.0, 0);
+            assert_eq!(simulation.stop(), Some(Stop::Standstill));
+            let still = Step {
+                stop: simulation.stop(),
+                ..step
+            };
+            monitor.follow(&moved, &still);
+            let horizon = monitor.verdict().horizon.expect("an end of trust");
+            assert_eq!((horizon.t, horizon.impact), (step.t_end, 1));
+        }
+    }
+}

@@ -9,8 +9,8 @@ use crate::model::taut_set::MAX_CABLES;
 use crate::motion::active_set::ActiveSet;
 use crate::motion::events::{EventFunction, HasEvents, Jet, Jets};
 use crate::motion::limits::{EventSeries, TautMotion};
+use crate::motion::sizes::negligible_tensions;
 use crate::motion::taut_series::Series;
-use crate::motion::ties::negligible_tensions;
 
 /// The tolerance for the length of a taut cable without tension, as a multiple of that of a resting
 /// one.
