@@ -43,6 +43,19 @@ impl<T: Real> Contact<T> {
         }
     }
 
+    /// The same with a gap of exactly zero where that is zero up to rounding.
+    #[inline(always)]
+    pub(crate) fn without_rounding(self) -> Self {
+        Self {
+            gap: if self.gap < -self.error {
+                self.gap
+            } else {
+                T::ZERO
+            },
+            ..self
+        }
+    }
+
     /// The more precise of a gap carried forward and the one evaluated from the state.
     #[inline(always)]
     pub(crate) fn carried(self, system: &System<T>, cable: usize, state: &State<T>) -> Self {

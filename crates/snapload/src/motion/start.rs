@@ -126,9 +126,10 @@ pub(crate) fn start_tolerance<T: Real>(cable: &Cable<T>) -> T {
     T::from_decimal(START_TOLERANCE).min(part)
 }
 
-/// Checks a start and projects it onto the cables that count as closed: in position, and, where the
-/// normal velocity counts as zero, in velocity. The problem on accelerations decides which of those
-/// at rest are taut.
+/// Checks a start and projects it onto closed cables: in position and velocity onto those whose
+/// normal velocity counts as zero, and in position onto those beyond whose ends it is by more than
+/// rounding. A cable that opens or closes keeps its gap. The problem on accelerations decides which
+/// of those at rest are taut.
 #[inline(always)]
 pub(crate) fn prepare<T: Real>(
     system: &System<T>,
@@ -142,24 +143,29 @@ pub(crate) fn prepare<T: Real>(
     let tolerance = T::from_decimal(START_TOLERANCE);
     let given = state;
     let mut state = *state;
-    project_position(system, &mut state, closed);
-    check_projection(system, given, &state, closed)?;
     let velocity =
         |state: &State<T>, cable: usize| system.cables[cable].normal(state).velocity(state);
     let resting: TautSet = closed
         .iter()
-        .filter(|&cable| velocity(&state, cable).abs() <= tolerance)
+        .filter(|&cable| velocity(given, cable).abs() <= tolerance)
         .collect();
+    let beyond = closed.iter().filter(|&cable| {
+        let (gap, error) = system.cables[cable].gap_and_error(given);
+        gap > error
+    });
+    let moved = resting.union(beyond.collect());
+    project_position(system, &mut state, moved);
+    check_projection(system, given, &state, moved)?;
     project_velocity(system, &mut state, resting);
 
     let mut contacts = [Contact::RESTING; MAX_CABLES];
     for cable in system.all_cables().iter() {
         contacts[cable] = if resting.contains(cable) {
             Contact::RESTING
-        } else if closed.contains(cable) {
+        } else if moved.contains(cable) {
             Contact::CLOSED
         } else {
-            Contact::evaluated(system, cable, &state)
+            Contact::evaluated(system, cable, &state).without_rounding()
         };
     }
     // The water is taken as undisturbed, and its memory is zero.

@@ -3,8 +3,8 @@
 use crate::agrees_with_closed_forms::string;
 use snapload::analysis::{HorizonCause, Trust, TrustMonitor, no_progress, record};
 use snapload::{
-    Body, Cable, Case, Forcing, Harmonic, Mode, Parameters, Rules, Simulation, StartError, State,
-    Stop, System, TautSet, Trajectory,
+    Body, Cable, Case, Forcing, Harmonic, Mode, Parameters, Precise, Real, Rules, Simulation,
+    StartError, State, Stop, System, TautSet, Trajectory,
 };
 
 /// The period of a pendulum that swings by 90 degrees to either side, over √(r/g): 4 K(sin 45°).
@@ -265,4 +265,84 @@ fn an_impact_that_only_rounding_makes_is_not_certain() {
         let horizon = trust.horizon.expect("an end of what is known");
         assert_eq!(horizon.impact, 2);
     }
+}
+
+/// A mass thrown up from y = −1 + d, on a string of length 1, is back at its end after v + √(v² + 2
+/// d): a gap within the start's tolerance that opens is neither dropped nor closed.
+#[test]
+fn a_gap_that_opens_is_kept() {
+    for d in [0.0, 1e-15, 1e-12, 1e-10, 4.9e-10] {
+        for vy in [1e-4, 1e-3, 0.01, 0.5] {
+            let about = format!("{d:e}, {vy}");
+            let y = -1.0 + d;
+            let (exact, start) = (
+                vy + (vy * vy + 2.0 * (y + 1.0)).sqrt(),
+                State { vy, ..at(0.0, y) },
+            );
+            let (run, trust) = followed(string(1.0, 1.0, 0.5), 1.2, start);
+            let (first, error) = (run.impacts()[0], trust.errors[0]);
+            let off = (first.t - exact).abs();
+            assert!(
+                off < 2.0 * error && error < 1e-11,
+                "{about}: {off:e} {error:e}"
+            );
+            assert!((first.v_n - (exact - vy)).abs() < 1e-11, "{about}");
+            assert_eq!(run.at(0.0).state, start, "{about}");
+        }
+    }
+}
+
+/// A mass thrown towards the end of its string, y = −1 − d, is beyond it by no more than the
+/// tolerance if −1e-9 < 2 d < 1e-9: above it snaps when it arrives, below at once, moved to the end.
+#[test]
+fn a_gap_that_closes_is_kept_and_one_beyond_the_end_closed() {
+    let thrown = |y: f64| {
+        let start = State {
+            vy: -0.01,
+            ..at(0.0, y)
+        };
+        followed(string(1.0, 0.0, 0.5), 1.2, start).0
+    };
+    for d in [1e-12, 4.9e-10] {
+        let above = thrown(-1.0 + d);
+        assert!((above.impacts()[0].t / (100.0 * d) - 1.0).abs() < 1e-3);
+        let below = thrown(-1.0 - d);
+        assert_eq!((below.impacts()[0].t, below.impacts()[0].v_n), (0.0, 0.01));
+        assert_eq!(below.impacts()[0].before.y, -1.0);
+    }
+}
+
+/// A point at (−0.1, h − √(r² − 1.1²) + 4e-10) is within the start's tolerance of the end of the
+/// left cable, with a gap of −8.2e-10, and leaves it at 1e-4. By bisection of the closed form, in
+/// fifty digits, the gap is zero again at 2.0392304843297331e-4; the run with many digits begins with
+/// the same gap.
+#[test]
+fn a_run_and_its_run_with_many_digits_keep_the_same_gap() {
+    let y = 1.25_f64.sqrt() - (2.25_f64 - 1.21).sqrt() + 4e-10;
+    let numbers = [
+        ("f_o", 0.0),
+        ("x", -0.1),
+        ("y", y),
+        ("vy", 1e-4),
+        ("t_end", 3e-4),
+        ("e", 0.5),
+    ];
+    let numbers = numbers.map(|(key, value)| (key, value.into()));
+    let others = [
+        ("body", "point".into()),
+        ("stop_when_settled", false.into()),
+    ];
+    let case = Case::from_entries(others.into_iter().chain(numbers)).unwrap();
+    let expected = 2.039_230_484_329_733_1e-4;
+    let first = case.run().impacts()[0];
+    let mut monitor = TrustMonitor::of_exact_case(&case, &case.simulation());
+    let mut simulation = case.simulation();
+    let step = simulation.step().unwrap();
+    monitor.follow(&simulation, &step);
+    let error = monitor.verdict().errors[0];
+    let off = (first.t - expected).abs();
+    assert!(off < 2.0 * error && error < 1e-11, "{off:e} {error:e}");
+    let exact = case.simulation_over(|_, number| Precise::<4>::from_decimal(number));
+    let snap = exact.unwrap().step().unwrap().impacts().next().unwrap();
+    assert!((snap.t.to_f64() - expected).abs() < 1e-18);
 }
