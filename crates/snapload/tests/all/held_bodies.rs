@@ -99,7 +99,7 @@ fn a_mass_on_equal_lines_rests_where_a_tension_touches_zero() {
 #[test]
 fn the_motion_does_not_depend_on_the_unit_of_force() {
     let mut compared = 0;
-    for k in 0..60 {
+    for k in 0..16 {
         let at = |root: f64| (f64::from(k) * root.sqrt()).fract();
         let point = k % 2 == 0;
         let fairlead = |x: f64| if point { [0.0, 0.0] } else { [x, 0.1] };
@@ -138,7 +138,7 @@ fn the_motion_does_not_depend_on_the_unit_of_force() {
             }
         }
     }
-    assert!(compared > 2000, "{compared}");
+    assert!(compared > 500, "{compared}");
 }
 
 /// A point on lines all round, none of which is slack, can not move, whatever pulls at it: two of
