@@ -26,5 +26,6 @@ mod near_events;
 mod outcomes;
 mod same_bits;
 mod starts;
+mod ties;
 mod touches;
 mod trust;

@@ -88,9 +88,8 @@ pub(super) fn cause(
     neighbours: &Neighbours,
     closing: Option<Closing>,
 ) -> Option<(HorizonCause, f64)> {
-    let struck = step.event.reached.gaps;
-    if struck.len() > 1 {
-        return Some((HorizonCause::Simultaneous, step.t_end));
+    if let Some(cause) = tie(step) {
+        return Some((cause, step.t_end));
     }
     if let Some(Closing { cable, .. }) = closing.filter(|closing| {
         may_miss(approach, neighbours, closing) || may_not_have_opened(simulation, step, closing)
@@ -115,6 +114,29 @@ pub(super) fn cause(
         may.then_some(step.t_end)
     });
     stop.map(|t| (HorizonCause::StopRule, t))
+}
+
+/// Whether several events come at one instant whose order may differ for neighbours and decides
+/// what they do. Where a limit comes first the run ends; where a snap does, it moves on from there.
+/// A cable that a snap loads is struck, too, if its tension was lost before. But one that the snap
+/// unloads opens in either order, and so does one that loses its tension at a limit, where the run
+/// ends, or together with others.
+fn tie(step: &Step) -> Option<HorizonCause> {
+    let Reached {
+        gaps,
+        tensions,
+        limits,
+    } = step.event.reached;
+    let limits = limits.iter().count();
+    if limits > 1 || limits == 1 && !gaps.is_empty() {
+        return Some(HorizonCause::StopRule);
+    }
+    if gaps.len() > 1 {
+        return Some(HorizonCause::Simultaneous);
+    }
+    let pulling = step.result.as_ref()?.pulling;
+    let cable = tensions.intersection(pulling).iter().next()?;
+    Some(HorizonCause::Tension { cable })
 }
 
 /// The cause at the start, if there is one: a cable that is closed in the run may be slack within
