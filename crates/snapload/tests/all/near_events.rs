@@ -117,3 +117,41 @@ fn an_end_before_which_a_neighbour_snaps_once_more_is_not_certain() -> Result<()
     }
     Ok(())
 }
+
+/// A pair of equal strings from one anchor does what one of them does: trust ends where it does for
+/// one string, for the same reason. A ball that bounces on it, and its steps, one of which nearly
+/// misses the end of the string.
+#[test]
+fn a_pair_of_equal_strings_is_trusted_like_one() {
+    let bouncing = State {
+        y: -0.7,
+        x: 0.1,
+        ..State::default()
+    };
+    let mut seen = Vec::new();
+    for (start, doubt) in [
+        (bouncing, 0.0),
+        (bouncing, 1e-6),
+        (thrown(-1e-4), 2e-4),
+        (thrown(1e-4), 2e-4),
+    ] {
+        let doubts = [0.0, doubt, 0.0, 0.0, doubt, 0.0];
+        let one = string(1.0, 1.0, 0.5);
+        let mut pair = one.clone();
+        pair.cables.push(one.cables[0]);
+        let rules = Rules {
+            v_stick: 1e-4,
+            ..Rules::until(12.0)
+        };
+        let [one, pair] = [one, pair].map(|system| horizon(&system, rules, start, doubts));
+        assert_eq!(cause(one), cause(pair), "{one:?} {pair:?}");
+        if let (Some(one), Some(pair)) = (one, pair) {
+            assert!((one.t - pair.t).abs() < 1e-3, "{one:?} {pair:?}");
+            // Each snap of the pair is two rows of the table.
+            assert_eq!(2 * (one.impact - 1), pair.impact - 1);
+        }
+        seen.push(cause(one));
+    }
+    let graze = Some(HorizonCause::Graze { cable: 0 });
+    assert!(seen[0].is_none() && seen[2] == graze, "{seen:?}");
+}

@@ -3,6 +3,7 @@
 use crate::analysis::trust::HorizonCause;
 use crate::analysis::trust::covariance::CovarianceFactor;
 use crate::model::cable::Normal;
+use crate::model::system::System;
 use crate::motion::active_set::normal_acceleration;
 use crate::motion::events::Reached;
 use crate::motion::simulation::{Progress, Simulation, Step};
@@ -88,7 +89,7 @@ pub(super) fn cause(
     neighbours: &Neighbours,
     closing: Option<Closing>,
 ) -> Option<(HorizonCause, f64)> {
-    if let Some(cause) = tie(step) {
+    if let Some(cause) = tie(simulation.system(), step) {
         return Some((cause, step.t_end));
     }
     if let Some(Closing { cable, .. }) = closing.filter(|closing| {
@@ -121,7 +122,7 @@ pub(super) fn cause(
 /// A cable that a snap loads is struck, too, if its tension was lost before. But one that the snap
 /// unloads opens in either order, and so does one that loses its tension at a limit, where the run
 /// ends, or together with others.
-fn tie(step: &Step) -> Option<HorizonCause> {
+fn tie(system: &System, step: &Step) -> Option<HorizonCause> {
     let Reached {
         gaps,
         tensions,
@@ -131,12 +132,23 @@ fn tie(step: &Step) -> Option<HorizonCause> {
     if limits > 1 || limits == 1 && !gaps.is_empty() {
         return Some(HorizonCause::StopRule);
     }
-    if gaps.len() > 1 {
+    if !gaps.is_empty() && struck_alone(system, step).is_none() {
         return Some(HorizonCause::Simultaneous);
     }
     let pulling = step.result.as_ref()?.pulling;
     let cable = tensions.intersection(pulling).iter().next()?;
     Some(HorizonCause::Tension { cable })
+}
+
+/// The cable that snaps at the end of a step, if one does and no other. Cables with the same ends
+/// and the same length count as one: their gaps and normals are the same to the bit, so that
+/// whichever snaps first turns all of them round, and the motion is the same in any order.
+#[inline(always)]
+fn struck_alone(system: &System, step: &Step) -> Option<usize> {
+    let struck = step.event.reached.gaps;
+    let cable = struck.iter().next()?;
+    let same = |twin: usize| system.cables[twin] == system.cables[cable];
+    struck.iter().all(same).then_some(cable)
 }
 
 /// The cause at the start, if there is one: a cable that is closed in the run may be slack within
@@ -204,14 +216,11 @@ pub(super) struct Closing {
 }
 
 impl Closing {
-    /// The closing of a step that ends with one cable's impact.
+    /// The closing of a step that ends with one cable's impact, or that of its twins with it.
     #[inline(always)]
     pub(super) fn of(simulation: &Simulation, step: &Step, approach: &Approach) -> Option<Self> {
-        let mut struck = step.event.reached.gaps.iter();
-        let (Some(cable), None) = (struck.next(), struck.next()) else {
-            return None;
-        };
         let system = simulation.system();
+        let cable = struck_alone(system, step)?;
         let v_n = system.cables[cable]
             .normal(&step.before)
             .velocity(&step.before);
