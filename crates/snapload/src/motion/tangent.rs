@@ -173,8 +173,13 @@ impl Tangent {
 
     /// ∂(the state that a run begins with)/∂(the start given): the projection onto closed cables.
     pub fn of_start(&self, simulation: &Simulation) -> Matrix {
+        self.of_start_on(simulation, simulation.closed())
+    }
+
+    /// The same where only some of the cables are closed whatever the start.
+    pub(crate) fn of_start_on(&self, simulation: &Simulation, closed: TautSet) -> Matrix {
         let mut state = variables(simulation.state());
-        project_position(&self.system, &mut state, simulation.closed());
+        project_position(&self.system, &mut state, closed);
         project_velocity(&self.system, &mut state, simulation.resting());
         state.components().map(|component| component.slope)
     }

@@ -21,6 +21,7 @@ mod horizons;
 mod invariants;
 mod limits;
 mod linearised_motion;
+mod loose_starts;
 mod many_cables;
 mod near_events;
 mod outcomes;

@@ -4,10 +4,10 @@ use crate::analysis::trust::HorizonCause;
 use crate::analysis::trust::covariance::CovarianceFactor;
 use crate::model::cable::Normal;
 use crate::model::system::System;
+use crate::model::taut_set::TautSet;
 use crate::motion::active_set::normal_acceleration;
 use crate::motion::events::Reached;
 use crate::motion::simulation::{Progress, Simulation, Step};
-use crate::motion::start::{START_TOLERANCE, start_tolerance};
 use crate::motion::step_map::Deviation;
 
 /// Neighbours are assumed to be within this many standard deviations.
@@ -20,7 +20,7 @@ const SAME_INSTANT: f64 = 1e-3;
 
 /// The spread of the neighbours at some instant.
 pub(super) struct Spread<'a> {
-    covariance: &'a CovarianceFactor,
+    pub(super) covariance: &'a CovarianceFactor,
     /// Standard deviation of each component.
     pub(super) sizes: Deviation,
 }
@@ -36,13 +36,13 @@ impl<'a> Spread<'a> {
 
     /// The largest deviation of the neighbours along a linear function of the state.
     #[inline(always)]
-    fn reach(&self, direction: &[f64; 6]) -> f64 {
+    pub(super) fn reach(&self, direction: &[f64; 6]) -> f64 {
         SIGMA_REACH * self.covariance.along(direction)
     }
 
     /// A bound on the reach along every function whose derivatives are at most these.
     #[inline(always)]
-    fn at_most(&self, slopes: &[f64; 6]) -> f64 {
+    pub(super) fn at_most(&self, slopes: &[f64; 6]) -> f64 {
         let mut sum = 0.0;
         for (slope, size) in slopes.iter().zip(&self.sizes) {
             // Zero slopes are skipped, as 0 × ∞ would be NaN.
@@ -60,6 +60,8 @@ pub(super) struct Neighbours<'a> {
     pub(super) met: Spread<'a>,
     /// Standard deviation of the error, by rounding, of the time at which the event is located.
     pub(super) late: f64,
+    /// Cables that have been open since the start, in all of them.
+    pub(super) opening: TautSet,
 }
 
 /// How the run approaches its event.
@@ -149,52 +151,6 @@ fn struck_alone(system: &System, step: &Step) -> Option<usize> {
     let cable = struck.iter().next()?;
     let same = |twin: usize| system.cables[twin] == system.cables[cable];
     struck.iter().all(same).then_some(cable)
-}
-
-/// The cause at the start, if there is one: a cable that is closed in the run may be slack within
-/// the uncertainty, or leave or snap where it rests; or only rounding tells whether it is taut.
-pub(super) fn cause_at_start(
-    simulation: &Simulation,
-    covariance: &CovarianceFactor,
-) -> Option<HorizonCause> {
-    let system = simulation.system();
-    let resting = simulation.resting();
-    let open = |cable: &usize| {
-        let tether = &system.cables[*cable];
-        let normal = tether.normal(simulation.state());
-        let Normal { n, arm } = normal;
-        let gap = 2.0 * tether.length() * covariance.along(&[n.x, n.y, arm, 0.0, 0.0, 0.0]);
-        let speed = SIGMA_REACH * covariance.along(&[0.0, 0.0, 0.0, n.x, n.y, arm]);
-        let turns = if resting.contains(*cable) {
-            speed > START_TOLERANCE
-        } else {
-            speed >= normal.velocity(simulation.state()).abs()
-        };
-        let undecided = simulation.undecided_at_start().contains(*cable);
-        SIGMA_REACH * gap > start_tolerance(tether) || turns || undecided
-    };
-    let cable = simulation.closed().iter().find(open)?;
-    Some(HorizonCause::Start { cable })
-}
-
-/// Whether a run that starts at a limit, or on its cables at the settling height, may stop there
-/// while a neighbour does not. No neighbour starts beyond a limit by more than the start's
-/// tolerance.
-pub(super) fn may_stop_at_start(simulation: &Simulation, spread: &Spread) -> bool {
-    let (system, rules, state) = (simulation.system(), simulation.rules(), simulation.state());
-    let near = |place: f64, margin: f64| place.abs() <= margin;
-    let limits = rules.limits.iter().any(|(limit, bound)| {
-        let slopes = limit.slope_bounds(system, bound);
-        let margin = spread.at_most(&slopes).min(START_TOLERANCE);
-        near(limit.quantity(system, state) - bound, margin)
-    });
-    let heights = [rules.settled_below, rules.sliding_above];
-    let margin = SIGMA_REACH * spread.sizes[1];
-    let settles = heights
-        .into_iter()
-        .flatten()
-        .any(|height| near(state.y - height, margin));
-    limits || settles && !simulation.closed().is_empty()
 }
 
 /// Whether the event is so close to the end of time that a neighbour may reach the end of time
@@ -296,8 +252,8 @@ fn may_or_may_not_stick(
 }
 
 /// When a slack cable first comes within the neighbours' reach of being taut, if it does: along the
-/// stretch, or at its end, which is at another time for each neighbour, unless it closes there in
-/// all of them.
+/// stretch, unless it has been open since the start, or at the event at its end, which is at another
+/// time for each neighbour, unless it closes there in all of them.
 #[inline(always)]
 fn may_snap(
     simulation: &Simulation,
@@ -320,7 +276,14 @@ fn may_snap(
     if bounced.is_some_and(|bounced| bounced.is_open_before_last_rise(most * most)) {
         return None;
     }
-    let first = simulation.comes_near(step, cable, most);
+    let open = neighbours.opening.contains(cable);
+    if open && step.event.reached == Reached::default() {
+        return None;
+    }
+    let first = match open {
+        true => None,
+        false => simulation.comes_near(step, cable, most),
+    };
     if first.is_none() && !near_at_end(most) {
         return None;
     }

@@ -1,6 +1,7 @@
 //! The spread of deviations: independent ones, added up.
 
 use crate::analysis::trust::parts::{COLUMNS, FactorParts, LAST, square, squares};
+use crate::model::state::State;
 use crate::motion::step_map::{Block, Deviation, join};
 
 /// The number of parts that describe a deviation: as many as it has components.
@@ -175,6 +176,27 @@ impl CovarianceFactor {
         }
         variance.sqrt()
     }
+}
+
+/// The largest of some variances, each relative to the square of its value where that is above 1.
+#[inline(always)]
+pub(super) fn relative(squares: &Deviation, state: &State, t: f64) -> f64 {
+    let [x, y, theta, vx, vy, vtheta] = state.components();
+    let mut ratios = [0.0; 8];
+    for (ratio, value) in ratios.iter_mut().zip([x, y, theta, vx, vy, vtheta, t, 1.0]) {
+        *ratio = larger(value * value, 1.0);
+    }
+    for (ratio, square) in ratios.iter_mut().zip(squares) {
+        *ratio = square / *ratio;
+    }
+    ratios[7] = 0.0;
+    ratios.into_iter().fold(0.0, larger)
+}
+
+/// The larger of two numbers, in one instruction.
+#[inline(always)]
+pub(super) fn larger(a: f64, b: f64) -> f64 {
+    if a > b { a } else { b }
 }
 
 /// Reduces the parts to seven by Householder's reflections, which leave the covariance as it is:

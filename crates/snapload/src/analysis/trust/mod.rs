@@ -18,6 +18,7 @@ mod parts;
 mod passed_impulse;
 mod rounding;
 mod spread;
+mod start;
 mod tension;
 mod uncertain_key;
 

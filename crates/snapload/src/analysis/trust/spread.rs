@@ -1,14 +1,13 @@
 //! Follows the spread of a run's neighbours up to the end of trust.
 
 use crate::analysis::trust::bounces::Followed;
-use crate::analysis::trust::causes::{
-    Approach, Closing, Neighbours, Spread, cause, cause_at_start, may_stop_at_start,
-};
-use crate::analysis::trust::covariance::{CovarianceFactor, LARGEST_SPREAD};
+use crate::analysis::trust::causes::{Approach, Closing, Neighbours, Spread, cause};
+use crate::analysis::trust::covariance::{CovarianceFactor, LARGEST_SPREAD, larger, relative};
 use crate::analysis::trust::linear_map::{LinearMap, Observer, meet};
 use crate::analysis::trust::parts::{COLUMNS, squares};
 use crate::analysis::trust::passed_impulse;
 use crate::analysis::trust::rounding::{self, Rounding};
+use crate::analysis::trust::start::{self, Beginning, Loose};
 use crate::analysis::trust::tension::{self, TautStep};
 use crate::analysis::trust::uncertain_key::{UncertainKey, uniform};
 use crate::analysis::trust::{Horizon, HorizonCause, Uncertainty};
@@ -19,6 +18,7 @@ use crate::model::rules::Stop;
 use crate::model::state::State;
 use crate::model::taut_set::TautSet;
 use crate::motion::bounce_map::{BounceMap, Bounced};
+use crate::motion::events::Reached;
 use crate::motion::simulation::{Simulation, Step};
 use crate::motion::step_map::{Block, Deviation, StepMap, combined};
 use crate::motion::tangent::Tangent;
@@ -53,6 +53,8 @@ pub(super) struct SpreadMonitor {
     after_snap: bool,
     /// Whether the spread is too large to be carried further.
     too_large: bool,
+    /// Up to the first event.
+    loose: Option<Box<Loose>>,
     pub(super) end_error: f64,
 }
 
@@ -96,9 +98,15 @@ impl SpreadMonitor {
         let [x, y, theta, vx, vy, vtheta] = start.map(uniform);
         let mut covariance =
             CovarianceFactor::along_components(&[x, y, theta, vx, vy, vtheta, 0.0]);
-        let cause = cause_at_start(simulation, &covariance);
-        if !simulation.closed().is_empty() {
-            let projection = Tangent::new(simulation.system()).of_start(simulation);
+        let Beginning {
+            cause,
+            loose,
+            opening,
+        } = Beginning::of(simulation, &covariance);
+        let closed = simulation.closed();
+        if !closed.is_empty() {
+            let tight = loose.iter().fold(closed, TautSet::without);
+            let projection = Tangent::new(simulation.system()).of_start_on(simulation, tight);
             let project = |block: &mut Block<COLUMNS>, _: &mut [[f64; COLUMNS]]| {
                 let projected = projection.map(|row| combined(block, &row));
                 block[..6].copy_from_slice(&projected);
@@ -109,16 +117,17 @@ impl SpreadMonitor {
             simulation.system(),
             simulation.state(),
             simulation.time(),
-            simulation.closed(),
+            closed,
         ));
         // Water that has been at rest has no memory, so that there is nothing uncertain in it.
         covariance.memory = vec![[0.0; COLUMNS]; 2 * simulation.memory().len()];
         let cause = cause
             .or_else(|| tension::cause_at_start(simulation, &covariance, &[]))
             .or_else(|| {
-                may_stop_at_start(simulation, &Spread::of(&covariance))
+                start::may_stop(simulation, &Spread::of(&covariance))
                     .then_some(HorizonCause::StopRule)
             });
+        let loose = Loose::of(simulation, &Spread::of(&covariance), [loose, opening]);
         let horizon = cause.map(|cause| Horizon::at_start(simulation, cause));
         Self {
             too_large: covariance.exceeds_limit(),
@@ -132,6 +141,7 @@ impl SpreadMonitor {
             horizon,
             falling: (TautSet::SLACK, 0.0),
             after_snap: false,
+            loose,
             end_error: 0.0,
         }
     }
@@ -283,6 +293,7 @@ impl SpreadMonitor {
             along: Spread::of(&along),
             met: Spread::of(&met),
             late: 0.0,
+            opening: TautSet::SLACK,
         };
         let approach = Approach {
             rate: map.rate(),
@@ -314,6 +325,10 @@ impl SpreadMonitor {
             along: Spread::of(&along),
             met: Spread::of(&met),
             late: rounding.late,
+            opening: self
+                .loose
+                .as_ref()
+                .map_or(TautSet::SLACK, |loose| loose.opening),
         };
         let approach = LinearMap::Step(&map).approach();
         let closing = Closing::of(simulation, step, &approach);
@@ -326,9 +341,16 @@ impl SpreadMonitor {
                     .or_else(|| tension::cause_after_snap(simulation, step, tangent, &after, keys))
                     .map(|cause| (cause, step.t_end))
             });
-            let other = other.map(|(cause, t)| self.horizon_at(t, cause));
+            let loose = self.loose.as_mut();
+            let by_start =
+                loose.and_then(|loose| loose.cause(simulation, step, &neighbours.along, closing));
+            let others = by_start.into_iter().chain(other);
+            let others = others.map(|(cause, t)| self.horizon_at(t, cause));
             let earlier = |a: Horizon, b: Horizon| if b.t < a.t { b } else { a };
-            self.horizon = other.into_iter().chain(by_tension).reduce(earlier);
+            self.horizon = others.chain(by_tension).reduce(earlier);
+        }
+        if step.event.reached != Reached::default() {
+            self.loose = None;
         }
         after.add_parts(&rounding.parts);
         self.after_snap = !step.event.reached.gaps.is_empty();
@@ -417,25 +439,4 @@ impl SpreadMonitor {
             cause,
         }
     }
-}
-
-/// The largest of some variances, each relative to the square of its value where that is above 1.
-#[inline(always)]
-fn relative(squares: &Deviation, state: &State, t: f64) -> f64 {
-    let [x, y, theta, vx, vy, vtheta] = state.components();
-    let mut ratios = [0.0; 8];
-    for (ratio, value) in ratios.iter_mut().zip([x, y, theta, vx, vy, vtheta, t, 1.0]) {
-        *ratio = larger(value * value, 1.0);
-    }
-    for (ratio, square) in ratios.iter_mut().zip(squares) {
-        *ratio = square / *ratio;
-    }
-    ratios[7] = 0.0;
-    ratios.into_iter().fold(0.0, larger)
-}
-
-/// The larger of two numbers, in one instruction.
-#[inline(always)]
-fn larger(a: f64, b: f64) -> f64 {
-    if a > b { a } else { b }
 }

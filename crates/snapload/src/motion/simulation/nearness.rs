@@ -5,6 +5,7 @@ use crate::arithmetic::real::Real;
 use crate::model::rules::Limit;
 use crate::motion::events::{EventFunction, HasEvents, Jets};
 use crate::motion::extremes::{first_above_zero, first_above_zero_before_last_rise};
+use crate::motion::limits::Along;
 use crate::motion::simulation::within::{LatestStep, SegmentMotion};
 use crate::motion::simulation::{Simulation, Step};
 use crate::motion::taut_series::STILL;
@@ -44,10 +45,7 @@ impl<T: Real> Simulation<T> {
         if s <= T::ZERO {
             return None;
         }
-        let acceleration = match self.expanded(step.taut) {
-            Some(series) => series.gap_acceleration_bound(cable),
-            None => self.gap_acceleration_bound(step, cable),
-        };
+        let acceleration = self.gap_acceleration_bound(step, cable);
         let first = self.contact_at_start(step, cable).gap;
         let last = self.contact(cable).gap;
         if first.max(last) + margin + acceleration * s * s * 0.125 < T::ZERO {
@@ -58,6 +56,32 @@ impl<T: Real> Simulation<T> {
         } else {
             (T::ZERO, margin / s)
         };
+        self.first_near(step, cable, [offset, slope], acceleration)
+    }
+
+    /// How long after its start the gap of a cable first came within a margin of zero in the latest
+    /// step that grows at a rate; if the cable closes there, before the last rise of its gap.
+    pub(crate) fn comes_near_by(
+        &self,
+        step: &Step<T>,
+        cable: usize,
+        margin_and_rate: [T; 2],
+    ) -> Option<T> {
+        let acceleration = self.gap_acceleration_bound(step, cable);
+        self.first_near(step, cable, margin_and_rate, acceleration)
+    }
+
+    /// How long after its start the gap of a cable, raised by an offset and at a rate, was first
+    /// above zero in the latest step, given a bound on its acceleration.
+    #[inline(always)]
+    fn first_near(
+        &self,
+        step: &Step<T>,
+        cable: usize,
+        [offset, slope]: [T; 2],
+        acceleration: T,
+    ) -> Option<T> {
+        let s = step.t_end - step.t_start;
         let motion = self.motion(step.taut);
         let begun = if self.rested(step, cable) {
             begins_to_close(&motion, cable, s)?
@@ -78,9 +102,28 @@ impl<T: Real> Simulation<T> {
         Some(begun + near?)
     }
 
-    /// Bound on |g̈| = 2 |Ṗ² + d·P̈| along a flight.
+    /// Bounds on |∂ġ/∂z|, z = (x, y, θ, ẋ, ẏ, θ̇), along the latest step: of ġ = 2 d·Ṗ, |d| ≤ r.
+    pub(crate) fn slope_bounds_of_gap_rate(&self, step: &Step<T>, cable: usize) -> [T; 6] {
+        let latest = LatestStep {
+            simulation: self,
+            step,
+        };
+        let s = step.t_end - step.t_start;
+        let [x, y, turn] = [0, 1, 2].map(|i| latest.derivative_bound(2, i) * s);
+        let tether = &self.system().cables[cable];
+        let (reach, r) = (tether.fairlead().length(), tether.length());
+        let spin = step.start.vtheta.abs() + turn;
+        let speed = step.start.velocity().length() + x + y + spin * reach;
+        let by_turn = reach * (speed + spin * r);
+        [speed, speed, by_turn, r, r, r * reach].map(|slope| slope * 2.0)
+    }
+
+    /// Bound on |g̈| = 2 |Ṗ² + d·P̈| along the latest step.
     #[inline(always)]
     fn gap_acceleration_bound(&self, step: &Step<T>, cable: usize) -> T {
+        if let Some(series) = self.expanded(step.taut) {
+            return series.gap_acceleration_bound(cable);
+        }
         let tether = &self.system().cables[cable];
         let (start, reach) = (&step.start, tether.fairlead().length());
         let spin = start.vtheta.abs();
