@@ -235,7 +235,7 @@ class Case(CaseMapping, KeyValues, HasOrbits):
             Uncertainty of the start in either direction: one size for every start value, or a size for each key. If
             left out, only rounding is uncertain; neighbours are then drawn from 1e-12 about every start value.
         tolerance : float
-            Error of state and time above which a result counts as not known.
+            Error of state and time, relative to values above 1, above which a result counts as not known.
         members : int, optional
             Number of neighbours to run if the end is past the horizon of trust; 0 for none. If left out, 1000, or 200
             if those end alike.

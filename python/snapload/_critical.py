@@ -204,7 +204,7 @@ def critical_force(
         Uncertainty of the neighbours: one size for every start value, or a size for each key. If left out, only
         rounding is uncertain; neighbours are then drawn from 1e-12 about every start value.
     tolerance : float
-        Error of state and time above which a result counts as not known.
+        Error of state and time, relative to values above 1, above which a result counts as not known.
     seed : int
         Seed of the neighbours.
     progress : bool

@@ -109,7 +109,8 @@ class Trust(Result):
         The reason: ``tolerance``, ``graze``, ``near_miss``, ``sticking``, ``tension``,
         ``passed_impulse``, ``simultaneous``, ``start`` or ``stop_rule``.
     tolerance : float
-        Error of time or state, as two standard deviations, above which a result counts as not known.
+        Error of time or state, as two standard deviations and relative to values above 1, above which a result counts
+        as not known.
     uncertainty : dict of str to float
         The assumed uncertainty in addition to rounding.
     end_error : float or None

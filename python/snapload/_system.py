@@ -205,7 +205,7 @@ class System(LimitBounds):
             Uncertainty of the start in either direction: one size for every start value, or a size for each. If left
             out, only rounding is uncertain.
         tolerance : float
-            Error of state and time above which a result counts as not known.
+            Error of state and time, relative to values above 1, above which a result counts as not known.
 
         Returns
         -------

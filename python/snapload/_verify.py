@@ -143,7 +143,7 @@ def verify(case: Case, digits: int = 60, *, tolerance: float = 1e-3) -> Verifica
     digits : int
         Decimal digits to compute with, at least.
     tolerance : float
-        Error of state and time above which the ordinary run counts as wrong.
+        Error of state and time, relative to values above 1, above which the ordinary run counts as wrong.
 
     Returns
     -------

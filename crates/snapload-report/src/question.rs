@@ -118,7 +118,7 @@ pub const TOLERANCE: Key = Key::new(
     "1",
     Kind::positive(f64::MAX),
     DefaultValue::Number(1e-3),
-    "error of state and time above which a result counts as not known",
+    "error of state and time, relative to values above 1, above which a result counts as not known",
 )
 .symbol("SIZE");
 

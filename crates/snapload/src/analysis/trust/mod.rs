@@ -46,7 +46,7 @@ pub struct Uncertainty {
     /// Of parameters, by name of their key.
     pub keys: Vec<(&'static str, f64)>,
     /// A result whose error, which is two standard deviations, is larger than this counts as
-    /// unknown.
+    /// unknown; the error is relative to a value above 1, see [`Trust::errors`].
     pub tolerance: f64,
 }
 
