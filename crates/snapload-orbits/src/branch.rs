@@ -1,6 +1,6 @@
 //! Branches: an orbit as a parameter changes, with the bifurcations and other events along it.
 
-use crate::branch_events::{BranchEvent, Kind};
+use crate::branch_events::{BranchEvent, Kind, Tested};
 use crate::continuation::{Continuation, Goal, Unknowns};
 use crate::follower::{BranchEnd, BranchOptions, BranchPoint, Follower, HalfBranch, point};
 use crate::hybrid::Family;
@@ -57,13 +57,20 @@ impl Branch {
             sequence: continuation.sequence.clone(),
             at: start.clone(),
         };
-        let mut backward = follower.run(&continuation, &start, &(-&up), orbit, &first)?;
+        let down = -&up;
+        let tested = follower.tested(&continuation, &start, &down, orbit);
+        let mut backward = follower.run(&continuation, &start, &down, (orbit, tested), &first)?;
         let forward = if backward.closed {
             HalfBranch::empty(orbit.at[0], "the branch is closed")
         } else {
             // A limited number of points may end the first half before it is round.
             let last = backward.last.take().unwrap_or(first);
-            follower.run(&continuation, &start, &up, orbit, &last)?
+            // An event at the start itself belongs to the first half, if there is one.
+            let tested = match backward.points.is_empty() {
+                true => follower.tested(&continuation, &start, &up, orbit),
+                false => Tested::new(orbit, &up),
+            };
+            follower.run(&continuation, &start, &up, (orbit, tested), &last)?
         };
         if forward.closed {
             backward.end.because.clone_from(&forward.end.because);
@@ -127,7 +134,8 @@ impl Branch {
             sequence: continuation.sequence.clone(),
             at: start.clone(),
         };
-        let forward = follower.run(&continuation, &start, &apart, &orbit, &first)?;
+        let tested = Tested::new(&orbit, &apart);
+        let forward = follower.run(&continuation, &start, &apart, (&orbit, tested), &first)?;
         Ok(Some(joined(&orbit, doubled, forward)))
     }
 }

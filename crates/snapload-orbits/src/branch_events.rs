@@ -182,11 +182,21 @@ impl Test {
         ];
         tests.into_iter().chain(Limit::ALL.map(Self::Limit))
     }
+
+    /// Whether it vanishes where a multiplier is on the unit circle.
+    fn is_of_multipliers(self) -> bool {
+        matches!(
+            self,
+            Self::Fold | Self::PeriodDoubling | Self::NeimarkSacker | Self::BranchPoint
+        )
+    }
 }
 
 /// A test function smaller than this is taken as identically zero, as on a family of neutral
 /// orbits.
 const NOT_CROSSING: f64 = 1e-9;
+/// A test function above this is not identically zero, wherever else it vanishes.
+const CROSSING: f64 = 1e-7;
 /// The largest value of a test function that is accepted as a zero.
 const ZERO: f64 = 1e-6;
 
@@ -204,6 +214,17 @@ impl Tested {
             tests: tests.collect(),
             multipliers: orbit.multipliers.clone(),
         }
+    }
+
+    /// The same, reached from another point: a test function that vanishes just here counts as still
+    /// on the side of that point, so that the next step has the change of sign.
+    pub(crate) fn reached_from(mut self, before: &Self) -> Self {
+        for ((test, here), (_, there)) in self.tests.iter_mut().zip(&before.tests) {
+            if test.is_of_multipliers() && here.is_nan() && there.abs() > CROSSING {
+                *here = NOT_CROSSING.copysign(*there);
+            }
+        }
+        self
     }
 
     /// The test functions that change their signs up to another point, with their values here and
@@ -309,7 +330,8 @@ pub(crate) fn located<F: Family>(
         let found = orbit_at(sigma);
         found.map_or(f64::NAN, |(orbit, direction)| raw(test, &orbit, &direction))
     };
-    let sigma = root(&of, (0.0, before), (branch_step.length, after));
+    let first = first_place(&of, before, (branch_step.length, after));
+    let sigma = root(&of, first, (branch_step.length, after));
     let (orbit, direction) = orbit_at(sigma)?;
     if raw(test, &orbit, &direction).abs() > ZERO || !is_meant(test, &orbit) {
         return None;
@@ -343,6 +365,19 @@ pub(crate) fn located<F: Family>(
         is_own_snap: test == Test::Speed,
         ..BranchEvent::plain(kind, orbit, sigma)
     })
+}
+
+/// Where the search for a zero begins: at the start of the step or, where the test function all but
+/// vanishes there, so little before it that the zero lies between.
+fn first_place(of: &dyn Fn(f64) -> f64, before: f64, (length, after): (f64, f64)) -> (f64, f64) {
+    if before.abs() <= NOT_CROSSING {
+        let place = -2.0 * length * before / (before - after);
+        let value = of(place);
+        if (value < 0.0) == (before < 0.0) && value.is_finite() {
+            return (place, value);
+        }
+    }
+    (0.0, before)
 }
 
 /// The orbit at a point of a step; if events have passed the section, they are numbered from there.

@@ -7,6 +7,7 @@
 //! beyond says that it is no longer admissible (compare the velocity as unknown in M. Ghosh & D. J.
 //! W. Simpson, arXiv:2510.16218).
 
+use crate::bordered::null_vectors;
 use crate::hybrid::{Family, Hybrid, Point};
 use crate::lap::Lap;
 use crate::newton::{Closed, add};
@@ -136,12 +137,17 @@ impl<F: Family> Continuation<'_, F> {
         (length.is_finite() && length > 0.0).then(|| tangent / length)
     }
 
-    /// The first direction: the one in which the parameter increases.
+    /// The first direction: the one in which the parameter increases. Just at a fold, where it does
+    /// not, it is one of the two.
     pub(crate) fn first_tangent(&self, u: &Unknowns) -> Option<DVector<f64>> {
-        let count = self.size() + 1;
+        let (_, jacobian) = self.equations(u, 1);
+        let count = jacobian.ncols();
         let mut along = DVector::zeros(count);
         along[count - 1] = 1.0;
-        self.tangent(u, &along)
+        Self::tangent_of(&jacobian, &along).or_else(|| {
+            let [direction, _] = null_vectors(&bordered(&jacobian, &DVector::zeros(count)))?;
+            Some(direction)
+        })
     }
 
     /// The point of the branch a length `sigma` along `tangent` from `from`, the number of steps,

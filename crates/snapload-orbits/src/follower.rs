@@ -1,7 +1,7 @@
 //! Follows a branch in one direction, step by step.
 
 use crate::branch_events::{BranchEvent, Kind, Test, Tested, located};
-use crate::continuation::{BranchStep, Continuation, Goal, Unknowns};
+use crate::continuation::{BranchStep, Continuation, Goal, SAME, Unknowns};
 use crate::hybrid::Family;
 use crate::orbit::Orbit;
 use crate::survey::root;
@@ -129,12 +129,11 @@ impl<'a> Follower<'a> {
         continuation: &Continuation<F>,
         start: &Unknowns,
         tangent: &DVector<f64>,
-        orbit: &Orbit,
+        (orbit, mut tested): (&Orbit, Tested),
         goal: &Goal,
     ) -> Result<HalfBranch, Cancelled> {
         let mut continuation = continuation.clone();
         let (mut here, mut tangent) = (start.clone(), tangent.clone());
-        let mut tested = Tested::new(orbit, &tangent);
         let mut half = HalfBranch::empty(orbit.at[0], "");
         let mut step = self.options.step;
         while half.end.because.is_empty() {
@@ -150,7 +149,7 @@ impl<'a> Follower<'a> {
                 continue;
             };
             let found = Orbit::of(&continuation.lap(there.at.at), &there.at.closed());
-            let reached = Tested::new(&found, &there.direction);
+            let reached = Tested::new(&found, &there.direction).reached_from(&tested);
             let branch_step = BranchStep {
                 continuation: &continuation,
                 from: &here,
@@ -188,6 +187,27 @@ impl<'a> Follower<'a> {
         self.done += 1;
         let of = (2 * self.options.most) as f64;
         Progress::new("points", self.done as f64, of).report(self.on_progress)
+    }
+
+    /// The test functions at the start of a half; where one of them vanishes, the side behind it
+    /// decides.
+    pub(crate) fn tested<F: Family>(
+        &self,
+        continuation: &Continuation<F>,
+        start: &Unknowns,
+        tangent: &DVector<f64>,
+        orbit: &Orbit,
+    ) -> Tested {
+        let tested = Tested::new(orbit, tangent);
+        let back = -tangent;
+        let step = |part: &f64| stepped(continuation, start, &back, self.options.step * part);
+        match [1.0, 0.1, 0.01].iter().find_map(step) {
+            Some((at, _, direction)) => {
+                let found = Orbit::of(&continuation.lap(at.at), &at.closed());
+                tested.reached_from(&Tested::new(&found, &(-direction)))
+            }
+            None => tested,
+        }
     }
 
     /// The next point, if the corrector finds one near enough; it is on the border of the range if
@@ -300,7 +320,7 @@ impl<'a> Follower<'a> {
         let [low, high] = self.options.range;
         half.end.at = found.at[0];
         for mut event in events {
-            if closes.is_some_and(|sigma| event.sigma >= sigma) {
+            if closes.is_some_and(|sigma| event.sigma >= sigma - SAME) {
                 break;
             }
             event.arclength = half.arclength + event.sigma;
@@ -312,7 +332,9 @@ impl<'a> Follower<'a> {
                 }
                 .to_owned();
             }
-            if (low..=high).contains(&event.value[0]) {
+            // An event on a border is located up to rounding.
+            let border = event.value[0].clamp(low, high);
+            if (event.value[0] - border).abs() <= ON_BORDER * border.abs().max(1.0) {
                 half.events.push(event);
             }
         }

@@ -2,8 +2,9 @@
 
 use crate::common::{number, parameters, point, reference, tori};
 use serde_json::Value as Json;
+use snapload::Parameters;
 use snapload::analysis::no_progress;
-use snapload_orbits::{Branch, BranchOptions, Kind, Moored, Orbit, OrbitRequest};
+use snapload_orbits::{Branch, BranchEvent, BranchOptions, Kind, Moored, Orbit, OrbitRequest};
 
 fn branch(reference: &Json, start: [f64; 6], range: [f64; 2]) -> Branch {
     let base = parameters(&reference["base"]);
@@ -148,4 +149,86 @@ fn a_closed_branch_is_gone_round_once() {
         let folds = kinds.clone().filter(|kind| *kind == Kind::Fold).count();
         assert_eq!((folds, kinds.count()), (2, 3), "step {step}");
     }
+}
+
+/// The folds, period doublings and Neimark-Sacker points of a branch, by their places.
+fn bifurcations(branch: &Branch) -> Vec<(Kind, f64)> {
+    let kinds = [Kind::Fold, Kind::PeriodDoubling, Kind::NeimarkSacker];
+    let events = branch.events.iter();
+    let of_kind = events.filter(|event| kinds.contains(&event.kind));
+    let mut all: Vec<_> = of_kind.map(|event| (event.kind, event.value[0])).collect();
+    all.sort_by(|a, b| a.1.total_cmp(&b.1));
+    all
+}
+
+fn are_same(found: &Branch, known: &Branch) {
+    let (found, known) = (bifurcations(found), bifurcations(known));
+    let pairs = || found.iter().zip(&known);
+    let same = pairs().all(|(a, b)| a.0 == b.0 && (a.1 - b.1).abs() < 1e-10);
+    assert!(found.len() == known.len() && same, "{found:?} {known:?}");
+}
+
+/// The events of a branch do not depend on the orbit with which it is started: they are the same
+/// where that is itself a fold, a period doubling or a Neimark-Sacker point, and then it is the
+/// nearest one of its kind. They are the same two points beside it, too, from where the second step
+/// comes to it again.
+fn starts_at_each_event(case: Parameters, start: [f64; 6], key: &'static str, range: [f64; 2]) {
+    let keys = [Some(key), None];
+    let family = Moored::case(case, keys);
+    let of = |orbit: &Orbit, range| {
+        let options = BranchOptions {
+            range,
+            step: 0.01,
+            most: 2000,
+        };
+        Branch::of(&family, orbit, &options, &no_progress).unwrap()
+    };
+    let at = Moored::values(&case, keys);
+    let orbit = Orbit::find(&family, at, &start, &OrbitRequest::default()).unwrap();
+    let known = of(&orbit, range);
+    let all = bifurcations(&known);
+    assert_eq!(all.len(), 3, "{all:?}");
+    let special = |event: &&BranchEvent| all.contains(&(event.kind, event.value[0]));
+    for event in known.events.iter().filter(special) {
+        let again = of(&event.orbit, range);
+        are_same(&again, &known);
+        let here = again.event(event.kind, None).unwrap();
+        assert!(here.arclength.abs() < 1e-8, "{}", here.arclength);
+        let points = &again.points;
+        let middle = points.iter().position(|p| p.arclength == 0.0).unwrap();
+        let beside = points.get(middle + 2).or_else(|| points.get(middle - 2));
+        are_same(&of(&beside.unwrap().orbit, range), &known);
+        // A fold may have its whole branch beyond a border.
+        if event.kind == Kind::PeriodDoubling {
+            let value = event.value[0];
+            for range in [[value, range[1]], [range[0], value]] {
+                let places = bifurcations(&of(&event.orbit, range));
+                let is_here =
+                    |(kind, at): &(Kind, f64)| *kind == event.kind && (at - value).abs() < 1e-10;
+                assert!(places.iter().any(is_here), "{range:?} {places:?}");
+            }
+        }
+    }
+}
+
+#[test]
+fn a_branch_that_starts_at_an_event_has_it() {
+    let case = Parameters {
+        inertia: None,
+        a: 0.0,
+        r: 1.3,
+        e: 0.7,
+        nu: 1.2,
+        omega: 4.0,
+        f_o: 0.67,
+        ..Parameters::STANDARD
+    };
+    let near = [-0.045, 0.1744, 0.0, 0.4443, -0.594, 0.0];
+    starts_at_each_event(case, near, "f_o", [0.5, 1.3]);
+}
+
+#[test]
+fn a_closed_branch_that_starts_at_an_event_has_it() {
+    let (case, start) = tori();
+    starts_at_each_event(case, start, "omega", [-5.0, 5.0]);
 }
