@@ -266,7 +266,8 @@ def orbit_diagram(
     Raises
     ------
     ValueError
-        If there is not exactly one key, a value of it is not allowed, or an option is out of its range.
+        If there is not exactly one key, orbits do not depend on it, as on a key of the start, a value of it is not
+        allowed, or an option is out of its range.
 
     See Also
     --------
@@ -302,7 +303,6 @@ def orbit_diagram(
     variables: dict[str, Any] = {
         name: ((key, "k"), points[:, :, place], attributes_as(name, f"{name} at the section"))
         for place, name in enumerate(STATE)
-        if name != key
     }
     known = attributes() | {"exponent": attributes_as("exponent", "largest exponent")}
     for name in ("period", "snaps", "exponent", "exponent_se", "y_max"):

@@ -97,11 +97,7 @@ fn columns(key: &'static str, found: &[DiagramPoint]) -> Vec<(&'static str, Valu
             Values::Counts(rows().map(|(_, k)| Some(k as i64)).collect()),
         ),
     ];
-    for (i, name) in START_KEYS
-        .into_iter()
-        .enumerate()
-        .filter(|(_, name)| *name != key)
-    {
+    for (i, name) in START_KEYS.into_iter().enumerate() {
         columns.push((name, numbers(rows().map(|(at, k)| at.section.points[k][i]))));
     }
     let period = rows().map(|(at, _)| at.period.map(|period| period as i64));

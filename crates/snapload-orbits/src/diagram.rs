@@ -2,6 +2,7 @@
 //! one before.
 
 use crate::hybrid::Point;
+use crate::options::followed_key;
 use crate::section::{Section, SectionOptions, period_of, start_of};
 use snapload::analysis::{OnProgress, Progress, Unfinished};
 use snapload::{Parameters, Stop};
@@ -37,7 +38,8 @@ impl DiagramPoint {
 /// limit the next value starts from the case's own start again.
 ///
 /// # Errors
-/// As for [`Section::of`], at the first value; if a start is not legal at a later one, the case's
+/// That of [`followed_key`], as a key of the start would hold at the first value only; those of
+/// [`Section::of`], at the first value; if a start is not legal at a later one, the case's
 /// own start is used.
 pub fn diagram(
     base: &Parameters,
@@ -46,6 +48,7 @@ pub fn diagram(
     options: &SectionOptions,
     on_progress: OnProgress,
 ) -> Result<Vec<DiagramPoint>, Unfinished> {
+    followed_key("vary", base, key)?;
     let mut found: Vec<DiagramPoint> = Vec::with_capacity(values.len());
     for (done, value) in values.iter().enumerate() {
         let here = base.over(|name, other| if name == key { *value } else { other });

@@ -359,3 +359,14 @@ fn how_often_contact_closed_the_directions_is_said() {
         "{text}"
     );
 }
+
+/// A key of the start would hold at the first value only, and one of the run's end not at all.
+#[test]
+fn a_diagram_is_along_a_key_on_which_orbits_depend() {
+    let case = parameters(&reference()["diagrams"][0]["base"]);
+    for key in ["x", "vy", "t_end", "max_impacts"] {
+        let refused = diagram(&case, key, &[0.1, 0.2], &KEPT, &no_progress);
+        let words = refused.unwrap_err().to_string();
+        assert!(words.contains("a key on which orbits depend"), "{words}");
+    }
+}
