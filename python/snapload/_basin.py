@@ -135,9 +135,9 @@ def basins_of_attraction(
     -------
     labels : xarray.DataArray
         The number of the attractor over the two keys, counted from 1 in order of decreasing numbers of cells; 0 where
-        the motion continues without a period; -1 where the start is not legal; -2 and below where the motion stops at
-        a limit, as ``flag_values`` and ``flag_meanings`` describe. Attributes: the number of ``legal`` cells, and the
-        ``cells`` of each attractor with their ``fractions``.
+        no period up to 15 forcing periods was found, which a longer transient may show; -1 where the start is not
+        legal; -2 and below where the motion stops at a limit, as ``flag_values`` and ``flag_meanings`` describe.
+        Attributes: the number of ``legal`` cells, and the ``cells`` of each attractor with their ``fractions``.
     attractors : dict of int to Orbit
         The orbit of each label, if both keys are start values and the orbit could be computed.
 

@@ -3,7 +3,7 @@
 use crate::hybrid::{Point, distance};
 use crate::moored::Moored;
 use crate::orbit::{Orbit, OrbitRequest};
-use crate::section::{Section, SectionOptions, start_of};
+use crate::section::{LAPS, Section, SectionOptions, start_of};
 use crate::window::Window;
 use snapload::analysis::{Counter, OnProgress, Unfinished, in_parallel, no_progress};
 use snapload::{Case, Parameters, Stop};
@@ -17,7 +17,7 @@ pub enum CellOutcome {
     Stopped(Stop, f64),
     /// It approaches an attractor, given by its number.
     Attracted(usize),
-    /// No period was found.
+    /// No period was found, up to the longest that is searched for.
     Aperiodic,
 }
 
@@ -47,8 +47,10 @@ pub struct Attraction {
 
 /// Section points nearer than this belong to one attractor.
 const SAME: f64 = 1e-4;
-/// Periods that are examined after the transient: enough for eight laps of sixteen periods.
+/// Periods that are examined after the transient.
 const SAMPLED_PERIODS: u64 = 136;
+/// The longest period that as many show.
+pub(crate) const LONGEST_SHOWN: usize = (SAMPLED_PERIODS as usize + 1) / (LAPS + 1);
 
 /// The result of a run, before the attractors are numbered.
 enum Followed {

@@ -58,7 +58,7 @@ const KNOWN: f64 = 1e10;
 /// A motion counts as periodic if its section points agree to within this, over the number of laps
 /// that follows.
 const SAME: f64 = 1e-8;
-const LAPS: usize = 8;
+pub(crate) const LAPS: usize = 8;
 /// Whether the motion still approaches one of fewer periods is seen in at least this many laps, if
 /// distances change by more than this.
 const FEWEST_LAPS: usize = 5;

@@ -1,6 +1,6 @@
 //! The answers as a few lines of text.
 
-use crate::attraction::Attraction;
+use crate::attraction::{Attraction, CellOutcome, LONGEST_SHOWN};
 use crate::basin::Basin;
 use crate::diagram::DiagramPoint;
 use crate::erosion::{Erosion, KNEE, decided_part};
@@ -424,10 +424,17 @@ pub fn attraction_summary(found: &Attraction) -> String {
             ))
         );
     }
-    let others = found
-        .outcomes
-        .iter()
-        .filter(|outcome| matches!(outcome, crate::CellOutcome::Stopped(..)));
-    let _ = writeln!(text, "Stopped   {} cells", others.count());
+    let count = |is: &dyn Fn(&CellOutcome) -> bool| found.outcomes.iter().filter(|o| is(o)).count();
+    let stopped = count(&|outcome| matches!(outcome, CellOutcome::Stopped(..)));
+    let _ = writeln!(text, "Stopped   {stopped} cells");
+    let open = count(&|outcome| *outcome == CellOutcome::Aperiodic);
+    if open > 0 {
+        let _ = writeln!(
+            text,
+            "Open      {open} cells: no period up to {LONGEST_SHOWN} was found; a longer transient may show one"
+        );
+    }
+    let legal = count(&|outcome| *outcome != CellOutcome::Illegal);
+    let _ = writeln!(text, "Legal     {legal} of {} cells", found.outcomes.len());
     text
 }

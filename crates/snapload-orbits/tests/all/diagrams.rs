@@ -6,7 +6,7 @@ use snapload::Parameters;
 use snapload::analysis::no_progress;
 use snapload_orbits::{
     Attraction, CellOutcome, Orbit, OrbitRequest, Section, SectionOptions, Stability, Window,
-    diagram, distance, of_attractor, section_summary,
+    attraction_summary, diagram, distance, of_attractor, section_summary,
 };
 
 #[test]
@@ -369,4 +369,40 @@ fn a_diagram_is_along_a_key_on_which_orbits_depend() {
         let words = refused.unwrap_err().to_string();
         assert!(words.contains("a key on which orbits depend"), "{words}");
     }
+}
+
+/// A motion that takes long to come to its orbit, near a fold, is not called one without a period.
+#[test]
+fn cells_without_a_period_are_told_of() {
+    let case = Parameters {
+        f_o: 1.304_055,
+        vx: 0.786,
+        vy: -0.3735,
+        ..parameters(&reference()["branches"][0]["base"])
+    };
+    let window = Window {
+        base: case,
+        keys: ["x", "y"],
+        values: [vec![-3.2131, -0.2131, 2.7869], vec![0.2575, 0.2615]],
+    };
+    let found = Attraction::of(window, 100, &no_progress).unwrap();
+    let open = found
+        .outcomes
+        .iter()
+        .filter(|o| **o == CellOutcome::Aperiodic);
+    let open = open.count();
+    assert!(open > 0, "{:?}", found.outcomes);
+    let words = attraction_summary(&found);
+    let line = format!("Open      {open} cells: no period up to 15 was found");
+    assert!(words.contains(&line), "{words}");
+    assert!(words.contains("Legal     2 of 6 cells"), "{words}");
+    // A period is one that nine stretches of as many periods agree in: 137 points have 15 of these.
+    let options = SectionOptions {
+        skip: 0,
+        keep: 136,
+        exponents: false,
+        ..KEPT
+    };
+    let section = Section::of(&case, &options, &no_progress).unwrap();
+    assert_eq!(section.longest_period(), 15);
 }
