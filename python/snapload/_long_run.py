@@ -142,7 +142,8 @@ class LyapunovSpectrum(Result):
         The exponents [1/T]: six, or four for a point mass; minus infinity where a taut cable removes a direction.
     standard_errors : numpy.ndarray
         The standard errors [1/T], from twenty batches of periods. They include the amount by which a growth rate that
-        is still decreasing may fall; NaN for fewer than four periods.
+        is still decreasing may fall, and the accuracy of the linearised motion along taut cables; NaN for fewer than
+        four periods.
     periods : int
         Number of forcing periods over which the exponents are averaged.
     transient : int

@@ -29,6 +29,9 @@ pub(crate) struct Directions {
 /// If less than this part of a direction is independent of the others, it is rounding, and the
 /// direction is closed.
 const ROUNDING: f64 = 1e-14;
+/// How far the logarithm of a growth may be off after a step with taut cables, as the fundamental
+/// matrix along taut motion ([`snapload::Tangent`]) has an error of up to this part.
+const TAUT_ERROR: f64 = 1e-4;
 /// Standard errors come from the first number of batches, and from at least the second.
 const BATCHES: usize = 20;
 const FEWEST: usize = 4;
@@ -113,8 +116,15 @@ fn unit(count: usize, place: usize) -> DVector<f64> {
 }
 
 /// The exponents, the largest first, each with its standard error, from the logarithms at sections
-/// a period apart, the first of which is `first` periods after the motion's start.
-pub(crate) fn exponents(logs: &[Vec<f64>], first: u64, period: f64) -> Vec<[f64; 2]> {
+/// a period apart, the first of which is `first` periods after the motion's start. The error of
+/// taut motion, which had `taut_steps` steps in a period, is the same in all of them, so that no
+/// scatter shows it.
+pub(crate) fn exponents(
+    logs: &[Vec<f64>],
+    first: u64,
+    period: f64,
+    taut_steps: f64,
+) -> Vec<[f64; 2]> {
     let count = match logs {
         [_, _, ..] => logs[0].len(),
         _ => 0,
@@ -122,7 +132,12 @@ pub(crate) fn exponents(logs: &[Vec<f64>], first: u64, period: f64) -> Vec<[f64;
     let mut found: Vec<[f64; 2]> = (0..count)
         .map(|i| {
             let of_one: Vec<f64> = logs.iter().map(|logs| logs[i]).collect();
-            estimate(&of_one, first as f64).map(|number| number / period)
+            let [mean, error] = estimate(&of_one, first as f64);
+            let error = match mean.is_finite() {
+                true => error.hypot(TAUT_ERROR * taut_steps),
+                false => error,
+            };
+            [mean, error].map(|number| number / period)
         })
         .collect();
     found.sort_by(|a, b| b[0].total_cmp(&a[0]));

@@ -117,6 +117,7 @@ impl Section {
             }),
             prescribed,
             logs: Vec::new(),
+            taut_steps: 0,
             next: options.skip,
             period,
             t_start: t,
@@ -235,6 +236,8 @@ struct Follow {
     linearised: Option<(Tangent, Directions)>,
     /// The logarithms of the growth at the beginning of each kept period.
     logs: Vec<Vec<f64>>,
+    /// The steps of the kept periods in which cables were taut.
+    taut_steps: u64,
     /// The next section.
     next: u64,
     period: f64,
@@ -253,6 +256,7 @@ impl Follow {
         while let Some(step) = simulation.step() {
             self.sections_within(&step, last);
             if step.t_end > kept_from {
+                self.taut_steps += u64::from(!step.taut.is_empty());
                 let snaps = step.impacts().filter(|impact| impact.v_n > 0.0);
                 let count = snaps.count() as u64;
                 self.section.snaps.resize(self.section.points.len(), 0);
@@ -286,7 +290,8 @@ impl Follow {
         section
             .snaps
             .resize(section.points.len().saturating_sub(1), 0);
-        section.exponents = exponents(&self.logs, section.first, self.period);
+        let taut_steps = self.taut_steps as f64 / section.snaps.len().max(1) as f64;
+        section.exponents = exponents(&self.logs, section.first, self.period, taut_steps);
         Ok(())
     }
 

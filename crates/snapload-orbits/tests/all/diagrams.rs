@@ -371,6 +371,40 @@ fn a_diagram_is_along_a_key_on_which_orbits_depend() {
     }
 }
 
+/// The exponents of an orbit that slides are those of its multipliers, to within the stated error.
+/// Difference quotients of motions over a period give ln|μ|/T = -0.33944684 for the largest.
+#[test]
+fn exponents_are_known_as_well_along_taut_motion_as_stated() {
+    let case = Parameters {
+        inertia: None,
+        a: 0.0,
+        r: 1.363,
+        e: 0.569,
+        f_o: 1.485,
+        nu: 0.0,
+        omega: 3.549,
+        ..Parameters::STANDARD
+    };
+    let options = SectionOptions { phase: 0.7, ..KEPT };
+    let found = Section::of(&case, &options, &no_progress).unwrap();
+    let request = OrbitRequest {
+        phase: options.phase,
+        ..OrbitRequest::default()
+    };
+    let orbit = of_attractor(&case, &request, &no_progress)
+        .unwrap()
+        .unwrap();
+    let known = orbit.multipliers.values.iter();
+    let known = known.map(|[re, im]| re.hypot(*im).ln() / orbit.length);
+    for ([mean, error], known) in found.exponents.iter().zip(known) {
+        println!("{mean} +- {error}, {known}");
+        assert!(*mean == known || (mean - known).abs() < *error);
+        assert!(*error < 1e-2);
+    }
+    let [mean, error] = found.exponents[0];
+    assert!((mean + 0.339_446_84).abs() < error);
+}
+
 /// A motion that takes long to come to its orbit, near a fold, is not called one without a period.
 #[test]
 fn cells_without_a_period_are_told_of() {
