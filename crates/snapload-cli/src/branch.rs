@@ -4,7 +4,7 @@ use crate::case_input::CaseArgs;
 use crate::failure::Failure;
 use crate::json::JsonArgs;
 use crate::option_values::whole_number;
-use crate::orbit::NearArgs;
+use crate::orbit::{FromStart, NearArgs};
 use crate::orbit_columns::{ORBIT_COLUMNS, of_orbit, text_columns};
 use crate::orbit_picture::{Drawn, PlotArgs, PlotFile, branch_layers};
 use crate::outputs::{Outputs, TABLE};
@@ -74,6 +74,8 @@ pub(crate) struct Args {
 struct Answer<'a> {
     case: CaseEcho<'a>,
     #[serde(flatten)]
+    from_start: FromStart,
+    #[serde(flatten)]
     branch: BranchRow,
 }
 
@@ -95,7 +97,7 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
     let bar = Bar::new();
     let on_progress = |progress: Progress| bar.show(progress);
     let family = Moored::case(parameters, [Some(key), None]);
-    let orbit = args
+    let (orbit, from_start) = args
         .near
         .orbit(&family, [value, 0.0], &parameters, &on_progress)?;
     let branch = family.branch(&orbit, &options, &on_progress)?;
@@ -109,11 +111,14 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
         let layers = layers(key, &branch, &plot);
         plot.add_to(&mut outputs, &case_in_words(&name, &parameters), layers)?;
     }
+    let far = from_start.in_words();
     let row = Answer {
         case: CaseEcho(&parameters),
+        from_start,
         branch: BranchRow::new(key, &branch, &from),
     };
     let mut text = format!("Case      {}\n", case_in_words(&name, &parameters));
+    text += &far;
     for event in &from {
         let kind = event.kind.name().replace('_', " ");
         let _ = writeln!(

@@ -4,7 +4,7 @@ use crate::case_input::CaseArgs;
 use crate::failure::Failure;
 use crate::json::JsonArgs;
 use crate::option_values::whole_number;
-use crate::orbit::NearArgs;
+use crate::orbit::{FromStart, NearArgs};
 use crate::orbit_columns::{ORBIT_COLUMNS, of_orbit};
 use crate::orbit_picture::{Drawn, PlotArgs, PlotFile, branch_layers};
 use crate::outputs::{Outputs, TABLE};
@@ -14,8 +14,8 @@ use snapload::analysis::{OnProgress, Progress};
 use snapload::{Parameters, key_named};
 use snapload_figures::Layer;
 use snapload_orbits::{
-    BranchEvent, BranchOptions, Curve, CurveOptions, CurvePoint, CurveRow, Kind, Moored, Orbit,
-    POINTS, curve_summary,
+    BranchEvent, BranchOptions, Curve, CurveOptions, CurvePoint, CurveRow, Kind, Moored, POINTS,
+    curve_summary,
 };
 use snapload_report::{CaseEcho, case_in_words};
 use snapload_study::{RandomRange, Values};
@@ -77,6 +77,8 @@ pub(crate) struct Args {
 struct Answer<'a> {
     case: CaseEcho<'a>,
     #[serde(flatten)]
+    from_start: FromStart,
+    #[serde(flatten)]
     curve: CurveRow,
 }
 
@@ -92,34 +94,39 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
     let plot = args.plot.open(&mut outputs, keys, &known)?;
     let bar = Bar::new();
     let on_progress = |progress: Progress| bar.show(progress);
-    let (event, curve) = found(args, &parameters, (keys, &options), what, &on_progress)?;
+    let along = (keys, &options);
+    let (from_start, event, curve) = found(args, &parameters, along, what, &on_progress)?;
     drop(bar);
     outputs.table(table, &columns(keys, &curve))?;
     if let Some(plot) = plot {
         let layers = layers(keys, &curve, &plot);
         plot.add_to(&mut outputs, &case_in_words(&name, &parameters), layers)?;
     }
+    let far = from_start.in_words();
     let row = Answer {
         case: CaseEcho(&parameters),
+        from_start,
         curve: CurveRow::new(keys, &curve, &event),
     };
     let mut text = format!("Case      {}\n", case_in_words(&name, &parameters));
+    text += &far;
     text.push_str(&curve_summary(keys, &curve, &event));
     outputs.finish(&row, text)
 }
 
-/// The special point that the curve begins at, and the curve.
+/// How far the first orbit is from the given start, the special point that the curve begins at, and
+/// the curve.
 fn found(
     args: &Args,
     parameters: &Parameters,
     (keys, options): ([&'static str; 2], &CurveOptions),
     (kind, number): (Kind, Option<usize>),
     on_progress: OnProgress,
-) -> Result<(BranchEvent, Curve), Failure> {
+) -> Result<(FromStart, BranchEvent, Curve), Failure> {
     let keys = keys.map(Some);
     let family = Moored::case(*parameters, keys);
     let at = Moored::values(parameters, keys);
-    let orbit: Orbit = args.near.orbit(&family, at, parameters, on_progress)?;
+    let (orbit, from_start) = args.near.orbit(&family, at, parameters, on_progress)?;
     let here = BranchEvent::here(kind, &orbit).filter(|_| number.is_none());
     let event = match here {
         Some(event) => event,
@@ -142,7 +149,7 @@ fn found(
     };
     let curve = family.curve(&event, options, on_progress)?;
     let curve = curve.map_err(|why| Failure::Failed(format!("--follow: {why}")))?;
-    Ok((event, curve))
+    Ok((from_start, event, curve))
 }
 
 /// The kind that is followed, and the number of the point.

@@ -112,16 +112,17 @@ impl NearArgs {
         Ok((start, request))
     }
 
-    /// The orbit near the start, or that of the attractor, among those of a family.
+    /// The orbit near the start, or that of the attractor, among those of a family; and how far it
+    /// is from the start.
     pub(crate) fn orbit(
         &self,
         family: &Moored,
         at: [f64; 2],
         parameters: &Parameters,
         on_progress: OnProgress,
-    ) -> Result<Orbit, Failure> {
-        let (start, mut request) = self.read(parameters)?;
-        let start = match start {
+    ) -> Result<(Orbit, FromStart), Failure> {
+        let (given, mut request) = self.read(parameters)?;
+        let start = match given {
             Some(start) => Ok(start),
             None => of_attractor(parameters, &request, on_progress)?.map(|orbit| {
                 request.periods = Some(orbit.periods);
@@ -129,15 +130,45 @@ impl NearArgs {
             }),
         };
         let orbit = start.and_then(|start| family.orbit(at, &start, &request));
-        orbit.map_err(|why| Failure::Failed(format!("no orbit was found: {why}")))
+        let orbit = orbit.map_err(|why| Failure::Failed(format!("no orbit was found: {why}")))?;
+        let from = FromStart::new(given, &orbit);
+        Ok((orbit, from))
+    }
+}
+
+/// How far an orbit is from the given start, if there was one.
+#[derive(Serialize)]
+pub(crate) struct FromStart {
+    /// The largest difference of the section's state from `--start`.
+    start_distance: Option<f64>,
+    /// The same where it is so large that another orbit may have been meant.
+    #[serde(skip)]
+    far: Option<f64>,
+}
+
+impl FromStart {
+    fn new(start: Option<Point>, orbit: &Orbit) -> Self {
+        Self {
+            start_distance: start.map(|start| distance(&orbit.z, &start)),
+            far: start.and_then(|start| orbit.far_from(&start)),
+        }
+    }
+
+    /// A line about it, if another orbit may have been meant.
+    pub(crate) fn in_words(&self) -> String {
+        self.far.map_or(String::new(), |far| {
+            format!(
+                "Distance  {far:.3} from the start in one coordinate; no nearer orbit was found\n"
+            )
+        })
     }
 }
 
 #[derive(Serialize)]
 struct OneAnswer<'a> {
     case: CaseEcho<'a>,
-    /// The largest difference of the section's state from `--start`.
-    start_distance: Option<f64>,
+    #[serde(flatten)]
+    from_start: FromStart,
     #[serde(flatten)]
     orbit: OrbitRow,
 }
@@ -174,7 +205,7 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
         None => {
             let row = OneAnswer {
                 case,
-                start_distance: start.map(|start| distance(&found.orbits[0].z, &start)),
+                from_start: FromStart::new(start, &found.orbits[0]),
                 orbit: OrbitRow::new(&found.orbits[0]),
             };
             outputs.finish(&row, text)?;
@@ -224,11 +255,8 @@ fn in_words(args: &Args, found: &FoundOrbits, start: Option<Point>) -> String {
             "More      {left}, which --json FILE or --out FILE writes"
         );
     }
-    if let Some(far) = start.and_then(|start| orbits.first()?.far_from(&start)) {
-        let _ = writeln!(
-            text,
-            "Distance  {far:.3} from the start in one coordinate; no nearer orbit was found"
-        );
+    if let Some(orbit) = orbits.first() {
+        text += &FromStart::new(start, orbit).in_words();
     }
     text
 }

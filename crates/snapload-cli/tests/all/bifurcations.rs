@@ -333,3 +333,34 @@ fn a_section_without_points_is_none() {
         .success()
         .stdout(contains("Stopped   at t = 10.0247"));
 }
+
+/// Where no orbit is near the start, branches and curves tell how far the one is that they follow, as
+/// the orbit by itself does.
+#[test]
+fn what_is_followed_from_far_is_told_of() {
+    for (start, is_far) in [("x=-0.26,y=0.38,vx=0.81,vy=-0.42", false), ("y=0.4", true)] {
+        let far = number(&json("orbit", &["--start", start])["start_distance"]);
+        let branch = ["--along", "f_o=1.35:1.41"];
+        let curve = ["--follow", "fold", "--along", "f_o=1.2:1.6,omega=3.05:3.15"];
+        for (verb, options) in [("branch", &branch[..]), ("curve", &curve)] {
+            let d = directory();
+            let out = snapload(d.path())
+                .arg(verb)
+                .args(&VOLLEY[..VOLLEY.len() - 1])
+                .args(["--start", start, "--json", "answer.json"])
+                .args(options)
+                .output()
+                .unwrap();
+            let words = String::from_utf8_lossy(&out.stdout).into_owned();
+            if !out.status.success() {
+                assert!(is_far && verb == "curve", "{out:?}");
+                continue;
+            }
+            let told = words.contains(&format!("{far:.3} from the start in one coordinate"));
+            assert_eq!(told, is_far, "{verb} {words}");
+            let text = std::fs::read_to_string(d.path().join("answer.json")).unwrap();
+            let answer: Value = serde_json::from_str(&text).unwrap();
+            assert_eq!(number(&answer["start_distance"]), far);
+        }
+    }
+}
