@@ -7,6 +7,7 @@
 
 use crate::branch_events::{BranchEvent, Kind};
 use crate::continuation::{Continuation, Unknowns};
+use crate::follower::{TOO_LONG, beyond_largest_gap};
 use crate::hybrid::Family;
 use crate::multipliers::Stability;
 use crate::normal_form::{Coefficient, coefficient};
@@ -75,8 +76,10 @@ const SHORTEST_STEP: f64 = 1e-6;
 /// second, longer.
 const SHORTEN_FROM: usize = 7;
 const LENGTHEN_TO: usize = 4;
-/// A gap of more than this, by which a cable would have to be longer, ends a curve.
-const LARGEST_GAP: f64 = 0.02;
+/// The least part of phase space that a lap on a curve of Neimark-Sacker points loses. Without any
+/// loss the multipliers of every orbit come in pairs with the product 1: the condition holds for all
+/// orbits, so that it determines no curve, and close to that it determines one badly.
+const LEAST_LOSS: f64 = 1e-4;
 
 impl Curve {
     /// The kinds of special orbits that have curves.
@@ -256,8 +259,9 @@ fn point<F: Family>(on_curve: &OnCurve<F>, orbit: Orbit, arclength: f64) -> Curv
 }
 
 /// The borders at which a curve ends, as numbers that are negative beyond them: the four sides of
-/// the ranges, a corner, a snap of zero velocity, and where the pair of a torus becomes real.
-const BORDERS: [&str; 8] = [
+/// the ranges, a corner, a snap of zero velocity, where the pair of a torus becomes real, where no
+/// energy is lost, and where a cable would have to be too long.
+const BORDERS: [&str; 10] = [
     "the end of the range",
     "the end of the range",
     "the end of the range",
@@ -266,7 +270,11 @@ const BORDERS: [&str; 8] = [
     "graze: another snap of the sequence has zero velocity here, and a negative one beyond it",
     "resonance 1:1: both multipliers of the pair are 1 here, and real beyond it",
     "resonance 1:2: both multipliers of the pair are -1 here, and real beyond it",
+    "hardly any energy is lost here: without loss every orbit has a pair of multipliers with the product 1",
+    TOO_LONG,
 ];
+/// The border whose distance may jump.
+const GAP: usize = 9;
 
 /// A point this close to a border counts as on it.
 const ON_BORDER: f64 = 1e-8;
@@ -315,8 +323,9 @@ impl Follower<'_> {
             }
             arclength += step;
             half.end.at = next.here.at;
-            if let Some(because) = reason_to_end(&next, &orbit) {
-                half.end.because = because;
+            if !next.condition.is_met(&orbit) {
+                half.end.because =
+                    "the pair of multipliers is not on the unit circle from here on".to_owned();
                 break;
             }
             (on_curve, margins) = (next, reached);
@@ -343,7 +352,7 @@ impl Follower<'_> {
     }
 
     /// The distance to each border.
-    fn margins<F: Family>(&self, on_curve: &OnCurve<F>, orbit: &Orbit) -> [f64; 8] {
+    fn margins<F: Family>(&self, on_curve: &OnCurve<F>, orbit: &Orbit) -> [f64; 10] {
         let [[a, b], [c, d]] = self.options.ranges;
         let [x, y] = orbit.at;
         let corner = orbit.survey.corner_gap;
@@ -355,14 +364,29 @@ impl Follower<'_> {
             .filter(|(k, (event, _))| own != Some(*k) && !event.struck().is_empty());
         let slowest = others.map(|(_, (_, speed))| *speed);
         let slowest = slowest.fold(f64::INFINITY, f64::min);
-        let trace = match on_curve.condition.kind() {
-            Kind::NeimarkSacker => orbit.multipliers.pair_of_torus(),
-            _ => None,
-        };
-        let trace = trace.map(|pair| pair.map(|k| orbit.multipliers.values[k][0]).iter().sum());
+        let of_torus = on_curve.condition.kind() == Kind::NeimarkSacker;
+        let multipliers = &orbit.multipliers;
+        let trace = of_torus.then(|| multipliers.pair_of_torus()).flatten();
+        let trace = trace.map(|pair| pair.map(|k| multipliers.values[k][0]).iter().sum());
         let resonances = trace.map_or([f64::INFINITY; 2], |sum: f64| [2.0 - sum, 2.0 + sum]);
         let [one, two] = resonances;
-        [x - a, b - x, y - c, d - y, corner, slowest, one, two]
+        let loss = match of_torus && multipliers.zeros_from_contact == 0 {
+            true => 1.0 - multipliers.product.abs() - LEAST_LOSS,
+            false => f64::INFINITY,
+        };
+        let gap = -beyond_largest_gap(orbit);
+        [
+            x - a,
+            b - x,
+            y - c,
+            d - y,
+            corner,
+            slowest,
+            one,
+            two,
+            loss,
+            gap,
+        ]
     }
 
     /// The first border between two points.
@@ -370,8 +394,8 @@ impl Follower<'_> {
         &self,
         on_curve: &OnCurve<'a, F>,
         step: f64,
-        before: &[f64; 8],
-        after: &[f64; 8],
+        before: &[f64; 10],
+        after: &[f64; 10],
     ) -> Option<Border<'a, F>> {
         let crossed = (0..before.len()).filter(|&k| before[k] >= 0.0 && after[k] < 0.0);
         let border = |number: usize| {
@@ -382,7 +406,7 @@ impl Follower<'_> {
             Border {
                 number,
                 sigma,
-                place: place.filter(|there| margin(there).abs() < ON_BORDER),
+                place: place.filter(|there| number == GAP || margin(there).abs() < ON_BORDER),
             }
         };
         crossed
@@ -396,13 +420,4 @@ struct Border<'a, F: Family> {
     number: usize,
     sigma: f64,
     place: Option<OnCurve<'a, F>>,
-}
-
-/// Why a curve ends at a point that it has reached.
-fn reason_to_end<F: Family>(on_curve: &OnCurve<F>, orbit: &Orbit) -> Option<String> {
-    if !on_curve.condition.is_met(orbit) {
-        return Some("the pair of multipliers is not on the unit circle from here on".to_owned());
-    }
-    let gap = orbit.survey.largest_gap.map_or(0.0, |gap| gap.value);
-    (gap > LARGEST_GAP).then(|| format!("a cable would have to be longer by {LARGEST_GAP}"))
 }

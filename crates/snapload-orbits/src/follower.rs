@@ -52,8 +52,13 @@ const SAME_VALUE: f64 = 1e-6;
 const SAME_STATE: f64 = 1e-2;
 /// The time between two events does not change by more than this in one step.
 const LONGEST_TIME_CHANGE: f64 = 0.3;
-/// A gap of more than this, by which a cable would have to be longer, ends a branch.
+/// A gap of more than this, by which a cable would have to be longer, ends a branch or a curve.
 const LARGEST_GAP: f64 = 0.02;
+pub(crate) const TOO_LONG: &str = "a cable would have to be longer by 0.02";
+const END_OF_RANGE: &str = "the end of the range";
+/// A direction whose part along the parameter is larger than this certainly leads beyond a border on
+/// which it begins.
+const LEAVES: f64 = 1e-6;
 /// A value this close to the border of the range is set to the border.
 const ON_BORDER: f64 = 1e-13;
 
@@ -104,8 +109,8 @@ struct Stepped {
     length: f64,
     steps: usize,
     direction: DVector<f64>,
-    /// Whether it is on the border of the range.
-    is_last: bool,
+    /// Why the branch ends there, if it does.
+    end: Option<&'static str>,
 }
 
 /// Follows branches.
@@ -132,6 +137,9 @@ impl<'a> Follower<'a> {
         (orbit, mut tested): (&Orbit, Tested),
         goal: &Goal,
     ) -> Result<HalfBranch, Cancelled> {
+        if self.leaves_range(start, tangent) {
+            return Ok(HalfBranch::empty(orbit.at[0], END_OF_RANGE));
+        }
         let mut continuation = continuation.clone();
         let (mut here, mut tangent) = (start.clone(), tangent.clone());
         let mut half = HalfBranch::empty(orbit.at[0], "");
@@ -141,14 +149,13 @@ impl<'a> Follower<'a> {
                 half.end.because = format!("the limit of {} points is reached", self.options.most);
                 break;
             }
-            let Some(there) = self.stepped(&continuation, &here, &tangent, step) else {
+            let Some((there, found)) = self.next(&continuation, &here, &tangent, step) else {
                 step *= 0.5;
                 if step < self.options.step * SHORTEST_STEP {
                     half.end.because = "Newton's method finds no further point".to_owned();
                 }
                 continue;
             };
-            let found = Orbit::of(&continuation.lap(there.at.at), &there.at.closed());
             let reached = Tested::new(&found, &there.direction).reached_from(&tested);
             let branch_step = BranchStep {
                 continuation: &continuation,
@@ -170,9 +177,7 @@ impl<'a> Follower<'a> {
                 let orbit = renumbered.unwrap_or(found);
                 half.points.push(point(orbit, half.arclength));
             }
-            if there.is_last {
-                half.end.because = "the end of the range".to_owned();
-            }
+            half.end.because = there.end.unwrap_or_default().to_owned();
             self.report()?;
             step = self.next_step(step, there.steps);
         }
@@ -181,12 +186,6 @@ impl<'a> Follower<'a> {
             at: here,
         });
         Ok(half)
-    }
-
-    fn report(&mut self) -> Result<(), Cancelled> {
-        self.done += 1;
-        let of = (2 * self.options.most) as f64;
-        Progress::new("points", self.done as f64, of).report(self.on_progress)
     }
 
     /// The test functions at the start of a half; where one of them vanishes, the side behind it
@@ -210,6 +209,49 @@ impl<'a> Follower<'a> {
         }
     }
 
+    fn report(&mut self) -> Result<(), Cancelled> {
+        self.done += 1;
+        let of = (2 * self.options.most) as f64;
+        Progress::new("points", self.done as f64, of).report(self.on_progress)
+    }
+
+    /// Whether a half begins on a border of the range and leads beyond it.
+    fn leaves_range(&self, start: &Unknowns, tangent: &DVector<f64>) -> bool {
+        let ([low, high], along) = (self.options.range, tangent[tangent.len() - 1]);
+        (start.at[0] <= low && along < -LEAVES) || (start.at[0] >= high && along > LEAVES)
+    }
+
+    /// The next point with its orbit. If a cable would have to be too long there, it is the point
+    /// from which on that is so.
+    fn next<F: Family>(
+        &self,
+        continuation: &Continuation<F>,
+        here: &Unknowns,
+        tangent: &DVector<f64>,
+        step: f64,
+    ) -> Option<(Stepped, Orbit)> {
+        let mut there = self.stepped(continuation, here, tangent, step)?;
+        let orbit = |u: &Unknowns| Orbit::of(&continuation.lap(u.at), &u.closed());
+        let found = orbit(&there.at);
+        let after = beyond_largest_gap(&found);
+        if after <= 0.0 {
+            return Some((there, found));
+        }
+        let of = |sigma: f64| {
+            let at = continuation.corrected(here, tangent, sigma);
+            at.map_or(f64::NAN, |(u, ..)| beyond_largest_gap(&orbit(&u)))
+        };
+        let before = beyond_largest_gap(&orbit(here));
+        there.length = match before < 0.0 {
+            true => root(&of, (0.0, before), (there.length, after)),
+            false => 0.0,
+        };
+        (there.at, _, there.direction) = continuation.corrected(here, tangent, there.length)?;
+        there.end = Some(TOO_LONG);
+        let found = orbit(&there.at);
+        Some((there, found))
+    }
+
     /// The next point, if the corrector finds one near enough; it is on the border of the range if
     /// the step would pass that.
     fn stepped<F: Family>(
@@ -224,13 +266,13 @@ impl<'a> Follower<'a> {
         let border = at.at[0].clamp(low, high);
         let beyond = |u: &Unknowns| u.at[0] - border;
         let mut there = Stepped {
-            is_last: beyond(&at) != 0.0,
+            end: (beyond(&at) != 0.0).then_some(END_OF_RANGE),
             at,
             length: step,
             steps,
             direction,
         };
-        if there.is_last {
+        if there.end.is_some() {
             let of = |sigma: f64| {
                 let found = continuation.corrected(here, tangent, sigma);
                 found.map_or(f64::NAN, |(u, ..)| beyond(&u))
@@ -338,24 +380,17 @@ impl<'a> Follower<'a> {
                 half.events.push(event);
             }
         }
-        if half.end.because.is_empty() {
-            match closes {
-                Some(sigma) => half.close(goal, sigma, step.continuation),
-                None => half.end.because = reason_to_end(found),
-            }
+        if let Some(sigma) = closes.filter(|_| half.end.because.is_empty()) {
+            half.close(goal, sigma, step.continuation);
         }
         half.arclength += step.length;
         true
     }
 }
 
-/// Why a branch ends at a point that it has reached; empty if it does not.
-fn reason_to_end(found: &Orbit) -> String {
-    let gap = found.survey.largest_gap.map_or(0.0, |gap| gap.value);
-    match gap > LARGEST_GAP {
-        true => format!("a cable would have to be longer by {LARGEST_GAP}"),
-        false => String::new(),
-    }
+/// By how much the gap of a cable is larger than the largest one allowed.
+pub(crate) fn beyond_largest_gap(orbit: &Orbit) -> f64 {
+    orbit.survey.largest_gap.map_or(0.0, |gap| gap.value) - LARGEST_GAP
 }
 
 fn is_same(event: &BranchEvent, other: &BranchEvent) -> bool {

@@ -9,6 +9,7 @@ mod closed_forms;
 mod common;
 mod curves;
 mod diagrams;
+mod ends;
 mod held;
 mod orbits;
 mod proofs;

@@ -1,0 +1,169 @@
+//! Where branches and curves end.
+
+use crate::common::{parameters, reference};
+use snapload::Parameters;
+use snapload::analysis::no_progress;
+use snapload_orbits::{
+    Branch, BranchEvent, BranchOptions, Curve, CurveOptions, Kind, Moored, Orbit, OrbitRequest,
+};
+
+const POINT: Parameters = Parameters {
+    inertia: None,
+    a: 0.0,
+    ..Parameters::STANDARD
+};
+const STRETCHED: Parameters = Parameters {
+    r: 2.053,
+    e: 0.691,
+    nu: 0.39,
+    omega: 2.684,
+    f_o: 1.513,
+    ..POINT
+};
+const NEAR_STRETCHED: [f64; 6] = [-0.51252, 0.50233, 0.0, 0.23488, -0.24835, 0.0];
+const TOO_LONG: &str = "a cable would have to be longer by 0.02";
+
+fn near(family: &Moored, at: [f64; 2], start: [f64; 6]) -> Orbit {
+    Orbit::find(family, at, &start, &OrbitRequest::default()).unwrap()
+}
+
+fn branch(family: &Moored, orbit: &Orbit, range: [f64; 2], step: f64) -> Branch {
+    let options = BranchOptions {
+        range,
+        step,
+        most: 4000,
+    };
+    Branch::of(family, orbit, &options, &no_progress).unwrap()
+}
+
+fn curve(family: &Moored, event: &BranchEvent, ranges: [[f64; 2]; 2], step: f64) -> Curve {
+    let options = CurveOptions {
+        ranges,
+        step,
+        most: 3000,
+    };
+    let curve = Curve::of(family, event, &options, &no_progress);
+    curve.unwrap().unwrap()
+}
+
+fn gap(orbit: &Orbit) -> f64 {
+    orbit.survey.largest_gap.map_or(0.0, |gap| gap.value)
+}
+
+/// A branch ends at the orbit whose gap is 0.02, whatever its steps and wherever it is started.
+#[test]
+fn a_branch_ends_where_a_cable_would_have_to_be_too_long() {
+    let keys = [Some("f_o"), None];
+    let family = Moored::case(STRETCHED, keys);
+    let orbit = near(&family, Moored::values(&STRETCHED, keys), NEAR_STRETCHED);
+    let range = [0.9078, 2.1282];
+    let known = branch(&family, &orbit, range, 0.01);
+    let place = known.ends[1].at;
+    let lower = known.points.iter().find(|p| p.orbit.at[0] > 1.2).unwrap();
+    for (orbit, step) in [(&orbit, 0.01), (&orbit, 0.002), (&lower.orbit, 0.03)] {
+        let found = branch(&family, orbit, range, step);
+        let end = &found.ends[1];
+        assert_eq!(end.because, TOO_LONG);
+        assert!((end.at - place).abs() < 1e-9, "{} {place}", end.at);
+        let last = found.points.last().unwrap();
+        assert_eq!(last.orbit.at[0], end.at);
+        assert!((gap(&last.orbit) - 0.02).abs() < 1e-9);
+        assert!(found.points.iter().all(|p| gap(&p.orbit) < 0.02 + 1e-9));
+        assert!(found.events.iter().all(|event| event.value[0] <= end.at));
+    }
+}
+
+/// The same for a curve.
+#[test]
+fn a_curve_ends_where_a_cable_would_have_to_be_too_long() {
+    let base = parameters(&reference()["branches"][0]["base"]);
+    let keys = [Some("f_o"), Some("omega")];
+    let family = Moored::case(base, keys);
+    let at = Moored::values(&base, keys);
+    let orbit = near(&family, at, [-0.2688, 0.3830, 0.0, 0.8084, -0.4263, 0.0]);
+    let first = branch(&family, &orbit, [0.7, 4.0], 0.02);
+    let event = first.event(Kind::Fold, None).unwrap();
+    let both = [0.01, 0.04].map(|step| {
+        let found = curve(&family, event, [[0.7, 4.0], [1.55, 6.2]], step);
+        let [low, high] = [found.points.first(), found.points.last()].map(Option::unwrap);
+        let mut places = Vec::new();
+        for (end, point) in found.ends.iter().zip([low, high]) {
+            println!("{:?} {} {}", end.at, end.because, gap(&point.orbit));
+            if end.because == TOO_LONG {
+                assert!((gap(&point.orbit) - 0.02).abs() < 1e-8);
+                places.push(point.orbit.at);
+            }
+        }
+        assert!(!places.is_empty());
+        places
+    });
+    for (one, other) in both[0].iter().zip(&both[1]) {
+        assert!((one[0] - other[0]).abs() + (one[1] - other[1]).abs() < 1e-7);
+    }
+}
+
+/// Without loss of energy, e = 1, the multipliers of every orbit come in pairs with the product 1,
+/// so that no orbit is a Neimark-Sacker point by that: a curve ends before, at a point that does not
+/// depend on its steps. A lap with n snaps in slack flight keeps e²ⁿ of phase space.
+#[test]
+fn a_curve_of_tori_ends_before_energy_is_kept() {
+    let base = parameters(&reference()["branches"][1]["base"]);
+    let keys = [Some("f_o"), Some("e")];
+    let family = Moored::case(base, keys);
+    let at = Moored::values(&base, keys);
+    let orbit = near(&family, at, [-0.0086, 0.7632, 0.0, 1.0527, -0.7738, 0.0]);
+    let range = [0.3, 4.0];
+    let first = branch(&family, &orbit, range, 0.01);
+    let event = first.event(Kind::NeimarkSacker, None).unwrap();
+    let both = [0.01, 0.05].map(|step| {
+        let found = curve(&family, event, [range, [0.3, 1.0]], step);
+        let ends = || {
+            found
+                .ends
+                .iter()
+                .zip([found.points.first(), found.points.last()])
+        };
+        let (_, point) = ends()
+            .find(|(end, _)| end.because.contains("hardly any energy is lost"))
+            .unwrap_or_else(|| panic!("{:?}", found.ends));
+        point.unwrap().orbit.clone()
+    });
+    for orbit in &both {
+        let snaps = orbit.lap.sequence.struck().len() as i32;
+        assert!((1.0 - orbit.at[1].powi(2 * snaps) - 1e-4).abs() < 1e-8);
+        // f_o comes to its limit as (1 - e)², with the values 0.99504350915 at e = 0.999 and
+        // 0.995039166096 at 0.9999, to which curves come in steps of any length.
+        let bend = (0.995_043_509_15 - 0.995_039_166_096) / (1e-3_f64.powi(2) - 1e-4_f64.powi(2));
+        let there = 0.995_039_166_096 + bend * ((1.0 - orbit.at[1]).powi(2) - 1e-8);
+        assert!((orbit.at[0] - there).abs() < 1e-9, "{:?} {there}", orbit.at);
+    }
+    assert!((both[0].at[0] - both[1].at[0]).abs() < 1e-10);
+}
+
+/// A half that would leave the range at once ends on its border, even where no further orbit is
+/// found beyond it.
+#[test]
+fn a_branch_that_starts_on_a_border_ends_there() {
+    let case = Parameters {
+        r: 1.797,
+        e: 0.444,
+        nu: 0.0,
+        omega: 4.63,
+        f_o: 0.722,
+        ..POINT
+    };
+    let keys = [Some("nu"), None];
+    let family = Moored::case(case, keys);
+    let start = [
+        0.000_396_635_943_142_495_8,
+        0.001_956_831_007_770_575,
+        0.0,
+        0.033_422_018_997_052_55,
+        0.133_017_185_296_872_5,
+        0.0,
+    ];
+    let orbit = near(&family, Moored::values(&case, keys), start);
+    let found = branch(&family, &orbit, [0.0, 0.1], 0.01);
+    assert_eq!(found.ends[0].at, 0.0);
+    assert_eq!(found.ends[0].because, "the end of the range");
+}
