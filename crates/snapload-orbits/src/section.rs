@@ -60,9 +60,11 @@ const KNOWN: f64 = 1e10;
 const SAME: f64 = 1e-8;
 pub(crate) const LAPS: usize = 8;
 /// Whether the motion still approaches one of fewer periods is seen in at least this many laps, if
-/// distances change by more than this.
+/// the changes of distances differ by more than this, and by more than this many roundings of the
+/// time, to which the phase of the forcing is known.
 const FEWEST_LAPS: usize = 5;
 const KNOWN_DISTANCE: f64 = 1e-12;
+const ROUNDINGS: f64 = 4.0;
 /// The longest period that is searched for.
 pub const LONGEST_PERIOD: usize = 64;
 
@@ -153,13 +155,16 @@ impl Section {
 
     /// Whether a motion that returns after `n` periods to within the accuracy approaches one of `d`
     /// periods, a part of them: slowly, so that points `d` apart still differ by more, but by less
-    /// from lap to lap.
+    /// from lap to lap. The last laps show it, or for the slowest motions only all of them do.
     fn approaches(&self, n: usize, d: usize) -> bool {
-        let laps = self.laps();
+        let all = self.points.len().saturating_sub(d) / n;
+        let enough = |laps: &usize| (FEWEST_LAPS..=all).contains(laps);
+        let mut laps = [self.laps(), all].into_iter().filter(enough);
+        laps.any(|laps| self.approaches_over(laps, n, d))
+    }
+
+    fn approaches_over(&self, laps: usize, n: usize, d: usize) -> bool {
         let end = self.points.len();
-        if laps < FEWEST_LAPS || end < n * laps + d {
-            return false;
-        }
         let off = |lap: usize| {
             let last = end - n * (laps - 1 - lap);
             let apart = (last - n..last).map(|k| distance(&self.points[k], &self.points[k - d]));
@@ -169,7 +174,8 @@ impl Section {
         let half = (laps - 1) / 2;
         let [first, middle, last] = [0, half, 2 * half].map(off);
         let [before, after] = [first - middle, middle - last];
-        if before < KNOWN_DISTANCE || after <= 0.0 || after >= before {
+        let known = KNOWN_DISTANCE.max(ROUNDINGS * f64::EPSILON * self.end.1.abs());
+        if after <= 0.0 || before - after < known {
             return false;
         }
         let limit = last - after * after / (before - after);
@@ -312,6 +318,61 @@ impl Follow {
                 self.logs.push(directions.logs());
             }
             self.next += 1;
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Points that alternate about (0.1, 0.2) at a distance that falls to a limit by a factor each
+    /// period, with errors of the size of roundings of the time.
+    fn alternating(limit: f64, beyond: f64, factor: f64, periods: u32) -> Section {
+        let length = 1.6;
+        let point = |k: u32| {
+            let off = limit + beyond * factor.powf(f64::from(k));
+            let sign = 1.0 - 2.0 * f64::from(k % 2);
+            let t = length * f64::from(periods + k);
+            let error = f64::EPSILON * t * (f64::from(k) * 2.4).sin();
+            [
+                0.1 + sign * off,
+                0.2 - 0.5 * sign * off + error,
+                0.0,
+                0.3,
+                0.4,
+                0.0,
+            ]
+        };
+        let points: Vec<Point> = (0..=1000).map(point).collect();
+        Section {
+            end: (points[1000], length * f64::from(periods + 1000)),
+            points,
+            first: u64::from(periods),
+            snaps: Vec::new(),
+            impacts: None,
+            exponents: Vec::new(),
+            contacts: Vec::new(),
+            y_max: 0.0,
+            theta_max: 0.0,
+            stop: None,
+            growth: None,
+        }
+    }
+
+    /// Just before a period doubling a motion alternates for long about an orbit of one period, and
+    /// just after it for ever.
+    #[test]
+    fn what_is_slowly_approached_is_told_from_what_repeats_itself() {
+        for periods in [400, 9000, 39_000] {
+            for factor in [0.999, 0.9996, 0.9999] {
+                for beyond in [2e-8, 5e-8, 1e-7] {
+                    let before = alternating(0.0, beyond, factor, periods);
+                    assert_eq!(before.period(), Some(1), "{periods} {factor} {beyond}");
+                    let after = alternating(1e-7, beyond, factor, periods);
+                    assert_eq!(after.period(), Some(2), "{periods} {factor} {beyond}");
+                }
+            }
         }
     }
 }
