@@ -3,6 +3,7 @@
 
 use crate::error::HydroError;
 use crate::spline::Spline;
+use crate::textbook::{SectionBody, SectionForce};
 use nalgebra::{Complex, Matrix3, Vector3};
 
 /// The degrees of freedom in their order: x, z, and rotation from z to x about the reference point.
@@ -70,6 +71,9 @@ pub struct Hydrodynamics {
     pub reference_m: [f64; 2],
     /// Weight and buoyancy.
     pub hydrostatics: Hydrostatics,
+    /// The section of textbook values, whose wave force has a closed form at all frequencies; none
+    /// for a file.
+    pub section: Option<SectionBody>,
 }
 
 impl Hydrodynamics {
@@ -113,20 +117,26 @@ impl Hydrodynamics {
         MatrixCurve::new(&self.omega_rad_s, |i, j| self.damping_entry(i, j))
     }
 
-    /// The wave force X(ω) of a direction between the frequencies, real and imaginary part by cubic
-    /// splines; none outside them.
+    /// The wave force X(ω) of a direction between the frequencies: of a section its closed form, of a
+    /// file real and imaginary part by cubic splines; none outside them.
     ///
     /// # Errors
     /// [`HydroError::Missing`] if the file does not have the direction.
     pub fn excitation_curve(&self, direction: f64) -> Result<ExcitationCurve, HydroError> {
         let x = &self.excitation_to(direction)?.force;
+        let range_rad_s = self.range_rad_s();
+        if let Some(section) = &self.section {
+            let force = section.force(&self.water, direction, self.reference_m)?;
+            let force = XOverOmega::Section(Box::new(force));
+            return Ok(ExcitationCurve { range_rad_s, force });
+        }
         let part = |of: fn(Complex<f64>) -> f64, i: usize| {
             let values: Vec<f64> = x.iter().map(|force| of(force[i])).collect();
             Spline::new(&self.omega_rad_s, &values)
         };
-        Ok(ExcitationCurve {
-            parts: std::array::from_fn(|i| [part(|z| z.re, i), part(|z| z.im, i)]),
-        })
+        let parts = std::array::from_fn(|i| [part(|z| z.re, i), part(|z| z.im, i)]);
+        let force = XOverOmega::Splines(Box::new(parts));
+        Ok(ExcitationCurve { range_rad_s, force })
     }
 
     /// The same without some of the frequencies, given by index. A(0), A(∞) and the rest are kept.
@@ -186,20 +196,31 @@ pub(crate) const UPPER: [(usize, usize); 6] = [(0, 0), (0, 1), (0, 2), (1, 1), (
 /// X as a function of ω.
 #[derive(Clone, Debug)]
 pub struct ExcitationCurve {
-    parts: [[Spline; 2]; 3],
+    range_rad_s: [f64; 2],
+    force: XOverOmega,
+}
+
+#[derive(Clone, Debug)]
+enum XOverOmega {
+    /// Real and imaginary part of each degree of freedom.
+    Splines(Box<[[Spline; 2]; 3]>),
+    Section(Box<SectionForce>),
 }
 
 impl ExcitationCurve {
     /// X at ω, or none outside the file's range.
     pub fn at(&self, omega_rad_s: f64) -> Option<Vector3<Complex<f64>>> {
-        let [first, last] = self.parts[0][0].ends();
+        let [first, last] = self.range_rad_s;
         if !(first..=last).contains(&omega_rad_s) {
             return None;
         }
-        let part = |i: usize, k: usize| self.parts[i][k].clamped(omega_rad_s);
-        Some(Vector3::from_fn(|i, _| {
-            Complex::new(part(i, 0), part(i, 1))
-        }))
+        Some(match &self.force {
+            XOverOmega::Section(force) => force.at(omega_rad_s),
+            XOverOmega::Splines(parts) => Vector3::from_fn(|i, _| {
+                let [re, im] = &parts[i];
+                Complex::new(re.clamped(omega_rad_s), im.clamped(omega_rad_s))
+            }),
+        })
     }
 }
 

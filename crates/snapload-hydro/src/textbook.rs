@@ -13,7 +13,7 @@
 //! second moment I = (2b)³ℓ/12 (J. N. Newman, *Marine Hydrodynamics* (1977), sections 6.17 and
 //! 6.18). The reduction of the added mass by the ends is not known.
 
-use crate::coefficients::{Excitation, Hydrodynamics, Hydrostatics, Water};
+use crate::coefficients::{Excitation, Hydrodynamics, Hydrostatics, Water, transport};
 use crate::error::{HydroError, Warning};
 use crate::read::{Format, Reading};
 use crate::sections::{Place, Shape, added_mass_of_section};
@@ -22,11 +22,32 @@ use nalgebra::{Complex, Matrix3, Vector3};
 use std::f64::consts::PI;
 
 /// The frequencies for which it is tabulated \[rad/s\], and their number: they cover all waves and
-/// oscillations, so densely that the error of splines between them is less than 1e-6.
+/// oscillations. The force of waves between them is not interpolated but has its closed form.
 const RANGE_RAD_S: [f64; 2] = [0.02, 60.0];
 const FREQUENCIES: u32 = 400;
 /// The ends reduce the added mass by 5 % and more if the body is shorter than this many widths.
 const SLENDER: f64 = 10.0;
+
+/// The force of waves of unit amplitude and one direction on such a body.
+#[derive(Clone, Debug)]
+pub(crate) struct SectionForce {
+    body: SectionBody,
+    water: Water,
+    added: Matrix3<f64>,
+    direction: f64,
+    /// From the middle of the waterplane to the reference point.
+    transport: Matrix3<f64>,
+}
+
+impl SectionForce {
+    /// X at ω.
+    pub(crate) fn at(&self, omega: f64) -> Vector3<Complex<f64>> {
+        let own = self
+            .body
+            .wave_force(&self.water, &self.added, omega, self.direction);
+        self.transport.map(|entry| Complex::new(entry, 0.0)) * own
+    }
+}
 
 /// A floating body of one section.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -70,27 +91,19 @@ impl SectionBody {
     /// # Errors
     /// [`HydroError::Value`] if there are no textbook values for its proportions.
     pub fn reading(&self, water: Water) -> Result<Reading, HydroError> {
-        let Self {
-            shape,
-            half_width_m,
-            draft_m,
-            length_m,
-            ..
-        } = *self;
-        let per_metre = added_mass_of_section(shape, Place::Floating, half_width_m, draft_m)?;
-        let added = per_metre * (water.density_kg_m3 * length_m);
+        let added = self.added_mass(&water)?;
         let [low, high] = RANGE_RAD_S;
         let part = |k: u32| f64::from(k) / f64::from(FREQUENCIES - 1);
         let omega_rad_s: Vec<f64> = (0..FREQUENCIES)
             .map(|k| low * (high / low).powf(part(k)))
             .collect();
-        let excitation = [1.0, -1.0].map(|direction| Excitation {
-            direction,
-            force: omega_rad_s
-                .iter()
-                .map(|omega| self.wave_force(&water, &added, *omega, direction))
-                .collect(),
-        });
+        let reference_m = [self.x_m, 0.0];
+        let excitation = |direction: f64| {
+            let force = self.force(&water, direction, reference_m)?;
+            let force = omega_rad_s.iter().map(|omega| force.at(*omega)).collect();
+            Ok(Excitation { direction, force })
+        };
+        let excitation = vec![excitation(1.0)?, excitation(-1.0)?];
         let hydro = Hydrodynamics {
             added_mass: vec![added; omega_rad_s.len()],
             damping: vec![Matrix3::zeros(); omega_rad_s.len()],
@@ -98,15 +111,44 @@ impl SectionBody {
             added_mass_inf: Some(added),
             asymmetry: 0.0,
             damping_asymmetry: 0.0,
-            excitation: excitation.into(),
+            excitation,
             water,
-            reference_m: [self.x_m, 0.0],
+            reference_m,
             hydrostatics: self.hydrostatics(&water),
+            section: Some(*self),
             omega_rad_s,
         };
         let mut reading = Reading::new(Format::Section, hydro)?;
         reading.warnings.extend(self.limits());
         Ok(reading)
+    }
+
+    /// A at all frequencies, about the middle of its waterplane.
+    fn added_mass(&self, water: &Water) -> Result<Matrix3<f64>, HydroError> {
+        let (half_width_m, draft_m) = (self.half_width_m, self.draft_m);
+        let place = Place::Floating;
+        let per_metre = added_mass_of_section(self.shape, place, half_width_m, draft_m)?;
+        Ok(per_metre * (water.density_kg_m3 * self.length_m))
+    }
+
+    /// The force of waves of a direction, about a reference point.
+    ///
+    /// # Errors
+    /// [`HydroError::Value`] if there are no textbook values for its proportions.
+    pub(crate) fn force(
+        &self,
+        water: &Water,
+        direction: f64,
+        reference_m: [f64; 2],
+    ) -> Result<SectionForce, HydroError> {
+        let shift = [reference_m[0] - self.x_m, reference_m[1]];
+        Ok(SectionForce {
+            body: *self,
+            water: *water,
+            added: self.added_mass(water)?,
+            direction,
+            transport: transport(shift).transpose(),
+        })
     }
 
     fn displaced_kg(&self, water: &Water) -> f64 {

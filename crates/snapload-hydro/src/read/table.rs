@@ -88,6 +88,7 @@ impl Table {
             water: self.water,
             reference_m: self.reference_m,
             hydrostatics: self.hydrostatics,
+            section: None,
         })
     }
 }

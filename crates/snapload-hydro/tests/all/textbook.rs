@@ -169,3 +169,26 @@ fn no_swing_is_outside_a_textbook() {
     assert!(slowest.omega_rad_s < reading.hydro.range_rad_s()[0]);
     assert!(natural.iter().all(|natural| !natural.outside));
 }
+
+/// One body at two sizes in waves that are as long for it (Froude): lengths four times as large and
+/// ω half as large give 16 times the force per amplitude and 64 times the moment. As all factors are
+/// powers of two, floating-point numbers follow to the last bit wherever ω is, and so does a motion.
+#[test]
+fn a_larger_twin_has_the_same_force_to_the_bit() {
+    let force = |scale: f64, omega: f64| {
+        let body = SectionBody {
+            length_m: 20.0 * scale,
+            centre_of_gravity_m: [0.0, -0.2 * scale],
+            ..box_of(2.0 * scale, 1.2 * scale)
+        };
+        let reading = body.reading(water(10.0 * scale)).expect("a body");
+        let hydro = reading.hydro.about([0.0, -0.2 * scale]);
+        let curve = hydro.excitation_curve(-1.0).expect("to -x");
+        curve.at(omega).expect("X")
+    };
+    for omega in [0.437, 0.8951, 1.6, 4.21] {
+        let [own, twin] = [force(1.0, omega), force(4.0, 0.5 * omega)];
+        assert_eq!([0, 1].map(|i| own[i] * 16.0), [0, 1].map(|i| twin[i]));
+        assert_eq!(own[2] * 64.0, twin[2], "ω = {omega}");
+    }
+}
