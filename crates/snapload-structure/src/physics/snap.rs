@@ -36,7 +36,8 @@ use crate::structure::LineSi;
 use serde::{Serialize, Serializer};
 use snapload::{Impact, Simulation, Step};
 
-/// A slower snap is the settling of the line, not a load: it is neither counted nor listed \[m/s\].
+/// A slower snap is the settling of the line: it is neither counted nor listed, but its tension is
+/// one of those by which the line is judged \[m/s\].
 pub const SLOWEST_M_S: f64 = 0.01;
 
 /// A line snapping taut, or the impact that another line's snap passes on to a taut line.
@@ -76,13 +77,13 @@ pub struct Snap {
 }
 
 impl Snap {
-    /// Whether it counts as a load, and not as the settling of a line: its effective speed is 1
+    /// Whether it is counted and listed, and not the settling of a line: its effective speed is 1
     /// cm/s or more.
     pub fn counts(&self) -> bool {
         self.effective_speed_m_s >= SLOWEST_M_S
     }
 
-    /// Whether it is judged: a load that comes after the transient.
+    /// Whether it is counted among those after the transient.
     pub fn is_judged(&self, transient_s: f64) -> bool {
         self.counts() && self.t_s >= transient_s
     }

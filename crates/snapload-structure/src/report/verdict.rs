@@ -276,7 +276,10 @@ fn how_it_breaks(line: &LineOutcome, elastic: bool) -> &'static str {
     if elastic {
         "as an elastic line"
     } else if line.peak_n.is_some_and(|peak| peak >= line.largest_taut_n) {
-        "in a snap"
+        match line.counted() {
+            0 => "in a slower snap",
+            _ => "in a snap",
+        }
     } else {
         "while taut"
     }
@@ -317,7 +320,7 @@ impl Assessment {
     pub fn verdict(&self) -> Verdict {
         let (structure, outcome) = (&self.prepared.structure, &self.outcome);
         let early = self.snaps.iter();
-        let early = early.filter(|snap| snap.counts() && snap.t_s < structure.transient_s);
+        let early = early.filter(|snap| snap.t_s < structure.transient_s);
         let early = early.map(|snap| Early {
             line: snap.line,
             how: if snap.is_impact_while_taut {

@@ -43,6 +43,7 @@ impl Outcome {
                 snaps: speeds().count() as u64,
                 speed_m_s: speeds().fold(0.0, f64::max),
                 impacts_while_taut: 0,
+                slower: 0,
                 peak_n: Some(run.peaks_n[line]),
                 largest_taut_n: run.peaks_n[line],
                 least_n: run.least_n[line],

@@ -19,7 +19,10 @@ pub struct LineOutcome {
     /// Impacts that snaps of other lines passed on to it while it was taut, if they count.
     #[serde(skip)]
     pub impacts_while_taut: u64,
-    /// The largest estimate of tension in a snap or an impact while taut \[N\].
+    /// Snaps and impacts while taut that are too slow to be counted.
+    #[serde(skip)]
+    pub slower: u64,
+    /// The largest estimate of tension in a snap or an impact while taut, slower ones included \[N\].
     #[serde(rename = "peak_tension_n")]
     pub peak_n: Option<f64>,
     /// The largest tension while the line stays taut \[N\].
@@ -44,8 +47,13 @@ impl LineOutcome {
     /// known, or without judged time \[N\].
     pub fn largest_n(&self) -> Option<f64> {
         self.least_n?;
-        let no_snap = (self.snaps + self.impacts_while_taut == 0).then_some(0.0);
+        let no_snap = (self.counted() + self.slower == 0).then_some(0.0);
         Some(self.peak_n.or(no_snap)?.max(self.largest_taut_n))
+    }
+
+    /// The number of snaps and impacts while taut that count.
+    pub(crate) fn counted(&self) -> u64 {
+        self.snaps + self.impacts_while_taut
     }
 
     /// Whether it is slack at rest and never becomes taut in the judged time.
@@ -233,12 +241,19 @@ impl<'a> OutcomeCounter<'a> {
             }
         }
         let snaps = snaps_of_step(self.prepared, simulation, step);
-        for snap in snaps.iter().filter(|snap| snap.counts()) {
-            if snap.is_judged(transient_s) {
-                self.count(snap);
-            } else {
-                let line = &mut self.lines[snap.line];
+        // A snap that is too slow to be counted loads its line, too.
+        for snap in &snaps {
+            let line = &mut self.lines[snap.line];
+            if snap.t_s < transient_s {
                 line.early_n = line.early_n.max(snap.peak_n.unwrap_or(0.0));
+                continue;
+            }
+            if let Some(peak) = snap.peak_n {
+                line.peak_n = Some(line.peak_n.unwrap_or(0.0).max(peak));
+            }
+            match snap.counts() {
+                true => self.count(snap),
+                false => line.slower += 1,
             }
         }
         snaps
@@ -256,7 +271,6 @@ impl<'a> OutcomeCounter<'a> {
         }
         if let Some(peak) = snap.peak_n {
             self.waves_n.extend(self.waves[snap.line].add([peak; 2]));
-            line.peak_n = Some(line.peak_n.unwrap_or(0.0).max(peak));
             self.peaks_n.push(peak);
         }
     }

@@ -17,6 +17,7 @@ mod moordyn;
 mod moordyn_edits;
 mod moordyn_keys;
 mod physics;
+mod scale;
 mod sea_verdicts;
 mod verdicts;
 mod waves;
