@@ -6,10 +6,11 @@ use crate::outputs::Outputs;
 use serde::Serialize;
 use snapload_hydro::digits::digits;
 use snapload_hydro::{
-    Body, Decay, FREEDOMS, Hydrodynamics, Swing, decay, rest_without_tension, swings,
+    Body, Decay, FREEDOMS, Hydrodynamics, Swing, decay, large_motion, rest_without_tension, swings,
 };
 use snapload_report::tables::in_digits;
 use snapload_structure::labelled_row;
+use std::f64::consts::FRAC_PI_2;
 use std::fmt::Write as _;
 use std::path::PathBuf;
 
@@ -101,7 +102,9 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
     if rows.iter().any(|row| row.damping_ratio < 0.0) {
         text += &labelled_row("mixed", NEGATIVE_DAMPING_NOTE);
     }
-    for warning in &report.warnings {
+    let [_, heave, pitch] = from;
+    let large = large_motion(&report.reading.hydro, &body, [heave, pitch], "the release");
+    for warning in report.warnings.iter().chain(&large) {
         text += &labelled_row("warning", &format!("{}: {}", warning.what, warning.message));
     }
     let of = |i: usize| motion.q.iter().map(|q| q[i]).collect();
@@ -117,15 +120,16 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
     outputs.finish_with_text(&answer, text)
 }
 
-/// A body that is released where it rests does not swing.
+/// A body that is released where it rests does not swing, and one that is turned over does not swing
+/// back.
 fn check_release(from: [f64; 3]) -> Result<(), Failure> {
-    if from != [0.0; 3] && from.iter().all(|q| q.is_finite()) {
+    let [surge, heave, pitch] = from;
+    if from != [0.0; 3] && from.iter().all(|q| q.is_finite()) && pitch.abs() < FRAC_PI_2 {
         return Ok(());
     }
-    let [surge, heave, pitch] = from;
     Err(Failure::bad_input(format!(
         "--from = {surge},{heave},{pitch} is not allowed; allowed: three finite numbers, not all of them 0, such as \
-         0,1,0"
+         0,1,0, with less than π/2 rad of pitch"
     )))
 }
 

@@ -4,7 +4,7 @@ use crate::hydro_input::{HydroArgs, line, triple};
 use crate::json::JsonArgs;
 use crate::outputs::Outputs;
 use serde::Serialize;
-use snapload_hydro::{FREEDOMS, Line, Report, page};
+use snapload_hydro::{FREEDOMS, Line, Report, Warning, large_motion, page};
 use snapload_report::shell_command;
 use snapload_structure::{IrregularSea, Spectrum, SpectrumShape, labelled_row};
 use std::path::PathBuf;
@@ -60,8 +60,13 @@ struct Answer<'a> {
 pub(crate) fn run(args: &Args) -> Result<(), Failure> {
     let mut outputs = Outputs::open(&args.json)?;
     let out = outputs.file("--out", args.out.as_deref(), &["html"])?;
-    let report = args.input.report(args.line.clone(), args.force)?;
+    let mut report = args.input.report(args.line.clone(), args.force)?;
     let sea = args.sea(&report)?;
+    let large: Vec<_> = sea
+        .iter()
+        .flat_map(|row| row.large_motion(&report))
+        .collect();
+    report.warnings.extend(large);
     if let Some(out) = out {
         let words = crate::given_words();
         let command = shell_command(words.iter().map(|word| &**word));
@@ -139,9 +144,35 @@ impl Args {
     }
 }
 
+/// The highest of a thousand Rayleigh-distributed amplitudes, about those of three hours, is near this
+/// many root mean squares: sqrt(2 ln 1000).
+const HIGHEST: f64 = 3.72;
+
 impl SeaRow {
+    /// The warnings that the highest motion of three hours is not small.
+    fn large_motion(&self, report: &Report) -> Vec<Warning> {
+        let Ok(floating) = &report.floating else {
+            return Vec::new();
+        };
+        let [_, heave, pitch] = self.rms.map(|rms| HIGHEST * rms);
+        let to = self.to();
+        let motion = format!(
+            "the highest motion of three hours in the sea to {to}, about {HIGHEST} root mean squares,"
+        );
+        large_motion(
+            &report.reading.hydro,
+            &floating.body,
+            [heave, pitch],
+            &motion,
+        )
+    }
+
+    fn to(&self) -> &'static str {
+        if self.direction > 0.0 { "+x" } else { "−x" }
+    }
+
     fn text(&self) -> String {
-        let to = if self.direction > 0.0 { "+x" } else { "−x" };
+        let to = self.to();
         let [surge, heave, pitch] = self.rms;
         let part = match self.covered < 0.99 {
             true => format!(

@@ -25,9 +25,10 @@ pub use coefficients::{
 };
 pub use error::{GivenSource, HydroError, Warning};
 pub use linear::{
-    Body, Decay, Line, Mode, Natural, Peak, Response, Rest, Swing, Weight, decay,
-    decay_of_the_damping, eigenvalues, fine_responses, natural_of_the_file, natural_of_the_memory,
-    response_of_the_file, response_of_the_memory, rest, rest_without_tension, significant, swings,
+    Body, Decay, LARGE_PITCH, Line, Mode, Natural, Peak, Response, Rest, Swing, Weight, decay,
+    decay_of_the_damping, eigenvalues, fine_responses, large_motion, natural_of_the_file,
+    natural_of_the_memory, response_of_the_file, response_of_the_memory, rest,
+    rest_without_tension, significant, swings,
 };
 pub use memory::{
     BlockQuality, DampingCurve, EntryQuality, Fit, FitOptions, MOST_PAIRS, Memory, Term, TermRow,

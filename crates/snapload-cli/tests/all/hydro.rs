@@ -163,6 +163,45 @@ fn decay_reports_where_displacements_are_measured_from() {
     );
 }
 
+/// A motion of more than half the draft of 1.2 m or more than 15 degrees is warned of, the highest of a
+/// sea, too, and a smaller one is not; a body that is turned over is refused.
+#[test]
+fn motions_that_are_not_small_are_warned_of() {
+    let room = room();
+    let words = |options: &[&str]| {
+        let done = snapload(room.path()).args(options).assert().success();
+        let text = String::from_utf8(done.get_output().stdout.clone()).unwrap();
+        text.split_whitespace().collect::<Vec<_>>().join(" ")
+    };
+    let decay = |from: &str| words(&["decay", "pontoon.nc", "--pairs", "6", "--from", from]);
+    let far = decay("0,3,0.5");
+    assert!(far.contains("3.00 m of heave, more than 0.60 m"), "{far}");
+    assert!(far.contains("29 degrees of pitch, more than 15"), "{far}");
+    assert!(!decay("0,0.5,0.2").contains("small"));
+    let sea = |hs: &str| {
+        words(&[
+            "hydro",
+            "pontoon.nc",
+            "--pairs",
+            "6",
+            "--hs",
+            hs,
+            "--tp",
+            "4",
+        ])
+    };
+    let rough = sea("1");
+    assert!(
+        rough.contains("small pitch: the highest motion of three hours"),
+        "{rough}"
+    );
+    assert!(!sea("0.01").contains("small pitch"));
+    let over = ["decay", "pontoon.nc", "--from", "0,0,5"];
+    let refused = snapload(room.path()).args(over).assert().code(2);
+    let error = String::from_utf8(refused.get_output().stderr.clone()).unwrap();
+    assert!(error.contains("less than π/2 rad of pitch"), "{error}");
+}
+
 /// Errors name their cause and end with status 2, and no file is left behind.
 #[test]
 fn hydro_refuses_with_reasons() {

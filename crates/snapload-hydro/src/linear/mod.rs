@@ -6,6 +6,7 @@ mod natural;
 mod resonance;
 mod response;
 mod rest;
+mod small_motion;
 
 pub(crate) use body::BALANCED_ANGLE;
 pub use body::{Body, Weight};
@@ -14,3 +15,5 @@ pub use natural::{Mode, Natural, eigenvalues, natural_of_the_file, natural_of_th
 pub use resonance::{Peak, fine_responses};
 pub use response::{Response, response_of_the_file, response_of_the_memory, significant};
 pub use rest::{Line, Rest, rest, rest_without_tension};
+pub use small_motion::{LARGE_PITCH, large_motion};
+pub(crate) use small_motion::{beyond_hydrostatics, draft_m};

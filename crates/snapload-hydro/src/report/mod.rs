@@ -16,8 +16,9 @@ use crate::coefficients::transport;
 use crate::digits::kilo;
 use crate::error::{HydroError, Warning};
 use crate::linear::{
-    Body, Line, Mode, Natural, Peak, Response, Rest, Weight, fine_responses, natural_of_the_file,
-    natural_of_the_memory, response_of_the_file, response_of_the_memory, rest,
+    Body, Line, Mode, Natural, Peak, Response, Rest, Weight, beyond_hydrostatics, draft_m,
+    fine_responses, natural_of_the_file, natural_of_the_memory, response_of_the_file,
+    response_of_the_memory, rest,
 };
 use crate::memory::{Fit, FitOptions, TermRow, fit, given};
 use crate::read::{Format, Reading};
@@ -306,10 +307,9 @@ impl Floating {
             }
         }
         if let Some((rest, ..)) = &self.rest {
-            // ρV over the waterplane, which is the draft of a body with vertical sides.
-            let weight = reading.hydro.hydrostatics.displaced_mass_kg.unwrap_or(0.0);
-            let draft = weight * reading.hydro.water.gravity_m_s2 / self.body.stiffness[(1, 1)];
-            if rest.q[2].abs() > 0.05 || (draft > 0.0 && rest.q[1].abs() > 0.1 * draft) {
+            let draft = draft_m(&reading.hydro, &self.body);
+            let far = draft.is_some_and(|draft| rest.q[1].abs() > 0.1 * draft);
+            if rest.q[2].abs() > 0.05 || far {
                 let message = format!(
                     "the body rests {:.3} m {} its position in the file and at {:.1}° of pitch from it; \
                      compute the file again at the place of rest",
@@ -319,6 +319,7 @@ impl Floating {
                 );
                 warnings.push(Warning::new("place of rest", message));
             }
+            warnings.extend(beyond_hydrostatics(&reading.hydro, &self.body, rest));
         }
     }
 }

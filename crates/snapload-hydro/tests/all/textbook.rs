@@ -2,7 +2,8 @@
 
 use nalgebra::Complex;
 use snapload_hydro::{
-    Body, Report, Request, SectionBody, Shape, Water, Weight, natural_of_the_file, wave_number,
+    Body, Line, Report, Request, SectionBody, Shape, Water, Weight, natural_of_the_file,
+    wave_number,
 };
 use std::f64::consts::PI;
 
@@ -191,4 +192,39 @@ fn a_larger_twin_has_the_same_force_to_the_bit() {
         assert_eq!([0, 1].map(|i| own[i] * 16.0), [0, 1].map(|i| twin[i]));
         assert_eq!(own[2] * 64.0, twin[2], "ω = {omega}");
     }
+}
+
+/// On lines that hold a box of 80 t above its draft of 1.2 m, clear of the water, it weighs 784.8 kN and
+/// no more, whatever C33 z is; on lines that hold it below its position the height of its sides is not
+/// known, and named. Where it floats at its position nothing is told.
+#[test]
+fn a_box_clear_of_the_water_weighs_no_more_than_its_weight() {
+    let warning = |anchor: f64, fairlead: f64, length: f64| {
+        let line = |x: f64| Line {
+            anchor_m: [x, anchor],
+            fairlead_m: [x, fairlead],
+            length_m: length,
+        };
+        let request = Request {
+            weight: Weight {
+                mass_kg: Some(8e4),
+                inertia_kg_m2: Some(1.33e5),
+                ..Weight::default()
+            },
+            lines: vec![line(2.0), line(-2.0)],
+            ..Request::default()
+        };
+        let reading = box_of(2.0, 1.2).reading(water(10.0)).expect("a body");
+        let report = Report::new("box", reading, &request).expect("a report");
+        let found = report.warnings.iter().find(|w| w.what == "hydrostatics");
+        found.map(|warning| warning.message.clone())
+    };
+    let clear = warning(6.0, 1.0, 2.8).expect("2.2 m above its position");
+    assert!(clear.contains("weighs only 784.8 kN"), "{clear}");
+    let deep = warning(-10.0, -1.2, 7.0).expect("1.8 m below its position");
+    assert!(
+        deep.contains("rests 1.80 m below") && deep.contains("vertical sides"),
+        "{deep}"
+    );
+    assert_eq!(warning(-10.0, -1.2, 8.8), None);
 }

@@ -10,7 +10,7 @@ use crate::structure::{Afloat, LineSi, Structure, THREE_HOURS_S, Water};
 use crate::text_layout::{decimals, digits, kilo, paragraph};
 use askama::Template;
 use serde::Serialize;
-use snapload_hydro::Format;
+use snapload_hydro::{Format, LARGE_PITCH};
 use std::f64::consts::PI;
 
 /// The highest wave of a three-hour sea is near this many significant heights: sqrt(ln 1000 / 2)
@@ -30,8 +30,6 @@ const PROPORTION: f64 = 100.0;
 /// The largest plausible ratio of a line's length to the distance of its ends with the body at the
 /// case's position.
 const LONGEST_RATIO: f64 = 3.0;
-/// Linear hydrostatics hold for less pitch than this \[degrees\].
-const LARGE_PITCH: f64 = 15.0;
 /// The rotation of a body beyond this would be resisted by the water \[degrees\].
 const FREE_TURN: f64 = 60.0;
 /// Records whose judged time is less than three hours divided by this say little about three hours.
