@@ -86,6 +86,21 @@ impl BodySi {
         self.displaced_volume_m3 / self.outline.area_m2([self.width_m, self.height_m])
     }
 
+    /// The part of the outline's area that is under the still water with the body at its position.
+    pub(crate) fn part_under_still_water(&self) -> f64 {
+        let [half, z] = [0.5 * self.height_m, self.position_m[1]];
+        // The depth of the water over the centre, within the outline.
+        let deep = (-z).clamp(-half, half);
+        match self.outline {
+            Outline::Rectangle => (half + deep) / self.height_m,
+            Outline::Circle => {
+                let segment =
+                    half * half * (-deep / half).acos() + deep * (half * half - deep * deep).sqrt();
+                segment / (PI * half * half)
+            }
+        }
+    }
+
     /// Takes mass and inertia from the coefficients of a floating body, at infinite frequency.
     fn weigh(&mut self, afloat: &Afloat) {
         let added = &afloat.report.fit.added_mass_inf;

@@ -190,6 +190,14 @@ impl Model {
         self.waves.first().zip(self.groups.wave)
     }
 
+    /// The level of the surface over the place of rest at a time \[m\].
+    pub(crate) fn surface_m(&self, t_s: f64) -> f64 {
+        let waves = self.waves.iter();
+        let level =
+            |wave: &LinearWave| wave.amplitude_m * (wave.omega_rad_s * t_s + wave.phase_rad).sin();
+        waves.map(level).sum()
+    }
+
     /// The force of the waves at a time, `[x, z]` \[N\].
     pub fn wave_force_n(&self, t_s: f64) -> [f64; 2] {
         let forcing = &self.system.forcing;

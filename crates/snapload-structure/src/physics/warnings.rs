@@ -4,7 +4,7 @@
 use super::afloat::{left_out, loaded};
 use super::equilibrium::Equilibrium;
 use super::model_at_rest::ModelAtRest;
-use super::waterline::Waterline;
+use super::waterline::{Waterline, rest_beyond_in_words};
 use super::wave::LinearWave;
 use crate::structure::{Afloat, LineSi, Structure, THREE_HOURS_S, Water};
 use crate::text_layout::{decimals, digits, kilo, paragraph};
@@ -55,12 +55,21 @@ pub struct Warning {
     pub leaves_open: bool,
 }
 
-/// Whether a rule is violated on which the tensions of inextensible lines depend, and the command
-/// that decides, if one does.
+impl Warning {
+    /// Whether it applies to elastic lines, too, and not only to the tensions of inextensible ones.
+    pub(crate) fn is_of_all_lines(&self) -> bool {
+        !self.leaves_open || self.rule == HYDROSTATICS
+    }
+}
+
+/// The rule on which the tensions of all lines of a floating body depend.
+const HYDROSTATICS: &str = "hydrostatics";
+
+/// Whether a rule is violated on which tensions depend, and the command that decides, if one does.
 fn decided_by(rule: &str) -> (bool, Option<&'static str>) {
     match rule {
         "instant snap" | "shared loads" => (true, Some("snapload elastic")),
-        "rest on elastic lines" => (true, None),
+        "rest on elastic lines" | HYDROSTATICS => (true, None),
         _ => (false, None),
     }
 }
@@ -171,6 +180,7 @@ fn warnings_afloat(prepared: &ModelAtRest, afloat: &Afloat) -> Vec<Warning> {
         soft_lines_in_still_water(prepared),
         stretch_at_rest(rest),
         warning_if(elsewhere, "place of rest", [heave, degrees], again),
+        hydrostatics_warning(rest_beyond_in_words(structure, afloat, rest)),
         warning_if(deep, "deep water", [structure.site.depth_m, 0.0], ""),
         warning_if(lost > 0.0, "frequencies left out", [lost, 0.0], ""),
     ];
@@ -188,11 +198,13 @@ fn warnings_afloat(prepared: &ModelAtRest, afloat: &Afloat) -> Vec<Warning> {
     of_file.chain(found.into_iter().flatten()).collect()
 }
 
-/// The warnings where the motion of a floating body left the range of linear theory.
+/// The warnings where the motion of a floating body left the range of linear theory; the verdict may
+/// depend on tensions for which linear hydrostatics do not hold.
 pub(crate) fn limits_afloat(
     structure: &Structure,
     seen: Option<&Waterline>,
     turned_rad: f64,
+    depends_on_hydrostatics: bool,
 ) -> Vec<Warning> {
     let Some(seen) = seen else {
         return Vec::new();
@@ -203,7 +215,12 @@ pub(crate) fn limits_afloat(
     let [low, high] = seen.heave_m;
     let (heave, least) = (high.max(-low), 0.5 * draft.min(freeboard));
     let pitch = turned_rad.to_degrees();
+    let beyond = hydrostatics_warning(seen.beyond_in_words()).map(|found| Warning {
+        leaves_open: depends_on_hydrostatics,
+        ..found
+    });
     let found = [
+        beyond,
         warning_if(heave > least, "small heave", [heave, least], ""),
         warning_if(pitch > LARGE_PITCH, "small pitch", [pitch, LARGE_PITCH], ""),
         warning_if(
@@ -220,6 +237,11 @@ pub(crate) fn limits_afloat(
         ),
     ];
     found.into_iter().flatten().collect()
+}
+
+/// The warning that linear hydrostatics do not hold for what a body does, in words.
+fn hydrostatics_warning(words: Option<String>) -> Option<Warning> {
+    warning_if(true, HYDROSTATICS, [0.0; 2], &words?)
 }
 
 /// The warning that inextensible lines do not determine the distribution of the load at rest.

@@ -121,16 +121,28 @@ struct TrustText<'a> {
     irregular: bool,
 }
 
-/// The violated rules on which tensions depend, and the command that decides, if one does.
-pub(super) type OpenRules = (String, Option<&'static str>);
+/// The violated rules on which tensions depend.
+pub(super) struct OpenRules {
+    /// Their names.
+    pub(super) rules: String,
+    /// The command that decides, if one does.
+    pub(super) command: Option<&'static str>,
+    /// Whether all of them apply to elastic lines, too.
+    pub(super) of_all_lines: bool,
+}
 
 /// The violated rules that leave a verdict open.
 pub(super) fn undecided_by(warnings: &[Warning]) -> Option<OpenRules> {
-    let open = warnings.iter().filter(|warning| warning.leaves_open);
-    let (rules, commands): (Vec<_>, Vec<_>) = open.map(|w| (w.rule, w.decided_by)).unzip();
-    let all: Option<Vec<_>> = commands.into_iter().collect();
-    let command = all.and_then(|all| all.first().copied());
-    (!rules.is_empty()).then(|| (rules.join(" and "), command))
+    let open = || warnings.iter().filter(|warning| warning.leaves_open);
+    // A rule may be violated at rest and again in the motion.
+    let mut rules: Vec<_> = open().map(|warning| warning.rule).collect();
+    rules.dedup();
+    let commands: Option<Vec<_>> = open().map(|warning| warning.decided_by).collect();
+    (!rules.is_empty()).then(|| OpenRules {
+        rules: rules.join(" and "),
+        command: commands.and_then(|all| all.first().copied()),
+        of_all_lines: open().all(Warning::is_of_all_lines),
+    })
 }
 
 /// A load within the transient, which is not judged.

@@ -246,7 +246,8 @@ impl Assessment {
         let turned = self.outcome.turned_rad;
         let phase = phase_warning(structure, z, excursion);
         let turning = turning_warning(structure, turned);
-        let limits = limits_afloat(structure, self.outcome.waterline.as_ref(), turned);
+        let depends = self.outcome.depends_on_hydrostatics(structure);
+        let limits = limits_afloat(structure, self.outcome.waterline.as_ref(), turned, depends);
         phase.into_iter().chain(turning).chain(limits).collect()
     }
 

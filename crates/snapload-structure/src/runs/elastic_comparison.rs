@@ -81,7 +81,8 @@ pub fn compare_elastic(
 impl ElasticComparison {
     /// The checks by the rule of the case, of the elastic lines.
     pub fn checks(&self) -> Vec<Check> {
-        checks(&self.elastic_case, &self.outcome, false)
+        let open = self.warnings().iter().any(|warning| warning.leaves_open);
+        checks(&self.elastic_case, &self.outcome, open)
     }
 
     /// Rules of thumb that the case violates, except those that are decided by elastic lines.
@@ -99,8 +100,9 @@ impl ElasticComparison {
                 structure,
                 run.waterline.as_ref(),
                 run.turned_rad,
+                self.outcome.depends_on_hydrostatics(structure),
             ))
-            .filter(|warning| !warning.leaves_open)
+            .filter(Warning::is_of_all_lines)
             .collect()
     }
 }

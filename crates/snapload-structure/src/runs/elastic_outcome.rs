@@ -46,6 +46,7 @@ impl Outcome {
                 slower: 0,
                 peak_n: Some(run.peaks_n[line]),
                 largest_taut_n: run.peaks_n[line],
+                reliable_n: run.reliable_peaks_n[line],
                 least_n: run.least_n[line],
                 slack_fraction: run.slack_fraction(line),
                 slack_used: run.slack_used[line],

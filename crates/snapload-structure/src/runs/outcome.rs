@@ -28,6 +28,9 @@ pub struct LineOutcome {
     /// The largest tension while the line stays taut \[N\].
     #[serde(rename = "held_tension_n")]
     pub largest_taut_n: f64,
+    /// The largest tension, in a snap too, while linear hydrostatics hold \[N\].
+    #[serde(skip)]
+    pub reliable_n: f64,
     /// The smallest tension, 0 if it goes slack; none if the run ends before the judged time \[N\].
     #[serde(rename = "least_tension_n")]
     pub least_n: Option<f64>,
@@ -144,6 +147,18 @@ impl Outcome {
         })
     }
 
+    /// Whether the largest tension of a line is one for which linear hydrostatics do not hold, and no
+    /// line breaks while they hold.
+    pub(crate) fn depends_on_hydrostatics(&self, structure: &Structure) -> bool {
+        let mut lines = self.lines.iter().zip(&structure.lines);
+        let breaks = lines.any(|(outcome, line)| {
+            let load_n = line.breaking_load_n;
+            load_n.is_some_and(|load_n| outcome.reliable_n >= load_n)
+        });
+        let beyond = |line: &LineOutcome| line.largest_n().is_some_and(|n| n > line.reliable_n);
+        !breaks && self.lines.iter().any(beyond)
+    }
+
     /// Whether a line breaks in the judged time, the body turns over or touches the floor; none if
     /// no line is known to break, and the run ended early or a tension or a breaking load is not
     /// known.
@@ -216,17 +231,19 @@ impl<'a> OutcomeCounter<'a> {
         let [x, z] = self.prepared.model.scales.to_si([state.x, state.y]);
         let excursion_m = (x - self.prepared.rest.place_m[0]).abs();
         self.excursion_m = self.excursion_m.max(excursion_m);
-        if let Some(seen) = &mut self.waterline {
-            *seen = seen.with(&Waterline::at(&self.prepared.structure, z, state.theta));
-        }
         let scales = &self.prepared.model.scales;
         let transient_s = self.prepared.structure.transient_s;
-        let is_judged = step.t_end * scales.time_s >= transient_s;
+        let end_s = step.t_end * scales.time_s;
+        let is_judged = end_s >= transient_s;
+        let place = [z, state.theta];
+        if let Some(seen) = &mut self.waterline {
+            *seen = seen.with(&Waterline::at(&self.prepared.structure, place, None));
+        }
         let ranges = simulation.tension_ranges(step);
         let quarter = 0.25 * (step.t_end - step.t_start);
         let along = || (1..=4).map(|k| simulation.within(step, f64::from(k) * quarter));
         let lines = self.lines.iter_mut().zip(&mut self.waves).enumerate();
-        for ((index, (line, wave)), range) in lines.zip(ranges) {
+        for ((index, (line, wave)), range) in lines.zip(&ranges) {
             // A taut line can not push: a negative tension is rounding.
             let [least, largest] = range.map(|tension| tension.max(0.0) * scales.force_n);
             if is_judged {
@@ -256,7 +273,27 @@ impl<'a> OutcomeCounter<'a> {
                 false => line.slower += 1,
             }
         }
+        if is_judged {
+            let mut pulls_n = ranges.map(|[_, most]| most * scales.force_n);
+            for snap in &snaps {
+                pulls_n[snap.line] = pulls_n[snap.line].max(snap.peak_n.unwrap_or(0.0));
+            }
+            self.add_reliable(place, end_s, &pulls_n);
+        }
         snaps
+    }
+
+    /// Takes in the tensions at a position in z and θ if linear hydrostatics hold there, which is asked
+    /// only where a line pulls more than before.
+    fn add_reliable(&mut self, place: [f64; 2], t_s: f64, pulls_n: &[f64]) {
+        let mut lines = self.lines.iter().zip(pulls_n);
+        if lines.any(|(line, pull)| *pull > line.reliable_n)
+            && Waterline::holds(&mut self.waterline, self.prepared, place, t_s)
+        {
+            for (line, pull) in self.lines.iter_mut().zip(pulls_n) {
+                line.reliable_n = line.reliable_n.max(*pull);
+            }
+        }
     }
 
     /// Counts a judged snap.

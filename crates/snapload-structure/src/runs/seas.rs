@@ -89,7 +89,7 @@ pub fn seas(
     };
     let mut warnings = warnings(&reported);
     // Rules that are decided by elastic lines do not apply to them.
-    warnings.retain(|warning| lines == Lines::Inextensible || !warning.leaves_open);
+    warnings.retain(|warning| lines == Lines::Inextensible || warning.is_of_all_lines());
     let open = warnings.iter().any(|warning| warning.leaves_open);
     let counter = Counter::new("records", 0, count.into(), on_progress);
     let records = in_parallel(count as usize, |index| {
@@ -108,6 +108,7 @@ pub fn seas(
             Lines::Elastic => Outcome::with_elastic_lines(&record, &within)?,
         };
         counter.add(1)?;
+        let open = open || outcome.depends_on_hydrostatics(&record.structure);
         Ok::<_, Unfinished>(SeaOutcome {
             checks: checks(&record, &outcome, open),
             seed,
@@ -132,6 +133,10 @@ fn warnings_of_records(reported: &ModelAtRest, records: &[SeaOutcome]) -> Vec<Wa
     let excursion = most(|outcome| outcome.excursion_m);
     let seen = outcomes().filter_map(|outcome| outcome.waterline);
     let seen = seen.reduce(|all, one| all.with(&one));
+    // A record in which a line breaks while linear hydrostatics hold decides, whatever the others do.
+    let depends = |outcome: &Outcome| outcome.depends_on_hydrostatics(structure);
+    let firm = outcomes().any(|one| !depends(one) && one.fails(structure) == Some(true));
+    let depends = !firm && outcomes().any(depends);
     let found = short_records(structure).into_iter();
     found
         .chain(phase_warning(
@@ -140,7 +145,7 @@ fn warnings_of_records(reported: &ModelAtRest, records: &[SeaOutcome]) -> Vec<Wa
             excursion,
         ))
         .chain(turning_warning(structure, turned))
-        .chain(limits_afloat(structure, seen.as_ref(), turned))
+        .chain(limits_afloat(structure, seen.as_ref(), turned, depends))
         .collect()
 }
 

@@ -11,6 +11,7 @@ mod current;
 mod design;
 mod elastic;
 mod equilibrium;
+mod hydrostatics;
 mod judged;
 mod manual;
 mod moordyn;

@@ -64,6 +64,8 @@ pub struct ElasticRun {
     pub waterline: Option<Waterline>,
     /// The largest tension of each line after the transient \[N\].
     pub peaks_n: Vec<f64>,
+    /// The same while linear hydrostatics hold \[N\].
+    pub reliable_peaks_n: Vec<f64>,
     /// The smallest, 0 if it goes slack; none if the run ends before the transient is over \[N\].
     pub least_n: Vec<Option<f64>>,
     /// The largest part of its slack at rest that each line uses up after the transient, 1 if it
@@ -127,6 +129,7 @@ impl<'a> PullRecorder<'a> {
             run: ElasticRun {
                 waterline: Waterline::before(&prepared.structure),
                 peaks_n: vec![0.0; body.elastic_lines.len()],
+                reliable_peaks_n: vec![0.0; body.elastic_lines.len()],
                 least_n: vec![None; body.elastic_lines.len()],
                 slack_used: vec![None; body.elastic_lines.len()],
                 ..ElasticRun::default()
@@ -171,15 +174,17 @@ impl<'a> PullRecorder<'a> {
             .run
             .excursion_m
             .max((x - self.prepared.rest.place_m[0]).abs());
+        let is_judged = t_s >= self.transient_s;
+        let place = [z, state.theta];
         if let Some(seen) = &mut self.run.waterline {
-            *seen = seen.with(&Waterline::at(self.structure, z, state.theta));
+            *seen = seen.with(&Waterline::at(self.structure, place, None));
         }
         let mut tensions = [0.0; MAX_CABLES];
         for line in pulling.iter() {
             tensions[line] = self.tension_n(line, state);
         }
         let tensions = &tensions[..self.open.len()];
-        if t_s >= self.transient_s {
+        if is_judged {
             for (line, &tension) in tensions.iter().enumerate() {
                 let (peak, least) = (&mut self.run.peaks_n[line], &mut self.run.least_n[line]);
                 *peak = peak.max(tension);
@@ -189,6 +194,17 @@ impl<'a> PullRecorder<'a> {
                     *most = Some(most.map_or(used, |before| before.max(used)));
                 }
                 self.run.waves_n.extend(self.waves[line].add([tension; 2]));
+            }
+            let reliable = &mut self.run.reliable_peaks_n;
+            if tensions
+                .iter()
+                .zip(&*reliable)
+                .any(|(pull, peak)| pull > peak)
+                && Waterline::holds(&mut self.run.waterline, self.prepared, place, t_s)
+            {
+                for (peak, pull) in reliable.iter_mut().zip(tensions) {
+                    *peak = peak.max(*pull);
+                }
             }
         }
         for (line, &tension) in tensions.iter().enumerate() {

@@ -1,0 +1,106 @@
+//! A floating body whose lines hold it where linear hydrostatics do not hold.
+
+use snapload::analysis::no_progress;
+use snapload_structure::{
+    Lines, ModelAtRest, Structure, VerdictKind, assess, compare_elastic, seas,
+};
+
+/// A box of 4 m x 2 m x 20 m and 80 t with a draft of 1.2 m on two vertical lines from z = `anchor`.
+fn moored(anchor: f64, fairlead: f64, length: f64, rest: &str) -> Structure {
+    let line = |x: f64| {
+        format!(
+            "[[line]]\nanchor = [{x}, {anchor}]\nfairlead = [{x}, {fairlead}]\nlength = {length}\n\
+             stiffness = 5e8\nbreaking_load = 5e5\n"
+        )
+    };
+    let text = format!(
+        "[body]\nshape = \"rectangle\"\nwidth = 4\nheight = 2\ndisplaced_volume = 96\nmass = 80000\n\
+         position = [0, -0.2]\n[float]\ndamping = [5000, 30000, 50000]\n{}{}[site]\ndepth = 10\n{rest}",
+        line(2.0),
+        line(-2.0)
+    );
+    Structure::parse("box", &text).unwrap()
+}
+
+const STILL: &str = "[run]\nrestitution = 0.3\nduration = 60\n";
+
+/// Wholly under water the box lifts its 160 m³ of water less its 80 t, 823.8 kN, and above the water
+/// it weighs 784.5 kN: what C33 z gives beyond that is told as impossible, and no line is said to
+/// break or to hold, neither an inextensible nor an elastic one.
+#[test]
+fn buoyancy_beyond_the_whole_body_leaves_the_verdict_open() {
+    let submerged_kn: f64 = (160.0 * 1025.0 - 80_000.0) * 9.806_65e-3;
+    let weight_kn: f64 = 80_000.0 * 9.806_65e-3;
+    for (structure, beyond, possible_kn) in [
+        (
+            moored(-10.0, -1.2, 7.0, STILL),
+            "the whole deck is 1.00 m under",
+            submerged_kn,
+        ),
+        (
+            moored(6.0, 0.8, 3.0, STILL),
+            "the whole body is 1.00 m above",
+            weight_kn,
+        ),
+    ] {
+        let answer = assess(structure.clone(), 0, &no_progress).unwrap();
+        let verdict = answer.verdict();
+        assert_eq!(verdict.standing, VerdictKind::Open, "{}", verdict.words);
+        assert!(
+            verdict.words.contains("(see hydrostatics)"),
+            "{}",
+            verdict.words
+        );
+        assert!(!verdict.words.contains("decides"), "{}", verdict.words);
+        let found = answer.warnings.iter().find(|w| w.rule == "hydrostatics");
+        let message = &found.expect("a warning").message;
+        assert!(message.contains(beyond), "{message}");
+        let most = format!("no more than {possible_kn:.0} kN are possible");
+        assert!(message.contains(&most), "{message}");
+
+        let prepared = ModelAtRest::for_elastic_lines(structure).unwrap();
+        let elastic = compare_elastic(prepared, 1.0, f64::INFINITY, &no_progress).unwrap();
+        let verdict = elastic.verdict();
+        assert_eq!(verdict.standing, VerdictKind::Open, "{}", verdict.words);
+        assert!(!verdict.words.contains("inextensible"), "{}", verdict.words);
+        assert!(elastic.warnings().iter().any(|w| w.rule == "hydrostatics"));
+    }
+}
+
+/// With its deck above water the same box holds or breaks as before.
+#[test]
+fn a_box_with_its_deck_above_water_has_a_firm_verdict() {
+    let answer = assess(moored(-10.0, -1.2, 8.1, STILL), 0, &no_progress).unwrap();
+    assert_eq!(answer.verdict().standing, VerdictKind::Holds);
+    assert!(answer.warnings.iter().all(|w| w.rule != "hydrostatics"));
+}
+
+/// Held with its deck 0.2 m above the still water, the box is wholly under the crests of a long wave of
+/// 0.6 m, where its lines pull most, and not under those of one of 0.3 m. Where slack lines
+/// break in snaps at other times, they break.
+#[test]
+fn a_deck_under_the_crests_leaves_the_verdict_open() {
+    for (length, height, warns, standing) in [
+        (8.2, 0.6, true, VerdictKind::Open),
+        (8.2, 0.3, false, VerdictKind::Holds),
+        (8.5, 2.4, true, VerdictKind::Breaks),
+    ] {
+        let water = format!(
+            "[wave]\nheight = {height}\nperiod = 9\n[run]\nrestitution = 0.3\nduration = 180\n"
+        );
+        let answer = assess(moored(-10.0, -1.2, length, &water), 0, &no_progress).unwrap();
+        let warned = answer.warnings.iter().any(|w| w.rule == "hydrostatics");
+        assert_eq!(warned, warns, "{:?}", answer.warnings);
+        let verdict = answer.verdict();
+        assert_eq!(verdict.standing, standing, "{}", verdict.words);
+    }
+    let sea = "[sea]\nhs = 0.5\ntp = 9\n[run]\nrestitution = 0.3\nduration = 100\n";
+    let structure = moored(-10.0, -1.2, 8.2, sea);
+    let records = seas(structure, 1, Lines::Elastic, &no_progress).unwrap();
+    assert_eq!(records.standing(), VerdictKind::Open);
+    assert!(
+        !records.words().contains("inextensible"),
+        "{}",
+        records.words()
+    );
+}
