@@ -108,7 +108,7 @@ pub fn warnings(prepared: &ModelAtRest) -> Vec<Warning> {
     }
     let body = &structure.body;
     let (z, half) = (rest.place_m[1], body.half_height_m(rest.theta_rad));
-    let (top, above_floor) = (z + half, z - half + structure.site.depth_m);
+    let top = z + half;
     let half = body.height_m / 2.0;
     let mut found = vec![
         distribution_warning(rest),
@@ -116,7 +116,7 @@ pub fn warnings(prepared: &ModelAtRest) -> Vec<Warning> {
         soft_lines_in_still_water(prepared),
         warning_if(top > 0.0, "submergence", [top, 0.0], ""),
         warning_if(top <= 0.0 && -top < half, "free surface", [-top, 0.0], ""),
-        warning_if(above_floor < half, "floor", [above_floor, 0.0], ""),
+        near_the_floor(structure, rest),
     ];
     if let Some((highest, wave)) = governing_wave(structure, z) {
         found.extend(in_waves(prepared, top, highest, &wave));
@@ -124,6 +124,15 @@ pub fn warnings(prepared: &ModelAtRest) -> Vec<Warning> {
     found.push(heavy_lines(structure));
     found.extend(implausible(structure));
     found.into_iter().flatten().collect()
+}
+
+/// The warning that the floor adds to the added mass of a body that is given far from it.
+fn near_the_floor(structure: &Structure, rest: &Equilibrium) -> Option<Warning> {
+    let body = &structure.body;
+    let half_m = body.half_height_m(rest.theta_rad);
+    let above_floor = rest.place_m[1] - half_m + structure.site.depth_m;
+    let is = above_floor < body.height_m / 2.0;
+    warning_if(is, "floor", [above_floor, 0.0], "")
 }
 
 /// The warning that the mass of lines, or their weight in air, is not negligible.
@@ -181,6 +190,7 @@ fn warnings_afloat(prepared: &ModelAtRest, afloat: &Afloat) -> Vec<Warning> {
         stretch_at_rest(rest),
         warning_if(elsewhere, "place of rest", [heave, degrees], again),
         hydrostatics_warning(rest_beyond_in_words(structure, afloat, rest)),
+        near_the_floor(structure, rest).filter(|_| textbook),
         warning_if(deep, "deep water", [structure.site.depth_m, 0.0], ""),
         warning_if(lost > 0.0, "frequencies left out", [lost, 0.0], ""),
     ];

@@ -104,3 +104,32 @@ fn a_deck_under_the_crests_leaves_the_verdict_open() {
         records.words()
     );
 }
+
+/// The added mass of a textbook is that of deep water: 0.2 m over the floor of 1.4 m, less than half
+/// the height of the box, is warned of, and 8.8 m over one of 10 m is not.
+#[test]
+fn a_floor_close_under_a_floating_body_is_warned_of() {
+    let warned = |depth: f64| {
+        let line = |x: f64| {
+            format!(
+                "[[line]]\nanchor = [{}, -{depth}]\nfairlead = [{x}, -1.2]\nlength = 12\nstiffness = 5e8\n\
+                 breaking_load = 5e5\n",
+                2.5 * x
+            )
+        };
+        let text = format!(
+            "[body]\nshape = \"rectangle\"\nwidth = 4\nheight = 2\ndisplaced_volume = 96\nmass = 98400\n\
+             position = [0, -0.2]\n[float]\n{}{}[site]\ndepth = {depth}\n[run]\nrestitution = 0.3\n\
+             duration = 1\nstart = [0, -0.2]\n",
+            line(2.0),
+            line(-2.0)
+        );
+        let structure = Structure::parse("box", &text).unwrap();
+        let answer = assess(structure, 0, &no_progress).unwrap();
+        let found = answer.warnings.into_iter().find(|w| w.rule == "floor");
+        found.map(|warning| warning.message)
+    };
+    let message = warned(1.4).expect("a warning");
+    assert!(message.contains("0.20 m above the floor"), "{message}");
+    assert_eq!(warned(10.0), None);
+}
