@@ -379,6 +379,22 @@ impl Structure {
         (!parts.is_empty()).then(|| parts.join("; "))
     }
 
+    /// The judged time in periods of the waves, the peak period for a sea; none in still water.
+    pub(crate) fn judged_periods(&self) -> Option<f64> {
+        let period_s = match self.water {
+            Water::Still => return None,
+            Water::Wave(wave) => wave.period_s,
+            Water::Sea(sea) => sea.peak_period_s,
+        };
+        Some((self.duration_s - self.transient_s) / period_s)
+    }
+
+    /// Whether less than one period of the waves is judged, which is too little for a verdict that
+    /// nothing fails.
+    pub(crate) fn judges_too_little(&self) -> bool {
+        self.judged_periods().is_some_and(|periods| periods < 1.0)
+    }
+
     /// The direction of the waves: the value of their key.
     pub fn direction(&self) -> &'static str {
         if self.heading < 0.0 { "-x" } else { "+x" }

@@ -32,6 +32,8 @@ const PROPORTION: f64 = 100.0;
 const LONGEST_RATIO: f64 = 3.0;
 /// The rotation of a body beyond this would be resisted by the water \[degrees\].
 const FREE_TURN: f64 = 60.0;
+/// With fewer judged wave periods the start of the waves may still decide the largest tension.
+const FEW_PERIODS: f64 = 10.0;
 /// Records whose judged time is less than three hours divided by this say little about three hours.
 const SHORT: f64 = 12.0;
 /// Where the tensions at rest on elastic lines differ from those on inextensible lines by more than
@@ -403,6 +405,13 @@ pub(crate) fn short_records(structure: &Structure) -> Option<Warning> {
     let judged_s = structure.duration_s - structure.transient_s;
     let times = THREE_HOURS_S / judged_s.max(1.0);
     warning_if(times > SHORT, "short records", [judged_s, times], "")
+}
+
+/// The warning that only few periods of the waves are judged.
+pub(crate) fn few_periods(structure: &Structure) -> Option<Warning> {
+    let judged = structure.judged_periods()?;
+    let judged_s = structure.duration_s - structure.transient_s;
+    warning_if(judged < FEW_PERIODS, "short run", [judged_s, judged], "")
 }
 
 /// The warning that a body turns so far that a resistance to its rotation matters, and the case has

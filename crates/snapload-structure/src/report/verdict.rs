@@ -96,6 +96,8 @@ struct VerdictText<'a> {
     open: Option<OpenRules>,
     /// Whether the run ended before the judged time.
     unjudged: bool,
+    /// Whether less than one period of the waves is judged.
+    too_little: bool,
     elastic: bool,
     /// The factor by which the lines are stiffer than given.
     stiffer: f64,
@@ -240,7 +242,7 @@ fn verdict(
         VerdictKind::Breaks
     } else if matches!(outcome.stop, Stop::ImpactLimit | Stop::Standstill) || !all_known {
         VerdictKind::Unknown
-    } else if early.as_ref().is_some_and(Early::breaks) {
+    } else if early.as_ref().is_some_and(Early::breaks) || structure.judges_too_little() {
         VerdictKind::Open
     } else {
         VerdictKind::Holds
@@ -260,6 +262,7 @@ fn verdict(
         early,
         open,
         unjudged: outcome.is_unjudged(),
+        too_little: structure.judges_too_little(),
         elastic,
         stiffer: stiffer.unwrap_or(1.0),
         stiffness_known: structure.tensions_known(),

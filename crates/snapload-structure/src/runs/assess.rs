@@ -8,7 +8,9 @@ use crate::physics::model_at_rest::ModelAtRest;
 use crate::physics::periods::NaturalPeriods;
 use crate::physics::sea::uniform;
 use crate::physics::snap::Snap;
-use crate::physics::warnings::{Warning, limits_afloat, phase_warning, turning_warning, warnings};
+use crate::physics::warnings::{
+    Warning, few_periods, limits_afloat, phase_warning, turning_warning, warnings,
+};
 use crate::structure::{Structure, Water};
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::SeedableRng;
@@ -248,7 +250,8 @@ impl Assessment {
         let turning = turning_warning(structure, turned);
         let depends = self.outcome.depends_on_hydrostatics(structure);
         let limits = limits_afloat(structure, self.outcome.waterline.as_ref(), turned, depends);
-        phase.into_iter().chain(turning).chain(limits).collect()
+        let short = few_periods(structure).into_iter();
+        short.chain(phase).chain(turning).chain(limits).collect()
     }
 
     /// The same with `count` neighbours, and with less and with more restitution.

@@ -62,7 +62,8 @@ pub enum Answer {
     /// It passes up to the end of a run that ended early, after which it might fail.
     #[serde(rename = "unknown")]
     Unfinished,
-    /// A tension, a strength or a force is not known, or there is no judged time.
+    /// A tension, a strength or a force is not known, or there is no judged time, or too little for a
+    /// check to pass.
     Unknown,
     /// A rule of thumb is violated on which the tensions depend.
     Open,
@@ -131,10 +132,14 @@ impl Check {
         }
     }
 
-    /// The same of a run that ended so.
-    fn within(mut self, stop: Stop) -> Self {
-        if self.answer == Answer::Passes && stop != Stop::EndTime {
-            self.answer = Answer::Unfinished;
+    /// The same of a run that ended so, of which enough may be judged or not.
+    fn within(mut self, stop: Stop, too_little: bool) -> Self {
+        if self.answer == Answer::Passes {
+            self.answer = match stop {
+                Stop::EndTime if too_little => Answer::Unknown,
+                Stop::EndTime => Answer::Passes,
+                _ => Answer::Unfinished,
+            };
         }
         self
     }
@@ -224,7 +229,7 @@ pub(crate) fn line_checks(prepared: &ModelAtRest, outcome: &Outcome, open: bool)
         let load_n = structure.lines[line].breaking_load_n;
         let check = |criterion, value, limit| {
             let check = Check::new(criterion, Some(line + 1), value, limit, open);
-            check.within(outcome.stop)
+            check.within(outcome.stop, structure.judges_too_little())
         };
         let least = tensions.least_part();
         let strength = rule.strength.map(|factors| {

@@ -6,7 +6,9 @@ use crate::options::{STIFFER, check};
 use crate::physics::elastic::{ElasticLine, ElasticRun, elastic_lines, run_elastic};
 use crate::physics::model_at_rest::ModelAtRest;
 use crate::physics::snap::{Snap, snaps_of_step};
-use crate::physics::warnings::{Warning, limits_afloat, phase_warning, turning_warning, warnings};
+use crate::physics::warnings::{
+    Warning, few_periods, limits_afloat, phase_warning, turning_warning, warnings,
+};
 use snapload::CaseError;
 use snapload::analysis::{OnProgress, Unfinished};
 use std::time::Instant;
@@ -90,6 +92,7 @@ impl ElasticComparison {
         let (structure, run) = (&self.elastic_case.structure, &self.elastic);
         warnings(&self.elastic_case)
             .into_iter()
+            .chain(few_periods(structure))
             .chain(phase_warning(
                 structure,
                 self.elastic_case.rest.place_m[1],

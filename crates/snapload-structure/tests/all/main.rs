@@ -20,5 +20,6 @@ mod moordyn_keys;
 mod physics;
 mod scale;
 mod sea_verdicts;
+mod short_run;
 mod verdicts;
 mod waves;

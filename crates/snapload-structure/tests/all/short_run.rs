@@ -1,0 +1,55 @@
+//! Runs of which only few periods of the waves are judged.
+
+use crate::verdicts::structure;
+use snapload::analysis::no_progress;
+use snapload_structure::{Answer, ModelAtRest, VerdictKind, assess, compare_elastic};
+
+const EXAMPLE: &str = include_str!("../../../../docs/examples/cylinder.toml");
+
+/// The example for so many seconds, in waves of 6 s and so high.
+fn lasting(duration_s: f64, height_m: f64) -> snapload_structure::Structure {
+    let text = EXAMPLE
+        .replace("height = 2\n", &format!("height = {height_m}\n"))
+        .replace(
+            "[run]",
+            &format!("[design]\nleast_share = 0.01\n[run]\nduration = {duration_s}"),
+        );
+    structure(&text)
+}
+
+/// Half a second of a wave of 6 s, in which no line goes slack, neither holds nor passes a check; on
+/// elastic lines neither. A minute is warned of, and ten are not.
+#[test]
+fn a_part_of_a_wave_is_no_verdict() {
+    let rule = |warnings: &[snapload_structure::Warning]| {
+        warnings.iter().any(|warning| warning.rule == "short run")
+    };
+    let short = assess(lasting(1.0, 2.0), 4, &no_progress).unwrap();
+    let verdict = short.verdict();
+    assert_eq!(verdict.standing, VerdictKind::Open, "{}", verdict.words);
+    assert!(
+        verdict.words.contains("Less than one period of the waves"),
+        "{}",
+        verdict.words
+    );
+    let checks = short.checks();
+    assert!(!checks.is_empty());
+    assert!(
+        checks
+            .iter()
+            .all(|(check, _)| check.answer == Answer::Unknown),
+        "{checks:?}"
+    );
+    assert!(rule(&short.warnings));
+
+    let prepared = ModelAtRest::for_elastic_lines(lasting(1.0, 2.0)).unwrap();
+    let elastic = compare_elastic(prepared, 1.0, f64::INFINITY, &no_progress).unwrap();
+    assert_eq!(elastic.verdict().standing, VerdictKind::Open);
+    assert!(rule(&elastic.warnings()));
+
+    let minute = assess(lasting(60.0, 0.5), 0, &no_progress).unwrap();
+    assert_eq!(minute.verdict().standing, VerdictKind::Holds);
+    assert!(rule(&minute.warnings));
+    let long = assess(lasting(600.0, 0.5), 0, &no_progress).unwrap();
+    assert!(!rule(&long.warnings));
+}
