@@ -1,6 +1,7 @@
 //! The verdict on many records of a sea, in words.
 
 use super::verdict::{OpenRules, VerdictKind, undecided_by};
+use crate::physics::elastic::LEAST_RESTITUTION;
 use crate::physics::gumbel::Gumbel;
 use crate::runs::quantile::{quantile, sorted};
 use crate::runs::seas::{Failing, Seas};
@@ -38,6 +39,8 @@ struct SeasVerdictText {
     lacking: bool,
     /// The violated rules that leave the verdict open.
     open: Option<OpenRules>,
+    /// Whether the restitution is too small for elastic lines.
+    too_plastic: bool,
     /// What leaves it open for three hours.
     too_short: Option<TooShort>,
     standing: VerdictKind,
@@ -109,6 +112,7 @@ impl Seas {
             cut_short: unknown().filter(|one| one.stop != Stop::EndTime).count(),
             lacking: unknown().any(|one| one.lacks_a_load(structure)),
             open: undecided_by(&self.warnings),
+            too_plastic: structure.restitution < LEAST_RESTITUTION,
             too_short: self.too_short().filter(|_| standing == VerdictKind::Open),
             standing,
         })

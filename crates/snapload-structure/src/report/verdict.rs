@@ -1,5 +1,6 @@
 //! The verdict in words, and how far it can be trusted.
 
+use crate::physics::elastic::LEAST_RESTITUTION;
 use crate::physics::snap::SLOWEST_M_S;
 use crate::physics::warnings::Warning;
 use crate::runs::assess::Assessment;
@@ -98,6 +99,8 @@ struct VerdictText<'a> {
     unjudged: bool,
     /// Whether less than one period of the waves is judged.
     too_little: bool,
+    /// Whether the restitution is too small for elastic lines.
+    too_plastic: bool,
     elastic: bool,
     /// The factor by which the lines are stiffer than given.
     stiffer: f64,
@@ -263,6 +266,7 @@ fn verdict(
         open,
         unjudged: outcome.is_unjudged(),
         too_little: structure.judges_too_little(),
+        too_plastic: structure.restitution < LEAST_RESTITUTION,
         elastic,
         stiffer: stiffer.unwrap_or(1.0),
         stiffness_known: structure.tensions_known(),

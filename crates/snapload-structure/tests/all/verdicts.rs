@@ -425,3 +425,23 @@ fn soft_lines_are_soft_in_still_water_too() {
     assert_eq!(assessment.verdict().standing, VerdictKind::Open);
     assert!(!rules(&in_still_water(EXAMPLE)).contains(&"instant snap"));
 }
+
+/// Elastic lines have a restitution of 0.01 or more: a verdict that leaves the answer to them says so
+/// where the case has less.
+#[test]
+fn a_verdict_names_the_restitution_that_elastic_lines_need() {
+    for (restitution, needs) in [("0.0", true), ("0.3", false)] {
+        let text =
+            soft(EXAMPLE).replace("restitution = 0.5", &format!("restitution = {restitution}"));
+        let words = assess(structure(&text), 0, &no_progress)
+            .unwrap()
+            .verdict()
+            .words;
+        assert!(words.contains("snapload elastic decides"), "{words}");
+        assert_eq!(
+            words.contains("decides, with a run.restitution of 0.01 or more."),
+            needs,
+            "{words}"
+        );
+    }
+}

@@ -5,7 +5,7 @@ use crate::structure::LineSi;
 use snapload::CaseError;
 
 /// For a smaller restitution the damper would dominate the line.
-const LEAST_RESTITUTION: f64 = 0.01;
+pub(crate) const LEAST_RESTITUTION: f64 = 0.01;
 
 /// A line as spring and damper, in the engine's units.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -6,6 +6,7 @@ mod motion;
 mod record;
 mod rest;
 
+pub(crate) use law::LEAST_RESTITUTION;
 pub(super) use law::undamped;
 pub use law::{ElasticLine, damping_ratio, elastic_lines};
 pub use motion::run_elastic;
