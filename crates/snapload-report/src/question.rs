@@ -5,7 +5,9 @@ use crate::case_in_words;
 use serde::Serialize;
 use serde_json::value::{RawValue, to_raw_value};
 use snapload::analysis::{OnProgress, Unfinished};
-use snapload::{Case, CaseError, DefaultValue, FromValue, Heading, Key, Kind, Table, Value};
+use snapload::{
+    CASE, Case, CaseError, DefaultValue, Entries, FromValue, Heading, Key, Kind, Table, Value,
+};
 
 /// A question about one case.
 pub struct Question {
@@ -42,8 +44,24 @@ impl Question {
         given: impl IntoIterator<Item = (K, Value)>,
         on_progress: OnProgress,
     ) -> Result<Answer, Unfinished> {
+        self.ask_as_written(case, &Entries::new(&CASE), given, on_progress)
+    }
+
+    /// The same about a case whose keys were given as text, in `entries`: where the answer depends
+    /// on them, all digits count in which its numbers were written.
+    ///
+    /// # Errors
+    /// As for [`Question::ask`].
+    pub fn ask_as_written<K: AsRef<str>>(
+        &self,
+        case: &Case,
+        entries: &Entries,
+        given: impl IntoIterator<Item = (K, Value)>,
+        on_progress: OnProgress,
+    ) -> Result<Answer, Unfinished> {
         let mut options = Options {
             keys: self.options,
+            entries,
             given: Vec::new(),
         };
         for (name, value) in given {
@@ -57,12 +75,14 @@ impl Question {
 }
 
 /// The options of a question, each value checked by the description of its option.
-pub struct Options {
+pub struct Options<'a> {
     keys: &'static [Key],
+    /// The keys of the case that were given as text.
+    pub(crate) entries: &'a Entries,
     given: Vec<(&'static str, Value)>,
 }
 
-impl Options {
+impl Options<'_> {
     /// The value of an option: the given one, or its default.
     ///
     /// # Errors
@@ -171,6 +191,7 @@ mod tests {
     fn the_last_value_counts_and_what_is_left_out_has_its_default() -> Result<(), CaseError> {
         let options = Options {
             keys: VERIFY.options,
+            entries: &Entries::new(&CASE),
             given: vec![("digits", 70_i64.into()), ("digits", 80_i64.into())],
         };
         assert_eq!(options.get::<u64>("digits")?, 80);

@@ -7,7 +7,7 @@ use crate::{RunWithTrust, TrustRow, trust_in_words};
 use serde::Serialize;
 use snapload::analysis::{OnProgress, Uncertainty, Unfinished};
 use snapload::{Case, DefaultValue, Key, Kind, Stop};
-use snapload_verify::{ExactImpact, MOST_DIGITS, Verification, verify};
+use snapload_verify::{ExactImpact, MOST_DIGITS, Verification, verify_as_written};
 use std::fmt::Write;
 
 pub(crate) const VERIFY: Question = Question {
@@ -40,7 +40,7 @@ Examples:
 
 fn answer(case: &Case, options: &Options, on_progress: OnProgress) -> Result<Answer, Unfinished> {
     let (digits, tolerance) = (options.get::<u64>("digits")?, options.get("tolerance")?);
-    let found = verify(case, digits as u32, tolerance, on_progress)?;
+    let found = verify_as_written(case, options.entries, digits as u32, tolerance, on_progress)?;
     let verified = Verified::new(found, tolerance);
     Ok(Answer::new(verified.in_words(), &verified.row())?)
 }
@@ -269,6 +269,7 @@ mod tests {
     use serde_json::Value;
     use snapload::Parameters;
     use snapload::analysis::no_progress;
+    use snapload_verify::verify;
 
     fn answered(parameters: Parameters) -> Result<(String, Value), Unfinished> {
         let case = Case::new(parameters)?;

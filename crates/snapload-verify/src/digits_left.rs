@@ -1,7 +1,8 @@
 //! The digits of a run with many digits that the growth of its own errors leaves.
 
+use crate::decimals::Decimals;
 use snapload::analysis::Trust;
-use snapload::{Case, Impact, Precise, Real, Simulation, Step};
+use snapload::{Impact, Precise, Real, Simulation, Step};
 use std::collections::VecDeque;
 
 /// The last digits of numbers in which the neighbour differs, in units of the spacing of numbers
@@ -58,8 +59,8 @@ pub(crate) struct Neighbour<'a, const WORDS: usize> {
 impl<'a, const WORDS: usize> Neighbour<'a, WORDS> {
     const DIGITS: f64 = Precise::<WORDS>::DIGITS as f64;
 
-    pub(crate) fn new(case: &Case, trust: &'a Trust) -> Self {
-        let of = |start_too| case.simulation_over(|key, number| changed(key, number, start_too));
+    pub(crate) fn new(decimals: Decimals, trust: &'a Trust) -> Self {
+        let of = |start_too| decimals.simulation(|key| change(key, start_too));
         Self {
             trust,
             // At the very edge of what is legal the start can not be changed.
@@ -158,20 +159,19 @@ impl<'a, const WORDS: usize> Neighbour<'a, WORDS> {
     }
 }
 
-/// A number of the neighbour, without leaving what is legal: restitution is at most 1, and a start
+/// The factor of a number of the neighbour, without leaving what is legal: restitution is at most 1, and a start
 /// that is nearer to the place of rest, on longer cables, is within their reach. A zero stays zero,
 /// as both cables of a symmetric motion snap at one instant, which any change of these would end.
-fn changed<const WORDS: usize>(key: &str, number: f64, start_too: bool) -> Precise<WORDS> {
+fn change<const WORDS: usize>(key: &str, start_too: bool) -> Precise<WORDS> {
     let change = Precise::<WORDS>::EPSILON * PERTURBATION;
     let (smaller, larger) = (Precise::ONE - change, Precise::ONE + change);
-    let factor = match key {
+    match key {
         "e" => smaller,
         "f_o" | "nu" | "omega" => larger,
         "x" | "y" | "theta" | "vx" | "vy" | "vtheta" if start_too => smaller,
         "r" if start_too => larger,
         _ => Precise::ONE,
-    };
-    Precise::from_decimal(number) * factor
+    }
 }
 
 /// The time of an impact, and the states before and after it.

@@ -14,9 +14,10 @@
 //! # Ok::<(), Unfinished>(())
 //! ```
 
+mod decimals;
 mod digits_left;
 mod many_digits;
 mod verify;
 
 pub use many_digits::RoundedRun;
-pub use verify::{ExactImpact, MOST_DIGITS, Verification, verify};
+pub use verify::{ExactImpact, MOST_DIGITS, Verification, verify, verify_as_written};

@@ -1,8 +1,11 @@
 //! Verification by more digits: the same motion again in multi-precision.
 
+use crate::decimals::Decimals;
 use crate::digits_left::{Neighbour, difference, numbers, relative, sticks, written};
 use snapload::analysis::{OnProgress, Progress, Trust, Uncertainty, Unfinished, trusted_run};
-use snapload::{Case, CaseError, Impact, Precise, Real, Simulation, Stop, Trajectory, Value};
+use snapload::{
+    CASE, Case, CaseError, Entries, Impact, Precise, Real, Simulation, Stop, Trajectory, Value,
+};
 
 /// The most digits that [`verify`] can compute with.
 pub const MOST_DIGITS: u32 = Precise::<16>::DIGITS;
@@ -63,12 +66,28 @@ pub fn verify(
     tolerance: f64,
     on_progress: OnProgress,
 ) -> Result<Verification, Unfinished> {
+    verify_as_written(case, &Entries::new(&CASE), digits, tolerance, on_progress)
+}
+
+/// The same for a case whose keys were given as text: `entries` keep the digits in which its numbers
+/// were written, and all of these count.
+///
+/// # Errors
+/// As for [`verify`]; also a [`CaseError`] for a number of more than 399 characters or with a power
+/// of ten beyond 400.
+pub fn verify_as_written(
+    case: &Case,
+    entries: &Entries,
+    digits: u32,
+    tolerance: f64,
+    on_progress: OnProgress,
+) -> Result<Verification, Unfinished> {
     if digits <= Precise::<4>::DIGITS {
-        with_words::<4>(case, tolerance, on_progress)
+        with_words::<4>(case, entries, tolerance, on_progress)
     } else if digits <= Precise::<8>::DIGITS {
-        with_words::<8>(case, tolerance, on_progress)
+        with_words::<8>(case, entries, tolerance, on_progress)
     } else if digits <= MOST_DIGITS {
-        with_words::<16>(case, tolerance, on_progress)
+        with_words::<16>(case, entries, tolerance, on_progress)
     } else {
         let allowed = format!("1 <= digits <= {MOST_DIGITS}");
         Err(CaseError::value("digits", Value::Integer(digits.into()), allowed).into())
@@ -77,15 +96,17 @@ pub fn verify(
 
 fn with_words<const WORDS: usize>(
     case: &Case,
+    entries: &Entries,
     tolerance: f64,
     on_progress: OnProgress,
 ) -> Result<Verification, Unfinished> {
+    let decimals = Decimals::new::<WORDS>(case, entries)?;
     let uncertainty = Uncertainty {
         tolerance,
         ..Uncertainty::default()
     };
     let (run, trust) = trusted_run(case, &uncertainty, on_progress)?;
-    let simulation = case.simulation_over(|_, number| Precise::<WORDS>::from_decimal(number));
+    let simulation = decimals.simulation::<WORDS>(|_| Precise::ONE);
     let mut simulation = simulation.map_err(|_| {
         let allowed =
             "a start that is legal with more digits, too; this one is exactly at the limit";
@@ -93,7 +114,7 @@ fn with_words<const WORDS: usize>(
     })?;
     let mut compared = Compared::<WORDS> {
         run: &run,
-        neighbour: Neighbour::new(case, &trust),
+        neighbour: Neighbour::new(decimals, &trust),
         differences: Vec::new(),
         parted: None,
         impacts: Vec::new(),

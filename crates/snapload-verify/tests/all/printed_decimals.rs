@@ -4,9 +4,11 @@
 use crate::calibration::random_case;
 use crate::common::exact;
 use rayon::prelude::*;
-use snapload::analysis::no_progress;
-use snapload::{Case, Parameters, Precise, Real, Stop, Value, named_case};
-use snapload_verify::{Verification, verify};
+use snapload::analysis::{Unfinished, no_progress};
+use snapload::{
+    CASE, Case, CaseError, Entries, Parameters, Precise, Real, Stop, Value, named_case,
+};
+use snapload_verify::{Verification, verify, verify_as_written};
 
 /// Half a unit of the last place is the rounding of the printed number; the rest is for the errors
 /// that the reserve of two digits leaves.
@@ -188,6 +190,66 @@ fn digits_that_are_lost_after_the_last_impact_count() {
     assert!(units(&stated, &t.to_decimals(300)) < MOST_UNITS);
     let lost = 76.0 - few.digits_left;
     assert!((5.0..8.0).contains(&lost), "{lost}");
+}
+
+/// The run of keys that are given as text.
+fn written(settings: &[&str]) -> Result<Verification, CaseError> {
+    let mut entries = Entries::new(&CASE);
+    settings.iter().try_for_each(|text| entries.set(text))?;
+    let case = Case::from_entries(entries.values("case"))?;
+    verify_as_written(&case, &entries, 60, 1e-3, &no_progress).map_err(|why| match why {
+        Unfinished::Case(error) => error,
+        Unfinished::Cancelled(_) => unreachable!("nothing cancels it"),
+    })
+}
+
+/// A body that is thrown up reaches the upper bound after v - √(v² - 1): with all the digits of v,
+/// of which a double keeps 17.
+#[test]
+fn numbers_count_as_they_were_written() -> Result<(), CaseError> {
+    let v = "1.25000000000000000000000000000123456789";
+    let vy = format!("vy={v}");
+    let thrown = written(&["body=point", "r=1.25", "f_o=0", "y=0.25", &vy])?;
+    assert_eq!(thrown.end, Some(Stop::UpperBound));
+    let v = exact::<16>(v);
+    let t = (v - (v * v - 1.0).sqrt()).to_decimals(300);
+    let stated = thrown.t.expect("digits for all of it");
+    assert!(units(&stated, &t) < MOST_UNITS, "{stated}");
+    Ok(())
+}
+
+/// Without a wave the body comes unturned to the first impact, whatever its inertia I, and 1/S is
+/// linear in 1/I for the impulse S. A written I counts even where its double is that of the size.
+#[test]
+fn a_written_inertia_does_not_follow_the_size() -> Result<(), CaseError> {
+    let impulse = |inertia: &str| -> Result<_, CaseError> {
+        let found = written(&[
+            "f_o=0",
+            "x=0.1",
+            "max_impacts=1",
+            &format!("inertia={inertia}"),
+        ])?;
+        Ok(found.impacts[0].impulse.clone())
+    };
+    let natural = "0.010000000000000002";
+    assert_eq!(natural.parse(), Ok(0.1 * 0.1));
+    let inverse = |text: &str| Precise::ONE / exact::<16>(text);
+    let [low, high] = [impulse("0.005")?, impulse("0.02")?].map(|text| inverse(&text));
+    let part = (inverse(natural) - inverse("0.02")) / (inverse("0.005") - inverse("0.02"));
+    let right = Precise::ONE / (high + (low - high) * part);
+    assert!(units(&impulse(natural)?, &right.to_decimals(300)) < 10.0);
+    Ok(())
+}
+
+#[test]
+fn a_number_that_is_too_long_is_refused() {
+    let text = format!("0.3{}", "0".repeat(400));
+    let refused = written(&[&format!("f_o={text}")]).expect_err("too long");
+    let words = refused.to_string();
+    assert!(
+        words.contains("a decimal of at most 399 characters"),
+        "{words}"
+    );
 }
 
 /// Without force and restitution the start of the neighbour differs: its numbers, too, have 76

@@ -271,24 +271,7 @@ impl<const WORDS: usize> Real for Precise<WORDS> {
     #[inline(never)]
     fn from_decimal(value: f64) -> Self {
         // Rust writes a double as the shortest decimal that is read back as the same double.
-        let written = format!("{value:e}");
-        let (digits, power) = written.split_once('e').unwrap_or((&written, "0"));
-        let (whole, fraction) = digits.split_once('.').unwrap_or((digits, ""));
-        let integer = format!("{whole}{fraction}").parse::<i64>();
-        let power = power
-            .parse::<i32>()
-            .map(|power| power - fraction.len() as i32);
-        let (Ok(integer), Ok(power)) = (integer, power) else {
-            return Self::NO_VALUE;
-        };
-        let integer = Self::from_repr(Some(operations::integer(integer)));
-        let scale = operations::power_of_ten(Self::BITS, power.unsigned_abs());
-        let scale = Self::from_repr(scale);
-        if power < 0 {
-            integer / scale
-        } else {
-            integer * scale
-        }
+        Self::of_decimal(&format!("{value:e}")).unwrap_or(Self::NO_VALUE)
     }
 
     #[inline(never)]

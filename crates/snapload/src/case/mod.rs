@@ -66,7 +66,7 @@ impl Case {
     }
 
     fn of_checked(parameters: Parameters) -> Result<Self, CaseError> {
-        match begin(&parameters) {
+        match parameters.simulation() {
             Ok(simulation) => Ok(Self {
                 parameters,
                 simulation: Box::new(simulation),
@@ -109,8 +109,7 @@ impl Case {
         &self,
         number: impl FnMut(&'static str, f64) -> T,
     ) -> Result<Simulation<T>, StartError> {
-        let numbers = self.parameters.over(number);
-        begin(&numbers)
+        self.parameters.over(number).simulation()
     }
 
     /// Runs it to its end and keeps all of it.
@@ -140,6 +139,14 @@ impl<T: Real> Parameters<T> {
     pub fn system(&self) -> System<T> {
         system(self)
     }
+
+    /// The motion at its start.
+    ///
+    /// # Errors
+    /// [`StartError`] where the start is illegal.
+    pub fn simulation(&self) -> Result<Simulation<T>, StartError> {
+        Simulation::new(self.system(), self.rules(), T::ZERO, start(self))
+    }
 }
 
 impl Outcome {
@@ -156,10 +163,6 @@ impl Outcome {
     ) -> Option<Self> {
         Self::after_while(case.simulation(), on_step)
     }
-}
-
-fn begin<T: Real>(p: &Parameters<T>) -> Result<Simulation<T>, StartError> {
-    Simulation::new(system(p), p.rules(), T::ZERO, start(p))
 }
 
 fn system<T: Real>(p: &Parameters<T>) -> System<T> {
@@ -267,7 +270,7 @@ fn is_in_reach_below_bound(p: &Parameters) -> bool {
         stop: Stop::UpperBound,
         value,
         bound,
-    }) = begin(p)
+    }) = p.simulation()
     else {
         return true;
     };
@@ -276,7 +279,7 @@ fn is_in_reach_below_bound(p: &Parameters) -> bool {
         y: p.y - (value - bound) * (1.0 + 1e-9),
         ..*p
     };
-    !matches!(begin(&lowered), Err(StartError::CableTooShort { .. }))
+    !matches!(lowered.simulation(), Err(StartError::CableTooShort { .. }))
 }
 
 fn place(p: &Parameters) -> String {

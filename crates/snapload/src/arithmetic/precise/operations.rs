@@ -41,8 +41,10 @@ pub(super) fn number(operand: Operand) -> Number {
     Repr::new(IBig::from_parts(sign, magnitude), operand.exponent as isize)
 }
 
-pub(super) fn integer(value: i64) -> Number {
-    Repr::new(IBig::from(value), 0)
+/// A whole number of any length, in decimal digits after an optional sign; none if it is not one.
+pub(super) fn integer(bits: usize, digits: &str) -> Option<Number> {
+    let integer: IBig = digits.parse().ok()?;
+    known(Ok::<_, FpError>(context(bits).convert_int(integer).value()))
 }
 
 /// Writes the significand of a number, which the library has rounded to as many bits as are kept.
