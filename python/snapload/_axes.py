@@ -21,13 +21,16 @@ def axis_values(key: str, values: ArrayLike | str) -> str | NDArray[Any]:
     """The values along one axis: text of a range, or a list."""
     if isinstance(values, str) and ":" in values:
         return values
-    array = np.asarray(unmasked(key, values))
+    more = "; for pairs of values, not all combinations, give cases"
+    return _flat(key, np.asarray(unmasked(key, values)), more)
+
+
+def _flat(key: str, array: NDArray[Any], more: str = "") -> NDArray[Any]:
+    """An array of one dimension at most; ``more`` says what else is allowed."""
     if array.ndim > 1:
         shape = " x ".join(map(str, array.shape))
-        raise ValueError(
-            f"{key} = an array of {shape} values is not allowed; allowed: one value or a list of them; for pairs of "
-            "values, not all combinations, give cases"
-        )
+        allowed = f"one value or a list of them{more}"
+        raise ValueError(f"{key} = an array of {shape} values is not allowed; allowed: {allowed}")
     return np.ravel(array)
 
 
@@ -62,11 +65,15 @@ def cases_csv(cases: Any) -> bytes:
     _refuse_index(cases)
     counts = {key["name"] for key in _engine.keys() if key["kind"] == "int"}
     columns = []
-    for name in map(str, names):
+    names = list(names)
+    if twice := [str(name) for name in names if names.count(name) > 1]:
+        raise ValueError(f"cases with two columns {twice[0]} is not allowed; allowed: one column for each key")
+    for name in names:
         column = cases[name]
+        array = column.to_numpy() if hasattr(column, "to_numpy") else np.asanyarray(column)
         # The list of a masked array has None for each masked value.
-        values = np.ravel(column.to_numpy() if hasattr(column, "to_numpy") else np.asanyarray(column)).tolist()
-        columns.append([_cell(value, name in counts) for value in values])
+        values = _flat(str(name), array).tolist()
+        columns.append([_cell(value, str(name) in counts) for value in values])
     if len({len(column) for column in columns}) > 1:
         lengths = ", ".join(f"{name}: {len(column)}" for name, column in zip(names, columns, strict=True))
         raise ValueError(f"cases has columns of several lengths ({lengths}); allowed: as many values of each key")
@@ -92,7 +99,8 @@ def _refuse_index(cases: Any) -> None:
 
 
 def _cell(value: Any, count: bool) -> str:
-    if value is None or value != value or type(value).__name__ == "NAType":
+    # A comparison with pandas.NA is NA, which is neither true nor false.
+    if value is None or type(value).__name__ == "NAType" or value != value:
         return ""
     if isinstance(value, bool):
         return str(value).lower()

@@ -91,3 +91,32 @@ def test_motion_is_numpys(run):
     for dt in (0.0, -1.0, np.nan, 1e-9):
         with pytest.raises(ValueError, match="dt = .* is not allowed; allowed: a number above 0"):
             run.motion(dt)
+
+
+def test_a_missing_cell_has_the_value_of_the_case() -> None:
+    """Every dtype of pandas with a missing value of its own, and the value alone in a list."""
+    case = snapload.Case(t_end=0.5, stop_when_settled=False, max_impacts=7, body="point")
+    for key, cells, dtype in [
+        ("stop_when_settled", [True, None], "boolean"),
+        ("stop_when_settled", [True, pandas.NA], object),
+        ("body", ["point", None], "string"),
+        ("max_impacts", [9, None], "Int64"),
+        ("e", [0.25, None], "Float64"),
+    ]:
+        given = pandas.Series(cells, dtype=dtype)
+        for column in (given, list(given)):
+            listed = snapload.sweep(case, cases={key: column}, progress=False)
+            assert listed[key].values.tolist() == [cells[0], case[key]], (key, dtype)
+
+
+def test_cases_with_columns_that_can_not_be_told_apart_are_refused() -> None:
+    case = snapload.Case(t_end=0.5)
+    twice = pyarrow.table([[0.1], [0.2]], names=["e", "e"])
+    for cases in (twice, pandas.DataFrame([[0.1, 0.2]], columns=["e", "e"])):
+        with pytest.raises(ValueError, match="two columns e is not allowed"):
+            snapload.sweep(case, cases=cases)
+    nested = pandas.DataFrame([[0.1]], columns=pandas.MultiIndex.from_tuples([("e", "low")]))
+    with pytest.raises(ValueError, match="no key"):
+        snapload.sweep(case, cases=nested)
+    with pytest.raises(ValueError, match="f_o = an array of 2 x 2 values is not allowed; allowed: one value or a list"):
+        snapload.sweep(case, cases={"f_o": np.full((2, 2), 0.1), "e": [0.1, 0.2, 0.3, 0.4]})
