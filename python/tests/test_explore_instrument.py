@@ -303,3 +303,29 @@ def test_a_box_in_the_map_becomes_the_map(open_page):
     expect(page.locator("#map-progress")).to_have_text("66 runs", timeout=60_000)
     page.locator("#map-wider").click()
     expect(page.locator("#map-x-low")).to_have_value("0.19")
+
+
+@pytest.mark.parametrize(
+    "keys",
+    [
+        {},
+        {"inertia": 0.2, "y": 1, "vx": -0.21},
+        {"f_o": 0.31},
+        {"t_end": 2},
+        {"t_end": 100, "stop_when_settled": False, "e": 0.95},
+    ],
+)
+def test_the_end_and_the_outcome_are_those_of_the_command(open_page, command, keys):
+    """Neighbours are run once the values rest; what the command calls not certain, the page does too."""
+    settings = {key: str(value).lower() for key, value in keys.items()}
+    page = open_page("&".join([*(f"{key}={value}" for key, value in settings.items()), "t=0"]))
+    summary = command("run", *(part for key, value in settings.items() for part in ("--set", f"{key}={value}")))
+    rows = re.split(r"\n(?=\S)", summary)
+    end, outcome = (
+        next(row for row in rows if row.startswith(label))[10:].strip().replace("theta", "θ").replace("pi/2", "π/2")
+        for label in ["End", "Outcome"]
+    )
+    end = end.split("\n")[0]
+    expect(page.locator("#message")).to_contain_text(end[0].upper() + end[1:])
+    words = re.sub(r"\n +", ", ", outcome)
+    expect(page.locator("#outcome")).to_have_text(f"Outcome: {words}.", timeout=60_000)

@@ -97,6 +97,9 @@ export async function fetchCase(file) {
   return (await post("api/case", file)).json();
 }
 
+/** How a run and its neighbours end. */
+export const fetchOutcome = (question, signal) => fetchLong("api/outcome", question, signal);
+
 /** The proved part of a run. */
 export const fetchProof = (question, signal) => fetchLong("api/proof", question, signal);
 

@@ -13,6 +13,7 @@ import { Controls, caseGroups, notOfAPoint } from "./controls.js";
 import { Link } from "./link.js";
 import { LongRun } from "./long-run.js";
 import { acceptCaseFiles, note, openStructure, reportPaintTime, purposeAndSkip, themeButton } from "./page.js";
+import { Outcome } from "./outcome.js";
 import { onResize } from "./plot.js";
 import { Playback } from "./playback.js";
 import { PinnedRuns } from "./pinned-runs.js";
@@ -37,7 +38,7 @@ const TABLES_MS = 100;
 /** The longest time without a description of the picture. */
 const DESCRIBE_MS = 250;
 /** The elements that describe the run. */
-const DESCRIPTIONS = ["summary", "message", "seal", "prove-message", "section-plot", "section-message", "question-words"];
+const DESCRIPTIONS = ["summary", "message", "outcome", "seal", "prove-message", "section-plot", "section-message", "question-words"];
 
 chooseTheme(chosenTheme());
 
@@ -97,6 +98,7 @@ class Page {
       },
     });
     this.pins = new PinnedRuns(this.state, () => this.run, { onChange: () => this.drawAll() });
+    this.outcome = new Outcome();
     this.proof = new Proof();
     this.questions = new Questions(schema.questions, { values: () => this.state.values });
     this.longRun = new LongRun({
@@ -187,6 +189,7 @@ class Page {
     this.describedRun = run;
     this.described = this.shown;
     this.sceneView.describe();
+    this.outcome.setRun(run, question.values);
     this.proof.setValues(question.values);
     this.longRun.setValues(question.values);
     this.questions.setValues(question.values);

@@ -63,6 +63,8 @@ export class Run {
   geometry;
   /** @type {any} */
   end;
+  /** How its neighbours end, in words, if they end alike; null if they have to be run. @type {string | null} */
+  outcome;
   /** @type {any} */
   norms;
   /** The known digits of each, as text. @type {any} */

@@ -5,7 +5,7 @@ use crate::request::Body;
 use crate::schema::{Start, schema};
 use crate::structure::{self, Latest, Opened};
 use crate::work::{Allowance, compute, compute_in_lines};
-use crate::{basin, case_file, export, map, page, proof, question, run, section};
+use crate::{basin, case_file, export, map, outcome, page, proof, question, run, section};
 use axum::extract::{DefaultBodyLimit, Path, State};
 use axum::http::StatusCode;
 use axum::http::header::{CONTENT_DISPOSITION, CONTENT_TYPE};
@@ -25,7 +25,7 @@ const WORKERS: usize = 4;
 const WRITERS: usize = 2;
 /// Lines of maps at one time. As each takes all processors, maps take turns.
 const MAPPERS: usize = 1;
-/// Proofs, questions and sections at one time.
+/// Proofs, questions, sections and neighbours of runs at one time.
 const PROVERS: usize = 2;
 
 /// The state that answers share.
@@ -57,6 +57,7 @@ pub(crate) fn router(start: Start, opened: Option<Opened>, port: u16) -> Router 
         .route("/api/case", post(answer_case))
         .route("/api/run", post(answer_run))
         .route("/api/map", post(answer_map))
+        .route("/api/outcome", post(answer_outcome))
         .route("/api/proof", post(answer_proof))
         .route("/api/question/{name}", post(answer_question))
         .route("/api/section", post(answer_section))
@@ -113,6 +114,14 @@ async fn answer_run(
     })
     .await?;
     Ok(([(CONTENT_TYPE, "application/json")], answer))
+}
+
+async fn answer_outcome(
+    State(shared): State<Arc<Shared>>,
+    Body(request): Body<outcome::Request>,
+) -> Result<Response, Refusal> {
+    let work = move |allowance: &Allowance| outcome::answer(request, allowance);
+    compute(&shared.provers, work).await.map(json)
 }
 
 async fn answer_proof(

@@ -21,7 +21,7 @@ const MOST_WRITTEN: usize = 100_000;
 /// The same for a picture: a path that covers the whole plane takes minutes to draw.
 const MOST_DRAWN: usize = 10_000;
 /// The seed that the command uses for neighbours by default.
-const SEED: u64 = 1;
+pub(crate) const SEED: u64 = 1;
 
 /// A file that can be requested.
 #[derive(Clone, Copy)]

@@ -18,6 +18,7 @@ mod export;
 mod host_check;
 mod map;
 mod order;
+mod outcome;
 mod page;
 mod proof;
 mod question;

@@ -79,7 +79,8 @@ pub(crate) fn answer(request: Request, allowance: &Allowance) -> Result<Vec<u8>,
     let answer = Answer {
         values: CaseEcho(parameters),
         geometry: Geometry::of(parameters, run.system()),
-        end: EndWithText::of(run, parameters),
+        end: EndWithText::of(run, followed.end_in_words(parameters)),
+        outcome: followed.outcome_if_certain(),
         norms: NormsRow::new(run.norms()),
         norms_known: &followed.norms_known,
         horizon: HorizonWithText::of(&followed),
@@ -129,6 +130,8 @@ struct Answer<'a> {
     values: CaseEcho<'a>,
     geometry: Geometry,
     end: EndWithText,
+    /// None where neighbours have to show it.
+    outcome: Option<String>,
     norms: NormsRow,
     /// The number of known digits of each norm, in words.
     norms_known: &'a NormsKnown,
@@ -214,11 +217,9 @@ struct EndWithText {
 }
 
 impl EndWithText {
-    fn of(run: &Trajectory, parameters: &Parameters) -> Self {
-        Self {
-            end: EndRow::new(run.end()),
-            words: end_in_words(run, parameters),
-        }
+    fn of(run: &Trajectory, words: String) -> Self {
+        let end = EndRow::new(run.end());
+        Self { end, words }
     }
 }
 
@@ -382,7 +383,7 @@ impl Ghost {
             key,
             by,
             motion: Columns::of(&other, shown, sampling),
-            end: EndWithText::of(&other, neighbour.parameters()),
+            end: EndWithText::of(&other, end_in_words(&other, neighbour.parameters())),
             parts_at: separation_time(run, &other, sampling),
         })
     }

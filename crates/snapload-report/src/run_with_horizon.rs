@@ -1,10 +1,11 @@
 //! A run with its horizon and known digits, which are quick to compute.
 use crate::NormsKnown;
-use crate::run_with_trust::trust_of_impacts_in_words;
+use crate::run_with_trust::{certain_outcome, trust_of_impacts_in_words};
+use crate::summary::{end_known, end_with_known};
 use snapload::analysis::{
     Cancelled, Horizon, NormErrors, OnProgress, TrustMonitor, Uncertainty, record,
 };
-use snapload::{Case, Trajectory};
+use snapload::{Case, Parameters, Trajectory};
 
 /// A run with exact values, and how far it can be trusted.
 pub struct RunWithHorizon {
@@ -16,6 +17,8 @@ pub struct RunWithHorizon {
     pub digits: Vec<f64>,
     /// The number of known digits of each norm.
     pub norms_known: NormsKnown,
+    /// The same of the time of its end.
+    end_known: String,
 }
 
 impl RunWithHorizon {
@@ -36,9 +39,21 @@ impl RunWithHorizon {
         Ok(Self {
             digits: trust.digits().collect(),
             norms_known: NormsKnown::of(run.norms(), &NormErrors::of(&run, &trust)),
+            end_known: end_known(&run, &trust),
             horizon: trust.horizon,
             run,
         })
+    }
+
+    /// How it ended, and the accuracy of its time, as in the summary of a run.
+    pub fn end_in_words(&self, parameters: &Parameters) -> String {
+        end_with_known(&self.run, parameters, &self.end_known)
+    }
+
+    /// The outcome as in the summary of a run; none where neighbours have to show it.
+    pub fn outcome_if_certain(&self) -> Option<String> {
+        let is_certain = self.horizon.is_none();
+        is_certain.then(|| certain_outcome(self.run.end().reason))
     }
 
     /// Where trust ends, and on a second line why.

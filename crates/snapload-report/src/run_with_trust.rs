@@ -3,7 +3,7 @@ use snapload::analysis::{
     DEFAULT_MEMBERS, Ensemble, EnsembleEnds, Horizon, HorizonCause, OnProgress, Sensitivity, Trust,
     Uncertainty, Unfinished, sensitivity, trusted_run,
 };
-use snapload::{Case, Impact, Trajectory};
+use snapload::{Case, Impact, Stop, Trajectory};
 
 /// The number of impacts whose derivatives by every key are given.
 const SENSITIVE_IMPACTS: usize = 3;
@@ -101,12 +101,12 @@ impl RunWithTrust {
 /// `rotation limit: certain`, or a line for each end: `rotation limit: 63 % of 1,000 neighbours (95
 /// %: 60-66 %)`.
 pub fn outcome_in_words(trusted: &RunWithTrust) -> String {
-    let end = trusted.run.end().reason.label();
+    let end = trusted.run.end().reason;
     let Some(tally) = &trusted.tally else {
         return if trusted.trust.decides_the_end() {
-            format!("{end}: certain")
+            certain_outcome(end)
         } else {
-            format!("{end}: not certain, as it is past the horizon")
+            format!("{}: not certain, as it is past the horizon", end.label())
         };
     };
     let mut parts = Vec::new();
@@ -126,6 +126,11 @@ pub fn outcome_in_words(trusted: &RunWithTrust) -> String {
         ));
     }
     parts.join("\n")
+}
+
+/// The outcome of a run whose neighbours all end as it does.
+pub(crate) fn certain_outcome(end: Stop) -> String {
+    format!("{}: certain", end.label())
 }
 
 /// Where trust ends, and on a second line why.

@@ -3,7 +3,7 @@ use crate::digits::{count, digits};
 use crate::run_with_trust::{snaps, snaps_before};
 use crate::{Certified, RunWithTrust, outcome_in_words, trust_in_words};
 use serde::Serialize;
-use snapload::analysis::{NormErrors, digits_within};
+use snapload::analysis::{NormErrors, Trust, digits_within};
 use snapload::{
     Impact, Mode, ModeInterval, Norms, Parameters, SETTLING_HEIGHT, Stop, Trajectory, Value,
 };
@@ -169,17 +169,26 @@ fn end_with_digits(
     parameters: &Parameters,
     certified: Option<&Certified>,
 ) -> String {
-    let (end, trust) = (trusted.run.end(), &trusted.trust);
-    let words = end_in_words(&trusted.run, parameters);
-    if end.reason == Stop::EndTime {
-        return words;
-    }
-    let error = Some(trust.end_error).filter(|error| error.is_finite());
     let proved = certified.and_then(|certified| certified.confirmed_end(&trusted.run));
     let known = match proved {
         Some(digits) => format!("{} by the proof", in_digits(digits)),
-        None => known(end.t, error),
+        None => end_known(&trusted.run, &trusted.trust),
     };
+    end_with_known(&trusted.run, parameters, &known)
+}
+
+/// The number of known digits of the time at which a run ended.
+pub(crate) fn end_known(run: &Trajectory, trust: &Trust) -> String {
+    let error = Some(trust.end_error).filter(|error| error.is_finite());
+    known(run.end().t, error)
+}
+
+/// How a run ended, with what is known of its time. An end that was requested is exact.
+pub(crate) fn end_with_known(run: &Trajectory, parameters: &Parameters, known: &str) -> String {
+    let (end, words) = (run.end(), end_in_words(run, parameters));
+    if end.reason == Stop::EndTime {
+        return words;
+    }
     let at = format!("t = {}", digits(end.t));
     words.replacen(&at, &format!("{at} ({known})"), 1)
 }
