@@ -234,8 +234,8 @@ class Branch:
         >>> import snapload
         >>> orbit = snapload.Case(body="point", r=1.7, e=0.35, f_o=1.4, nu=0.8, omega=3.1).orbit()
         >>> last = snapload.continuation(orbit, "f_o", (1.3, 1.5)).orbit(-1)
-        >>> last.case.f_o == 1.4, 1.3 < last.case.f_o < 1.5
-        (False, True)
+        >>> last.case.f_o
+        1.5
         """
         return self._orbit(self._engine_branch.point(place_of("point", point, len(self))))
 
@@ -266,7 +266,7 @@ class Branch:
         >>> import snapload
         >>> orbit = snapload.Case(body="point", r=1.7, e=0.35, f_o=1.4, nu=0.8, omega=3.1).orbit()
         >>> fold = snapload.continuation(orbit, "f_o", (1.3, 1.5)).event(0)
-        >>> f"{abs(fold.multipliers[0] - 1):.0e}" < "1e-05"
+        >>> bool(abs(fold.multipliers[0] - 1) < 1e-5)
         True
         """
         return self._orbit(self._engine_branch.event(place_of("event", event, len(self.events))))

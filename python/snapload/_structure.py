@@ -307,7 +307,7 @@ class Structure:
         >>> import snapload
         >>> answer = snapload.Structure.example().assess(neighbours=4)
         >>> answer
-        <Assessment: holds>
+        <Assessment: open>
         """
         neighbours = whole_number("neighbours", neighbours)
         with progress_bar("assess", neighbours, progress) as report_progress:
@@ -370,7 +370,7 @@ class Structure:
         --------
         >>> import snapload
         >>> snapload.Structure.example().replace({"run.duration": 5}).elastic()
-        <Elastic: 2 pulls>
+        <Elastic: 3 pulls>
         """
         stiffer, every = number("stiffer", stiffer), number("every", every)
         with progress_bar("elastic", 100, progress) as report_progress:

@@ -7,6 +7,7 @@ import doctest
 import functools
 import importlib
 import inspect
+import operator
 import pickle
 import pkgutil
 import re
@@ -58,21 +59,6 @@ def test_examples_in_docstrings_are_true(module):
     assert doctest.testmod(importlib.import_module(f"snapload.{module}")).failed == 0
 
 
-def test_examples_of_what_is_public_are_true():
-    result = doctest.testmod(snapload)
-    assert result.failed == 0 and result.attempted > 20
-
-
-@pytest.mark.parametrize("kind", ["Branch", "Run", "SystemRun"])
-def test_examples_of_properties_that_are_kept_are_true(kind):
-    """Doctest itself does not look at them."""
-    parser, runner = doctest.DocTestParser(), doctest.DocTestRunner()
-    for name, member in inspect.getmembers(getattr(snapload, kind)):
-        if isinstance(member, functools.cached_property) and not name.startswith("_"):
-            assert runner.run(parser.get_doctest(inspect.getdoc(member), {}, name, None, 0)).attempted > 0, name
-    assert runner.summarize().failed == 0
-
-
 #: Of numpydoc's checks those of style: on which line the text begins, and that there is more than a summary.
 STYLE = {"GL01", "GL02", "GL03", "ES01"}
 #: Functions make these, so that their contents are documented as attributes. Their constructors are not called.
@@ -100,6 +86,20 @@ def public():
         elif inspect.isfunction(thing):
             yield name
     yield from ("_case.Cases", "_animate.Animation", "_animate.Animation.save")
+
+
+#: Those of functions are run with their modules.
+CLASSES_AND_MEMBERS = [name for name in public() if "." in name or inspect.isclass(getattr(snapload, name))]
+
+
+@pytest.mark.parametrize("name", CLASSES_AND_MEMBERS)
+def test_examples_of_public_classes_are_true(name, tmp_path, monkeypatch):
+    """Doctest itself looks neither at methods of classes that a package imports nor at properties that are kept."""
+    monkeypatch.chdir(tmp_path)
+    thing = operator.attrgetter(name)(snapload)
+    examples = doctest.DocTestParser().get_doctest(inspect.getdoc(thing), {}, name, None, 0)
+    assert examples.examples or inspect.isclass(thing)
+    assert doctest.DocTestRunner().run(examples).failed == 0
 
 
 @pytest.mark.parametrize("name", list(public()))
