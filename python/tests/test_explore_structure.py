@@ -259,6 +259,22 @@ def test_a_sea_takes_the_place_of_the_wave(open_structure, command_json, tmp_pat
     comes_true(page, lambda: page.locator("#message").inner_text() != first)
 
 
+def test_a_verdict_before_its_neighbours_says_that_they_are_to_come(open_structure):
+    page = open_structure(f"{SHORT}&t=0&elastic=false")
+    expect(page.locator("#coming")).to_have_text("", timeout=60_000)
+    page.evaluate(
+        """() => {
+            window.seen = [];
+            const [message, coming] = ['message', 'coming'].map(id => document.getElementById(id));
+            new MutationObserver(() => window.seen.push(coming.textContent)).observe(message, { childList: true });
+        }"""
+    )
+    page.locator('[id="field-wave.height"]').fill("2.4")
+    comes_true(page, lambda: page.evaluate("() => window.seen.length > 0"))
+    assert page.evaluate("() => window.seen[0]") == "neighbours to come"
+    expect(page.locator("#coming")).to_have_text("", timeout=60_000)
+
+
 def test_a_note_reports_its_progress(open_structure, tmp_path: Path):
     # Long enough that the page asks more than once during each stage.
     page = open_structure("run.duration=360&elastic=false&t=0")

@@ -153,6 +153,7 @@ class Page {
     $("failed").hidden = true;
     this.controls.clearError();
     this.controls.show(this.run.effective(this.state));
+    this.#showProgress(this.#toCome());
     this.resting = setTimeout(() => this.computeFurther(), this.sameCase ? 0 : REST_MS);
   }
 
@@ -177,6 +178,7 @@ class Page {
   /** After the last change: the whole of a long record, neighbours, and elastic lines, one after the other. */
   async computeFurther() {
     this.stopBackground();
+    this.#showProgress(this.#toCome());
     const { question, state } = this;
     const abort = (this.background = new AbortController());
     const current = () => this.background === abort;
@@ -184,7 +186,7 @@ class Page {
       const onProgress = ({ doing, percent }) => current() && this.#showProgress(`${doing}, ${percent} %`);
       const text = await fetchWithProgress("api/structure/run", { ...question, ...how }, abort.signal, onProgress);
       if (!current()) return;
-      this.#showProgress("");
+      this.#showProgress(how.neighbours ? "" : this.#toCome());
       this.run = new StructureRun(JSON.parse(text));
       this.show();
     };
@@ -199,6 +201,11 @@ class Page {
       this.#showProgress("");
       $("preview").textContent = error.message;
     }
+  }
+
+  /** What may still change the verdict. */
+  #toCome() {
+    return this.run.lasts_s <= LONGEST_WITH_NEIGHBOURS ? "neighbours to come" : "";
   }
 
   /** Shows the progress of the work after the picture. */
