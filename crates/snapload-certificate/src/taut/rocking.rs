@@ -15,6 +15,9 @@ use crate::verdict::ProofFailure;
 /// the length r exactly if m·d = 0 and |m|² = r² − |d|². With D = |d|² = 1 + a² − 2 a cos θ > 0 and
 /// D < r² these are the two points m = ± S d⟂, S = √(r²/D − 1) > 0, d⟂ = (−a sin θ, a cos θ − 1). A
 /// motion keeps its sign, as S is never zero.
+///
+/// Where D = 0, for a = 1 and θ = 0, d⟂ has no direction. The cables are parallel there, and as long
+/// as both stay taut the body moves without turning. Such a motion is not proved.
 pub(crate) struct Rocking {
     sign: i64,
 }
@@ -54,6 +57,9 @@ impl Rocking {
         match (along.is_positive(), along.is_negative()) {
             (true, _) => Ok(Self { sign: 1 }),
             (_, true) => Ok(Self { sign: -1 }),
+            _ if is_parallel(model, state) => Err(ProofFailure::not_covered(
+                "motion on two parallel taut cables",
+            )),
             _ => Err(ProofFailure::undecided(
                 "which way both cables hold the body",
             )),
@@ -146,6 +152,12 @@ impl Rocking {
         let more = normal.map(|term| p.scale(term, model.b.clone()));
         [m, c_rate, p.sum(m_second, more)]
     }
+}
+
+/// Whether two taut cables are parallel, D = 0: more bits would not tell θ from zero.
+fn is_parallel(model: &Model, state: &State) -> bool {
+    let theta = &state[2];
+    (&model.a - &Ball::integer(1)).is_zero() && !theta.is_positive() && !theta.is_negative()
 }
 
 impl Chart<2> for Rocking {
