@@ -15,6 +15,9 @@ use std::ops::ControlFlow;
 /// The bit counts that a certificate may state.
 const BITS: std::ops::RangeInclusive<u64> = 64..=3000;
 
+/// A callback that receives a time and the last one.
+type OnProgress<'a> = &'a mut dyn FnMut(f64, f64) -> ControlFlow<()>;
+
 /// The verdict of a check.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Verdict {
@@ -59,6 +62,12 @@ impl Verdict {
 
 /// Checks a certificate.
 pub fn check(text: &str) -> Verdict {
+    check_with(text, &mut |_, _| ControlFlow::Continue(()))
+}
+
+/// The same; `on_progress` receives the time that the proof has reached and `t_end`, and may end the
+/// work, after which the verdict is undecided.
+pub fn check_with(text: &str, on_progress: OnProgress<'_>) -> Verdict {
     let certificate = match CertificateText::read(text) {
         Ok(certificate) => certificate,
         Err(error) => {
@@ -66,7 +75,7 @@ pub fn check(text: &str) -> Verdict {
         }
     };
     match shape(&certificate) {
-        Ok(case) => compare(&certificate, &case),
+        Ok(case) => compare(&certificate, &case, on_progress),
         Err(what) => Verdict::Malformed(what),
     }
 }
@@ -115,7 +124,12 @@ fn shape(certificate: &CertificateText) -> Result<ExactCase, String> {
     certificate.case.exact()
 }
 
-fn compare(certificate: &CertificateText, case: &ExactCase) -> Verdict {
+fn compare(
+    certificate: &CertificateText,
+    case: &ExactCase,
+    on_progress: OnProgress<'_>,
+) -> Verdict {
+    let t_end = case.number("t_end").ball(2).to_f64();
     let claims = &certificate.impacts;
     let is_partial = certificate.end.reason == UNDECIDED;
     let first = certificate.bits.div_ceil(64) as usize;
@@ -126,6 +140,9 @@ fn compare(certificate: &CertificateText, case: &ExactCase) -> Verdict {
         let mut seen = 0;
         let taut = certificate.format == TAUT_FORMAT;
         let proved = prove(case, limbs, taut, &mut |proved| {
+            if on_progress(proved.time().to_f64(), t_end).is_break() {
+                return ControlFlow::Break(ProofFailure::Cancelled);
+            }
             if matches!(proved, Proved::Step(_)) {
                 return ControlFlow::Continue(());
             }

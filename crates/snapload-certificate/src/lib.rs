@@ -35,7 +35,7 @@ mod writer;
 
 pub use arithmetic::decimal::Decimal;
 pub use case::{ExactCase, NUMBERS};
-pub use checker::{Verdict, check};
+pub use checker::{Verdict, check, check_with};
 pub use orbit::{CandidateOrbit, ProvedOrbit, prove_orbit};
 pub use proved::Reason;
 pub use writer::{Cancelled, Certification, Ended, PrintedImpact, certify};

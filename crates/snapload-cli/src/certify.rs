@@ -8,9 +8,11 @@ use serde::Serialize;
 use snapload::analysis::Progress;
 use snapload::{Entries, Parameters};
 use snapload_certificate::{
-    Cancelled, Certification, Decimal, Ended, ExactCase, NUMBERS, Reason, Verdict, certify, check,
+    Cancelled, Certification, Decimal, Ended, ExactCase, NUMBERS, Reason, Verdict, certify,
+    check_with,
 };
 use std::fmt::Write;
+use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 
@@ -80,9 +82,9 @@ fn run_certify(args: &Args) -> Result<(), Failure> {
     let begun = Instant::now();
     let bar = Bar::new();
     let t_end = input.case.parameters().t_end;
-    let proof = certify(&case, args.taut, &mut |t| {
-        bar.show(Progress::new("proving", t, t_end))
-    });
+    let mut report = reporter(&bar, "proving");
+    let proof = certify(&case, args.taut, &mut |t| report(t, t_end));
+    drop(report);
     drop(bar);
     let proof =
         proof.map_err(|Cancelled| Failure::Interrupted("nothing was written".to_owned()))?;
@@ -110,6 +112,26 @@ fn run_certify(args: &Args) -> Result<(), Failure> {
         Ok(())
     } else {
         Err(Failure::ExitStatus(1))
+    }
+}
+
+/// The callback that shows how far a proof is. Where it begins again with more bits, the bar does.
+fn reporter<'a>(
+    bar: &'a Bar,
+    doing: &'static str,
+) -> impl FnMut(f64, f64) -> ControlFlow<()> + use<'a> {
+    let (mut attempt, mut latest) = (1, 0.0);
+    move |t, t_end| {
+        // Two events at one instant may come in either order.
+        if t < 0.99 * latest {
+            attempt += 1;
+        }
+        latest = t;
+        let words = match attempt {
+            1 => doing.to_owned(),
+            _ => format!("{doing} with more bits, attempt {attempt}"),
+        };
+        bar.show(Progress::new(&words, t, t_end))
     }
 }
 
@@ -173,8 +195,9 @@ fn run_check(args: &Args, path: &Path) -> Result<(), Failure> {
     let json = args.json.open(&mut pending)?;
     let begun = Instant::now();
     let shown = path.display().to_string();
+    let bar = Bar::new();
     let verdict = match read_up_to(path, LARGEST, "larger than 1 GiB") {
-        Ok(text) => check(&text),
+        Ok(text) => check_with(&text, &mut reporter(&bar, "checking")),
         Err(Failure::BadInput(why)) => {
             // The words below name the file, too.
             let why = why.strip_prefix(&format!("{shown}: ")).unwrap_or(&why);
@@ -182,6 +205,7 @@ fn run_check(args: &Args, path: &Path) -> Result<(), Failure> {
         }
         Err(other) => return Err(other),
     };
+    drop(bar);
     let seconds = begun.elapsed().as_secs_f64();
     let (word, impacts, bits, why) = match &verdict {
         Verdict::Proved { impacts, bits, .. } => ("proved", Some(*impacts), Some(*bits), None),

@@ -2,7 +2,7 @@
 use crate::common::case_of;
 use serde_json::Value;
 use snapload::{Case, Entries, Impact, Parameters, Trajectory};
-use snapload_certificate::{Certification, Ended, ExactCase, Verdict, certify, check};
+use snapload_certificate::{Certification, Ended, ExactCase, Verdict, certify, check, check_with};
 use std::ops::ControlFlow;
 
 fn proved(exact: &ExactCase) -> Certification {
@@ -221,4 +221,61 @@ fn altered_taut_segments_are_refused() {
     let mut altered = certificate;
     altered["format"] = serde_json::json!("snapload-certificate-1");
     assert!(matches!(check(&altered.to_string()), Verdict::Malformed(_)));
+}
+
+/// Cables as far apart as their fairleads are parallel where both are taut, but for horizontal
+/// ones: with θ ≠ 0 the distance from anchor to fairlead would differ by 2d between the cables, and
+/// both are of one length. No number of bits makes them less parallel, so that none but the first
+/// is tried.
+#[test]
+fn parallel_taut_cables_are_given_up_at_once() {
+    let from_rest = Parameters {
+        a: 1.0,
+        y: 0.0,
+        stop_when_settled: false,
+        t_end: 1.0,
+        ..Parameters::STANDARD
+    };
+    let snapped = Parameters {
+        b: 0.1,
+        e: 0.0,
+        y: 0.1,
+        theta: 0.05,
+        ..from_rest
+    };
+    for (parameters, snaps) in [(from_rest, 0), (snapped, 2)] {
+        let parameters = Parameters {
+            inertia: snapload::natural_inertia(parameters.a, parameters.b),
+            ..parameters
+        };
+        let proof = taut(&parameters);
+        let Ended::Undecided { what, .. } = &proof.end else {
+            panic!("{:?}", proof.end);
+        };
+        assert_eq!(what, "motion on two parallel taut cables");
+        assert_eq!((proof.impacts, proof.bits), (snaps, 256));
+    }
+}
+
+/// A check reports how far it is, and ends when its caller does not let it continue.
+#[test]
+fn a_check_reports_its_progress() {
+    let short = Parameters {
+        e: 0.0,
+        f_o: 0.8,
+        stop_when_settled: false,
+        t_end: 0.5,
+        ..Parameters::STANDARD
+    };
+    let text = taut(&short).text();
+    let mut times = Vec::new();
+    let verdict = check_with(&text, &mut |t, t_end| {
+        assert_eq!(t_end, 0.5);
+        times.push(t);
+        ControlFlow::Continue(())
+    });
+    assert!(matches!(verdict, Verdict::Proved { .. }), "{verdict:?}");
+    assert!(times.len() > 2 && times.is_sorted() && times.iter().all(|t| *t <= 0.5));
+    let cancelled = check_with(&text, &mut |_, _| ControlFlow::Break(()));
+    assert!(matches!(cancelled, Verdict::Undecided(_)), "{cancelled:?}");
 }
