@@ -214,10 +214,15 @@ fn compared_in_words(found: &Verification, tolerance: f64) -> String {
             0 => format!(
                 "nothing, as a cable stays taut before any impact; the ordinary run has {all}"
             ),
-            _ => format!(
-                "correct to {tolerance:e} at {} and not after it; the ordinary run has {all}",
-                count(known, "impact")
-            ),
+            known => {
+                let those = match known {
+                    1 => "impact".to_owned(),
+                    _ => format!("{known} impacts"),
+                };
+                format!(
+                    "correct to {tolerance:e} at the {those} before a cable stays taut; the ordinary run has {all}"
+                )
+            }
         };
     }
     let place = match (known, &found.t) {
@@ -293,6 +298,16 @@ mod tests {
         assert!(json["end"].is_null() && json["compared"] != json["ordinary"]["impacts"]);
         assert!(words.contains("the ordinary run has"), "{words}");
         assert!(!words.contains("at the end"), "{words}");
+        let (words, json) = answered(Parameters {
+            e: 0.01,
+            y: 0.2,
+            t_end: 5.0,
+            stop_when_settled: false,
+            ..Parameters::STANDARD
+        })?;
+        let known = json["exact"].as_array().map_or(0, Vec::len);
+        let compared = format!("at the {known} impacts before a cable stays taut; the ordinary");
+        assert!(known > 1 && words.contains(&compared), "{words}");
         Ok(())
     }
 
