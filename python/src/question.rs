@@ -7,6 +7,7 @@ use crate::run::to_json;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 use snapload::analysis::Progress;
+use snapload::{CASE, Entries};
 use snapload_report::question;
 use std::sync::Arc;
 
@@ -28,5 +29,6 @@ pub(crate) fn answer(
         let on_progress = |progress: Progress| shared.report(progress);
         question.ask(&theirs, options, &on_progress)
     })?;
-    to_json(&answer.map_err(error_of_work)?.about(&case.name, &case.case))
+    let answer = answer.map_err(error_of_work)?;
+    to_json(&answer.about(&case.name, &case.case, &Entries::new(&CASE)))
 }

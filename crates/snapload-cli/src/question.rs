@@ -114,7 +114,7 @@ pub(crate) fn run(args: Args) -> Result<(), Failure> {
         cancelled => Failure::from(cancelled),
     })?;
     drop(bar);
-    let texts = answer.about(&input.name, &input.case);
+    let texts = answer.about(&input.name, &input.case, &input.entries);
     outputs.finish(&texts.answer, texts.words)
 }
 

@@ -1,7 +1,7 @@
 //! Questions about one case. Each is defined once, as a [`Question`]: its name, what it asks, its
 //! options and how it is answered. The command line makes a subcommand of it, Python a function and
 //! the server of the page a path, without further code.
-use crate::case_in_words;
+use crate::summary::case_as_written;
 use serde::Serialize;
 use serde_json::value::{RawValue, to_raw_value};
 use snapload::analysis::{OnProgress, Unfinished};
@@ -123,10 +123,11 @@ impl Answer {
         Ok(Self { words, answer })
     }
 
-    /// The same with the name of its case in the first line.
+    /// The same with the name of its case in the first line; `entries` keep the digits in which its
+    /// numbers were written.
     #[must_use]
-    pub fn about(mut self, name: &str, case: &Case) -> Self {
-        let case = case_in_words(name, case.parameters());
+    pub fn about(mut self, name: &str, case: &Case, entries: &Entries) -> Self {
+        let case = case_as_written(name, case.parameters(), entries);
         self.words = format!("Case      {case}\n{}", self.words);
         self
     }

@@ -5,7 +5,8 @@ use crate::{Certified, RunWithTrust, outcome_in_words, trust_in_words};
 use serde::Serialize;
 use snapload::analysis::{NormErrors, Trust, digits_within};
 use snapload::{
-    Impact, Mode, ModeInterval, Norms, Parameters, SETTLING_HEIGHT, Stop, Trajectory, Value,
+    CASE, Entries, Impact, Mode, ModeInterval, Norms, Parameters, SETTLING_HEIGHT, Stop,
+    Trajectory, Value,
 };
 use std::fmt::Write;
 use std::path::PathBuf;
@@ -84,12 +85,30 @@ pub fn indented(text: &str) -> String {
     text.replace('\n', "\n          ")
 }
 
-/// The name of the case, and how it differs from the standard one.
+/// The name of the case, and how it differs from the standard one. Values that were given have all
+/// their digits, so that two cases with one caption are the same case; an inertia that follows from
+/// the size is rounded.
 pub fn case_in_words(name: &str, parameters: &Parameters) -> String {
+    case_as_written(name, parameters, &Entries::new(&CASE))
+}
+
+/// The same for an answer about the numbers as they were written, in `entries`: one with more digits
+/// than a double has is repeated with all of them.
+pub(crate) fn case_as_written(name: &str, parameters: &Parameters, entries: &Entries) -> String {
     let differing: Vec<String> = parameters
         .entries()
         .filter(|(key, value)| *value != Parameters::STANDARD.get(key))
-        .filter_map(|(key, value)| Some(format!("{key} = {}", rounded(&value?))))
+        .filter_map(|(key, value)| {
+            let value = value?;
+            let follows = key == "inertia" && parameters.inertia_follows();
+            let written = entries.written(key).filter(|text| text.len() > 17);
+            let text = match (value, written) {
+                (_, Some(written)) => written.to_owned(),
+                (Value::Number(number), None) if follows => digits(number),
+                (given, None) => given.to_string(),
+            };
+            Some(format!("{key} = {text}"))
+        })
         .collect();
     if differing.is_empty() {
         return match name {
@@ -103,15 +122,6 @@ pub fn case_in_words(name: &str, parameters: &Parameters) -> String {
         ":"
     };
     format!("{name}{join} {}", differing.join(", "))
-}
-
-/// A value as it was given; one with many digits was computed, and is rounded.
-fn rounded(value: &Value) -> String {
-    let text = value.to_string();
-    match value {
-        Value::Number(number) if text.len() > 12 => digits(*number),
-        _ => text,
-    }
 }
 
 /// The number of known digits of each norm, in words.
@@ -356,6 +366,27 @@ mod tests {
         let (lines, largest) = words(Parameters::STANDARD)?;
         assert!(lines.len() == 1 && lines[0].1.contains(&largest));
         Ok(())
+    }
+
+    /// Two doubles, however near, have two captions; an inertia of the size is no value of its own.
+    #[test]
+    fn a_caption_tells_values_apart() {
+        let f_o = 0.3_f64.next_up();
+        let parameters = Parameters {
+            f_o,
+            a: 0.3,
+            inertia: snapload::natural_inertia(0.3, 0.0),
+            ..Parameters::STANDARD
+        };
+        let caption = case_in_words("standard case", &parameters);
+        assert_eq!(
+            caption,
+            "standard case with a = 0.3, inertia = 0.09, f_o = 0.30000000000000004"
+        );
+        let mut entries = Entries::new(&CASE);
+        entries.set("f_o=0.30000000000000002").expect("a number");
+        let caption = case_as_written("standard case", &parameters, &entries);
+        assert!(caption.ends_with("f_o = 0.30000000000000002"), "{caption}");
     }
 
     /// The summary counts the impacts as an outcome and a sweep do, and impulses passed into a taut

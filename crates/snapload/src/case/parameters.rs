@@ -203,7 +203,7 @@ pub(crate) static FIELDS: &[(&str, Get, Store)] = &[
 
 impl Parameters {
     /// Whether the inertia is the natural one of the size, and so follows it.
-    pub(crate) fn inertia_follows(&self) -> bool {
+    pub fn inertia_follows(&self) -> bool {
         self.inertia.is_some() && self.inertia == natural_inertia(self.a, self.b)
     }
 
