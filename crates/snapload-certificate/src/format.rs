@@ -16,6 +16,8 @@ pub(crate) const TAUT_FORMAT: &str = "snapload-certificate-2";
 pub(crate) const MODEL: &str = "snapload model 1";
 /// The reason at the end of a certificate that proves only the beginning of a run.
 pub(crate) const UNDECIDED: &str = "undecided";
+/// How much of a text that is no decimal a message repeats, in characters.
+const LONGEST_ECHO: usize = 60;
 
 /// A certificate as it is written: the case, and what is claimed of its run.
 #[derive(Clone, Debug, Serialize, Deserialize)]
@@ -196,5 +198,11 @@ impl CaseText {
 
 /// A decimal of a certificate.
 pub(crate) fn decimal(what: &str, text: &str) -> Result<Decimal, String> {
-    Decimal::parse(text).ok_or_else(|| format!("{what} {text:?} is not a decimal"))
+    Decimal::parse(text).ok_or_else(|| {
+        let mut shown: String = text.chars().take(LONGEST_ECHO).collect();
+        if shown.len() < text.len() {
+            shown += "...";
+        }
+        format!("{what} {shown:?} is not a decimal")
+    })
 }

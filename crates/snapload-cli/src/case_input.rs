@@ -173,7 +173,7 @@ pub(crate) fn read_up_to(path: &Path, largest: u64, too_large: &str) -> Result<S
             Err(bad(&format!("there is no such file{hint}")))
         }
         Err(error) if error.kind() == ErrorKind::IsADirectory => {
-            Err(bad("a directory, not a case file"))
+            Err(bad("a directory, not a file"))
         }
         Err(error) => Err(bad(&format!("can not be read: {}", without_number(&error)))),
     }

@@ -2,7 +2,7 @@
 use crate::case_input::read_text;
 use crate::failure::Failure;
 use sha2::{Digest, Sha256};
-use snapload::{CaseError, Entries};
+use snapload::{CASE, CaseError, Entries};
 use snapload_report::shell_command;
 use snapload_structure::{STRUCTURE, Structure};
 use std::path::{Path, PathBuf};
@@ -68,7 +68,15 @@ pub(crate) fn entries_of(
     set: &[String],
 ) -> Result<(String, Entries), CaseError> {
     let name = path.display().to_string();
-    let mut entries = Entries::parse(&STRUCTURE, &name, text)?;
+    let mut entries = Entries::parse(&STRUCTURE, &name, text).map_err(|error| {
+        if Entries::parse(&CASE, &name, text).is_err() {
+            return error;
+        }
+        let hint = format!("write {}", shell_command(["snapload", "run", &name]));
+        CaseError::syntax("this is a nondimensional case, with the keys that snapload keys lists")
+            .with_hint(hint)
+            .at(name.clone())
+    })?;
     set.iter().try_for_each(|change| entries.set(change))?;
     Ok((name, entries))
 }

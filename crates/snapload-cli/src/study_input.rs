@@ -246,7 +246,7 @@ fn axis(key: &str, varied: Varied) -> Result<Axis, Failure> {
 }
 
 fn side(key: &str, varied: Varied) -> Result<RandomRange, Failure> {
-    key_named(key).map_err(Failure::bad_input)?;
+    RandomRange::is_possible(key)?;
     match varied {
         Varied::Range(text) => Ok(RandomRange::written(key, &text)?),
         Varied::Listed(_) => Err(Failure::BadInput(format!(

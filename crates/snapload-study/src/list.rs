@@ -170,8 +170,12 @@ impl List {
 
     fn row(&self, record: &ByteRecord) -> ListRow {
         if record.len() != self.keys.len() {
-            let shown = format!("(a row with {} fields)", record.len());
-            let allowed = format!("{} fields, as in the first line", self.keys.len());
+            let fields = |count| match count {
+                1 => "1 field".to_owned(),
+                _ => format!("{count} fields"),
+            };
+            let shown = format!("(a row with {})", fields(record.len()));
+            let allowed = format!("{}, as in the first line", fields(self.keys.len()));
             return Err(CaseError::value("list", shown, allowed));
         }
         let cells = self.keys.iter().zip(record);
@@ -275,9 +279,11 @@ fn keys(called: &str, names: &[String]) -> Result<Vec<&'static str>, StudyError>
     let mut keys = Vec::new();
     for name in names {
         let key = key_named(name).map_err(|error| {
-            wrong(format!(
-                "{error}\nhint: a list has one column per key, named in the first line of a CSV file, and no others"
-            ))
+            let hint = match name.contains(';') {
+                true => "the columns of a CSV file are separated by commas",
+                false => "a list has one column per key, named in the first line of a CSV file, and no others",
+            };
+            wrong(format!("{error}\nhint: {hint}"))
         })?;
         if keys.contains(&key.name) {
             return Err(wrong(format!("two columns are named {}", key.name)));
@@ -295,7 +301,12 @@ fn value(cell: &str) -> Option<Value> {
         "false" | "False" | "FALSE" => Value::Bool(false),
         _ => match (cell.parse::<i64>(), cell.parse::<f64>()) {
             (Ok(integer), _) => Value::Integer(integer),
-            (_, Ok(number)) => Value::Number(number),
+            // A number too large for a double stays as it is written; "inf" has no digit.
+            (_, Ok(number))
+                if number.is_finite() || !cell.contains(|c: char| c.is_ascii_digit()) =>
+            {
+                Value::Number(number)
+            }
             _ => Value::Text(cell.to_owned()),
         },
     })

@@ -153,17 +153,26 @@ impl RandomRange {
     /// [`StudyError::Input`] if there is no such key, if it does not accept every number of a
     /// range, or if it can not take one of the two.
     pub fn new(key: &str, low: f64, high: f64) -> Result<Self, StudyError> {
+        Self::is_possible(key)?;
         check_entry(key, &Value::Number(low))?;
-        let key = check_entry(key, &Value::Number(high))?;
-        if !is_drawn(key) {
-            let words = format!(
-                "{} can not be drawn at random, as it takes no fractions; vary it over a grid",
-                key.name
-            );
-            return Err(StudyError::Input(words));
+        let key = check_entry(key, &Value::Number(high))?.name;
+        Ok(Self { key, low, high })
+    }
+
+    /// An error unless a key can be drawn at random.
+    ///
+    /// # Errors
+    /// [`StudyError::Input`] if there is no such key, or if it does not accept every number of a
+    /// range.
+    pub fn is_possible(key: &str) -> Result<(), StudyError> {
+        let key = key_named(key)?;
+        if is_drawn(key) {
+            return Ok(());
         }
         let key = key.name;
-        Ok(Self { key, low, high })
+        Err(StudyError::Input(format!(
+            "{key} can not be drawn at random, as it takes no fractions; vary it over a grid"
+        )))
     }
 
     /// A range in the notation `low:high`. A number of values, as for a grid, may follow after

@@ -347,7 +347,7 @@ fn bad_samples_and_places_are_refused() {
     refused(&["--json", ""], &["--json"]);
     refused(&["--out", "good.toml"], &["good.toml", "not a directory"]);
     refused(&["--out", "good.toml/results"], &["good.toml/results"]);
-    refused(&["folder"], &["folder", "directory, not a case file"]);
+    refused(&["folder"], &["folder", "directory, not a file"]);
     refused(&["absent.toml"], &["absent.toml", "no such file"]);
 }
 

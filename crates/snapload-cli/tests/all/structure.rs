@@ -223,10 +223,16 @@ fn links_are_followed_and_devices_written_into() {
     assert!(device.file_type().is_char_device());
 }
 
-/// `run` refuses a structure and names `assess`.
+/// `run` refuses a structure and names `assess`, and the other way round.
 #[test]
-fn run_points_to_assess() {
+fn run_and_assess_point_to_each_other() {
     let room = room();
+    fs::write(room.path().join("mooring.toml"), "f_o = 0.31\n").unwrap();
+    snapload(room.path())
+        .args(["assess", "mooring.toml"])
+        .assert()
+        .code(2)
+        .stderr(contains("hint: write snapload run mooring.toml"));
     snapload(room.path())
         .args(["run", "cylinder.toml"])
         .assert()

@@ -214,11 +214,16 @@ fn bad_rows_are_errors_of_their_own_and_empty_cells_nothing() {
     assert_eq!(rows[0], Ok(vec![("f_o", Value::Number(0.1))]));
     let error = rows[1].clone().unwrap_err().to_string();
     assert!(
-        error.contains("(a row with 1 fields)") && error.contains("2 fields"),
+        error.contains("(a row with 1 field)") && error.contains("2 fields"),
         "{error}"
     );
     assert_eq!(rows[2], Ok(vec![("stop_when_settled", Value::Bool(false))]));
     assert_eq!(rows[3].as_ref().unwrap()[0].1, Value::Text("x".to_owned()));
+    // What no double holds is reported as it is written.
+    let file = csv("f_o\n1e400\n-inf\n");
+    let rows = read(List::open(file.path()).unwrap(), 0..2);
+    assert_eq!(rows[0], Ok(vec![("f_o", Value::Text("1e400".to_owned()))]));
+    assert_eq!(rows[1], Ok(vec![("f_o", Value::Number(f64::NEG_INFINITY))]));
 }
 
 #[test]
@@ -226,6 +231,7 @@ fn a_list_with_other_columns_is_refused() {
     for (text, expected) in [
         ("f_o,omgea\n1,2\n", "did you mean omega?"),
         ("f_o,f_o\n1,2\n", "two columns are named f_o"),
+        ("f_o;e\n1;2\n", "are separated by commas"),
         ("f_o\n", "contains no case"),
     ] {
         let error = List::open(csv(text).path()).unwrap_err().to_string();

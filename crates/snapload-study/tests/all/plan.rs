@@ -54,5 +54,7 @@ fn invalid_axes_are_refused_with_reasons() {
     assert!(words(Plan::grid(many.into()).unwrap_err()).contains("from 1 to 1e12"));
     let error = RandomRange::new("max_impacts", 10.0, 20.0).unwrap_err();
     assert!(words(error).contains("max_impacts can not be drawn at random"));
+    let error = RandomRange::is_possible("body").unwrap_err();
+    assert!(words(error).contains("body can not be drawn at random"));
     assert!(Plan::random(Vec::new(), 10, 0).is_err());
 }
