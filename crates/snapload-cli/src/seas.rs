@@ -25,8 +25,8 @@ pub(crate) struct Args {
     /// Model the lines as springs, which is slower; needed if they are too soft for instant snaps
     #[arg(long)]
     elastic: bool,
-    /// Write the results as an HTML page, or as CSV with one row per record, whose slack_fraction is the largest of
-    /// its lines; the file extension decides
+    /// Write the results as an HTML page, or as CSV with one row per record, whose slack_fraction
+    /// is the largest of its lines; the file extension decides
     #[arg(long, value_name = "FILE.html|FILE.csv")]
     out: Option<PathBuf>,
     #[command(flatten)]

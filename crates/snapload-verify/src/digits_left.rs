@@ -159,9 +159,10 @@ impl<'a, const WORDS: usize> Neighbour<'a, WORDS> {
     }
 }
 
-/// The factor of a number of the neighbour, without leaving what is legal: restitution is at most 1, and a start
-/// that is nearer to the place of rest, on longer cables, is within their reach. A zero stays zero,
-/// as both cables of a symmetric motion snap at one instant, which any change of these would end.
+/// The factor of a number of the neighbour, without leaving what is legal: restitution is at most
+/// 1, and a start that is nearer to the place of rest, on longer cables, is within their reach. A
+/// zero stays zero, as both cables of a symmetric motion snap at one instant, which any change of
+/// these would end.
 fn change<const WORDS: usize>(key: &str, start_too: bool) -> Precise<WORDS> {
     let change = Precise::<WORDS>::EPSILON * PERTURBATION;
     let (smaller, larger) = (Precise::ONE - change, Precise::ONE + change);
