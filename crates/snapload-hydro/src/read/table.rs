@@ -28,8 +28,8 @@ pub(super) struct Table {
 }
 
 impl Table {
-    /// The coefficients sorted by frequency, with symmetric matrices.
-    pub fn into_hydrodynamics(mut self) -> Result<Hydrodynamics, HydroError> {
+    /// Sorts the rows by frequency; each may occur only once.
+    fn sort(&mut self) -> Result<(), HydroError> {
         if let Some(row) = self
             .rows
             .iter()
@@ -47,6 +47,12 @@ impl Table {
             let expected = "each frequency may occur only once";
             return Err(HydroError::value("ω", pair[0].omega, expected));
         }
+        Ok(())
+    }
+
+    /// The coefficients sorted by frequency, with symmetric matrices.
+    pub fn into_hydrodynamics(mut self) -> Result<Hydrodynamics, HydroError> {
+        self.sort()?;
         let (mut zero, mut inf) = (None, None);
         let mut finite: Vec<Row> = Vec::new();
         let mut asymmetry: f64 = 0.0;

@@ -1,5 +1,6 @@
 //! The motion: slack flight, taut motion, events, the law of contact, and the loop around them.
 
+pub(crate) mod acceleration_slopes;
 pub(crate) mod active_set;
 pub(crate) mod attachment;
 pub(crate) mod bounce;
@@ -7,6 +8,7 @@ pub(crate) mod bounce_map;
 pub(crate) mod cable_series;
 pub(crate) mod complementarity;
 pub(crate) mod contact;
+pub(crate) mod deviations;
 pub(crate) mod events;
 pub(crate) mod extremes;
 pub(crate) mod flight;
