@@ -2,23 +2,13 @@
 //! it.
 
 use crate::error::HydroError;
+use crate::section_body::{SectionBody, SectionForce};
 use crate::spline::Spline;
-use crate::textbook::{SectionBody, SectionForce};
+use crate::water::Water;
 use nalgebra::{Complex, Matrix3, Vector3};
 
 /// The degrees of freedom in their order: x, z, and rotation from z to x about the reference point.
 pub const FREEDOMS: [&str; 3] = ["surge", "heave", "pitch"];
-
-/// The water for which the coefficients were computed.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Water {
-    /// ρ \[kg/m³\].
-    pub density_kg_m3: f64,
-    /// g \[m/s²\].
-    pub gravity_m_s2: f64,
-    /// Depth \[m\]; infinite for deep water.
-    pub depth_m: f64,
-}
 
 /// The body's weight and buoyancy by the file. Positions are absolute, (x, z) with z = 0 in the
 /// still water.
@@ -126,8 +116,9 @@ impl Hydrodynamics {
         let x = &self.excitation_to(direction)?.force;
         let range_rad_s = self.range_rad_s();
         if let Some(section) = &self.section {
-            let force = section.force(&self.water, direction, self.reference_m)?;
-            let force = XOverOmega::Section(Box::new(force));
+            let from_section = [self.reference_m[0] - section.x_m, self.reference_m[1]];
+            let force = Box::new(section.force(&self.water, direction)?);
+            let force = XOverOmega::Section(force, transport(from_section).transpose());
             return Ok(ExcitationCurve { range_rad_s, force });
         }
         let part = |of: fn(Complex<f64>) -> f64, i: usize| {
@@ -204,7 +195,8 @@ pub struct ExcitationCurve {
 enum XOverOmega {
     /// Real and imaginary part of each degree of freedom.
     Splines(Box<[[Spline; 2]; 3]>),
-    Section(Box<SectionForce>),
+    /// The force about the section's own point, and its transport to the reference point.
+    Section(Box<SectionForce>, Matrix3<f64>),
 }
 
 impl ExcitationCurve {
@@ -215,7 +207,9 @@ impl ExcitationCurve {
             return None;
         }
         Some(match &self.force {
-            XOverOmega::Section(force) => force.at(omega_rad_s),
+            XOverOmega::Section(force, transport) => {
+                transport.map(|entry| Complex::new(entry, 0.0)) * force.at(omega_rad_s)
+            }
             XOverOmega::Splines(parts) => Vector3::from_fn(|i, _| {
                 let [re, im] = &parts[i];
                 Complex::new(re.clamped(omega_rad_s), im.clamped(omega_rad_s))

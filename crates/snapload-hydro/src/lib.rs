@@ -13,15 +13,16 @@ mod linear;
 mod memory;
 mod read;
 mod report;
+mod section_body;
 mod sections;
 mod shortest;
 mod spline;
 mod textbook;
+mod water;
 mod waves;
 
 pub use coefficients::{
-    Excitation, ExcitationCurve, FREEDOMS, Hydrodynamics, Hydrostatics, MatrixCurve, Water,
-    transport,
+    Excitation, ExcitationCurve, FREEDOMS, Hydrodynamics, Hydrostatics, MatrixCurve, transport,
 };
 pub use error::{GivenSource, HydroError, Warning};
 pub use linear::{
@@ -41,8 +42,9 @@ pub use read::{
 pub use report::{
     Floating, GivenMemory, Json, Report, Request, held_summary, page, periods_summary,
 };
+pub use section_body::SectionBody;
 pub use sections::{Place, Shape, added_mass_of_section};
 pub use shortest::shortest_solution;
 pub use spline::Spline;
-pub use textbook::SectionBody;
+pub use water::Water;
 pub use waves::{water_acceleration, wave_number};

@@ -13,8 +13,9 @@ pub use dataset::{Dataset, Values, Variable};
 pub use nemoh::from_nemoh;
 pub use wamit::{FirstColumn, WamitText, from_wamit};
 
-use crate::coefficients::{Hydrodynamics, Water};
+use crate::coefficients::Hydrodynamics;
 use crate::error::{GivenSource, HydroError, Warning};
+use crate::water::Water;
 use std::fmt;
 use std::path::{Path, PathBuf};
 

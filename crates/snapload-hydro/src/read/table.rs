@@ -1,7 +1,8 @@
 //! Coefficients that are read in any order, sorted by their frequencies.
 
-use crate::coefficients::{Excitation, FREEDOMS, Hydrodynamics, Hydrostatics, Water};
+use crate::coefficients::{Excitation, FREEDOMS, Hydrodynamics, Hydrostatics};
 use crate::error::HydroError;
+use crate::water::Water;
 use nalgebra::{Complex, Matrix3, Vector3};
 
 /// The values at one frequency.

@@ -11,8 +11,9 @@
 
 use super::table::{Row, Table};
 use super::{Given, agreed_water, within};
-use crate::coefficients::{Hydrodynamics, Hydrostatics, Water};
+use crate::coefficients::{Hydrodynamics, Hydrostatics};
 use crate::error::HydroError;
+use crate::water::Water;
 use nalgebra::{Complex, Matrix3, Vector3};
 use std::f64::consts::PI;
 
