@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from ._branch_plot import key_label
 from ._keys import REASONS
 from ._orbit_plot import label, legend_above, new_axes
-from ._plot import BLUE, GREEN, ORANGE, REFERENCE, VERMILION
+from ._plot import BLUE, GREEN, GREY, ORANGE, REFERENCE, VERMILION
 
 if TYPE_CHECKING:
     import xarray
@@ -23,7 +23,7 @@ _ENDS = {
     "end_time": ("#56B4E9", "continues"),
     "sliding_start": ("#56B4E9", "slides"),
     "impact_limit": ("#56B4E9", "continues"),
-    "standstill": (REFERENCE, "not computed"),
+    "standstill": (GREY, "not computed"),
     "rotation_limit": (VERMILION, "rotation limit"),
     "upper_bound": ("#7A3B00", "upper bound"),
 }

@@ -115,6 +115,8 @@ def code(windows: Windows, url: str) -> Iterator[Page]:
     window = windows.take(has_touch=False)
     page = window.load(url, "t=0", wrong, refused=0, viewport=DESKTOP)
     settled(page)
+    # Tests give its modules other answers than the server's, which is not to be asked meanwhile.
+    comes_true(page, lambda: "to come" not in page.locator("#outcome").inner_text())
     yield page
     window.context.close()
     assert wrong == []
