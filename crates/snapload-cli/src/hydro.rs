@@ -62,10 +62,7 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
     let out = outputs.file("--out", args.out.as_deref(), &["html"])?;
     let mut report = args.input.report(args.line.clone(), args.force)?;
     let sea = args.sea(&report)?;
-    let large: Vec<_> = sea
-        .iter()
-        .flat_map(|row| row.large_motion(&report))
-        .collect();
+    let large = large_motion_in(&sea, &report);
     report.warnings.extend(large);
     if let Some(out) = out {
         let words = crate::given_words();
@@ -148,31 +145,27 @@ impl Args {
 /// many root mean squares: sqrt(2 ln 1000).
 const HIGHEST: f64 = 3.72;
 
+/// The warnings that the highest motion of three hours is not small, in the direction of the sea in
+/// which it is larger.
+fn large_motion_in(sea: &[SeaRow], report: &Report) -> Vec<Warning> {
+    let Ok(floating) = &report.floating else {
+        return Vec::new();
+    };
+    let highest = |i: usize| {
+        sea.iter()
+            .map(|row| HIGHEST * row.rms[i])
+            .fold(0.0, f64::max)
+    };
+    let motion = format!(
+        "the highest motion of three hours in this sea, about {HIGHEST} root mean squares,"
+    );
+    let amplitudes = [highest(1), highest(2)];
+    large_motion(&report.reading.hydro, &floating.body, amplitudes, &motion)
+}
+
 impl SeaRow {
-    /// The warnings that the highest motion of three hours is not small.
-    fn large_motion(&self, report: &Report) -> Vec<Warning> {
-        let Ok(floating) = &report.floating else {
-            return Vec::new();
-        };
-        let [_, heave, pitch] = self.rms.map(|rms| HIGHEST * rms);
-        let to = self.to();
-        let motion = format!(
-            "the highest motion of three hours in the sea to {to}, about {HIGHEST} root mean squares,"
-        );
-        large_motion(
-            &report.reading.hydro,
-            &floating.body,
-            [heave, pitch],
-            &motion,
-        )
-    }
-
-    fn to(&self) -> &'static str {
-        if self.direction > 0.0 { "+x" } else { "−x" }
-    }
-
     fn text(&self) -> String {
-        let to = self.to();
+        let to = if self.direction > 0.0 { "+x" } else { "−x" };
         let [surge, heave, pitch] = self.rms;
         let part = match self.covered < 0.99 {
             true => format!(

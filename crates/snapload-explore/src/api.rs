@@ -1,7 +1,7 @@
 //! The routes of the server.
 use crate::host_check::{Names, host_check};
 use crate::refusal::{LARGEST_BODY, Refusal};
-use crate::request::Body;
+use crate::request::{Body, OfCase};
 use crate::schema::{Start, schema};
 use crate::structure::{self, Latest, Opened};
 use crate::work::{Allowance, compute, compute_in_lines};
@@ -118,7 +118,7 @@ async fn answer_run(
 
 async fn answer_outcome(
     State(shared): State<Arc<Shared>>,
-    Body(request): Body<outcome::Request>,
+    Body(request): Body<OfCase>,
 ) -> Result<Response, Refusal> {
     let work = move |allowance: &Allowance| outcome::answer(request, allowance);
     compute(&shared.provers, work).await.map(json)
@@ -126,7 +126,7 @@ async fn answer_outcome(
 
 async fn answer_proof(
     State(shared): State<Arc<Shared>>,
-    Body(request): Body<proof::Request>,
+    Body(request): Body<OfCase>,
 ) -> Result<impl IntoResponse, Refusal> {
     let answer = compute(&shared.provers, move |allowance| {
         proof::answer(request, allowance)

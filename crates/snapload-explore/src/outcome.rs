@@ -1,23 +1,16 @@
 //! `/api/outcome`: how a run and its neighbours end, where rounding may decide how the run ends.
 use crate::export::SEED;
 use crate::refusal::Refusal;
-use crate::request::{Values, case};
+use crate::request::{OfCase, case};
 use crate::section::unfinished;
 use crate::work::Allowance;
-use serde::{Deserialize, Serialize};
+use serde::Serialize;
 use snapload::analysis::{Progress, Uncertainty};
 use snapload_report::{RunWithTrust, outcome_in_words};
 use std::time::Duration;
 
 /// Its time budget.
 const BUDGET: Duration = Duration::from_secs(20);
-
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
-pub(crate) struct Request {
-    #[serde(default)]
-    values: Values,
-}
 
 #[derive(Serialize)]
 struct Answer {
@@ -26,7 +19,7 @@ struct Answer {
 }
 
 /// The answer, as JSON.
-pub(crate) fn answer(request: Request, allowance: &Allowance) -> Result<Vec<u8>, Refusal> {
+pub(crate) fn answer(request: OfCase, allowance: &Allowance) -> Result<Vec<u8>, Refusal> {
     let case = case(request.values)?;
     let allowance = allowance.within(BUDGET);
     let on_progress = |progress: Progress| allowance.check(progress);

@@ -1,9 +1,9 @@
 //! `/api/proof`: the proved part of a run, in words, and its certificate.
 use crate::refusal::Refusal;
-use crate::request::{Values, case};
+use crate::request::{OfCase, case};
 use crate::run::follow;
 use crate::work::Allowance;
-use serde::{Deserialize, Serialize};
+use serde::Serialize;
 use snapload::Case;
 use snapload::analysis::Progress;
 use snapload_certificate::{Cancelled, Ended, ExactCase, Reason, certify};
@@ -12,13 +12,6 @@ use std::time::Duration;
 
 /// The time budget of a proof.
 const BUDGET: Duration = Duration::from_secs(20);
-
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
-pub(crate) struct Request {
-    #[serde(default)]
-    values: Values,
-}
 
 #[derive(Serialize)]
 struct Answer {
@@ -39,7 +32,7 @@ struct Answer {
 
 /// The answer, as JSON. Only slack flight is proved here, which takes a moment; motion with a taut
 /// cable takes longer, and is left to the command.
-pub(crate) fn answer(request: Request, allowance: &Allowance) -> Result<Vec<u8>, Refusal> {
+pub(crate) fn answer(request: OfCase, allowance: &Allowance) -> Result<Vec<u8>, Refusal> {
     let case = case(request.values)?;
     let run = follow(&case, allowance)?.run;
     let exact = ExactCase::of(case.parameters(), |_| None).map_err(Refusal::values)?;

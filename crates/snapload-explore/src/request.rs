@@ -3,6 +3,7 @@ use crate::refusal::Refusal;
 use axum::Json;
 use axum::extract::{FromRequest, Request};
 use axum::http::StatusCode;
+use serde::Deserialize;
 use serde::de::DeserializeOwned;
 use serde_json::Value as JsonValue;
 use snapload::{Case, CaseError, Key, Parameters, Value, key_named};
@@ -14,6 +15,14 @@ const BODY_WITHIN: Duration = Duration::from_secs(10);
 
 /// The values that a request gives, by key.
 pub(crate) type Values = serde_json::Map<String, JsonValue>;
+
+/// A request about a case and nothing else.
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct OfCase {
+    #[serde(default)]
+    pub(crate) values: Values,
+}
 
 /// The body of a request: an object of JSON.
 pub(crate) struct Body<T>(pub(crate) T);

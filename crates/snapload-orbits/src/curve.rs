@@ -261,7 +261,7 @@ fn point<F: Family>(on_curve: &OnCurve<F>, orbit: Orbit, arclength: f64) -> Curv
 /// The borders at which a curve ends, as numbers that are negative beyond them: the four sides of
 /// the ranges, a corner, a snap of zero velocity, where the pair of a torus becomes real, where no
 /// energy is lost, and where a cable would have to be too long.
-const BORDERS: [&str; 10] = [
+const BORDERS: [&str; COUNT] = [
     "the end of the range",
     "the end of the range",
     "the end of the range",
@@ -273,8 +273,9 @@ const BORDERS: [&str; 10] = [
     "hardly any energy is lost here: without loss every orbit has a pair of multipliers with the product 1",
     TOO_LONG,
 ];
+const COUNT: usize = 10;
 /// The border whose distance may jump.
-const GAP: usize = 9;
+const GAP: usize = COUNT - 1;
 
 /// A point this close to a border counts as on it.
 const ON_BORDER: f64 = 1e-8;
@@ -352,7 +353,7 @@ impl Follower<'_> {
     }
 
     /// The distance to each border.
-    fn margins<F: Family>(&self, on_curve: &OnCurve<F>, orbit: &Orbit) -> [f64; 10] {
+    fn margins<F: Family>(&self, on_curve: &OnCurve<F>, orbit: &Orbit) -> [f64; COUNT] {
         let [[a, b], [c, d]] = self.options.ranges;
         let [x, y] = orbit.at;
         let corner = orbit.survey.corner_gap;
@@ -394,8 +395,8 @@ impl Follower<'_> {
         &self,
         on_curve: &OnCurve<'a, F>,
         step: f64,
-        before: &[f64; 10],
-        after: &[f64; 10],
+        before: &[f64; COUNT],
+        after: &[f64; COUNT],
     ) -> Option<Border<'a, F>> {
         let crossed = (0..before.len()).filter(|&k| before[k] >= 0.0 && after[k] < 0.0);
         let border = |number: usize| {

@@ -213,16 +213,7 @@ fn starts_at_each_event(case: Parameters, start: [f64; 6], key: &'static str, ra
 
 #[test]
 fn a_branch_that_starts_at_an_event_has_it() {
-    let case = Parameters {
-        inertia: None,
-        a: 0.0,
-        r: 1.3,
-        e: 0.7,
-        nu: 1.2,
-        omega: 4.0,
-        f_o: 0.67,
-        ..Parameters::STANDARD
-    };
+    let case = crate::common::two_attractors();
     let near = [-0.045, 0.1744, 0.0, 0.4443, -0.594, 0.0];
     starts_at_each_event(case, near, "f_o", [0.5, 1.3]);
 }

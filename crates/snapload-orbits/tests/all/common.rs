@@ -57,3 +57,17 @@ pub(crate) fn tori() -> (Parameters, [f64; 6]) {
     };
     (case, [-0.2688, 0.3830, 0.0, 0.8084, -0.4263, 0.0])
 }
+
+/// A point mass that may come to rest in the corner, or move on an orbit of three snaps.
+pub(crate) fn two_attractors() -> Parameters {
+    Parameters {
+        inertia: None,
+        a: 0.0,
+        r: 1.3,
+        e: 0.7,
+        nu: 1.2,
+        omega: 4.0,
+        f_o: 0.67,
+        ..Parameters::STANDARD
+    }
+}

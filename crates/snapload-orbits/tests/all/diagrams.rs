@@ -48,16 +48,7 @@ fn the_attractor_is_followed_as_in_the_reference() {
 /// Below f_c rest in the corner and an orbit of three snaps are both attractors.
 #[test]
 fn two_attractors_share_the_starts() {
-    let base = Parameters {
-        inertia: None,
-        a: 0.0,
-        r: 1.3,
-        e: 0.7,
-        nu: 1.2,
-        omega: 4.0,
-        f_o: 0.67,
-        ..Parameters::STANDARD
-    };
+    let base = crate::common::two_attractors();
     let window = Window {
         base,
         keys: ["x", "y"],

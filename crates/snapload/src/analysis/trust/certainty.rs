@@ -23,15 +23,6 @@ impl Kernel for Following<'_> {
     #[inline(always)]
     fn run(self) {
         self.0.follow(self.1, self.2, &mut ());
-        self.0.end_at_standstill(self.2);
-    }
-}
-
-impl SpreadMonitor {
-    /// Ends trust where the computation stands still.
-    pub(super) fn end_at_standstill(&mut self, step: &Step) {
-        let standstill = Horizon::at_standstill(step, self.impacts);
-        self.horizon = self.horizon.or(standstill);
     }
 }
 

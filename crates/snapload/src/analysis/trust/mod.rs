@@ -33,8 +33,7 @@ use crate::case::key::Key;
 use crate::case::keys::key_named;
 use crate::case::parameters::Parameters;
 use crate::case::value::Value;
-use crate::model::rules::Stop;
-use crate::motion::simulation::{Simulation, Step};
+use crate::motion::simulation::Simulation;
 use crate::motion::trajectory::Trajectory;
 
 /// The uncertainties of a run. The motion is computed from the values given; each may be off by up
@@ -218,16 +217,6 @@ impl Horizon {
             impact: 1,
             cause,
         }
-    }
-
-    /// Where trust ends because the computation stands still after so many impacts, if it does.
-    fn at_standstill(step: &Step, impacts: usize) -> Option<Self> {
-        let stands = step.stop == Some(Stop::Standstill);
-        stands.then_some(Self {
-            t: step.t_end,
-            impact: impacts + 1,
-            cause: HorizonCause::StopRule,
-        })
     }
 
     /// Whether the impact of this number, from 1, is before the horizon.

@@ -87,7 +87,6 @@ impl TrustMonitor {
             latest: (simulation, step),
         };
         let error = self.spread.follow(simulation, step, &mut records);
-        self.spread.end_at_standstill(step);
         self.edge_errors[1] = error;
         let rows = self.spread.impacts - before;
         self.errors.extend(std::iter::repeat_n(error, rows));

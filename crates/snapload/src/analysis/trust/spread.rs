@@ -415,6 +415,9 @@ impl SpreadMonitor {
         };
         let all: f64 = before.iter().chain(after).sum();
         self.too_large |= !all.is_finite() || all >= LARGEST_SPREAD * LARGEST_SPREAD;
+        if step.stop == Some(Stop::Standstill) {
+            self.set_horizon(step.t_end, HorizonCause::StopRule);
+        }
         if error > self.tolerance || self.too_large {
             self.set_horizon(step.t_end, HorizonCause::Tolerance);
         }
