@@ -1,6 +1,6 @@
 //! Ctrl-C, or a termination signal: removes temporary files, exit status 130.
-use std::io::Write;
-use std::path::PathBuf;
+use std::io::{ErrorKind, Write};
+use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Mutex, MutexGuard, OnceLock, PoisonError};
 
@@ -31,13 +31,27 @@ impl TemporaryPaths {
     /// Removes all of them, as far as the system allows.
     pub(crate) fn clear(&mut self) {
         for directory in self.scratch.drain(..) {
-            let _ = std::fs::remove_dir_all(directory);
+            remove_with_contents(&directory);
         }
         for directory in self.new.drain(..).rev() {
             let _ = std::fs::remove_dir(directory);
         }
     }
 }
+
+/// Removes a directory with its contents. Another thread may still be writing: a file that it makes
+/// while the directory is being emptied keeps the directory, which is emptied again then.
+fn remove_with_contents(directory: &Path) {
+    for _ in 0..MOST_REMOVALS {
+        match std::fs::remove_dir_all(directory) {
+            Err(error) if error.kind() == ErrorKind::DirectoryNotEmpty => {}
+            _ => return,
+        }
+    }
+}
+
+/// How often a directory is emptied at most: far oftener than a command makes files in it.
+const MOST_REMOVALS: usize = 1000;
 
 /// Work that stops by itself soon after it is asked to.
 pub(crate) struct Graceful {
@@ -76,9 +90,40 @@ pub(crate) fn install() {
             (graceful.on_first)();
             return;
         }
-        temporary_paths().clear();
+        // Held until the program ends, so that no other thread adds to them meanwhile.
+        let mut temporary_paths = temporary_paths();
+        temporary_paths.clear();
         let left = graceful.map_or("nothing was written", |graceful| graceful.after_second);
         print_error_line(&format!("interrupted: {left}"));
         std::process::exit(130);
     });
+}
+
+#[cfg(test)]
+mod tests {
+    use super::TemporaryPaths;
+
+    /// A thread that writes files, many but not for ever, until their directory is gone, as the command does while it is
+    /// interrupted.
+    #[test]
+    fn a_directory_is_removed_while_files_are_made_in_it() {
+        for _ in 0..100 {
+            let place = tempfile::tempdir().unwrap();
+            let scratch = place.path().join("scratch");
+            std::fs::create_dir(&scratch).unwrap();
+            let name = |k: u32| scratch.join(k.to_string());
+            let (begun, has_begun) = std::sync::mpsc::channel();
+            std::thread::scope(|scope| {
+                scope.spawn(|| {
+                    let made = (0..20_000).take_while(|k| std::fs::write(name(*k), "").is_ok());
+                    made.for_each(|_| drop(begun.send(())));
+                });
+                has_begun.recv().unwrap();
+                let mut paths = TemporaryPaths::default();
+                paths.scratch.push(scratch.clone());
+                paths.clear();
+            });
+            assert!(!scratch.exists());
+        }
+    }
 }
