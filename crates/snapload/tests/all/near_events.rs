@@ -4,7 +4,9 @@ use crate::agrees_with_closed_forms::string;
 use snapload::analysis::{
     Horizon, HorizonCause, TrustMonitor, Uncertainty, Unfinished, no_progress, record, trusted_run,
 };
-use snapload::{Case, Harmonic, Limit, LimitBounds, Parameters, Rules, Simulation, State, System};
+use snapload::{
+    Case, Harmonic, Limit, LimitBounds, Parameters, Rules, Simulation, State, Stop, System,
+};
 
 /// The horizon of a run whose start may be off by `doubts`.
 fn horizon(system: &System, rules: Rules, start: State, doubts: [f64; 6]) -> Option<Horizon> {
@@ -154,4 +156,38 @@ fn a_pair_of_equal_strings_is_trusted_like_one() {
     }
     let graze = Some(HorizonCause::Graze { cable: 0 });
     assert!(seen[0].is_none() && seen[2] == graze, "{seen:?}");
+}
+
+/// After its first snap the mass rises to just below the upper bound, and neighbours that started
+/// apart come together until the end: what they reach there is not what they reached at the top.
+#[test]
+fn a_limit_that_neighbours_reach_before_they_come_together_is_not_certain() -> Result<(), Unfinished>
+{
+    let start = Parameters {
+        r: 1.75784207804673,
+        e: 0.8081804326314286,
+        f_o: 0.0,
+        x: -0.7567549475126879,
+        y: 1.4281843818901718,
+        vx: -0.552041535045452,
+        vy: 0.1751418534888889,
+        stop_when_settled: false,
+        t_end: 1.3,
+        a: 0.0,
+        b: 0.0,
+        inertia: None,
+        ..Parameters::STANDARD
+    };
+    let doubt = 0.00077;
+    let mut uncertainty = Uncertainty::default();
+    uncertainty.set("y", doubt)?;
+    let (run, trust) = trusted_run(&Case::new(start)?, &uncertainty, &no_progress)?;
+    let higher = Case::new(Parameters {
+        y: start.y + 0.9 * doubt,
+        ..start
+    })?;
+    assert_eq!(run.end().reason, Stop::EndTime);
+    assert_eq!(higher.run().end().reason, Stop::UpperBound);
+    assert!(!trust.decides_the_end());
+    Ok(())
 }

@@ -18,7 +18,7 @@ use crate::analysis::trust::rounding::{BOUND_OF_GAP, ROUNDING};
 use crate::analysis::trust::spread::ERROR;
 use crate::arithmetic::lane::{Lane, Mask};
 use crate::arithmetic::plane::Vector2;
-use crate::model::cable::Normal;
+use crate::model::cable::{Cable, Normal};
 use crate::motion::bounce_map::{BounceMap, Bounced, Rows};
 
 /// Bounds are computed in rounded arithmetic; this factor makes them safe.
@@ -68,6 +68,7 @@ impl<L: Lane> Followed<L> {
     pub(super) fn carry(&mut self, bounced: &Bounced<L>, map: &BounceMap<L>) -> Through<L> {
         let rounding = BounceRounding::of(self, bounced);
         let rows = &mut self.parts.rows;
+        let start = AtStart::of(bounced, rows);
         map.along(rows);
         rounding.add_location(bounced, rows);
         let later = map.meet(rows);
@@ -77,6 +78,7 @@ impl<L: Lane> Followed<L> {
         rounding.add(map, rows);
         let reach = Reach::of(
             bounced,
+            start,
             met,
             [square(&later), square(&closing)],
             [square(&other[0]), square(&other[1])],
@@ -313,6 +315,49 @@ fn displacements<L: Lane>(bounced: &Bounced<L>, [x, y, theta]: [L; 3]) -> ([L; 2
     )
 }
 
+/// How far neighbours reach at the start of a flight, each just after its own event: squares of
+/// standard deviations.
+struct AtStart<L> {
+    theta: L,
+    height: L,
+    /// Of what they reach from there within the flight along the cable that is open at the start
+    /// ([`crate::analysis::trust::causes`]).
+    open: L,
+}
+
+impl<L: Lane> AtStart<L> {
+    #[inline(always)]
+    fn of(bounced: &Bounced<L>, rows: &Rows<L, COLUMNS>) -> Self {
+        let (two_cables, from) = (bounced.two_cables, bounced.from);
+        // The one that snapped last is closed.
+        let second = from.gaps[1][0].below(from.gaps[0][0]);
+        let cable = Cable::select(second, &two_cables.cables[1], &two_cables.cables[0]);
+        let lever = cable.lever(from.rotation.sine, from.rotation.cosine);
+        let span = cable.span_moved(cable.moved(&from.state, &from.rotation));
+        let Normal { n, arm } = cable.normal_along(span, lever);
+        let mut along = [L::ZERO; COLUMNS];
+        for k in 0..COLUMNS {
+            let [x, y, theta] = [rows[0][k], rows[1][k], rows[2][k]];
+            along[k] = n.x.mul_add(x, n.y.mul_add(y, arm * theta));
+        }
+        let [x, y, theta] = [0, 1, 2].map(|i| square(&rows[i]));
+        let reach = L::select(second, two_cables.reach[1], two_cables.reach[0]);
+        let before = bounced.before;
+        let s = bounced.t - from.t;
+        let speed = before
+            .vtheta
+            .abs()
+            .mul_add(reach, before.velocity().length_bound());
+        let turned = two_cables.force[0].mul_add(s, speed) * s * cable.per_length() * 0.25;
+        let place = (reach * reach).mul_add(theta, x + y) * 2.0;
+        Self {
+            theta,
+            height: y,
+            open: (turned * turned).mul_add(place, square(&along)) * 2.0,
+        }
+    }
+}
+
 /// How far neighbours reach: squares of standard deviations.
 struct Reach<L> {
     /// Of each component, at the neighbour's own impact.
@@ -320,8 +365,11 @@ struct Reach<L> {
     /// For the delay of the impact, and for its normal velocity.
     later: L,
     closing: L,
-    /// Along the other cable, the larger of the values at the previous event's time and at the
-    /// impact's; for the rotation and the height, bounds that hold at both times.
+    /// Along a gap that was open at the start of the flight, there: a bound for each.
+    start: L,
+    /// Along the other cable, the largest of the values at the start, at the end at the previous
+    /// event's time, and at the impact's; for the rotation and the height, bounds that hold at all
+    /// of them.
     other: L,
     theta: L,
     height: L,
@@ -331,19 +379,23 @@ impl<L: Lane> Reach<L> {
     #[inline(always)]
     fn of(
         bounced: &Bounced<L>,
+        start: AtStart<L>,
         met: [L; 7],
         [later, closing]: [L; 2],
         [along, at_end]: [L; 2],
     ) -> Self {
         let before = bounced.before;
         let doubled = |square: L, rate: L| (rate * rate).mul_add(later, square) * 2.0;
+        let [_, gap] = bounced.each(|k| bounced.from.gaps[k][0]);
+        let of_other = L::select(gap.below(L::ZERO), start.open, L::ZERO);
         Self {
             met,
             later,
             closing,
-            other: along.larger(at_end),
-            theta: doubled(met[2], before.vtheta),
-            height: doubled(met[1], before.vy),
+            start: start.open,
+            other: along.larger(at_end).larger(of_other),
+            theta: doubled(met[2], before.vtheta).larger(start.theta),
+            height: doubled(met[1], before.vy).larger(start.height),
         }
     }
 
@@ -380,7 +432,8 @@ impl<L: Lane> Reach<L> {
 
     /// Whether the gap that closes is open by more than the neighbours' reach up to its last rise.
     /// At the end that is its rate times their reach in time; before, the normal had another
-    /// direction, by no more than the way over the cable's length.
+    /// direction, by no more than the way over the cable's length; and they reach as far as at the
+    /// start, unless all of them begin with this cable closed.
     #[inline(always)]
     fn rises_once(&self, bounced: &Bounced<L>) -> L::Mask {
         const FACTOR: f64 = 8.0 * SIGMA_REACH * SIGMA_REACH * SAFE;
@@ -395,8 +448,11 @@ impl<L: Lane> Reach<L> {
         let place = self.met[0] + (reach * reach).mul_add(self.met[2], self.met[1]);
         let place = (speed * speed).mul_add(self.later, place) * 4.0;
         let rate = length * bounced.v_n;
-        let square = (rate * rate).mul_add(self.later, place * way * way) * FACTOR;
-        bounced.is_open_before_last_rise(square)
+        let at_end = (rate * rate).mul_add(self.later, place * way * way) * FACTOR;
+        let [gap, _] = bounced.each(|k| bounced.from.gaps[k][0]);
+        let at_start = self.start * length * length * (FACTOR * 0.5);
+        let at_start = L::select(gap.below(L::ZERO), at_start, L::ZERO);
+        bounced.is_open_before_last_rise(at_end.larger(at_start))
     }
 
     /// Whether the other gap stays open by more than the neighbours' reach. A cable that was closed

@@ -3,6 +3,7 @@
 use crate::analysis::trust::HorizonCause;
 use crate::analysis::trust::covariance::CovarianceFactor;
 use crate::model::cable::Normal;
+use crate::model::state::State;
 use crate::model::system::System;
 use crate::model::taut_set::TautSet;
 use crate::motion::active_set::normal_acceleration;
@@ -52,9 +53,12 @@ impl<'a> Spread<'a> {
     }
 }
 
-/// The spread of the neighbours of a step just before its event.
+/// The spread of the neighbours of a step. Between its ends they drift away from the run with
+/// constant velocities if it is a free flight, so that each is furthest from it at one of them.
 pub(super) struct Neighbours<'a> {
-    /// At the time of the previous event.
+    /// Just after the previous event, each at the time of its own.
+    pub(super) before: Spread<'a>,
+    /// Just before its event, at the time of the previous event.
     pub(super) along: Spread<'a>,
     /// Each neighbour at the time of its own event.
     pub(super) met: Spread<'a>,
@@ -262,7 +266,9 @@ fn may_snap(
     neighbours: &Neighbours,
     cable: usize,
 ) -> Option<f64> {
-    let Neighbours { along, met, .. } = neighbours;
+    let Neighbours {
+        before, along, met, ..
+    } = neighbours;
     let tether = &simulation.system().cables[cable];
     let per_place = 2.0 * tether.length();
     let closes = step.event.closed.contains(cable);
@@ -270,7 +276,9 @@ fn may_snap(
     // A bound first: |n| = 1, and the arm is no longer than the lever.
     let [a, b] = tether.fairlead().components();
     let slopes = [1.0, 1.0, a.abs() + b.abs(), 0.0, 0.0, 0.0];
-    let most = per_place * along.at_most(&slopes).max(met.at_most(&slopes));
+    let at_start = reach_from_start(simulation, step, before, cable);
+    let at_end = along.at_most(&slopes).max(met.at_most(&slopes));
+    let most = per_place * at_end.max(at_start);
     // So is what is known of a bounce.
     let bounced = simulation.bounced(step).filter(|_| closes);
     if bounced.is_some_and(|bounced| bounced.is_open_before_last_rise(most * most)) {
@@ -292,7 +300,7 @@ fn may_snap(
         let Some(s) = near else {
             break;
         };
-        let reach = reach_within(simulation, step, approach, along, (cable, s));
+        let reach = reach_within(simulation, step, approach, neighbours, (cable, s));
         near = simulation.comes_near(step, cable, per_place * reach);
         let moved = near.map_or(0.0, |next| (next - s).abs());
         if moved <= SAME_INSTANT * (step.t_end - step.t_start) {
@@ -306,6 +314,23 @@ fn may_snap(
     near.map(|s| (step.t_start + s).min(step.t_end)).or(at_end)
 }
 
+/// A bound on how far neighbours that drift from `before` to the run reach along the normal of a
+/// cable within a step: each just after its own event, along the normal there, which turns by ṡ/r
+/// while they come nearer in proportion to time, and so by no more than a quarter of the way over
+/// the length. If the cable is closed at the start it is so for all, and their gaps spread from zero.
+fn reach_from_start(simulation: &Simulation, step: &Step, before: &Spread, cable: usize) -> f64 {
+    if simulation.contact_at_start(step, cable).gap >= 0.0 {
+        return 0.0;
+    }
+    let tether = &simulation.system().cables[cable];
+    let Normal { n, arm } = tether.normal(&step.start);
+    let lever = tether.fairlead().length();
+    let speed = |at: &State| at.velocity().length() + at.vtheta.abs() * lever;
+    let way = (speed(&step.start) + speed(&step.before)) * (step.t_end - step.t_start);
+    let place = before.at_most(&[1.0, 1.0, lever, 0.0, 0.0, 0.0]);
+    before.reach(&[n.x, n.y, arm, 0.0, 0.0, 0.0]) + 0.25 * way / tether.length() * place
+}
+
 /// How far neighbours reach along the normal of a cable a time `s` into a step. In a free flight, in
 /// which deviations only drift, with the normal there; if the cable was closed at the start, what
 /// they reach at the end if it grows in proportion to time. Otherwise with the normal at the end.
@@ -313,14 +338,15 @@ fn reach_within(
     simulation: &Simulation,
     step: &Step,
     approach: &Approach,
-    along: &Spread,
+    Neighbours { before, along, .. }: &Neighbours,
     (cable, s): (usize, f64),
 ) -> f64 {
     let (tether, end) = (&simulation.system().cables[cable], &step.before);
     let was_open = simulation.contact_at_start(step, cable).gap < 0.0;
     if !simulation.system().flies_freely(step.taut) || s == 0.0 && !was_open {
         let Normal { n, arm } = tether.normal(end);
-        return along.reach(&[n.x, n.y, arm, 0.0, 0.0, 0.0]);
+        let at_end = along.reach(&[n.x, n.y, arm, 0.0, 0.0, 0.0]);
+        return at_end.max(reach_from_start(simulation, step, before, cable));
     }
     let now = simulation.within(step, s);
     let (Normal { n, arm }, left) = (tether.normal(&now), step.t_end - step.t_start - s);
@@ -344,7 +370,8 @@ fn may_stop(simulation: &Simulation, step: &Step, neighbours: &Neighbours) -> Op
     let (before, reached) = (&step.before, step.event.reached);
     let exceeds = rules.limits.iter().filter_map(|(limit, bound)| {
         let slopes = limit.slope_bounds(system, bound);
-        let margin = neighbours.along.at_most(&slopes);
+        let [first, last] = [&neighbours.before, &neighbours.along];
+        let margin = first.at_most(&slopes).max(last.at_most(&slopes));
         let at_end = neighbours.met.at_most(&slopes);
         let within =
             |margin: f64| simulation.largest_within(step, limit, bound - margin) + margin >= bound;

@@ -289,7 +289,9 @@ impl SpreadMonitor {
             columns: Vec::new(),
             memory: Vec::new(),
         });
+        let at_start = self.covariance.clone();
         let neighbours = Neighbours {
+            before: Spread::of(&at_start),
             along: Spread::of(&along),
             met: Spread::of(&met),
             late: 0.0,
@@ -322,6 +324,7 @@ impl SpreadMonitor {
             .carried(|w, memory| meet(step, &map, w, memory), column(1))
             .with_part(&rounding.location, map.memory_rate(), rounding.late);
         let neighbours = Neighbours {
+            before: Spread::of(&before),
             along: Spread::of(&along),
             met: Spread::of(&met),
             late: rounding.late,
