@@ -5,7 +5,9 @@
 use crate::arithmetic::ball::Ball;
 use crate::arithmetic::decimal::fixed;
 use crate::case::ExactCase;
-use crate::format::{CertificateText, FORMAT, Line, MODEL, TAUT_FORMAT, UNDECIDED, decimal};
+use crate::format::{
+    CertificateText, FORMAT, Line, MODEL, TAUT_FORMAT, UNDECIDED, cut, decimal, quoted,
+};
 use crate::proof::prove;
 use crate::proved::{Proved, ProvedEnd, ProvedImpact, Reason};
 use crate::verdict::{ProofFailure, with_more_bits};
@@ -14,6 +16,9 @@ use std::ops::ControlFlow;
 
 /// The bit counts that a certificate may state.
 const BITS: std::ops::RangeInclusive<u64> = 64..=3000;
+
+/// The longest message about text that is no certificate, in characters.
+const LONGEST_ERROR: usize = 300;
 
 /// A callback that receives a time and the last one.
 type OnProgress<'a> = &'a mut dyn FnMut(f64, f64) -> ControlFlow<()>;
@@ -71,6 +76,8 @@ pub fn check_with(text: &str, on_progress: OnProgress<'_>) -> Verdict {
     let certificate = match CertificateText::read(text) {
         Ok(certificate) => certificate,
         Err(error) => {
+            // It may repeat a key, however long.
+            let error = cut(&error.to_string(), LONGEST_ERROR);
             return Verdict::Malformed(format!("it can not be read as a certificate: {error}"));
         }
     };
@@ -85,8 +92,9 @@ fn shape(certificate: &CertificateText) -> Result<ExactCase, String> {
     let is_known = [FORMAT, TAUT_FORMAT].contains(&certificate.format.as_str());
     if !is_known || certificate.model != MODEL {
         return Err(format!(
-            "format {:?} of model {:?} is not known",
-            certificate.format, certificate.model
+            "format {} of model {} is not known",
+            quoted(&certificate.format),
+            quoted(&certificate.model)
         ));
     }
     if !BITS.contains(&certificate.bits) {
@@ -116,8 +124,8 @@ fn shape(certificate: &CertificateText) -> Result<ExactCase, String> {
         (None, None) if end.reason == UNDECIDED => {}
         _ => {
             return Err(format!(
-                "an end with the reason {:?} is not allowed, or it has t and state where it must not, or lacks them",
-                end.reason
+                "an end with the reason {} is not allowed, or it has t and state where it must not, or lacks them",
+                quoted(&end.reason)
             ));
         }
     }

@@ -16,7 +16,7 @@ pub(crate) const TAUT_FORMAT: &str = "snapload-certificate-2";
 pub(crate) const MODEL: &str = "snapload model 1";
 /// The reason at the end of a certificate that proves only the beginning of a run.
 pub(crate) const UNDECIDED: &str = "undecided";
-/// How much of a text that is no decimal a message repeats, in characters.
+/// How much of a text a message repeats, in characters.
 const LONGEST_ECHO: usize = 60;
 
 /// A certificate as it is written: the case, and what is claimed of its run.
@@ -162,7 +162,7 @@ impl CaseText {
         let is_point = match self.body.as_str() {
             "rigid" => false,
             "point" => true,
-            other => return Err(format!("body {other:?} is neither rigid nor point")),
+            other => return Err(format!("body {} is neither rigid nor point", quoted(other))),
         };
         let texts: [&String; NUMBERS.len()] = [
             &self.r,
@@ -198,11 +198,25 @@ impl CaseText {
 
 /// A decimal of a certificate.
 pub(crate) fn decimal(what: &str, text: &str) -> Result<Decimal, String> {
-    Decimal::parse(text).ok_or_else(|| {
-        let mut shown: String = text.chars().take(LONGEST_ECHO).collect();
-        if shown.len() < text.len() {
-            shown += "...";
-        }
-        format!("{what} {shown:?} is not a decimal")
-    })
+    let refuse = || {
+        format!(
+            "{what} {} is not a decimal of at most 399 characters",
+            quoted(text)
+        )
+    };
+    Decimal::parse(text).ok_or_else(refuse)
+}
+
+/// A text of a certificate as a message repeats it: in quotation marks, and cut where it is long.
+pub(crate) fn quoted(text: &str) -> String {
+    format!("{:?}", cut(text, LONGEST_ECHO))
+}
+
+/// At most so many characters of a text.
+pub(crate) fn cut(text: &str, most: usize) -> String {
+    let mut shown: String = text.chars().take(most).collect();
+    if shown.len() < text.len() {
+        shown += "...";
+    }
+    shown
 }

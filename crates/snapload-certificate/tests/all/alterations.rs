@@ -224,6 +224,33 @@ fn other_shapes_are_no_certificates() {
 }
 
 /// A list of the values in the order of the keys does not replace an object with the keys.
+/// A message about them repeats no more than their beginnings.
+#[test]
+fn texts_of_a_megabyte_are_no_certificates() {
+    let true_one = certificate();
+    let long = "9".repeat(1_000_000);
+    for (place, key) in [
+        ("", "format"),
+        ("", "model"),
+        ("", &long),
+        ("case", "body"),
+        ("case", "r"),
+        ("end", "reason"),
+        ("end", "t"),
+    ] {
+        let mut altered = true_one.clone();
+        let object = match place {
+            "" => &mut altered,
+            place => &mut altered[place],
+        };
+        object[key] = json!(long);
+        match check(&altered.to_string()) {
+            Verdict::Malformed(why) => assert!(why.len() < 500, "{place} {key}"),
+            other => panic!("{place} {key}: {other:?}"),
+        }
+    }
+}
+
 #[test]
 fn lists_in_place_of_keys_are_no_certificates() {
     let whole = certificate();
