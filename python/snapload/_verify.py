@@ -133,8 +133,8 @@ class Verification(Result):
 def verify(case: Case, digits: int = 60, *, tolerance: float = 1e-3) -> Verification:
     """Repeat the run of a case with many digits, and find the impact from which the ordinary run is wrong.
 
-    The comparison covers slack flight, impacts and the stop rules; it ends where a cable stays taut. Numbers count as
-    written: 0.1 is a tenth.
+    The comparison covers slack flight, impacts and the stop rules; it ends where a cable stays taut. A number
+    counts as the shortest decimal of its double: 0.1 is a tenth.
 
     Parameters
     ----------

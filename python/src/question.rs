@@ -25,9 +25,11 @@ pub(crate) fn answer(
     let question = question(name).ok_or_else(no_question)?;
     let options = checked(options, |name| question.option(name))?;
     let theirs = Arc::clone(&case.case);
+    // Python's numbers are doubles.
+    let entries = Entries::new(&CASE);
     let answer = interruptible(py, progress, move |shared| {
         let on_progress = |progress: Progress| shared.report(progress);
-        question.ask(&theirs, options, &on_progress)
+        question.ask(&theirs, &entries, options, &on_progress)
     })?;
     let answer = answer.map_err(error_of_work)?;
     to_json(&answer.about(&case.name, &case.case, &Entries::new(&CASE)))

@@ -119,13 +119,24 @@ impl Run {
     /// What `snapload run` prints.
     fn summary(&self) -> PyResult<String> {
         let (case, trusted) = (self.case()?, self.with_trust()?);
-        Ok(summary(&case.name, case.parameters(), trusted, None, &[]))
+        Ok(summary(
+            &case.in_words(),
+            case.parameters(),
+            trusted,
+            None,
+            &[],
+        ))
     }
 
     /// The same as labels and texts.
     fn summary_lines(&self) -> PyResult<Vec<(&'static str, String)>> {
         let (case, trusted) = (self.case()?, self.with_trust()?);
-        Ok(summary_lines(&case.name, case.parameters(), trusted, None))
+        Ok(summary_lines(
+            &case.in_words(),
+            case.parameters(),
+            trusted,
+            None,
+        ))
     }
 
     /// Where trust ends, and why.

@@ -108,7 +108,7 @@ pub(crate) fn run(args: Args) -> Result<(), Failure> {
     let outputs = Outputs::open(&json)?;
     let bar = Bar::new();
     let on_progress = |progress: Progress| bar.show(progress);
-    let answer = question.ask_as_written(&input.case, &input.entries, options, &on_progress);
+    let answer = question.ask(&input.case, &input.entries, options, &on_progress);
     let answer = answer.map_err(|why| match why {
         Unfinished::Case(error) => as_written(question, error).into(),
         cancelled => Failure::from(cancelled),

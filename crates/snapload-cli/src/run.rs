@@ -12,7 +12,8 @@ use snapload::analysis::{MEMBERS, Progress};
 use snapload::{Case, Sampling};
 use snapload_certificate::Cancelled;
 use snapload_report::{
-    Certified, Report, RunWithTrust, case_in_words, prove, summary, tables, write_json,
+    Certified, Report, RunWithTrust, case_as_written, case_in_words, prove, summary, tables,
+    write_json,
 };
 use std::path::{Path, PathBuf};
 
@@ -75,6 +76,12 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
     let mut outputs = Outputs::open(args)?;
     let trusted = trusted(args, &input.case)?;
     let certified = certified(args, &input, &trusted)?;
+    // A proof is about the numbers as they were written.
+    let (name, parameters) = (&input.name, input.case.parameters());
+    let caption = match certified {
+        Some(_) => case_as_written(name, parameters, &input.entries),
+        None => case_in_words(name, parameters),
+    };
     let trajectory = &trusted.run;
     let sampling = args
         .sample
@@ -87,7 +94,7 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
 
     if let Some((folder, directory)) = outputs.directory.take() {
         let pending = &mut outputs.pending;
-        write_directory(pending, folder, &directory, &input, &trusted, sampling)?;
+        write_directory(pending, folder, &directory, &caption, &trusted, sampling)?;
         pending.write(folder, directory.join("run.json"), |out| {
             write_json(&report, out)
         })?;
@@ -99,8 +106,8 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
     }
     match outputs.json.write(outputs.pending, &report)? {
         Some(written) => print(&summary(
-            &input.name,
-            input.case.parameters(),
+            &caption,
+            parameters,
             &trusted,
             certified.as_ref(),
             &written,
@@ -199,7 +206,7 @@ fn write_directory(
     pending: &mut PendingOutputs,
     folder: TargetFolder,
     directory: &Path,
-    input: &Input,
+    caption: &str,
     trusted: &RunWithTrust,
     sampling: Option<Sampling>,
 ) -> Result<(), Failure> {
@@ -215,10 +222,7 @@ fn write_directory(
     pending.write(folder, place("motion.csv"), |out| {
         tables::motion(trajectory, sampling, out)
     })?;
-    for picture in pictures(
-        &case_in_words(&input.name, input.case.parameters()),
-        trusted,
-    )? {
+    for picture in pictures(caption, trusted)? {
         pending.write(folder, place(&picture.name), |out| {
             out.write_all(&picture.bytes)
         })?;

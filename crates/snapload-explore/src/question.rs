@@ -5,6 +5,7 @@ use crate::request::{Values, case, options};
 use crate::section::unfinished;
 use crate::work::Allowance;
 use serde::Deserialize;
+use snapload::{CASE, Entries};
 use snapload_report::Question;
 use std::time::Duration;
 
@@ -30,7 +31,11 @@ pub(crate) fn answer(
     let case = case(request.values)?;
     let options = options(question, request.options)?;
     let allowance = allowance.within(BUDGET);
-    let answer = question.ask(&case, options, &|progress| allowance.check(progress));
+    // The fields of the page hold doubles.
+    let entries = Entries::new(&CASE);
+    let answer = question.ask(&case, &entries, options, &|progress| {
+        allowance.check(progress)
+    });
     let command = format!("snapload {}", question.name);
     let answer = answer.map_err(|why| unfinished(why, BUDGET, &command))?;
     serde_json::to_vec(&answer).map_err(Refusal::failed)

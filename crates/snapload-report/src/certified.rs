@@ -217,13 +217,22 @@ fn confirmed_digits(t: f64, exact: f64) -> f64 {
     digits_within((t - exact).abs() / exact.abs().max(1.0))
 }
 
+/// Numbers that differ by no more agree, whatever their digits: those of a run are of order 1, and
+/// known to so much, where it is best known.
+const ROUNDINGS: f64 = 1e-12;
+
+/// Whether two numbers agree in the five digits that are printed, or up to rounding.
+fn agree(number: f64, decimal: &str) -> bool {
+    let exact = nearest(decimal);
+    digits(number) == digits(exact) || (number - exact).abs() <= ROUNDINGS
+}
+
 fn difference(impact: &Impact, exact: &PrintedImpact) -> Option<Differs> {
-    let same = |number: f64, decimal| digits(number) == digits(nearest(decimal));
     if impact.cable != exact.cable {
         Some(Differs::Cable)
-    } else if !same(impact.t, exact.t) {
+    } else if !agree(impact.t, exact.t) {
         Some(Differs::Time)
-    } else if !same(impact.v_n, exact.v_n) {
+    } else if !agree(impact.v_n, exact.v_n) {
         Some(Differs::Speed)
     } else {
         None
@@ -232,5 +241,5 @@ fn difference(impact: &Impact, exact: &PrintedImpact) -> Option<Differs> {
 
 fn ends_otherwise(run: &Trajectory, reason: Reason, t: &str) -> bool {
     let end = run.end();
-    reason != Reason::Stop(end.reason) || digits(end.t) != digits(nearest(t))
+    reason != Reason::Stop(end.reason) || !agree(end.t, t)
 }

@@ -1,7 +1,7 @@
 //! Questions about one case. Each is defined once, as a [`Question`]: its name, what it asks, its
 //! options and how it is answered. The command line makes a subcommand of it, Python a function and
 //! the server of the page a path, without further code.
-use crate::summary::case_as_written;
+use crate::caption::case_as_written;
 use serde::Serialize;
 use serde_json::value::{RawValue, to_raw_value};
 use snapload::analysis::{OnProgress, Unfinished};
@@ -32,27 +32,14 @@ impl Question {
         Table::new(self.name, Heading::None, self.asks, self.options).key(name, name)
     }
 
-    /// Asks it about a case. An option that is left out has its default; for one given twice the
-    /// last value counts.
+    /// Asks it about a case. Where the answer depends on them, all digits count in which numbers were
+    /// written, if `entries` have them; without, a number is the shortest decimal of its double. An
+    /// option that is left out has its default; for one given twice the last value counts.
     ///
     /// # Errors
     /// A [`CaseError`] if an option or the case does not allow an answer, and
     /// [`Unfinished::Cancelled`].
     pub fn ask<K: AsRef<str>>(
-        &self,
-        case: &Case,
-        given: impl IntoIterator<Item = (K, Value)>,
-        on_progress: OnProgress,
-    ) -> Result<Answer, Unfinished> {
-        self.ask_as_written(case, &Entries::new(&CASE), given, on_progress)
-    }
-
-    /// The same about a case whose keys were given as text, in `entries`: where the answer depends
-    /// on them, all digits count in which its numbers were written.
-    ///
-    /// # Errors
-    /// As for [`Question::ask`].
-    pub fn ask_as_written<K: AsRef<str>>(
         &self,
         case: &Case,
         entries: &Entries,
@@ -152,7 +139,12 @@ mod tests {
 
     fn refused(given: &[(&str, Value)]) -> Result<String, CaseError> {
         let case = Case::new(Parameters::STANDARD)?;
-        match VERIFY.ask(&case, given.iter().cloned(), &no_progress) {
+        match VERIFY.ask(
+            &case,
+            &Entries::new(&CASE),
+            given.iter().cloned(),
+            &no_progress,
+        ) {
             Err(Unfinished::Case(error)) => Ok(error.to_string()),
             _ => Ok("(nothing)".to_owned()),
         }

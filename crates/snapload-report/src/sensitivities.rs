@@ -151,11 +151,16 @@ fn in_words(found: &[Sensitivity], followed_part: &FollowedPart) -> String {
 mod tests {
     use super::*;
     use snapload::analysis::no_progress;
-    use snapload::{Parameters, Value};
+    use snapload::{CASE, Entries, Parameters, Value};
 
     fn answer_for(parameters: Parameters, impacts: i64) -> Result<Answer, Unfinished> {
         let case = Case::new(parameters)?;
-        SENSITIVITIES.ask(&case, [("impacts", Value::from(impacts))], &no_progress)
+        SENSITIVITIES.ask(
+            &case,
+            &Entries::new(&CASE),
+            [("impacts", Value::from(impacts))],
+            &no_progress,
+        )
     }
 
     /// The standard case is certain before impact 191, where a near miss ends trust.

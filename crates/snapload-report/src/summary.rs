@@ -4,26 +4,23 @@ use crate::run_with_trust::{snaps, snaps_before};
 use crate::{Certified, RunWithTrust, outcome_in_words, trust_in_words};
 use serde::Serialize;
 use snapload::analysis::{NormErrors, Trust, digits_within};
-use snapload::{
-    CASE, Entries, Impact, Mode, ModeInterval, Norms, Parameters, SETTLING_HEIGHT, Stop,
-    Trajectory, Value,
-};
+use snapload::{Impact, Mode, ModeInterval, Norms, Parameters, SETTLING_HEIGHT, Stop, Trajectory};
 use std::fmt::Write;
 use std::path::PathBuf;
 
 /// If there are more intervals than this, only their sums are given.
 const FEW_MODES: usize = 6;
 
-/// The summary of a run of the case of this name, with its proof if there is one and the files that
-/// were written.
+/// The summary of a run of a case with this caption, with its proof if there is one and the files
+/// that were written.
 pub fn summary(
-    name: &str,
+    caption: &str,
     parameters: &Parameters,
     trusted: &RunWithTrust,
     certified: Option<&Certified>,
     written: &[PathBuf],
 ) -> String {
-    let mut lines = summary_lines(name, parameters, trusted, certified);
+    let mut lines = summary_lines(caption, parameters, trusted, certified);
     for (i, path) in written.iter().enumerate() {
         let label = if i == 0 { "Written" } else { "" };
         lines.push((label, path.display().to_string()));
@@ -37,14 +34,14 @@ pub fn summary(
 /// The lines of a summary: a label, empty if the line continues the one above, and a text, which
 /// may have several lines itself.
 pub fn summary_lines(
-    name: &str,
+    caption: &str,
     parameters: &Parameters,
     trusted: &RunWithTrust,
     certified: Option<&Certified>,
 ) -> Vec<(&'static str, String)> {
     let run = &trusted.run;
     let mut lines = vec![
-        ("Case", case_in_words(name, parameters)),
+        ("Case", caption.to_owned()),
         ("End", end_with_digits(trusted, parameters, certified)),
     ];
     if let Some(limit) = run.end().t_limit {
@@ -83,45 +80,6 @@ pub fn summary_lines(
 /// A text of several lines, the later ones indented to align with the first.
 pub fn indented(text: &str) -> String {
     text.replace('\n', "\n          ")
-}
-
-/// The name of the case, and how it differs from the standard one. Values that were given have all
-/// their digits, so that two cases with one caption are the same case; an inertia that follows from
-/// the size is rounded.
-pub fn case_in_words(name: &str, parameters: &Parameters) -> String {
-    case_as_written(name, parameters, &Entries::new(&CASE))
-}
-
-/// The same for an answer about the numbers as they were written, in `entries`: one with more digits
-/// than a double has is repeated with all of them.
-pub(crate) fn case_as_written(name: &str, parameters: &Parameters, entries: &Entries) -> String {
-    let differing: Vec<String> = parameters
-        .entries()
-        .filter(|(key, value)| *value != Parameters::STANDARD.get(key))
-        .filter_map(|(key, value)| {
-            let value = value?;
-            let follows = key == "inertia" && parameters.inertia_follows();
-            let written = entries.written(key).filter(|text| text.len() > 17);
-            let text = match (value, written) {
-                (_, Some(written)) => written.to_owned(),
-                (Value::Number(number), None) if follows => digits(number),
-                (given, None) => given.to_string(),
-            };
-            Some(format!("{key} = {text}"))
-        })
-        .collect();
-    if differing.is_empty() {
-        return match name {
-            "standard case" => "the standard case (1910001000-359)".to_owned(),
-            name => format!("{name}: the standard case"),
-        };
-    }
-    let join = if name == "standard case" {
-        " with"
-    } else {
-        ":"
-    };
-    format!("{name}{join} {}", differing.join(", "))
 }
 
 /// The number of known digits of each norm, in words.
@@ -366,27 +324,6 @@ mod tests {
         let (lines, largest) = words(Parameters::STANDARD)?;
         assert!(lines.len() == 1 && lines[0].1.contains(&largest));
         Ok(())
-    }
-
-    /// Two doubles, however near, have two captions; an inertia of the size is no value of its own.
-    #[test]
-    fn a_caption_tells_values_apart() {
-        let f_o = 0.3_f64.next_up();
-        let parameters = Parameters {
-            f_o,
-            a: 0.3,
-            inertia: snapload::natural_inertia(0.3, 0.0),
-            ..Parameters::STANDARD
-        };
-        let caption = case_in_words("standard case", &parameters);
-        assert_eq!(
-            caption,
-            "standard case with a = 0.3, inertia = 0.09, f_o = 0.30000000000000004"
-        );
-        let mut entries = Entries::new(&CASE);
-        entries.set("f_o=0.30000000000000002").expect("a number");
-        let caption = case_as_written("standard case", &parameters, &entries);
-        assert!(caption.ends_with("f_o = 0.30000000000000002"), "{caption}");
     }
 
     /// The summary counts the impacts as an outcome and a sweep do, and impulses passed into a taut

@@ -272,13 +272,18 @@ fn digits_left_in_words(found: &Verification) -> String {
 mod tests {
     use super::*;
     use serde_json::Value;
-    use snapload::Parameters;
     use snapload::analysis::no_progress;
+    use snapload::{CASE, Entries, Parameters};
     use snapload_verify::verify;
 
     fn answered(parameters: Parameters) -> Result<(String, Value), Unfinished> {
         let case = Case::new(parameters)?;
-        let answer = VERIFY.ask(&case, [("digits", 60_i64.into()); 1], &no_progress)?;
+        let answer = VERIFY.ask(
+            &case,
+            &Entries::new(&CASE),
+            [("digits", 60_i64.into()); 1],
+            &no_progress,
+        )?;
         let json = serde_json::from_str(answer.answer.get()).expect("JSON");
         Ok((answer.words, json))
     }

@@ -1,0 +1,108 @@
+//! What a case is called above its results: its name, and how it differs from the standard one.
+
+use crate::digits::digits;
+use snapload::{CASE, Entries, Parameters, Value};
+
+/// The name of the case, and how it differs from the standard one. Values that were given have all
+/// their digits, so that two cases with one caption are the same case; an inertia that follows from
+/// the size is rounded.
+pub fn case_in_words(name: &str, parameters: &Parameters) -> String {
+    case_as_written(name, parameters, &Entries::new(&CASE))
+}
+
+/// The same for an answer about the numbers as they were written, in `entries`: one that is not the
+/// shortest decimal of its double is repeated with all its digits.
+pub fn case_as_written(name: &str, parameters: &Parameters, entries: &Entries) -> String {
+    let differing: Vec<String> = parameters
+        .entries()
+        .filter_map(|(key, value)| {
+            let written = written_otherwise(entries, key, value.as_ref());
+            if written.is_none() && value == Parameters::STANDARD.get(key) {
+                return None;
+            }
+            let follows = key == "inertia" && parameters.inertia_follows();
+            let text = match (value?, written) {
+                (_, Some(written)) => written.to_owned(),
+                (Value::Number(number), None) if follows => digits(number),
+                (given, None) => given.to_string(),
+            };
+            Some(format!("{key} = {text}"))
+        })
+        .collect();
+    if differing.is_empty() {
+        return match name {
+            "standard case" => "the standard case (1910001000-359)".to_owned(),
+            name => format!("{name}: the standard case"),
+        };
+    }
+    let join = if name == "standard case" {
+        " with"
+    } else {
+        ":"
+    };
+    format!("{name}{join} {}", differing.join(", "))
+}
+
+/// The digits in which the value of a key was written, where they are another decimal than the
+/// shortest one of its double.
+fn written_otherwise<'a>(
+    entries: &'a Entries,
+    key: &str,
+    value: Option<&Value>,
+) -> Option<&'a str> {
+    let written = entries
+        .written(key)
+        .filter(|text| text.len() > MOST_DIGITS)?;
+    let plain = written.strip_prefix('+').unwrap_or(written);
+    let plain = match plain.contains('.') && !plain.contains(['e', 'E']) {
+        true => plain.trim_end_matches('0').trim_end_matches('.'),
+        false => plain,
+    };
+    (value?.to_string() != plain).then_some(written)
+}
+
+/// So many characters never hold more digits than tell a double from all others.
+const MOST_DIGITS: usize = 17;
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Two doubles, however near, have two captions; an inertia of the size is no value of its own.
+    #[test]
+    fn a_caption_tells_values_apart() {
+        let f_o = 0.3_f64.next_up();
+        let parameters = Parameters {
+            f_o,
+            a: 0.3,
+            inertia: snapload::natural_inertia(0.3, 0.0),
+            ..Parameters::STANDARD
+        };
+        let caption = case_in_words("standard case", &parameters);
+        assert_eq!(
+            caption,
+            "standard case with a = 0.3, inertia = 0.09, f_o = 0.30000000000000004"
+        );
+        let mut entries = Entries::new(&CASE);
+        entries.set("f_o=0.30000000000000002").expect("a number");
+        let caption = case_as_written("standard case", &parameters, &entries);
+        assert!(caption.ends_with("f_o = 0.30000000000000002"), "{caption}");
+    }
+
+    /// A number that is the standard one as a double, but not as it was written, is no standard
+    /// case; zeros at its end change nothing.
+    #[test]
+    fn a_caption_tells_decimals_of_one_double_apart() {
+        let caption = |f_o: &str| {
+            let mut entries = Entries::new(&CASE);
+            entries.set(&format!("f_o={f_o}")).expect("a number");
+            case_as_written("standard case", &Parameters::STANDARD, &entries)
+        };
+        let standard = "the standard case (1910001000-359)";
+        assert_eq!(caption("0.3000000000000000000"), standard);
+        assert_eq!(caption("+0.300000000000000000"), standard);
+        for text in ["0.30000000000000001", "3.00000000000000000001e-1"] {
+            assert_eq!(caption(text), format!("standard case with f_o = {text}"));
+        }
+    }
+}
