@@ -10,8 +10,8 @@
 use crate::bordered::null_vectors;
 use crate::hybrid::{Family, Hybrid, Point};
 use crate::lap::Lap;
-use crate::newton::{Closed, add};
-use crate::sequence::Sequence;
+use crate::newton::{Closed, add, close};
+use crate::sequence::{Sequence, Timed};
 use nalgebra::{DMatrix, DVector};
 
 /// The unknowns at a point of a branch.
@@ -43,6 +43,8 @@ impl<F: Family> Clone for Continuation<'_, F> {
 
 /// Two corrected points of a branch that differ by less than this are one.
 pub(crate) const SAME: f64 = 1e-8;
+/// By no more than this does another number of snaps in an accumulation move the orbit.
+const RECOUNTED: f64 = 1e-4;
 /// The step of difference quotients of exact derivatives.
 pub(crate) const DIFFERENCE: f64 = 3e-6;
 /// The most steps of the corrector.
@@ -242,6 +244,43 @@ impl<F: Family> Continuation<'_, F> {
             at: u.at,
         };
         Some((moved, here, shift))
+    }
+
+    /// The same orbit with the snaps of its accumulations counted anew, as a simulated lap has them,
+    /// and the direction there; none if their number is the same. How many there are before one is
+    /// slow enough to stick changes along a branch, and means nothing.
+    pub(crate) fn recounted(
+        &self,
+        u: &Unknowns,
+        timed: &Timed,
+        tangent: &DVector<f64>,
+    ) -> Option<(Self, Unknowns, DVector<f64>)> {
+        if !timed.accumulates() {
+            return None;
+        }
+        let (t_start, length) = self.lap(u.at).times();
+        let simulated = self
+            .family
+            .simulate(u.at, t_start, &u.z, t_start + length)?;
+        let new = simulated.lap;
+        if new.sequence == self.sequence || !new.same_events(timed) {
+            return None;
+        }
+        let counted = Self {
+            sequence: new.sequence,
+            ..self.clone()
+        };
+        let Closed { z, durations, .. } = close(&counted.lap(u.at), &u.z, &new.durations)?;
+        let at = u.at;
+        let there = Unknowns { z, durations, at };
+        let direction = counted.first_tangent(&there)?;
+        // What both have in common are the state and the parameter.
+        let m = self.family.variables().len();
+        let state = direction.rows(0, m).dot(&tangent.rows(0, m));
+        let agrees = state + direction[direction.len() - 1] * tangent[tangent.len() - 1];
+        let direction = if agrees < 0.0 { -direction } else { direction };
+        let near = u.distance(&there) < RECOUNTED;
+        near.then_some((counted, there, direction))
     }
 
     /// The direction after a renumbering: the one that agrees with the old one in the parameter and

@@ -115,8 +115,14 @@ impl Curve {
         };
         let Some(on_curve) = OnCurve::start_at(continuation, start, event) else {
             let name = event.kind.name().replace('_', " ");
+            let why = match orbit.lap.accumulates() {
+                true => {
+                    "; rows of ever slower snaps, as this orbit has before a cable stays taut, can not be followed"
+                }
+                false => "",
+            };
             return Ok(Err(NoOrbit(format!(
-                "Newton's method finds no point of the curve from the {name} at {:.9}",
+                "Newton's method finds no point of the curve from the {name} at {:.9}{why}",
                 event.value[0]
             ))));
         };

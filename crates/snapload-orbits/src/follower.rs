@@ -179,8 +179,13 @@ impl<'a> Follower<'a> {
             }
             (here, tangent, tested) = (there.at, there.direction, reached);
             let renumbered = renumber_events(&mut continuation, &mut here, &mut tangent);
+            let mut orbit = renumbered.unwrap_or(found);
+            if let Some(recounted) = continuation.recounted(&here, &orbit.lap, &tangent) {
+                (continuation, here, tangent) = recounted;
+                orbit = Orbit::of(&continuation.lap(here.at), &here.closed());
+                tested = Tested::new(&orbit, &tangent).reached_from(&tested);
+            }
             if there.length > 0.0 {
-                let orbit = renumbered.unwrap_or(found);
                 half.points.push(point(orbit, half.arclength));
             }
             half.end.because = there.end.unwrap_or_default().to_owned();
@@ -326,9 +331,12 @@ impl<'a> Follower<'a> {
             found.retain(|event| event.kind != Kind::Fold || !is_same(event, &crossing));
         }
         let end = found.last().filter(|event| event.ends_branch());
-        if end.is_some_and(|end| end.kind == Kind::Graze) {
-            // The multipliers are infinite where v_n is zero.
-            return Some(found);
+        let resolved = branch_step.length <= self.options.step * RESOLVED;
+        if let Some(end) = end.filter(|end| end.kind == Kind::Graze) {
+            // Before a snap of an accumulation has no velocity left it sticks instead, unless there
+            // are no more of them. Elsewhere the branch ends, where the multipliers are infinite.
+            let is_counted = end.orbit.lap.is_slowest_in_accumulation();
+            return (!is_counted || resolved).then_some(found);
         }
         let multipliers = &end.map_or(beyond, |end| &end.orbit).multipliers;
         let passed_over = before
@@ -337,7 +345,6 @@ impl<'a> Follower<'a> {
         let not_crossed = end.is_none()
             && !found.iter().any(crosses)
             && changed().any(|(test, ..)| test == Test::BranchPoint);
-        let resolved = branch_step.length <= self.options.step * RESOLVED;
         if (passed_over.is_some() || not_crossed) && !resolved {
             return None;
         }

@@ -116,26 +116,50 @@ impl Event {
 }
 
 impl Timed {
+    /// Which events are slow snaps that lead to a stick.
+    fn accumulating(&self) -> Vec<bool> {
+        let events = &self.sequence.events;
+        let taut_sets = self.sequence.taut_sets();
+        let mut marks = vec![false; events.len()];
+        for (k, event) in events.iter().enumerate() {
+            if !event
+                .after
+                .iter()
+                .any(|cable| !taut_sets[k].contains(cable))
+            {
+                continue;
+            }
+            let is_slow = |i: &usize| {
+                !marks[*i] && !events[*i].struck().is_empty() && self.speeds[*i] < ACCUMULATING
+            };
+            let first = (0..k).rev().take_while(is_slow).last().unwrap_or(k);
+            marks[first..k].fill(true);
+        }
+        marks
+    }
+
+    /// Whether slow snaps lead to a stick.
+    pub(crate) fn accumulates(&self) -> bool {
+        self.accumulating().contains(&true)
+    }
+
+    /// Whether the slowest snap is one of those that lead to a stick, or that stick itself.
+    pub(crate) fn is_slowest_in_accumulation(&self) -> bool {
+        let marks = self.accumulating();
+        let events = self.sequence.events.iter().zip(&self.speeds).enumerate();
+        let snaps = events.filter(|(_, (event, _))| !event.struck().is_empty());
+        let slowest = snaps.min_by(|(_, (_, a)), (_, (_, b))| a.total_cmp(b));
+        slowest.is_some_and(|(k, _)| marks[k] || k > 0 && marks[k - 1])
+    }
+
     /// The sequence without the slow snaps that lead to a stick.
     fn without_accumulations(&self) -> Sequence {
-        let mut kept: Vec<(Event, f64)> = Vec::new();
-        let mut taut = self.sequence.start;
-        for (event, speed) in self.sequence.events.iter().zip(&self.speeds) {
-            let sticks = event.after.iter().any(|cable| !taut.contains(cable));
-            if sticks {
-                while let Some((last, slow)) = kept.last()
-                    && !last.struck().is_empty()
-                    && *slow < ACCUMULATING
-                {
-                    kept.pop();
-                }
-            }
-            kept.push((*event, *speed));
-            taut = event.after;
-        }
+        let marks = self.accumulating();
+        let kept = self.sequence.events.iter().zip(marks);
+        let kept = kept.filter(|(_, accumulates)| !accumulates);
         Sequence {
             start: self.sequence.start,
-            events: kept.into_iter().map(|(event, _)| event).collect(),
+            events: kept.map(|(event, _)| *event).collect(),
         }
     }
 

@@ -167,3 +167,27 @@ fn a_branch_that_starts_on_a_border_ends_there() {
     assert_eq!(found.ends[0].at, 0.0);
     assert_eq!(found.ends[0].because, "the end of the range");
 }
+
+/// The last snaps of an accumulation become too slow to count along this branch. Each orbit is that
+/// of the simulated motion, which is what makes it admissible, whatever their number.
+#[test]
+fn a_snap_that_sticks_in_place_of_the_next_ends_no_branch() {
+    let base = Parameters {
+        r: 1.845,
+        e: 0.3,
+        nu: 0.25,
+        omega: 1.38,
+        f_o: 0.9376020269739951,
+        ..POINT
+    };
+    let keys = [Some("f_o"), None];
+    let family = Moored::case(base, keys);
+    let start = [0.02357007, 0.03977678, 0.0, 0.29390353, 0.37374873, 0.0];
+    let orbit = near(&family, Moored::values(&base, keys), start);
+    let found = branch(&family, &orbit, [0.93, base.f_o], 0.0008);
+    assert_eq!(found.ends[0].because, "the end of the range");
+    assert!(found.events.iter().all(|event| event.kind != Kind::Graze));
+    assert!(found.points.iter().all(|point| point.orbit.is_admissible()));
+    let snaps = |k: usize| found.points[k].orbit.lap.sequence.snaps();
+    assert!(snaps(0) < snaps(found.points.len() - 1));
+}
