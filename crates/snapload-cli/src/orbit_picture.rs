@@ -1,12 +1,13 @@
 //! `--plot` and `--show` of sections, branches and curves.
 use crate::failure::Failure;
 use crate::outputs::{OutFile, Outputs};
+use snapload::{key_named, quantity};
 use snapload_figures::{
     Axis, Colour, Dash, FigureError, Layer, Mark, PNG_SCALE, Plot, Point, Range, Stroke, Width,
     draw,
 };
 use snapload_orbits::{BranchEvent, Kind, Orbit, Stability};
-use snapload_study::key_label;
+use snapload_study::{key_label, with_unit};
 use std::path::PathBuf;
 
 /// Which picture, and where it goes.
@@ -115,17 +116,30 @@ impl PlotFile {
     }
 }
 
-/// The label of an axis.
+/// The label of an axis: a key's, or that of a quantity, with the unit.
 fn label(column: &str) -> String {
-    match column {
-        "v_n" => "*v*ₙ (L/T)".to_owned(),
-        "least_v_n" => "least *v*ₙ (L/T)".to_owned(),
-        "phase" => "phase of the forcing, *t*/*T*".to_owned(),
-        "vx_before" | "vy_before" | "vtheta_before" => {
-            let key = column.trim_end_matches("_before");
-            format!("{} before the impact", key_label(key))
+    let named = |name: &str| {
+        let of_orbits = snapload_orbits::QUANTITIES.iter();
+        let known = quantity(name).or_else(|| of_orbits.into_iter().find(|q| q.name == name));
+        match known.filter(|_| key_named(name).is_err()) {
+            Some(quantity) => with_unit(&quantity.symbol.replace('_', " "), quantity.unit),
+            None => key_label(name).replace('_', " "),
         }
-        other => key_label(other).replace('_', " "),
+    };
+    if column == "phase" {
+        return "phase of the forcing, *t*/*T*".to_owned();
+    }
+    for (side, words) in [
+        ("_before", "before the impact"),
+        ("_after", "after the impact"),
+    ] {
+        if let Some(key) = column.strip_suffix(side) {
+            return format!("{} {words}", named(key));
+        }
+    }
+    match column.strip_prefix("least_") {
+        Some(name) => format!("least {}", named(name)),
+        None => named(column),
     }
 }
 
@@ -207,5 +221,25 @@ fn short(kind: Kind) -> &'static str {
         Kind::Corner => "corner",
         Kind::TensionLost => "slack",
         Kind::Limit(limit) => limit.stop().label(),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::label;
+
+    #[test]
+    fn axes_have_units() {
+        for (column, words) in [
+            ("f_o", "*f*ₒ (F)"),
+            ("t", "*t* (T)"),
+            ("impulse", "*p* (m L/T)"),
+            ("least_v_n", "least *v*ₙ (L/T)"),
+            ("vy_after", "d*y*/d*t* (L/T) after the impact"),
+            ("theta_max", "|*θ*|ₘₐₓ (rad)"),
+            ("largest_multiplier", "largest multiplier"),
+        ] {
+            assert_eq!(label(column), words);
+        }
     }
 }

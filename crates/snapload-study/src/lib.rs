@@ -35,7 +35,7 @@ pub use list::List;
 pub use metadata::{Identity, Shard};
 pub use parquet_file::{ColumnType, Values};
 #[cfg(feature = "pictures")]
-pub use picture::{StudyPicture, key_label};
+pub use picture::{StudyPicture, key_label, with_unit};
 pub use plan::{Axis, MOST_CASES, Plan, RANDOM, RandomRange, written_grid};
 pub use rows::{Row, Run, rows};
 pub use sobol::Sobol;

@@ -221,7 +221,8 @@ pub fn key_label(name: &str) -> String {
     with_unit(&symbol, key.unit)
 }
 
-fn with_unit(symbol: &str, unit: &str) -> String {
+/// A symbol with its unit, for an axis; without where it has none.
+pub fn with_unit(symbol: &str, unit: &str) -> String {
     match unit {
         "" | "1" => symbol.to_owned(),
         unit => format!("{symbol} ({unit})"),

@@ -241,7 +241,7 @@ fn sections_and_branches_are_drawn() {
         "fold",
         "corner",
         "upper bound",
-        "y max",
+        "ₘₐₓ (L)",
     ] {
         assert!(picture.contains(&format!(">{word}<")), "{word}");
     }
