@@ -65,6 +65,9 @@ pub(crate) const LAPS: usize = 8;
 const FEWEST_LAPS: usize = 5;
 const KNOWN_DISTANCE: f64 = 1e-12;
 const ROUNDINGS: f64 = 4.0;
+/// A lap whose ends differ by more than this part of the distance between points fewer periods apart
+/// does not follow the motion that is approached, but comes to it.
+const FOLLOWED: f64 = 0.25;
 /// The longest period that is searched for.
 pub const LONGEST_PERIOD: usize = 64;
 
@@ -155,21 +158,30 @@ impl Section {
 
     /// Whether a motion that returns after `n` periods to within the accuracy approaches one of `d`
     /// periods, a part of them: slowly, so that points `d` apart still differ by more, but by less
-    /// from lap to lap. The last laps show it, or for the slowest motions only all of them do.
+    /// from lap to lap. The slowest approach shows only over all laps that follow the motion of `n`
+    /// periods; those before them say nothing about its end.
     fn approaches(&self, n: usize, d: usize) -> bool {
-        let all = self.points.len().saturating_sub(d) / n;
+        let all = (self.points.len() - n) / n;
+        let follows = |back: &usize| {
+            let [lap, part] = [n, d].map(|by| self.apart(*back, n, by));
+            lap <= FOLLOWED * part
+        };
+        let followed = (0..all).take_while(follows).count();
         let enough = |laps: &usize| (FEWEST_LAPS..=all).contains(laps);
-        let mut laps = [self.laps(), all].into_iter().filter(enough);
+        let mut laps = [self.laps(), followed].into_iter().filter(enough);
         laps.any(|laps| self.approaches_over(laps, n, d))
     }
 
+    /// The largest distance of points `by` periods apart in a lap of `n` periods, counted back from
+    /// the last one.
+    fn apart(&self, back: usize, n: usize, by: usize) -> f64 {
+        let end = self.points.len() - n * back;
+        let apart = (end - n..end).map(|k| distance(&self.points[k], &self.points[k - by]));
+        apart.fold(0.0, f64::max)
+    }
+
     fn approaches_over(&self, laps: usize, n: usize, d: usize) -> bool {
-        let end = self.points.len();
-        let off = |lap: usize| {
-            let last = end - n * (laps - 1 - lap);
-            let apart = (last - n..last).map(|k| distance(&self.points[k], &self.points[k - d]));
-            apart.fold(0.0, f64::max)
-        };
+        let off = |lap: usize| self.apart(laps - 1 - lap, n, d);
         // A geometric sequence of distances, from its values at three laps.
         let half = (laps - 1) / 2;
         let [first, middle, last] = [0, half, 2 * half].map(off);
@@ -344,11 +356,18 @@ mod tests {
                 0.0,
             ]
         };
-        let points: Vec<Point> = (0..=1000).map(point).collect();
+        section_of((0..=1000).map(point).collect(), periods, length)
+    }
+
+    /// The section of a motion from its points, after a number of periods of this length.
+    fn section_of(points: Vec<Point>, first: u32, length: f64) -> Section {
         Section {
-            end: (points[1000], length * f64::from(periods + 1000)),
+            end: (
+                points[points.len() - 1],
+                length * (f64::from(first) + points.len() as f64 - 1.0),
+            ),
             points,
-            first: u64::from(periods),
+            first: u64::from(first),
             snaps: Vec::new(),
             impacts: None,
             exponents: Vec::new(),
@@ -373,6 +392,28 @@ mod tests {
                     assert_eq!(after.period(), Some(2), "{periods} {factor} {beyond}");
                 }
             }
+        }
+    }
+
+    /// A motion that jumps about as x -> 4 x (1 - x) does and then, from one moment to the next,
+    /// goes round few points.
+    #[test]
+    fn what_comes_before_a_motion_settles_has_no_say_in_its_period() {
+        for start in 1..200 {
+            let (settles, period) = (start % 67, 2 + start % 5);
+            let mut x = f64::from(start) / 200.0;
+            let point = |k: u32| {
+                x *= 4.0 * (1.0 - x);
+                let angle = std::f64::consts::TAU * f64::from(k % period) / f64::from(period);
+                let y = match k < settles {
+                    true => x,
+                    false => 0.5 + 0.01 * angle.cos(),
+                };
+                [0.0, y, 0.0, 0.0, 0.0, 0.0]
+            };
+            let points: Vec<Point> = (0..settles + 10 * period + start % 7).map(point).collect();
+            let found = section_of(points, 0, 1.6).period();
+            assert_eq!(found, Some(period as usize), "from {start}/200");
         }
     }
 }
