@@ -71,7 +71,7 @@ class Admissible:
     largest_gap : float or None
         The largest gap g between events, where a cable comes closest to being taut [L^2]; None if none comes close.
     least_tension : float or None
-        The smallest tension of a taut cable [F]; None if no cable is taut.
+        The smallest tension of a taut cable, besides that at its release [F]; None if no cable is taut.
     least_v_n : float or None
         The smallest normal velocity of a snap [L/T]; None if there is no snap.
     y_max : float

@@ -284,7 +284,7 @@ fn value(test: Test, orbit: &Orbit, tangent: &DVector<f64>) -> f64 {
         Test::Speed => extreme(survey.least_speed, f64::NAN),
         Test::Gap => extreme(survey.largest_gap, -1.0),
         Test::Corner => extreme(survey.corner_gap, -1.0),
-        Test::Tension => extreme(survey.least_tension, f64::NAN),
+        Test::Tension => extreme(survey.slackest(), f64::NAN),
         Test::Limit(limit) => survey.limits[limit as usize],
     }
 }
@@ -345,7 +345,7 @@ pub(crate) fn located<F: Family>(
         Test::Speed => (Kind::Graze, survey.least_speed),
         Test::Gap => (Kind::Graze, survey.largest_gap),
         Test::Corner => (Kind::Corner, survey.corner_gap),
-        Test::Tension => (Kind::TensionLost, survey.least_tension),
+        Test::Tension => (Kind::TensionLost, survey.slackest()),
         Test::Limit(limit) => (Kind::Limit(limit), None),
     };
     let grazes = extreme.filter(|_| kind == Kind::Graze);

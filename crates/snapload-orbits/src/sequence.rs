@@ -97,6 +97,14 @@ impl Event {
         }
     }
 
+    /// The surfaces whose tension has fallen to zero.
+    pub(crate) fn released(&self) -> TautSet {
+        match self.kind {
+            EventKind::Snap { .. } => TautSet::SLACK,
+            EventKind::Release(released) => released,
+        }
+    }
+
     /// The surfaces that take an impulse.
     pub fn pulling(&self) -> TautSet {
         match self.kind {

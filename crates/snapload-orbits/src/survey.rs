@@ -4,8 +4,9 @@
 //! a tension negative, a snap may open instead of close. These quantities are sampled along the
 //! lap, and their extremes then refined.
 
-use crate::hybrid::{Family, Hybrid, Limits, Point};
+use crate::hybrid::{DURATION, Family, Hybrid, Jet, Limits, Point, constant};
 use crate::lap::{Lap, Leg};
+use crate::sequence::Event;
 use snapload::{Limit, TautSet};
 
 /// Samples of a leg for each period of the forcing, without and with held surfaces, and the least
@@ -41,8 +42,12 @@ pub struct Survey {
     pub largest_gap: Option<Extreme>,
     /// The largest gap of a surface at an instant when another one is struck.
     pub corner_gap: Option<Extreme>,
-    /// The least tension of held surfaces.
+    /// The least tension of held surfaces. At the end of a leg where a surface is released its
+    /// tension is zero whatever the lap is, so that this does not count.
     pub least_tension: Option<Extreme>,
+    /// The slowest fall of the tension of a surface that is released; negative if it rises there
+    /// instead, so that the surface would have to push before.
+    pub slowest_release: Option<Extreme>,
     /// The least closing velocity of the surfaces struck.
     pub least_speed: Option<Extreme>,
     /// The shortest time from one event to the next of another surface.
@@ -59,6 +64,14 @@ pub struct Survey {
 const ROUNDING: f64 = 1e-9;
 
 impl Survey {
+    /// The least tension, or the slowest fall to a release if that is less: where it changes its
+    /// sign a surface no longer holds as the lap has it.
+    pub(crate) fn slackest(&self) -> Option<Extreme> {
+        let both = [self.least_tension, self.slowest_release];
+        let less = |a: &Extreme, b: &Extreme| a.value.total_cmp(&b.value);
+        both.into_iter().flatten().min_by(less)
+    }
+
     /// Why no body can have the lap, whose events follow each other by these durations.
     pub fn why_not(&self, durations: &[f64]) -> Vec<String> {
         let mut why = Vec::new();
@@ -108,6 +121,7 @@ pub fn survey<F: Family>(lap: &Lap<F>, system: &F::Plain, legs: &[Leg]) -> Surve
         largest_gap: None,
         corner_gap: None,
         least_tension: None,
+        slowest_release: None,
         least_speed: None,
         shortest: None,
         y_max: f64::NEG_INFINITY,
@@ -118,12 +132,18 @@ pub fn survey<F: Family>(lap: &Lap<F>, system: &F::Plain, legs: &[Leg]) -> Surve
     let sampler = Sampler {
         family: lap.family,
         system,
+        at: lap.at,
         period,
     };
     let mut before = lap.sequence.last();
+    let between = between_events(system, legs);
     for (k, leg) in legs.iter().enumerate() {
-        if leg.s > 0.0 {
-            sampler.leg(k, leg, before, &mut found);
+        if between[k].s > 0.0 {
+            // The last leg ends at the section, or at the first event if that comes before it.
+            let ends_last = || lap.sequence.events.first().filter(|_| legs[0].s < 0.0);
+            let event = lap.sequence.events.get(k).or_else(ends_last);
+            let released = event.map_or(TautSet::SLACK, Event::released);
+            sampler.leg(k, &between[k], [before, released], &mut found);
         }
         let Some(event) = lap.sequence.events.get(k) else {
             continue;
@@ -156,6 +176,22 @@ pub fn survey<F: Family>(lap: &Lap<F>, system: &F::Plain, legs: &[Leg]) -> Surve
     found
 }
 
+/// The legs, of which the last one ends at the first event where that has passed the section, and
+/// the first one begins at the last event where that has passed the next section.
+fn between_events<H: Hybrid<f64>>(system: &H, legs: &[Leg]) -> Vec<Leg> {
+    let mut between = legs.to_vec();
+    let last = between.len() - 1;
+    let [early, late] = [0, last].map(|k| legs[k].s.min(0.0));
+    between[last].s += early;
+    if late < 0.0 {
+        let first = &mut between[0];
+        first.start = system.flow(first.taut, first.t, &first.start, -late);
+        first.t -= late;
+        first.s += late;
+    }
+    between
+}
+
 fn least(kept: &mut Option<Extreme>, other: Extreme) {
     if kept.is_none_or(|kept| other.value < kept.value) {
         *kept = Some(other);
@@ -172,11 +208,13 @@ fn most(kept: &mut Option<Extreme>, other: Extreme) {
 struct Sampler<'a, F: Family> {
     family: &'a F,
     system: &'a F::Plain,
+    at: [f64; 2],
     period: f64,
 }
 
 impl<F: Family> Sampler<'_, F> {
-    fn leg(&self, k: usize, leg: &Leg, before: TautSet, found: &mut Survey) {
+    /// The extremes of a leg, of the surfaces held before it and of those released at its end.
+    fn leg(&self, k: usize, leg: &Leg, [before, released]: [TautSet; 2], found: &mut Survey) {
         let density = if leg.taut.is_empty() {
             SAMPLES
         } else {
@@ -192,17 +230,7 @@ impl<F: Family> Sampler<'_, F> {
             path: &path,
         };
         self.gaps(k, leg, before, &sampled, found);
-        for surface in leg.taut.iter() {
-            let tension = |s: f64, z: &Point| -self.system.tension(surface, leg.taut, leg.t + s, z);
-            let (value, s) = sampled.highest(&tension);
-            let extreme = Extreme {
-                value: -value,
-                surface,
-                leg: k,
-                t: leg.t + s,
-            };
-            least(&mut found.least_tension, extreme);
-        }
+        self.tensions(k, leg, released, &sampled, found);
         let height = sampled.highest(&|_, z| z[1]).0;
         let turned = match self.family.variables().contains(&2) {
             true => sampled.highest(&|_, z| z[2].abs()).0,
@@ -226,6 +254,44 @@ impl<F: Family> Sampler<'_, F> {
                 found.limits[limit] = found.limits[limit].max(value);
             }
         }
+    }
+
+    /// The least tensions, and how they fall where surfaces are released.
+    fn tensions(
+        &self,
+        k: usize,
+        leg: &Leg,
+        released: TautSet,
+        sampled: &Sampled,
+        found: &mut Survey,
+    ) {
+        let at = |value, surface, s| Extreme {
+            value,
+            surface,
+            leg: k,
+            t: leg.t + s,
+        };
+        for surface in leg.taut.iter() {
+            let push = |s: f64, z: &Point| -self.system.tension(surface, leg.taut, leg.t + s, z);
+            if !released.contains(surface) {
+                let (push, s) = sampled.highest(&push);
+                least(&mut found.least_tension, at(-push, surface, s));
+                continue;
+            }
+            let fall = -self.tension_rate(leg, surface);
+            least(&mut found.slowest_release, at(fall, surface, leg.s));
+            let (push, s) = sampled.highest_before_end(&push, fall < 0.0);
+            least(&mut found.least_tension, at(-push, surface, s));
+        }
+    }
+
+    /// The rate of a surface's tension at the end of a leg.
+    fn tension_rate(&self, leg: &Leg, surface: usize) -> f64 {
+        let jets = self.family.jets(self.at);
+        let start: Point<Jet> = leg.start.map(constant);
+        let [t, s] = [constant(leg.t), Jet::variable(leg.s, DURATION)];
+        let end = jets.flow(leg.taut, t, &start, s);
+        jets.tension(surface, leg.taut, t + s, &end).slope[DURATION]
     }
 
     /// The times of closest approach of slack surfaces, where v_n goes from positive to negative.
@@ -281,28 +347,51 @@ struct Sampled<'a> {
 }
 
 impl Sampled<'_> {
+    fn values(&self, of: &dyn Fn(f64, &Point) -> f64) -> Vec<f64> {
+        let samples = self.samples.iter().enumerate();
+        let values = samples.map(|(i, z)| of(self.width * i as f64, z));
+        values.collect()
+    }
+
     /// The largest value of a function along the leg, and when.
     fn highest(&self, of: &dyn Fn(f64, &Point) -> f64) -> (f64, f64) {
-        let Self {
-            samples,
-            width,
-            path,
-        } = self;
-        let values = samples.iter().enumerate();
-        let values = values.map(|(i, z)| of(width * i as f64, z));
-        let (place, best) = values
-            .enumerate()
-            .fold((0, f64::NEG_INFINITY), |best, (i, value)| {
-                if value > best.1 { (i, value) } else { best }
-            });
-        let (low, high) = (place.saturating_sub(1), (place + 1).min(samples.len() - 1));
-        let begin = width * low as f64;
-        let at = |s: f64| of(begin + s, &path(begin + s));
-        let (s, value) = golden(&at, width * (high - low) as f64);
-        if value > best {
-            (value, begin + s)
-        } else {
-            (best, width * place as f64)
+        let values = self.values(of).into_iter().enumerate();
+        let largest = values.fold((0, f64::NEG_INFINITY), |best, (i, value)| {
+            if value > best.1 { (i, value) } else { best }
+        });
+        self.refined(of, largest)
+    }
+
+    /// The same without the leg's end, towards which the function may rise: the largest of its
+    /// values at the start and at its peaks; `falls` says whether it falls towards the end, from a
+    /// peak that may lie between the last two samples.
+    fn highest_before_end(&self, of: &dyn Fn(f64, &Point) -> f64, falls: bool) -> (f64, f64) {
+        let values = self.values(of);
+        let last = values.len() - 1;
+        let is_peak = |i: &usize| {
+            let follows = *i == 0 || values[*i] >= values[*i - 1];
+            follows && (*i == last || values[*i] >= values[*i + 1])
+        };
+        let peaks = (0..last + usize::from(falls)).filter(is_peak);
+        let peaks = peaks.map(|i| self.refined(of, (i, values[i])));
+        peaks.fold(
+            (values[0], 0.0),
+            |best, peak| {
+                if peak.0 > best.0 { peak } else { best }
+            },
+        )
+    }
+
+    /// The largest value of a function near the sample at which it is largest, and when.
+    fn refined(&self, of: &dyn Fn(f64, &Point) -> f64, (place, best): (usize, f64)) -> (f64, f64) {
+        let last = self.samples.len() - 1;
+        let (low, high) = (place.saturating_sub(1), (place + 1).min(last));
+        let begin = self.width * low as f64;
+        let at = |s: f64| of(begin + s, &(self.path)(begin + s));
+        let (s, value) = golden(&at, self.width * (high - low) as f64);
+        match value > best {
+            true => (value, begin + s),
+            false => (best, self.width * place as f64),
         }
     }
 }

@@ -13,4 +13,5 @@ mod ends;
 mod held;
 mod orbits;
 mod proofs;
+mod releases;
 mod wall;
