@@ -51,13 +51,14 @@ class Orbit(BaseOrbit):
     multipliers : numpy.ndarray of complex
         The Floquet multipliers, the largest first: six, or four for a point mass.
     zeros_from_contact : int
-        The number of multipliers that are exactly 0, because a taut cable removes two directions.
+        The number of multipliers that are exactly 0, because a taut cable removes two directions, or because a snap
+        without rebound stops the body.
     exponents : numpy.ndarray
         ln|multiplier| / period [1/T]; minus infinity for a multiplier of 0.
     product : float
         The product of the multipliers without those zeros.
     product_rule : float or None
-        The exact value of that product, e^2N for N snaps; None if a cable is taut in some interval.
+        The exact value of that product, e^2N for N snaps; None if contact makes multipliers 0.
     stable : bool or str
         True or False, ``"neutral"`` if multipliers lie on the unit circle and none outside, ``"superstable"`` if all
         are 0.

@@ -2,17 +2,18 @@
 //!
 //! Six directions, four of a point mass, are carried along a motion and made orthogonal after each
 //! step (Benettin, Galgani, Giorgilli & Strelcyn, *Meccanica* 15 (1980) 9). A cable that stays taut
-//! allows no deviation of its gap and of the gap's velocity. The linearised motion itself does not
-//! include this: off the constraints a deviation that is only rounding would grow with time, and be
-//! reported as a small exponent. So the directions are projected onto the constraints after each
-//! step, and those of which nothing remains are closed: their exponent is −∞.
+//! allows no deviation of its gap and of the gap's velocity, and one that a snap stops and lets go
+//! none of its gap. The linearised motion itself does not include this: off the constraints a
+//! deviation that is only rounding would grow with time, and be reported as a small exponent. So the
+//! directions are projected onto the constraints after each step, and those of which nothing remains
+//! are closed: their exponent is −∞.
 
+use crate::Jet;
 use crate::hybrid::Family;
-use crate::moored::{Cables, Moored};
-use crate::multipliers::{closed_by, orthogonal};
-use crate::{Jet, Point};
+use crate::moored::{Cables, Moored, event_of};
+use crate::multipliers::{closed_after, orthogonal};
 use nalgebra::DVector;
-use snapload::{Parameters, StepMap, TautSet};
+use snapload::{Parameters, Step, StepMap, TautSet};
 
 /// Directions carried along a motion.
 pub(crate) struct Directions {
@@ -63,11 +64,16 @@ impl Directions {
         self.logs.clone()
     }
 
-    /// Carries them through a step, to the state and the taut cables that it ends with. Returns ln of
-    /// the factor by which the first one has grown, which turns to where deviations grow most.
-    pub(crate) fn follow(&mut self, map: &StepMap, taut: TautSet, after: &Point) -> f64 {
+    /// Carries them through a step, to its end. Returns ln of the factor by which the first one has
+    /// grown, which turns to where deviations grow most.
+    pub(crate) fn follow(&mut self, map: &StepMap, step: &Step) -> f64 {
         let first = self.logs[0];
-        let mut taken = closed_by(&self.system, self.variables, taut, after);
+        let event = event_of(step).map(|(event, _)| event);
+        let rebounds = self.system.system().restitution.value > 0.0;
+        let stops = event.map_or(TautSet::SLACK, |event| event.stops(rebounds));
+        let after = (step.t_end, &step.after.components());
+        let closed = [step.taut_after, stops];
+        let mut taken = closed_after(&self.system, self.variables, closed, after);
         let constraints = taken.len();
         for (direction, log) in self.directions.iter_mut().zip(&mut self.logs) {
             let Some(before) = direction else { continue };

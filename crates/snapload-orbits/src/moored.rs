@@ -268,7 +268,7 @@ fn simulate(system: System, rules: &Rules, t: f64, z: &Point, t_end: f64) -> Sim
 }
 
 /// The event at the end of a step, and its closing velocity.
-fn event_of(step: &snapload::Step) -> Option<(Event, f64)> {
+pub(crate) fn event_of(step: &snapload::Step) -> Option<(Event, f64)> {
     let (mut struck, mut pulling, mut speed) = (TautSet::SLACK, TautSet::SLACK, 0.0_f64);
     for impact in step.impacts() {
         pulling = pulling.with(impact.cable);

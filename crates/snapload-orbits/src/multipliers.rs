@@ -3,9 +3,10 @@
 //! A held surface allows no deviation of its gap and of the gap's velocity: two multipliers are
 //! zero. An eigenvalue problem would give rounding errors, or roots of them, instead; so the orbit
 //! is cut where most surfaces are held, and the problem is solved in the remaining directions
-//! there.
+//! there. A snap without rebound stops a surface even if it is let go at once, and closes its gap;
+//! where that closes more directions, the problem is solved in those that are left of the whole lap.
 
-use crate::hybrid::{Family, Hybrid, Jet, Point, variable};
+use crate::hybrid::{DURATION, Family, Hybrid, Jet, Point, constant, variable};
 use crate::lap::{Lap, Leg};
 use crate::newton::Closed;
 use crate::sequence::Sequence;
@@ -17,7 +18,7 @@ use snapload::TautSet;
 pub struct Multipliers {
     /// All of them, the largest first; exact zeros are 0.
     pub values: Vec<[f64; 2]>,
-    /// How many are zero because surfaces are held during a part of the lap.
+    /// How many are zero because surfaces are held during a part of the lap, or stopped in a snap.
     pub zeros_from_contact: usize,
     /// The product of the others.
     pub product: f64,
@@ -115,6 +116,8 @@ pub fn multipliers<F: Family>(
         let basis = directions_left(lap, most, &cut.z);
         basis.transpose() * whole * &basis
     };
+    let closed_in_events = closed_in_events(lap, legs);
+    let reduced = within_range(reduced, variables.len() - closed_in_events);
     let zeros = variables.len() - reduced.nrows();
     let product = if reduced.nrows() == 0 {
         1.0
@@ -128,6 +131,37 @@ pub fn multipliers<F: Family>(
         zeros_from_contact: zeros,
         product,
     }
+}
+
+/// The most directions that an event of the lap closes which stops surfaces and lets them go.
+fn closed_in_events<F: Family>(lap: &Lap<F>, legs: &[Leg]) -> usize {
+    let (system, variables) = (lap.family.jets(lap.at), lap.family.variables());
+    let rebounds = lap.family.snap_contraction(lap.at) > 0.0;
+    let events = lap.sequence.events.iter().zip(&legs[1..]);
+    let closed = events.map(|(event, leg)| {
+        let stops = event.stops(rebounds);
+        match stops.is_empty() {
+            true => 0,
+            false => {
+                let after = (leg.t, &leg.start);
+                closed_after(&system, variables, [event.after, stops], after).len()
+            }
+        }
+    });
+    closed.max().unwrap_or(0)
+}
+
+/// A matrix of at most this rank, in the directions that it does not make zero: its other eigenvalues
+/// are exact zeros.
+fn within_range(matrix: DMatrix<f64>, rank: usize) -> DMatrix<f64> {
+    if matrix.nrows() <= rank || !matrix.iter().all(|entry| entry.is_finite()) {
+        return matrix;
+    }
+    let Some(directions) = matrix.clone().svd(true, false).u else {
+        return matrix;
+    };
+    let range = directions.columns(0, rank);
+    range.transpose() * matrix * range
 }
 
 /// The eigenvalues, the largest first.
@@ -228,12 +262,46 @@ pub(crate) fn closed_by<H: Hybrid<Jet>>(
     let mut taken: Vec<DVector<f64>> = Vec::new();
     for surface in taut.iter() {
         for closed in [system.gap(surface, &jets), system.speed(surface, &jets)] {
-            let row = variables.iter().map(|&i| closed.slope[i]);
-            let row = DVector::from_iterator(variables.len(), row);
-            taken.extend(orthogonal(row, &taken, 1e-9).map(|(left, _)| left));
+            close(&mut taken, &closed, variables);
         }
     }
     taken
+}
+
+/// The same just after an event at a time. Surfaces that the event `stops` without holding them open
+/// from rest: their gaps are closed to first order, and a delay of the event changes all of their
+/// velocities together, each by its acceleration.
+pub(crate) fn closed_after<H: Hybrid<Jet>>(
+    system: &H,
+    variables: &[usize],
+    [taut, stops]: [TautSet; 2],
+    (t, z): (f64, &Point),
+) -> Vec<DVector<f64>> {
+    let mut taken = closed_by(system, variables, taut, z);
+    let jets = variable(z);
+    let soon = Jet::variable(0.0, DURATION);
+    let later = || system.flow(taut, constant(t), &z.map(constant), soon);
+    let mut first = None;
+    for surface in stops.iter() {
+        close(&mut taken, &system.gap(surface, &jets), variables);
+        let speed = system.speed(surface, &jets);
+        let acceleration = system.speed(surface, &later()).slope[DURATION];
+        match first {
+            None => first = Some((speed, acceleration)),
+            Some((other, of_other)) => {
+                let together = speed * constant(of_other) - other * constant(acceleration);
+                close(&mut taken, &together, variables);
+            }
+        }
+    }
+    taken
+}
+
+/// Adds the direction in which a number changes.
+fn close(taken: &mut Vec<DVector<f64>>, number: &Jet, variables: &[usize]) {
+    let row = variables.iter().map(|&i| number.slope[i]);
+    let row = DVector::from_iterator(variables.len(), row);
+    taken.extend(orthogonal(row, taken, 1e-9).map(|(left, _)| left));
 }
 
 /// The part of a vector that is orthogonal to others, as a unit vector, and its length; none if
@@ -252,4 +320,39 @@ pub(crate) fn orthogonal(
     }
     let left = vector.norm();
     (left > least * whole && left > 0.0).then(|| (vector / left, left))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::closed_after;
+    use crate::hybrid::{Family, Hybrid};
+    use crate::moored::Moored;
+    use snapload::{Parameters, TautSet};
+
+    /// A point mass that is stopped in the corner and let go by both cables is at rest there, so that
+    /// soon after all that may differ is how long it has fallen.
+    #[test]
+    fn a_delay_changes_all_velocities_together() {
+        let case = Parameters {
+            inertia: None,
+            a: 0.0,
+            ..Parameters::STANDARD
+        };
+        let family = Moored::case(case, [None; 2]);
+        let both = TautSet::only(0).with(1);
+        let (t, corner) = (0.7, [0.0; 6]);
+        let variables = family.variables();
+        let stops = [TautSet::SLACK, both];
+        let closed = closed_after(&family.jets([0.0; 2]), variables, stops, (t, &corner));
+        assert_eq!(closed.len(), 3);
+        let flight = |s: f64| family.plain([0.0; 2]).flow(TautSet::SLACK, t, &corner, s);
+        let [later, before] = [1e-4, -1e-4].map(flight);
+        let fallen = variables.iter().map(|&i| (later[i] - before[i]) / 2e-4);
+        let fallen: Vec<f64> = fallen.collect();
+        assert!(fallen[2].hypot(fallen[3]) > 0.1);
+        for direction in closed {
+            let along: f64 = direction.iter().zip(&fallen).map(|(a, b)| a * b).sum();
+            assert!(along.abs() < 1e-7, "{along}");
+        }
+    }
 }

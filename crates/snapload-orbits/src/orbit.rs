@@ -114,7 +114,7 @@ impl Orbit {
         let snaps = timed.sequence.snaps() as i32;
         let rule = family
             .contraction(lap.at)
-            .filter(|_| slack)
+            .filter(|_| slack && multipliers.zeros_from_contact == 0)
             .map(|shrinking| {
                 family.snap_contraction(lap.at).powi(snaps) * (-shrinking * length).exp()
             });

@@ -289,7 +289,7 @@ impl Follow {
             }
             if let Some((tangent, directions)) = &mut self.linearised {
                 let map = tangent.of_step(&simulation, &step);
-                let grown = directions.follow(&map, step.taut_after, &step.after.components());
+                let grown = directions.follow(&map, &step);
                 let growth = self.section.growth.get_or_insert(0.0);
                 *growth = (*growth + grown).max(0.0);
             }

@@ -113,6 +113,15 @@ impl Event {
         }
     }
 
+    /// The surfaces that it brings to rest and does not hold: those that take an impulse and neither
+    /// stay nor rebound.
+    pub(crate) fn stops(&self, rebounds: bool) -> TautSet {
+        let struck = self.struck();
+        let rests = |surface: &usize| !(rebounds && struck.contains(*surface));
+        let pulling = self.pulling().iter().filter(rests);
+        pulling.filter(|&s| !self.after.contains(s)).collect()
+    }
+
     /// The surface whose gap, or whose tension, is zero at the event.
     pub fn surface(&self) -> usize {
         let set = match self.kind {

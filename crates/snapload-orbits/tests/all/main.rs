@@ -7,6 +7,7 @@ mod branch_points;
 mod branches;
 mod closed_forms;
 mod common;
+mod corners;
 mod curves;
 mod diagrams;
 mod ends;
