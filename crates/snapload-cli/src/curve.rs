@@ -27,7 +27,8 @@ no orbit, beyond a period doubling another orbit, and beyond a graze another seq
 the orbit near --start or, without it, from the orbit that the motion of the case converges to, and follows it along
 the first key until points of the given kind are found. From the nearest such point along the branch, or from the N-th,
 both keys change. At each point of the curve the equations of the orbit and of the bifurcation are solved together, to
-rounding. A curve ends at the ends of the ranges, at a corner, and where the speed of another snap falls to zero.
+rounding. A curve ends at the ends of the ranges, at a corner, where the speed of another snap falls to zero, and where
+a cable would have to be 0.02 longer; that of ns also at a resonance, 1:1 or 1:2, and where hardly any energy is lost.
 
   fold    an orbit and its unstable partner meet            pd      the period doubles
   ns      a pair of multipliers is on the unit circle       graze   a cable gets taut at zero speed

@@ -7,7 +7,7 @@
 
 use crate::branch_events::{BranchEvent, Kind};
 use crate::continuation::{Continuation, Unknowns};
-use crate::follower::{TOO_LONG, beyond_largest_gap};
+use crate::follower::{END_OF_RANGE, TOO_LONG, beyond_largest_gap};
 use crate::hybrid::Family;
 use crate::multipliers::Stability;
 use crate::normal_form::{Coefficient, coefficient};
@@ -200,7 +200,7 @@ impl HalfCurve {
     /// Ends at a border that is passed at this arclength; its last point is on the border if that
     /// was found.
     fn end_on<F: Family>(&mut self, border: Border<F>, arclength: f64, ranges: &[[f64; 2]; 2]) {
-        self.end.because = BORDERS[border.number].to_owned();
+        self.end.because = border.what.to_owned();
         if let Some(last) = border.place {
             let mut point = point(&last, last.orbit(), arclength + border.sigma);
             // The value itself where Newton's method comes to it up to rounding.
@@ -264,24 +264,19 @@ fn point<F: Family>(on_curve: &OnCurve<F>, orbit: Orbit, arclength: f64) -> Curv
     }
 }
 
-/// The borders at which a curve ends, as numbers that are negative beyond them: the four sides of
-/// the ranges, a corner, a snap of zero velocity, where the pair of a torus becomes real, where no
-/// energy is lost, and where a cable would have to be too long.
-const BORDERS: [&str; COUNT] = [
-    "the end of the range",
-    "the end of the range",
-    "the end of the range",
-    "the end of the range",
-    "corner: two cables snap at once, and come in the other order beyond it",
-    "graze: another snap of the sequence has zero velocity here, and a negative one beyond it",
-    "resonance 1:1: both multipliers of the pair are 1 here, and real beyond it",
-    "resonance 1:2: both multipliers of the pair are -1 here, and real beyond it",
-    "hardly any energy is lost here: without loss every orbit has a pair of multipliers with the product 1",
-    TOO_LONG,
-];
-const COUNT: usize = 10;
-/// The border whose distance may jump.
-const GAP: usize = COUNT - 1;
+// Why a curve ends, besides the end of a range and a cable that would be too long.
+const CORNER: &str = "corner: two cables snap at once, and come in the other order beyond it";
+const GRAZE: &str =
+    "graze: another snap of the sequence has zero velocity here, and a negative one beyond it";
+const ONE_TO_ONE: &str =
+    "resonance 1:1: both multipliers of the pair are 1 here, and real beyond it";
+const ONE_TO_TWO: &str =
+    "resonance 1:2: both multipliers of the pair are -1 here, and real beyond it";
+const NO_LOSS: &str = "hardly any energy is lost here: without loss every orbit has a pair of multipliers with the product 1";
+
+/// What is at the borders, and the distances to them, negative beyond; the first four are those of
+/// the range.
+type Margins = [(&'static str, f64); 10];
 
 /// A point this close to a border counts as on it.
 const ON_BORDER: f64 = 1e-8;
@@ -320,6 +315,10 @@ impl Follower<'_> {
                 }
                 continue;
             };
+            if loses_less(&margins, &reached) {
+                half.end.because = NO_LOSS.to_owned();
+                break;
+            }
             if let Some(sigma) = on_curve.passes(&first, step).filter(|_| border.is_none()) {
                 half.close(&first, arclength + sigma);
                 break;
@@ -359,7 +358,7 @@ impl Follower<'_> {
     }
 
     /// The distance to each border.
-    fn margins<F: Family>(&self, on_curve: &OnCurve<F>, orbit: &Orbit) -> [f64; COUNT] {
+    fn margins<F: Family>(&self, on_curve: &OnCurve<F>, orbit: &Orbit) -> Margins {
         let [[a, b], [c, d]] = self.options.ranges;
         let [x, y] = orbit.at;
         let corner = orbit.survey.corner_gap;
@@ -381,18 +380,17 @@ impl Follower<'_> {
             true => 1.0 - multipliers.product.abs() - LEAST_LOSS,
             false => f64::INFINITY,
         };
-        let gap = -beyond_largest_gap(orbit);
         [
-            x - a,
-            b - x,
-            y - c,
-            d - y,
-            corner,
-            slowest,
-            one,
-            two,
-            loss,
-            gap,
+            (END_OF_RANGE, x - a),
+            (END_OF_RANGE, b - x),
+            (END_OF_RANGE, y - c),
+            (END_OF_RANGE, d - y),
+            (CORNER, corner),
+            (GRAZE, slowest),
+            (ONE_TO_ONE, one),
+            (ONE_TO_TWO, two),
+            (NO_LOSS, loss),
+            (TOO_LONG, -beyond_largest_gap(orbit)),
         ]
     }
 
@@ -401,19 +399,23 @@ impl Follower<'_> {
         &self,
         on_curve: &OnCurve<'a, F>,
         step: f64,
-        before: &[f64; COUNT],
-        after: &[f64; COUNT],
+        before: &Margins,
+        after: &Margins,
     ) -> Option<Border<'a, F>> {
-        let crossed = (0..before.len()).filter(|&k| before[k] >= 0.0 && after[k] < 0.0);
+        let crossed = (0..before.len()).filter(|&k| before[k].1 >= 0.0 && after[k].1 < 0.0);
         let border = |number: usize| {
-            let margin = |there: &OnCurve<F>| self.margins(there, &there.orbit())[number];
+            let what = before[number].0;
+            let margin = |there: &OnCurve<F>| self.margins(there, &there.orbit())[number].1;
             let at = |sigma: f64| on_curve.moved(sigma).as_ref().map_or(f64::NAN, margin);
-            let sigma = root(&at, (0.0, before[number]), (step, after[number]));
-            let place = on_curve.moved(sigma);
+            let sigma = root(&at, (0.0, before[number].1), (step, after[number].1));
+            // The largest gap may jump from one closest approach to another.
+            let is_on = |there: &OnCurve<F>| margin(there).abs() < ON_BORDER;
+            let found = |there: &OnCurve<F>| what == TOO_LONG || is_on(there);
             Border {
+                what,
                 number,
                 sigma,
-                place: place.filter(|there| number == GAP || margin(there).abs() < ON_BORDER),
+                place: on_curve.moved(sigma).filter(found),
             }
         };
         crossed
@@ -422,8 +424,16 @@ impl Follower<'_> {
     }
 }
 
+/// Whether a curve that begins beyond the border of too little loss leads further beyond it.
+fn loses_less(before: &Margins, after: &Margins) -> bool {
+    let mut both = before.iter().zip(after);
+    both.any(|((what, before), (_, after))| *what == NO_LOSS && *before < 0.0 && after < before)
+}
+
 /// A border that a curve passes, the distance to it, and the point there, if it was found.
 struct Border<'a, F: Family> {
+    what: &'static str,
+    /// Its place among the distances.
     number: usize,
     sigma: f64,
     place: Option<OnCurve<'a, F>>,

@@ -52,16 +52,10 @@ const SAME_VALUE: f64 = 1e-6;
 const SAME_STATE: f64 = 1e-2;
 /// The time between two events does not change by more than this in one step.
 const LONGEST_TIME_CHANGE: f64 = 0.3;
-/// The number of [`LARGEST_GAP`], which a text of constants repeats, too.
-macro_rules! largest_gap {
-    () => {
-        0.02
-    };
-}
 /// A gap of more than this, by which a cable would have to be longer, ends a branch or a curve.
-const LARGEST_GAP: f64 = largest_gap!();
-pub(crate) const TOO_LONG: &str = concat!("a cable would have to be longer by ", largest_gap!());
-const END_OF_RANGE: &str = "the end of the range";
+const LARGEST_GAP: f64 = 0.02;
+pub(crate) const TOO_LONG: &str = "a cable would have to be longer by 0.02";
+pub(crate) const END_OF_RANGE: &str = "the end of the range";
 /// A direction whose part along the parameter is larger than this certainly leads beyond a border on
 /// which it begins.
 const LEAVES: f64 = 1e-6;

@@ -140,6 +140,45 @@ fn a_curve_of_tori_ends_before_energy_is_kept() {
     assert!((both[0].at[0] - both[1].at[0]).abs() < 1e-10);
 }
 
+/// From a start that keeps more than that a curve leads away from e = 1 only.
+#[test]
+fn a_curve_that_begins_where_energy_is_all_but_kept_goes_no_nearer() {
+    let base = parameters(&reference()["branches"][1]["base"]);
+    let case = Parameters {
+        e: 0.99998,
+        f_o: 0.995_039_125_006_562_9,
+        ..base
+    };
+    let keys = [Some("f_o"), Some("e")];
+    let family = Moored::case(case, keys);
+    let start = [
+        0.407_789_360_217_623_43,
+        0.755_176_934_679_386_8,
+        0.0,
+        1.048_712_269_677_722,
+        -0.777_515_071_207_684_9,
+        0.0,
+    ];
+    let orbit = near(&family, Moored::values(&case, keys), start);
+    let event = BranchEvent::here(Kind::NeimarkSacker, &orbit).unwrap();
+    let found = curve(&family, &event, [[0.3, 4.0], [0.999, 1.0]], 0.001);
+    let ends = found.ends.each_ref().map(|end| end.because.as_str());
+    let nearest = ends
+        .iter()
+        .position(|why| why.starts_with("hardly any energy is lost"));
+    let nearest = nearest.unwrap_or_else(|| panic!("{ends:?}"));
+    let outermost = [found.points.first(), found.points.last()][nearest].unwrap();
+    assert_eq!(found.ends[nearest].at, outermost.orbit.at);
+    assert!((outermost.orbit.at[0] - event.value[0]).abs() < 1e-8);
+    assert_eq!(found.ends[1 - nearest].at[1], 0.999);
+    assert!(
+        found
+            .points
+            .iter()
+            .all(|point| point.orbit.at[1] <= 0.99998)
+    );
+}
+
 /// A half that would leave the range at once ends on its border, even where no further orbit is
 /// found beyond it.
 #[test]
