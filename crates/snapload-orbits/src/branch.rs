@@ -2,6 +2,7 @@
 
 use crate::branch_events::{BranchEvent, Kind, Tested};
 use crate::continuation::{Continuation, Goal, Unknowns};
+use crate::curve::Curve;
 use crate::follower::{BranchEnd, BranchOptions, BranchPoint, Follower, HalfBranch, point};
 use crate::hybrid::Family;
 use crate::orbit::{NoOrbit, Orbit};
@@ -75,7 +76,15 @@ impl Branch {
         if forward.closed {
             backward.end.because.clone_from(&forward.end.because);
         }
-        Ok(joined(orbit, backward, forward))
+        let mut branch = joined(orbit, backward, forward);
+        if branch.points.len() == 1 && branch.events.is_empty() {
+            // No step leads from here, as from a fold with its whole branch beyond the range.
+            let kinds = Curve::KINDS.into_iter();
+            branch.events = kinds
+                .filter_map(|kind| BranchEvent::here(kind, orbit))
+                .collect();
+        }
+        Ok(branch)
     }
 }
 

@@ -223,3 +223,24 @@ fn a_closed_branch_that_starts_at_an_event_has_it() {
     let (case, start) = tori();
     starts_at_each_event(case, start, "omega", [-5.0, 5.0]);
 }
+
+/// A branch turns back at a fold: in a range that ends there, on the side without the branch, it is
+/// that one orbit, which is still a fold.
+#[test]
+fn a_fold_with_its_branch_beyond_the_range_is_listed() {
+    let reference = &reference()["branches"][0];
+    let start = [-0.2688, 0.3830, 0.0, 0.8084, -0.4263, 0.0];
+    let known = branch(reference, start, [1.2, 1.5]);
+    let fold = known.event(Kind::Fold, None).unwrap();
+    let value = fold.value[0];
+    assert!(known.points.iter().all(|p| p.orbit.at[0] > value));
+    let family = Moored::case(parameters(&reference["base"]), [Some("f_o"), None]);
+    let options = BranchOptions {
+        range: [1.2, value],
+        step: 0.02,
+        most: 2000,
+    };
+    let found = Branch::of(&family, &fold.orbit, &options, &no_progress).unwrap();
+    assert_eq!(found.points.len(), 1);
+    assert_eq!(bifurcations(&found), [(Kind::Fold, value)]);
+}
