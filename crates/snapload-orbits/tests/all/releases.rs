@@ -2,7 +2,9 @@
 
 use snapload::Parameters;
 use snapload::analysis::no_progress;
-use snapload_orbits::{Branch, BranchOptions, Kind, Moored, Orbit, OrbitRequest, Point};
+use snapload_orbits::{
+    Branch, BranchOptions, Kind, Moored, Orbit, OrbitRequest, Point, of_attractor,
+};
 
 /// A point mass.
 fn point(r: f64, e: f64, nu: f64, omega: f64, f_o: f64) -> Parameters {
@@ -106,4 +108,25 @@ fn the_loss_after_which_a_run_leaves_the_orbit_is_located() {
             assert_eq!((last.is_admissible(), leaves), (goes, !goes), "{border}");
         }
     }
+}
+
+/// A lap of any section has a release at some time. Where that passes the section no tension is lost.
+#[test]
+fn a_release_may_pass_the_section() {
+    let case = point(1.2552, 0.0, 1.0096, 2.5825, 1.23);
+    let start = Parameters {
+        x: -0.0889,
+        y: 0.4196,
+        ..case
+    };
+    let orbit = of_attractor(&start, &OrbitRequest::default(), &no_progress);
+    let branch = branch(case, orbit.unwrap().unwrap().z, "f_o", [1.1, 1.6]);
+    let all = || branch.points.iter().map(|point| &point.orbit);
+    assert!(all().all(|orbit| orbit.is_admissible()));
+    let [first, last] = [all().next(), all().last()].map(|orbit| {
+        let symbol = orbit.unwrap().lap.sequence.symbol();
+        symbol[0].clone()
+    });
+    assert_ne!(first, last);
+    assert_eq!(losses(&branch), [0.0; 0]);
 }
