@@ -61,7 +61,7 @@ class Hydro(Result):
     ----------
     natural : list of dict
         Natural modes without lines: ``freedom``, ``period_s`` from the coefficients of the file, and
-        ``damped_period_s`` and ``damping_ratio`` from the fitted memory.
+        ``damped_period_s`` (None if overdamped) and ``damping_ratio`` from the fitted memory.
     rest : dict or None
         The equilibrium with the lines, with tensions and the small motion about it.
     quality : dict

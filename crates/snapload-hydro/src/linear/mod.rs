@@ -1,6 +1,7 @@
 //! Results from the coefficients that need no simulation.
 
 mod body;
+mod damped;
 mod decay;
 mod natural;
 mod resonance;
@@ -10,8 +11,9 @@ mod small_motion;
 
 pub(crate) use body::BALANCED_ANGLE;
 pub use body::{Body, Weight};
+pub use damped::{Mode, natural_of_the_memory};
 pub use decay::{Decay, Swing, decay, decay_of_the_damping, swings};
-pub use natural::{Mode, Natural, eigenvalues, natural_of_the_file, natural_of_the_memory};
+pub use natural::{Natural, eigenvalues, natural_of_the_file};
 pub use resonance::{Peak, fine_responses};
 pub use response::{Response, response_of_the_file, response_of_the_memory, significant};
 pub use rest::{Line, Rest, rest, rest_without_tension};

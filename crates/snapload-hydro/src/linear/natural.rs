@@ -4,7 +4,7 @@ use super::body::Body;
 use crate::coefficients::{Hydrodynamics, MatrixCurve};
 use crate::error::HydroError;
 use crate::memory::{Memory, Term};
-use nalgebra::{Complex, DMatrix, DVector, Matrix3, Schur};
+use nalgebra::{Complex, DMatrix, DVector, Matrix3, Schur, Vector3};
 use std::f64::consts::PI;
 
 /// An eigenvalue of stiffness over mass below this part of the largest belongs to a degree of
@@ -22,24 +22,15 @@ pub struct Natural {
     pub period_s: f64,
     /// The degree of freedom that moves most, each weighted by its own mass.
     pub freedom: usize,
+    /// Surge, heave and pitch of the motion, of any size.
+    pub shape: Vector3<f64>,
     /// Whether ω lies outside the file's frequencies, where A is that at the nearest; not if A is the
     /// same at all of them, as it is in textbooks.
     pub outside: bool,
 }
 
-/// A natural motion with the memory's damping, λ the eigenvalue with Im λ > 0.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Mode {
-    /// λ \[1/s\].
-    pub eigenvalue: Complex<f64>,
-    /// 2π/Im λ \[s\].
-    pub period_s: f64,
-    /// −Re λ/|λ|.
-    pub damping_ratio: f64,
-}
-
 /// A basis of the possible motions: all three, or the null space of taut lines.
-fn all() -> DMatrix<f64> {
+pub(super) fn all() -> DMatrix<f64> {
     DMatrix::identity(3, 3)
 }
 
@@ -94,6 +85,7 @@ pub(super) fn natural(
             omega_rad_s: omega,
             period_s: 2.0 * PI / omega,
             freedom,
+            shape: Vector3::new(motion[0], motion[1], motion[2]),
             outside: !alike && (omega < low || omega > high),
         });
     }
@@ -177,7 +169,7 @@ pub fn eigenvalues(
     of_matrix(matrix)
 }
 
-fn of_matrix(matrix: DMatrix<f64>) -> Result<Vec<Complex<f64>>, HydroError> {
+pub(super) fn of_matrix(matrix: DMatrix<f64>) -> Result<Vec<Complex<f64>>, HydroError> {
     let schur = Schur::try_new(matrix, f64::EPSILON, 100_000).ok_or_else(|| {
         HydroError::Impossible(
             "the eigenvalues of the body with its memory were not found".to_owned(),
@@ -246,48 +238,4 @@ pub(super) fn state_matrix(
         at += n;
     }
     Ok(matrix)
-}
-
-/// For each natural motion of the file the eigenvalue of body and memory that is nearest to iω.
-///
-/// # Errors
-/// [`HydroError::Impossible`] if the mass is not positive definite.
-pub fn natural_of_the_memory(
-    body: &Body,
-    memory: &Memory,
-    added_mass_inf: &Matrix3<f64>,
-    natural: &[Natural],
-) -> Result<Vec<Mode>, HydroError> {
-    let matrix = state_matrix(body, &body.stiffness, memory, added_mass_inf, &all())?;
-    nearest(matrix, natural)
-}
-
-/// The same for any state matrix.
-pub(super) fn nearest(matrix: DMatrix<f64>, natural: &[Natural]) -> Result<Vec<Mode>, HydroError> {
-    let values = of_matrix(matrix)?;
-    let oscillating: Vec<Complex<f64>> = values.into_iter().filter(|v| v.im > 0.0).collect();
-    // Each eigenvalue belongs to one motion: the nearest pairs are assigned first.
-    let mut taken = vec![None; natural.len()];
-    for _ in natural {
-        let free = |k: &usize| !taken.contains(&Some(*k));
-        let pairs = (0..natural.len())
-            .filter(|i| taken[*i].is_none())
-            .flat_map(|i| (0..oscillating.len()).filter(free).map(move |k| (i, k)));
-        let apart = |&(i, k): &(usize, usize)| {
-            (oscillating[k] - Complex::new(0.0, natural[i].omega_rad_s)).norm()
-        };
-        let Some((i, k)) = pairs.min_by(|a, b| apart(a).total_cmp(&apart(b))) else {
-            break;
-        };
-        taken[i] = Some(k);
-    }
-    let mode = |(natural, taken): (&Natural, &Option<usize>)| {
-        let value = taken.map_or(Complex::new(0.0, natural.omega_rad_s), |k| oscillating[k]);
-        Mode {
-            eigenvalue: value,
-            period_s: 2.0 * PI / value.im,
-            damping_ratio: -value.re / value.norm(),
-        }
-    };
-    Ok(natural.iter().zip(&taken).map(mode).collect())
 }

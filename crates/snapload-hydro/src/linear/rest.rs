@@ -1,7 +1,8 @@
 //! Where a body rests on its lines in still water, and its small motions about that position.
 
 use super::body::Body;
-use super::natural::{Mode, Natural, natural, nearest, reduced, state_matrix};
+use super::damped::{Damped, Mode};
+use super::natural::{Natural, natural, reduced};
 use crate::coefficients::Hydrodynamics;
 use crate::error::HydroError;
 use crate::memory::Memory;
@@ -394,8 +395,14 @@ impl Rest {
             return Ok((Vec::new(), Vec::new()));
         }
         let found = natural(hydro, &body.mass, &self.whole, &self.motions)?;
-        let matrix = state_matrix(body, &self.whole, memory, added_mass_inf, &self.motions)?;
-        let modes = nearest(matrix, &found)?;
+        let damped = Damped {
+            body,
+            stiffness: &self.whole,
+            memory,
+            added_mass_inf,
+            basis: &self.motions,
+        };
+        let modes = damped.modes(&found)?;
         Ok((found, modes))
     }
 }

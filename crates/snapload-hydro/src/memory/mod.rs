@@ -57,7 +57,11 @@ impl Memory {
     /// K̂(iω) = Σ ½ [R_k/(iω − p_k) + R̄_k/(iω − p̄_k)]
     /// ```
     pub fn transform(&self, omega_rad_s: f64) -> Matrix3<Complex<f64>> {
-        let s = Complex::new(0.0, omega_rad_s);
+        self.transform_at(Complex::new(0.0, omega_rad_s))
+    }
+
+    /// The same at any s in place of iω.
+    pub(crate) fn transform_at(&self, s: Complex<f64>) -> Matrix3<Complex<f64>> {
         let terms = self.terms.iter();
         terms.fold(Matrix3::zeros(), |sum, term| {
             let one = Complex::new(0.5, 0.0) / (s - term.pole);

@@ -230,12 +230,18 @@ pub fn periods_summary(natural: &[Natural], modes: &[Mode]) -> String {
             true => " (outside the file's frequencies)",
             false => "",
         };
+        let damped = match mode.is_overdamped() {
+            true => "overdamped".to_owned(),
+            false => format!(
+                "{:.3} s with {:.2} % of critical damping",
+                mode.period_s,
+                plain(100.0 * mode.damping_ratio, 1e-2)
+            ),
+        };
+        let name = FREEDOMS[natural.freedom];
         format!(
-            "{} {:.3} s undamped, {:.3} s with {:.2} % of critical damping{outside}",
-            FREEDOMS[natural.freedom],
-            natural.period_s,
-            mode.period_s,
-            plain(100.0 * mode.damping_ratio, 1e-2)
+            "{name} {:.3} s undamped, {damped}{outside}",
+            natural.period_s
         )
     };
     let all: Vec<String> = natural.iter().zip(modes).map(one).collect();

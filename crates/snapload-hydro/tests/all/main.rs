@@ -1,6 +1,7 @@
 //! Coefficients, memory and linear answers against files of panel codes and independent results.
 mod bad_files;
 mod common;
+mod damped;
 mod decay;
 mod linear;
 mod memory;

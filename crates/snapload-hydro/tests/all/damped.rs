@@ -1,0 +1,118 @@
+//! Natural motions with damping: which eigenvalue belongs to which motion.
+
+use crate::common::{hydro, reading};
+use nalgebra::{Complex, Matrix3};
+use snapload_hydro::{
+    Body, FitOptions, Hydrodynamics, Memory, Mode, Natural, Report, Request, Term, Weight, fit,
+    natural_of_the_file, natural_of_the_memory, page,
+};
+
+/// The pontoon with the same added mass at all frequencies, so that its heave, which is coupled with
+/// nothing, is a textbook's oscillator; with ω and mass of that.
+fn oscillator() -> (Hydrodynamics, Body, Matrix3<f64>, [f64; 2]) {
+    let mut hydro = hydro("pontoon-deep.nc");
+    let inf = hydro.added_mass[0];
+    hydro.added_mass.fill(inf);
+    let body = Body::new(&hydro, &Weight::default()).expect("a body");
+    let mass = body.mass[(1, 1)] + inf[(1, 1)];
+    let omega = (body.stiffness[(1, 1)] / mass).sqrt();
+    (hydro, body, inf, [omega, mass])
+}
+
+fn heave(natural: &[Natural], modes: &[Mode]) -> Mode {
+    let mut both = natural.iter().zip(modes);
+    let found = both.find(|(natural, _)| natural.freedom == 1);
+    found.expect("heave").1.clone()
+}
+
+/// A memory of pitch alone, so faint that it does not change the motion, but with an eigenvalue of
+/// its own next to iω of heave.
+fn faint(omega: f64) -> Memory {
+    let mut residue = Matrix3::zeros();
+    residue[(2, 2)] = Complex::new(1.0, 0.0);
+    let terms = vec![Term {
+        pole: Complex::new(-0.02 * omega, omega),
+        residue,
+    }];
+    Memory { terms }
+}
+
+/// Heave has −ζω + iω sqrt(1 − ζ²), whatever waves of pitch oscillate near its frequency; from ζ = 1
+/// on it creeps back with −ω (ζ − sqrt(ζ² − 1)), the slower of two.
+#[test]
+fn heave_has_the_eigenvalue_of_an_oscillator() {
+    let (hydro, mut body, inf, [omega, mass]) = oscillator();
+    let natural = natural_of_the_file(&hydro, &body).expect("motions");
+    for zeta in [0.0_f64, 0.05, 0.3, 0.8, 1.2, 3.0] {
+        body.damping[(1, 1)] = 2.0 * zeta * omega * mass;
+        let modes = natural_of_the_memory(&body, &faint(omega), &inf, &natural).expect("modes");
+        let found = heave(&natural, &modes);
+        let root = (1.0 - zeta * zeta).abs().sqrt();
+        let (expected, ratio) = match zeta < 1.0 {
+            true => (Complex::new(-zeta, root) * omega, zeta),
+            false => (Complex::new((root - zeta) * omega, 0.0), 1.0),
+        };
+        assert!(
+            (found.eigenvalue - expected).norm() < 1e-9,
+            "{zeta}: {found:?} {expected}"
+        );
+        assert!((found.damping_ratio - ratio).abs() < 1e-9, "{found:?}");
+        assert_eq!(found.is_overdamped(), zeta > 1.0);
+    }
+}
+
+/// Heave that is coupled with nothing is damped as if it were alone, with the memory of a file, and
+/// the more the more damping it has.
+#[test]
+fn a_motion_apart_from_others_is_damped_as_if_alone() {
+    let hydro = hydro("pontoon-deep.nc");
+    let fit = fit(&hydro, FitOptions::default()).expect("a fit");
+    let own = |term: &&Term| term.residue[(1, 1)].norm() > 0.0;
+    let terms = fit.memory.terms.iter().filter(own).cloned().collect();
+    let alone = Memory { terms };
+    let mut body = Body::new(&hydro, &Weight::default()).expect("a body");
+    let natural = natural_of_the_file(&hydro, &body).expect("motions");
+    let mut last = 0.0;
+    for damping in [0.0, 5e4, 1e5, 2e5] {
+        body.damping[(1, 1)] = damping;
+        let of = |memory: &Memory| {
+            let inf = &fit.added_mass_inf;
+            let modes = natural_of_the_memory(&body, memory, inf, &natural).expect("modes");
+            heave(&natural, &modes)
+        };
+        let (found, known) = (of(&fit.memory), of(&alone));
+        assert!(
+            (found.eigenvalue - known.eigenvalue).norm() < 1e-9,
+            "{damping}: {found:?} {known:?}"
+        );
+        assert!(found.damping_ratio > last, "{damping}: {found:?}");
+        last = found.damping_ratio;
+    }
+}
+
+/// An overdamped motion is called so in words and on the page, and has no period in JSON.
+#[test]
+fn an_overdamped_motion_is_called_so() {
+    let request = Request {
+        damping: [0.0, 3e6, 0.0],
+        fit: FitOptions { pairs: Some(4) },
+        ..Request::default()
+    };
+    let report = Report::new("pontoon", reading("pontoon-deep.nc"), &request).expect("a report");
+    let rows = report.summary();
+    let (_, periods) = rows
+        .iter()
+        .find(|(label, _)| label == "periods")
+        .expect("a row");
+    assert!(
+        periods.contains("heave 3.254 s undamped, overdamped"),
+        "{periods}"
+    );
+    let page = page(&report, "snapload hydro").expect("a page");
+    assert!(page.contains("<td>overdamped</td>") && !page.contains("inf"));
+    let json = serde_json::to_value(report.to_json()).expect("JSON");
+    let row = json["floating"]["natural"].as_array().expect("motions");
+    let row = row.iter().find(|row| row["freedom"] == "heave");
+    let row = row.expect("heave");
+    assert!(row["damped_period_s"].is_null() && row["damping_ratio"] == 1.0);
+}
