@@ -205,7 +205,7 @@ class Hydro(Result):
 
         ``added_mass``, ``radiation_damping`` and ``excitation_force`` over ``omega``; ``response`` and
         ``response_of_the_memory`` per metre of wave; the memory as ``pole`` and ``residue``, with the
-        corresponding ``added_mass_inf``.
+        corresponding ``added_mass_inf`` and ``added_damping``.
 
         See Also
         --------
@@ -325,6 +325,7 @@ def _dataset(answer: dict[str, Any]) -> xarray.Dataset:
         "radiation_damping": (("omega", *matrix), answer["radiation_damping"], damping),
         "excitation_force": (wave, _complex([each["force"] for each in excitation]), force),
         "added_mass_inf": (matrix, answer["added_mass_inf"], mass),
+        "added_damping": (matrix, answer["added_damping"], damping),
         "pole": ("memory", poles, {"units": "s-1"}),
         "residue": (("memory", *matrix), residues, stiffness),
     }

@@ -160,6 +160,8 @@ impl Problem<'_> {
 /// ```text
 /// 𝓜 q̈ + B q̇ + C q + Re Σ R_k z_k = 0,    ż_k = p_k z_k + q̇
 /// ```
+///
+/// with B the body's damping and that which was added to the memory.
 pub fn eigenvalues(
     body: &Body,
     memory: &Memory,
@@ -206,7 +208,7 @@ pub(super) fn state_matrix(
     matrix.view_mut((0, n), (n, n)).fill_with_identity();
     let push = -&inverse * reduced(stiffness, basis);
     matrix.view_mut((n, 0), (n, n)).copy_from(&push);
-    let push = -&inverse * reduced(&body.damping, basis);
+    let push = -&inverse * reduced(&(body.damping + memory.damping), basis);
     matrix.view_mut((n, n), (n, n)).copy_from(&push);
     let mut at = 2 * n;
     for term in &memory.terms {

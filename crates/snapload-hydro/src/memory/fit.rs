@@ -35,8 +35,6 @@ pub struct Fit {
     pub memory: Memory,
     /// The A∞ that belongs to it, computed from the damping instead of the file's.
     pub added_mass_inf: Matrix3<f64>,
-    /// Damping that was added if the memory could not be made passive; otherwise zero.
-    pub damping: Matrix3<f64>,
     /// The fit of each block.
     pub blocks: Vec<BlockQuality>,
     /// The fit of each entry that is not zero.
@@ -197,7 +195,10 @@ impl Candidate {
                 residue,
             });
         }
-        Memory { terms }
+        Memory {
+            terms,
+            damping: Matrix3::zeros(),
+        }
     }
 }
 
@@ -255,14 +256,13 @@ pub fn fit(hydro: &Hydrodynamics, options: FitOptions) -> Result<Fit, HydroError
     }
     let mut added_mass_inf = added_mass_at_infinity(hydro);
     let mut memory = Memory::default();
-    let mut damping = Matrix3::zeros();
     let (mut qualities, mut entries) = (Vec::new(), Vec::new());
     for freedoms in blocks(hydro) {
         let (fitted, block, chosen) = chosen(hydro, &mut added_mass_inf, freedoms, options)?;
         let part = chosen.memory(&block);
         for (a, i) in block.freedoms.iter().enumerate() {
             if chosen.quality.damped {
-                damping[(*i, *i)] += chosen.violation / (block.unit[a] * block.unit[a]);
+                memory.damping[(*i, *i)] += chosen.violation / (block.unit[a] * block.unit[a]);
             }
         }
         for (e, (a, b)) in block.entries.iter().enumerate() {
@@ -281,7 +281,6 @@ pub fn fit(hydro: &Hydrodynamics, options: FitOptions) -> Result<Fit, HydroError
     let mut fit = Fit {
         memory,
         added_mass_inf,
-        damping,
         blocks: qualities,
         entries,
         warnings: Vec::new(),
@@ -290,38 +289,51 @@ pub fn fit(hydro: &Hydrodynamics, options: FitOptions) -> Result<Fit, HydroError
     Ok(fit)
 }
 
-/// A given memory, with its quality relative to a file's coefficients.
+/// A symmetric matrix of finite numbers from its rows.
+fn symmetric(name: &str, rows: [[f64; 3]; 3]) -> Result<Matrix3<f64>, HydroError> {
+    let matrix = Matrix3::from_fn(|i, j| rows[i][j]);
+    let apart = (matrix - matrix.transpose()).amax();
+    match apart <= 1e-6 * matrix.amax() {
+        true => Ok(matrix),
+        false => {
+            let message = format!("{name} differs from its transpose, or is not a number");
+            Err(HydroError::convention("symmetry", message))
+        }
+    }
+}
+
+/// A given memory with the A∞ and the added damping that belong to it, and its quality relative to a
+/// file's coefficients.
 ///
 /// # Errors
-/// A [`HydroError`] as [`Memory::check`] gives it, or if A∞ is not possible.
+/// A [`HydroError`] as [`Memory::check`] gives it, or if one of the matrices is not possible.
 pub fn given(
     hydro: &Hydrodynamics,
     added_mass_inf: [[f64; 3]; 3],
+    added_damping: [[f64; 3]; 3],
     rows: &[TermRow],
 ) -> Result<Fit, HydroError> {
-    let memory = Memory::from_rows(rows)?;
-    let added_mass_inf = Matrix3::from_fn(|i, j| added_mass_inf[i][j]);
-    let asymmetric = (added_mass_inf - added_mass_inf.transpose()).amax();
-    let symmetric = asymmetric <= 1e-6 * added_mass_inf.amax();
-    if !symmetric {
-        let message = "added_mass_inf differs from its transpose, or is not a number";
-        return Err(HydroError::convention("symmetry", message));
-    }
+    let mut memory = Memory::from_rows(rows)?;
+    let added_mass_inf = symmetric("added_mass_inf", added_mass_inf)?;
+    let added_damping = symmetric("added_damping", added_damping)?;
     let omega_max = hydro.range_rad_s()[1];
     let mut entries = Vec::new();
+    let blocks = blocks(hydro);
     for (i, j) in UPPER {
-        let acts = memory
-            .terms
-            .iter()
-            .any(|term| term.residue[(i, j)].norm() > 0.0);
-        if acts {
+        let mut terms = memory.terms.iter();
+        let acts = terms.any(|term| term.residue[(i, j)].norm() > 0.0);
+        // Where the body makes waves a memory that leaves them out differs from the file, too.
+        let mut joined = blocks.iter();
+        let joined = joined.any(|block| block.contains(&i) && block.contains(&j));
+        if acts || joined && coupled(hydro, i, j) {
             let curve = DampingCurve::new(&hydro.omega_rad_s, &hydro.damping_entry(i, j));
             let kernel = Kernel::new(&curve, omega_max);
             entries.push(entry(hydro, &added_mass_inf, &memory, &kernel, (i, j)));
         }
     }
+    // As of a fit, the quality is that of the exponentials alone.
+    memory.damping = added_damping;
     let mut fit = Fit {
-        damping: Matrix3::zeros(),
         blocks: Vec::new(),
         entries,
         warnings: Vec::new(),
@@ -333,15 +345,15 @@ pub fn given(
     let worst = own.fold(0.0_f64, |worst, entry| worst.max(entry.rms));
     if worst > POOR_FIT {
         let message = format!(
-            "the given memory differs from the file by {:.1} %; was it made from another file?",
+            "the given memory differs from the file by {:.1} %: it belongs to another file, or was fitted \
+             without irregular frequencies of this one",
             100.0 * worst
         );
         fit.warnings.push(Warning::new("fit", message));
     }
-    let least = fit.memory.least_eigenvalue(omega_max);
-    if least < -1e-6 {
+    if let Some(least) = fit.memory.not_passive(omega_max) {
         let message = format!(
-            "the given memory is not passive: its damping falls to {:.2} % of its largest value, and \
+            "the given memory is not passive: its damping falls to {:.2} % of its largest size, and \
              it can feed energy into the motion",
             100.0 * least
         );

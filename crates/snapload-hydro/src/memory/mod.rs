@@ -18,6 +18,9 @@ use crate::error::HydroError;
 use nalgebra::{Complex, Matrix3};
 use serde::{Deserialize, Serialize};
 
+/// A given memory counts as passive if its least eigenvalue is not further below zero.
+const ROUNDING: f64 = 1e-6;
+
 /// One exponential, R e^{pt}.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Term {
@@ -39,6 +42,9 @@ pub struct Term {
 pub struct Memory {
     /// The exponentials.
     pub terms: Vec<Term>,
+    /// Damping that was added, the same at all frequencies, where the exponentials could not be made
+    /// passive; otherwise zero. In K it is an impulse at t = 0, which [`Memory::kernel`] leaves out.
+    pub damping: Matrix3<f64>,
 }
 
 impl Memory {
@@ -54,7 +60,7 @@ impl Memory {
     /// K̂(iω) = ∫ K e^{−iωt} dt = B(ω) + iω (A(ω) − A∞):
     ///
     /// ```text
-    /// K̂(iω) = Σ ½ [R_k/(iω − p_k) + R̄_k/(iω − p̄_k)]
+    /// K̂(iω) = Σ ½ [R_k/(iω − p_k) + R̄_k/(iω − p̄_k)] + the damping that was added
     /// ```
     pub fn transform(&self, omega_rad_s: f64) -> Matrix3<Complex<f64>> {
         self.transform_at(Complex::new(0.0, omega_rad_s))
@@ -63,7 +69,7 @@ impl Memory {
     /// The same at any s in place of iω.
     pub(crate) fn transform_at(&self, s: Complex<f64>) -> Matrix3<Complex<f64>> {
         let terms = self.terms.iter();
-        terms.fold(Matrix3::zeros(), |sum, term| {
+        terms.fold(self.damping.map(Complex::from), |sum, term| {
             let one = Complex::new(0.5, 0.0) / (s - term.pole);
             let other = Complex::new(0.5, 0.0) / (s - term.pole.conj());
             sum + term.residue.map(|entry| entry * one + entry.conj() * other)
@@ -80,12 +86,18 @@ impl Memory {
         self.terms.iter().map(of).sum()
     }
 
-    /// The least eigenvalue of Re K̂(iω), as a part of the largest over ω, over frequencies from
-    /// 1e-4 to 1000 times the given one. If it is not negative the memory is passive and can not
+    /// The least eigenvalue of Re K̂(iω), as a part of the largest magnitude over ω, over frequencies
+    /// from 1e-4 to 1000 times the given one. If it is not negative the memory is passive and can not
     /// feed energy into the motion. Each entry is relative to the damping of its own degrees of
     /// freedom.
     pub fn least_eigenvalue(&self, omega_max_rad_s: f64) -> f64 {
         passivity::least(self, omega_max_rad_s)
+    }
+
+    /// The least eigenvalue of a memory that can feed energy into the motion.
+    pub(crate) fn not_passive(&self, omega_max_rad_s: f64) -> Option<f64> {
+        let least = self.least_eigenvalue(omega_max_rad_s);
+        (least < -ROUNDING).then_some(least)
     }
 
     /// Checks exponentials that are given instead of fitted.
@@ -157,6 +169,7 @@ impl Memory {
         });
         let memory = Self {
             terms: terms.collect(),
+            damping: Matrix3::zeros(),
         };
         memory.check()?;
         Ok(memory)

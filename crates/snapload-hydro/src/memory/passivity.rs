@@ -27,7 +27,7 @@ fn grid(poles: impl Iterator<Item = Complex<f64>>, omega_max: f64) -> Vec<f64> {
     grid
 }
 
-/// The least eigenvalue of Re K̂ over the largest, each degree of freedom in units of the root of
+/// The least eigenvalue of Re K̂ over the largest magnitude of one, each degree of freedom in units of the root of
 /// its own largest damping.
 pub(super) fn least(memory: &Memory, omega_max: f64) -> f64 {
     let poles = memory.terms.iter().map(|term| term.pole);
@@ -49,7 +49,7 @@ pub(super) fn least(memory: &Memory, omega_max: f64) -> f64 {
         let b = Matrix3::from_fn(|i, j| b[(i, j)] * scale[i] * scale[j]);
         let eigenvalues = b.symmetric_eigenvalues();
         least = eigenvalues.min().min(least);
-        most = eigenvalues.max().max(most);
+        most = eigenvalues.amax().max(most);
     }
     if most > 0.0 { least / most } else { 0.0 }
 }

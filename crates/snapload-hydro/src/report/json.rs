@@ -204,7 +204,7 @@ impl Report {
             added_mass_inf: rows(&fit.added_mass_inf),
             added_mass_inf_of_the_file: hydro.added_mass_inf.as_ref().map(rows),
             memory: fit.memory.rows(),
-            added_damping: rows(&fit.damping),
+            added_damping: rows(&fit.memory.damping),
             quality: Quality {
                 blocks: &fit.blocks,
                 entries: &fit.entries,

@@ -42,18 +42,24 @@ const ZERO_DAMPING: f64 = 1e-6;
 pub struct GivenMemory {
     /// A∞ by rows.
     pub added_mass_inf: [[f64; 3]; 3],
+    /// The damping that was added where the exponentials could not be made passive, by rows.
+    #[serde(default)]
+    pub added_damping: [[f64; 3]; 3],
     /// The exponentials.
     pub memory: Vec<TermRow>,
-    /// The reference point of both; that of the file if not given \[m\].
+    /// The reference point of all; that of the file if not given \[m\].
     pub reference_m: Option<[f64; 2]>,
 }
 
 impl GivenMemory {
-    /// The same about another reference point: A∞ and residues become Jᵀ(·)J.
+    /// The same about another reference point: A∞, added damping and residues become Jᵀ(·)J.
     fn about(&self, reference_m: [f64; 2]) -> Self {
         let from = self.reference_m.unwrap_or(reference_m);
         let j = transport([0, 1].map(|axis| reference_m[axis] - from[axis]));
-        let real = Matrix3::from_fn(|i, k| self.added_mass_inf[i][k]);
+        let moved = |own: &[[f64; 3]; 3]| {
+            let matrix = Matrix3::from_fn(|i, k| own[i][k]);
+            rows(&(j.transpose() * matrix * j))
+        };
         let term = |row: &TermRow| {
             let part = |at: usize| {
                 let matrix = Matrix3::from_fn(|i, k| row.residue[i][k][at]);
@@ -67,7 +73,8 @@ impl GivenMemory {
             }
         };
         Self {
-            added_mass_inf: rows(&(j.transpose() * real * j)),
+            added_mass_inf: moved(&self.added_mass_inf),
+            added_damping: moved(&self.added_damping),
             memory: self.memory.iter().map(term).collect(),
             reference_m: Some(reference_m),
         }
@@ -135,9 +142,12 @@ impl Report {
         let fit = match (&request.memory, reading.format) {
             (Some(memory), _) => {
                 let memory = memory.about(hydro.reference_m);
-                given(hydro, memory.added_mass_inf, &memory.memory)?
+                let [inf, damping] = [memory.added_mass_inf, memory.added_damping];
+                given(hydro, inf, damping, &memory.memory)?
             }
-            (None, Format::Section) => given(hydro, rows(&hydro.added_mass[0]), &[])?,
+            (None, Format::Section) => {
+                given(hydro, rows(&hydro.added_mass[0]), Default::default(), &[])?
+            }
             (None, _) => fit(hydro, request.fit)?,
         };
         let floating = match Body::new(&reading.hydro, &request.weight) {
@@ -198,7 +208,7 @@ impl Floating {
         request: &Request,
     ) -> Result<Self, HydroError> {
         let hydro = &reading.hydro;
-        body.damping += fit.damping + Matrix3::from_diagonal(&request.damping.into());
+        body.damping += Matrix3::from_diagonal(&request.damping.into());
         body.constant_force += Vector3::from(request.force);
         let (memory, inf) = (&fit.memory, &fit.added_mass_inf);
         let free = body.afloat();

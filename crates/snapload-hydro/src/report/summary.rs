@@ -52,7 +52,7 @@ impl Report {
         let worst =
             |of: fn(&EntryQuality) -> f64| 100.0 * fit.entries.iter().map(of).fold(0.0, f64::max);
         let furthest = EntryQuality::worst(&fit.entries).map_or(String::new(), EntryQuality::name);
-        if fit.memory.terms.is_empty() {
+        if fit.memory.terms.is_empty() && fit.entries.is_empty() {
             return "none, as the body makes no waves".to_owned();
         }
         let how = match fit.blocks.as_slice() {
@@ -66,15 +66,21 @@ impl Report {
                 blocks.iter().map(block).collect::<Vec<_>>().join(", ")
             }
         };
-        let damped = fit.blocks.iter().any(|block| block.damped);
+        let omega_max = self.reading.hydro.range_rad_s()[1];
+        let passive = if fit.blocks.is_empty() && fit.memory.not_passive(omega_max).is_some() {
+            "not passive"
+        } else if fit.memory.damping.amax() > 0.0 {
+            "damping added"
+        } else {
+            "passive"
+        };
         format!(
             "{how}, {} states; differs from the file by at most {:.2} % (root mean square; {furthest}), from K(t) \
-             by at most {:.2} % (root mean square) and at no instant by more than {:.1} % of its largest value; {}",
+             by at most {:.2} % (root mean square) and at no instant by more than {:.1} % of its largest value; {passive}",
             fit.memory.states(),
             worst(|entry| entry.rms),
             worst(|entry| entry.kernel_rms),
             worst(|entry| entry.worst_kernel),
-            if damped { "damping added" } else { "passive" },
         )
     }
 }

@@ -34,7 +34,10 @@ fn faint(omega: f64) -> Memory {
         pole: Complex::new(-0.02 * omega, omega),
         residue,
     }];
-    Memory { terms }
+    Memory {
+        terms,
+        ..Memory::default()
+    }
 }
 
 /// Heave has −ζω + iω sqrt(1 − ζ²), whatever waves of pitch oscillate near its frequency; from ζ = 1
@@ -69,7 +72,10 @@ fn a_motion_apart_from_others_is_damped_as_if_alone() {
     let fit = fit(&hydro, FitOptions::default()).expect("a fit");
     let own = |term: &&Term| term.residue[(1, 1)].norm() > 0.0;
     let terms = fit.memory.terms.iter().filter(own).cloned().collect();
-    let alone = Memory { terms };
+    let alone = Memory {
+        terms,
+        ..Memory::default()
+    };
     let mut body = Body::new(&hydro, &Weight::default()).expect("a body");
     let natural = natural_of_the_file(&hydro, &body).expect("motions");
     let mut last = 0.0;

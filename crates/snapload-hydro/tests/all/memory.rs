@@ -31,7 +31,7 @@ fn good_files_are_fitted_within_one_percent() {
         let last = hydro(name).range_rad_s()[1];
         assert!(fit.memory.least_eigenvalue(last) > -2e-9, "{name}");
         assert!(fit.blocks.iter().all(|block| !block.damped));
-        assert_eq!(fit.damping, Matrix3::zeros());
+        assert_eq!(fit.memory.damping, Matrix3::zeros());
         let size = fit.memory.transform(0.5 * last).map(|k| k.norm()).max();
         assert!(fit.memory.transform(0.0).map(|k| k.norm()).max() < 1e-9 * size);
         // Heave alone, surge with pitch; no coupling between them.
@@ -121,14 +121,45 @@ fn poor_files_cause_warnings() {
     let mut least = f64::INFINITY;
     for step in 1..4000 {
         let omega = 0.005 * f64::from(step);
-        let b = poor.memory.transform(omega).map(|k| k.re) + poor.damping;
+        let b = poor.memory.transform(omega).map(|k| k.re);
         least = least.min(b.symmetric_eigenvalues().min());
     }
     assert!(
-        least > -1e-6 * poor.damping.amax(),
+        least > -1e-6 * poor.memory.damping.amax(),
         "{least} {}",
-        poor.damping
+        poor.memory.damping
     );
+}
+
+/// A memory that feeds energy into the motion at every frequency is −100 % passive, and one that leaves
+/// all waves out is off the file by all of them.
+#[test]
+fn given_memories_that_are_wrong_are_reported() {
+    let (sphere, whole) = (hydro("sphere.nc"), fitted("sphere.nc"));
+    let inf = std::array::from_fn(|i| std::array::from_fn(|j| whole.added_mass_inf[(i, j)]));
+    let mut rows = whole.memory.rows();
+    let feeds = Memory::from_rows(&rows).expect("a memory");
+    assert!(feeds.least_eigenvalue(4.0) > -2e-9);
+    for part in rows
+        .iter_mut()
+        .flat_map(|row| row.residue.as_flattened_mut())
+    {
+        *part = part.map(|number| -number);
+    }
+    let message = |rows: &[TermRow], what: &str| {
+        let fit = given(&sphere, inf, Default::default(), rows).expect("a fit");
+        let of = fit
+            .warnings
+            .into_iter()
+            .filter(|warning| warning.what == what);
+        of.map(|warning| warning.message).collect::<String>()
+    };
+    let passivity = message(&rows, "passivity");
+    assert!(passivity.contains("falls to -100.00 %"), "{passivity}");
+    let fit = message(&[], "fit");
+    assert!(fit.contains("differs from the file by 100.0 %"), "{fit}");
+    assert_eq!(message(&[], "passivity"), "");
+    assert_eq!(message(&whole.memory.rows(), "passivity"), "");
 }
 
 /// A file of medium quality, of finite depth, is accepted with warnings.
@@ -151,7 +182,7 @@ fn middling_files_are_taken_with_warnings() {
     let inf = std::array::from_fn(|i| std::array::from_fn(|j| whole.added_mass_inf[(i, j)]));
     let dropped: Vec<usize> = (0..58).filter(|k| k % 14 != 0).collect();
     let sparse = hydro("pontoon-deep.nc").without(&dropped);
-    let sparse = given(&sparse, inf, &whole.memory.rows()).expect("a fit");
+    let sparse = given(&sparse, inf, Default::default(), &whole.memory.rows()).expect("a fit");
     let steps = sparse
         .warnings
         .iter()

@@ -62,7 +62,7 @@ pub(super) fn model(structure: &Structure, afloat: &Afloat) -> Result<Model, Cas
     };
     let water = Floating {
         stiffness: rows(&afloat.body.stiffness, |c| c),
-        damping: rows(&afloat.body.damping, |b| b),
+        damping: rows(&(afloat.body.damping + fit.memory.damping), |b| b),
         constant: afloat.steady().into(),
         memory: fit.memory.terms.iter().map(term).collect(),
         excitation: excitation(structure, afloat, &waves)?,
