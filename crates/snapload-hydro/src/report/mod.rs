@@ -34,6 +34,8 @@ const SAME_MASS: f64 = 0.01;
 /// A peak counts as a resonance if it is this close, relatively, to the frequency of a natural
 /// motion.
 const NEAR_RESONANCE: f64 = 0.02;
+/// A peak of a freedom depends on the damping of a resonance that makes up at least this part of it.
+const RESONANT_PART: f64 = 0.1;
 /// Damping below this part of critical bounds nothing.
 const ZERO_DAMPING: f64 = 1e-6;
 
@@ -249,13 +251,24 @@ impl Floating {
     /// The largest response of each degree of freedom in waves of a direction, by the file's
     /// coefficients, with the damping ratio if the peak is a narrow resonance.
     pub fn largest(&self, response: usize) -> [(Peak, Option<f64>); 3] {
-        let of = |peak: Peak| {
-            let apart = |mode: &&Mode| {
+        let response = &self.fine[response][0];
+        let peaks = response.peaks();
+        std::array::from_fn(|i| {
+            let peak = peaks[i];
+            let mut points = response.omega_rad_s.iter().zip(&response.amplitude);
+            let there = points.find(|(omega, _)| **omega == peak.omega_rad_s);
+            let there = there.map(|(_, xi)| xi);
+            let resonates = |(natural, mode): &(&Natural, &Mode)| {
                 let omega = mode.eigenvalue.norm();
-                mode.damping_ratio < WEAK_DAMPING
-                    && (peak.omega_rad_s / omega - 1.0).abs() < NEAR_RESONANCE
+                let near = (peak.omega_rad_s / omega - 1.0).abs() < NEAR_RESONANCE;
+                // The body resonates in the shape of its natural motion, in whose main freedom all of
+                // the response may be resonance.
+                let own = natural.shape[i] / natural.shape[natural.freedom];
+                let part = there.map_or(0.0, |xi| own.abs() * xi[natural.freedom].norm());
+                mode.damping_ratio < WEAK_DAMPING && near && part > RESONANT_PART * peak.amplitude
             };
-            let narrow = self.modes.iter().find(apart).map(|mode| mode.damping_ratio);
+            let mut both = self.natural.iter().zip(&self.modes);
+            let narrow = both.find(resonates).map(|(_, mode)| mode.damping_ratio);
             let bounded = narrow.is_none_or(|ratio| ratio > ZERO_DAMPING);
             let amplitude = if bounded {
                 peak.amplitude

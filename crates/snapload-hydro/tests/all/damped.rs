@@ -122,3 +122,32 @@ fn an_overdamped_motion_is_called_so() {
     let row = row.expect("heave");
     assert!(row["damped_period_s"].is_null() && row["damping_ratio"] == 1.0);
 }
+
+/// The peak of heave does not depend on the damping of a pitch that resonates at the same frequency,
+/// as the two are not coupled; surge, which is, does.
+#[test]
+fn peaks_depend_on_resonances_of_their_own() {
+    let request = |inertia: f64| Request {
+        weight: Weight {
+            inertia_kg_m2: Some(inertia),
+            ..Weight::default()
+        },
+        fit: FitOptions { pairs: Some(4) },
+        ..Request::default()
+    };
+    let largest = |inertia| {
+        let reading = reading("pontoon-deep.nc");
+        let report = Report::new("pontoon", reading, &request(inertia)).expect("a report");
+        report.floating.expect("a body").largest(0)
+    };
+    // One natural frequency of pitch is that of heave, the other far from it.
+    let (same, apart) = (largest(110_000.0), largest(174_000.0));
+    for peaks in [&same, &apart] {
+        let narrow = peaks.map(|(_, narrow)| narrow.is_some());
+        assert_eq!(narrow, [true, false, true], "{peaks:?}");
+    }
+    let [heave, pitch] = [1, 2].map(|i| same[i].0.omega_rad_s);
+    assert!((heave / pitch - 1.0).abs() < 0.02, "{same:?}");
+    let height = same[1].0.amplitude / apart[1].0.amplitude;
+    assert!((height - 1.0).abs() < 1e-3, "{same:?} {apart:?}");
+}
