@@ -16,8 +16,8 @@ use crate::coefficients::transport;
 use crate::digits::kilo;
 use crate::error::{HydroError, Warning};
 use crate::linear::{
-    Body, Line, Mode, Natural, Peak, Response, Rest, Weight, beyond_hydrostatics, draft_m,
-    fine_responses, natural_of_the_file, natural_of_the_memory, response_of_the_file,
+    Body, LARGE_PITCH, Line, Mode, Natural, Peak, Response, Rest, Weight, beyond_hydrostatics,
+    draft_m, fine_responses, natural_of_the_file, natural_of_the_memory, response_of_the_file,
     response_of_the_memory, rest,
 };
 use crate::memory::{Fit, FitOptions, TermRow, fit, given};
@@ -276,18 +276,21 @@ impl Floating {
                 f64::INFINITY
             };
             (Peak { amplitude, ..peak }, narrow)
-        };
-        self.fine[response][0].peaks().map(of)
+        })
     }
 
     /// The warning that the body does not float upright without lines, if none are given.
     fn balance_warning(&self) -> Option<Warning> {
         let pitch = self.body.unbalanced_pitch();
         let pitch = pitch.filter(|_| self.rest.is_none())?;
+        let degrees = pitch.to_degrees();
+        let floats = match degrees.abs() > LARGE_PITCH {
+            true => format!("turns by more than {LARGE_PITCH}°, if not over"),
+            false => format!("floats at {degrees:.1}° of pitch"),
+        };
         let message = format!(
-            "without lines the body floats at {:.1}° of pitch, but its periods and response without lines are \
-             those of the upright body: check its centre of gravity and its constant loads",
-            pitch.to_degrees()
+            "without lines the body {floats}, but its periods and response without lines are those of the upright \
+             body: check its centre of gravity and its constant loads"
         );
         Some(Warning::new("balance", message))
     }

@@ -3,7 +3,7 @@
 use super::{Floating, Report, ZERO_DAMPING};
 use crate::coefficients::FREEDOMS;
 use crate::digits::kilo;
-use crate::linear::{BALANCED_ANGLE, Mode, Natural, Peak};
+use crate::linear::{BALANCED_ANGLE, LARGE_PITCH, Mode, Natural, Peak};
 use crate::memory::{BlockQuality, EntryQuality};
 use std::f64::consts::PI;
 
@@ -124,8 +124,12 @@ impl Floating {
             (Some(lift), Some(moment)) => format!("{lift} and {moment} are"),
             (Some(lift), None) => format!("{lift} are"),
             (None, Some(moment)) => {
-                let balanced = match body.unbalanced_pitch() {
-                    Some(pitch) => format!("balanced at {:.1}° of pitch", pitch.to_degrees()),
+                let pitch = body.unbalanced_pitch().map(f64::to_degrees);
+                let balanced = match pitch {
+                    Some(pitch) if pitch.abs() > LARGE_PITCH => format!(
+                        "not balanced within {LARGE_PITCH}° of pitch, where hydrostatics are linear"
+                    ),
+                    Some(pitch) => format!("balanced at {pitch:.1}° of pitch"),
                     None => "not balanced: lines must hold the body".to_owned(),
                 };
                 return Some(format!(

@@ -226,9 +226,9 @@ fn a_moment_that_turns_the_body_is_reported() {
     };
     let upright = report(0.0);
     assert_eq!((of(&upright), balance(&upright)), (Vec::new(), None));
-    let turned = report(0.5);
+    let turned = report(0.15);
     let body = &turned.floating.as_ref().expect("a body").body;
-    let arm = 0.5 * body.mass_kg * 9.81;
+    let arm = 0.15 * body.mass_kg * 9.81;
     let angle = (arm / body.stiffness[(2, 2)]).to_degrees();
     let message = of(&turned).concat();
     assert!(message.contains(&format!("{angle:.1}°")), "{message}");
@@ -241,12 +241,38 @@ fn a_moment_that_turns_the_body_is_reported() {
     let json = serde_json::to_value(turned.to_json()).expect("JSON");
     assert!(json["warnings"].to_string().contains("upright"));
     // To the other side both have the other sign.
-    let other = report(-0.5);
+    let other = report(-0.15);
     let message = of(&other).concat();
     assert!(message.contains(&format!("-{angle:.1}°")), "{message}");
     let (_, message) = balance(&other).expect("a row");
     let expected = format!("a moment of -{:.1} kN m", arm / 1e3);
     assert!(message.contains(&expected), "{message}");
+}
+
+/// No angle is told at which linear hydrostatics do not hold: the weight of a body whose centre of
+/// gravity lies outside of its hull turns it over.
+#[test]
+fn a_moment_that_turns_the_body_far_is_not_balanced() {
+    for x in [5.0, -5.0] {
+        let mut request = request();
+        request.weight.centre_m = Some([x, -0.2]);
+        let report =
+            Report::new("pontoon", reading("pontoon-deep.nc"), &request).expect("a report");
+        let rows = report.summary();
+        let says = |label: &str, message: &str| {
+            let mut rows = rows.iter();
+            rows.any(|(known, row)| known == label && row.contains(message))
+        };
+        assert!(
+            says("balance", "is not balanced within 15° of pitch"),
+            "{rows:?}"
+        );
+        assert!(
+            says("warning", "the body turns by more than 15°, if not over"),
+            "{rows:?}"
+        );
+        assert!(!rows.iter().any(|(_, row)| row.contains("405")));
+    }
 }
 
 /// A symmetric body of any weight floats upright, and one whose centre of gravity is too high turns

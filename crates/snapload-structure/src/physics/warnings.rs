@@ -185,7 +185,7 @@ fn warnings_afloat(prepared: &ModelAtRest, afloat: &Afloat) -> Vec<Warning> {
     let turned = loaded(structure, afloat).unbalanced_pitch();
     let turned = turned.map_or(0.0, |pitch| -pitch.to_degrees());
     let mut found = vec![
-        warning_if(turned != 0.0, "balance", [turned, 0.0], ""),
+        warning_if(turned != 0.0, "balance", [turned, LARGE_PITCH], ""),
         distribution_warning(rest),
         no_elastic_rest(rest),
         soft_lines_in_still_water(prepared),

@@ -71,6 +71,12 @@ fn the_loads_of_a_case_decide_whether_a_body_floats_upright() {
     }
     assert_eq!(warned(0.0, 0.0), None);
     assert_eq!(warned(-0.05, -moment), None);
+    // An arm of 0.4 m would turn it by 27 degrees, where hydrostatics are no longer linear.
+    let far = warned(-0.4, 0.0).unwrap();
+    assert!(
+        far.contains("turns by more than 15 degrees, if not over, but"),
+        "{far}"
+    );
 }
 
 /// Where a line is too short for it to float without tension at its start, no place of rest is told.
@@ -214,4 +220,31 @@ fn what_damps_a_rotation_is_known() {
         assert!(key.map_or(warned.is_none(), says), "{warned:?}");
     }
     std::fs::remove_file(file).unwrap();
+}
+
+/// Damping that was added to a memory acts in a run as damping of the body does.
+#[test]
+fn damping_of_a_memory_acts_in_a_run() {
+    let (report, _) = by_hand();
+    let mut json = serde_json::to_value(report.to_json()).unwrap();
+    let name = format!("snapload-added-{}.json", std::process::id());
+    let path = std::env::temp_dir().join(name);
+    let water = |json: &serde_json::Value, damping: &str| {
+        std::fs::write(&path, json.to_string()).unwrap();
+        let text = case(-0.2, 2.0, 9.666, "", "duration = 5");
+        let text = text.replace("pairs = 6", &format!("memory = {path:?}\n{damping}"));
+        ModelAtRest::new(structure(&text))
+            .unwrap()
+            .model
+            .system
+            .floating
+            .unwrap()
+    };
+    let without = water(&json, "");
+    let own = water(&json, "damping = [0, 5e4, 0]");
+    json["added_damping"][1][1] = 5e4.into();
+    let added = water(&json, "");
+    std::fs::remove_file(&path).unwrap();
+    assert_eq!(added, own);
+    assert_ne!(added, without);
 }
