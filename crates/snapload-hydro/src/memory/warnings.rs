@@ -94,8 +94,8 @@ fn of_block(block: &BlockQuality, entries: &[EntryQuality], warnings: &mut Vec<W
     if !block.left_out_rad_s.is_empty() {
         let message = format!(
             "the coefficients of {names} at ω = {} rad/s deviate from the others and were left out \
-             of the memory, as they probably are irregular frequencies. Compute the file again with a \
-             lid",
+             of the memory, as they probably are irregular frequencies. Undamped periods, responses by \
+             the file and the forces of waves still contain them. Compute the file again with a lid",
             list(&block.left_out_rad_s)
         );
         warnings.push(Warning::new("irregular frequencies", message));
