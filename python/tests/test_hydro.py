@@ -14,6 +14,7 @@ import xarray
 from snapload import _engine
 
 PONTOON = Path(__file__).parents[2] / "docs" / "examples" / "pontoon.nc"
+TESTED = Path(__file__).parents[2] / "crates" / "snapload-hydro" / "tests" / "data"
 
 
 def test_file_and_dataset_are_the_same_body() -> None:
@@ -49,6 +50,26 @@ def test_results_are_those_of_the_command(tmp_path: Path) -> None:
     assert pontoon.answer == command
     assert pontoon.rest is not None
     assert pontoon.rest["taut"] == [1, 2]
+
+
+def test_dataset_has_all_of_the_memory() -> None:
+    # The memory of heave of this file is passive only with damping that is added.
+    poor = snapload.Hydro.from_file(TESTED / "pontoon-poor.nc")
+    data, body = poor.dataset, poor.answer["floating"]
+    assert data["added_damping"].values[1, 1] > 0
+    assert data["added_damping"].attrs == data["radiation_damping"].attrs
+    mass = np.array(body["mass_matrix"]) + data["added_mass_inf"].values
+    stiffness = np.array(body["stiffness"])
+    for k, omega in enumerate(data["omega"].values):
+        poles = data["pole"].values[:, None, None]
+        residues = data["residue"].values
+        of_poles = residues / (1j * omega - poles) + residues.conj() / (1j * omega - poles.conj())
+        memory = 0.5 * of_poles.sum(axis=0) + data["added_damping"].values
+        # Motions go as exp(-iωt), the memory's transform is that of exp(iωt).
+        whole = stiffness - omega**2 * mass - 1j * omega * memory.conj()
+        expected = np.linalg.solve(whole, data["excitation_force"].values[0, k])
+        found = data["response_of_the_memory"].values[0, k]
+        assert np.abs(found - expected).max() < 1e-9 * np.abs(expected).max()
 
 
 def test_memory_is_that_of_the_damping() -> None:
