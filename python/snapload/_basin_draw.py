@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from ._branch_plot import key_label
+from ._branch_plot import key_label, own_unit
 from ._keys import REASONS
 from ._orbit_plot import label, legend_above, new_axes
 from ._plot import BLUE, GREEN, GREY, ORANGE, REFERENCE, VERMILION
@@ -62,8 +62,8 @@ def draw_basin(basin: xarray.Dataset | xarray.DataArray, ax: Axes | None) -> Axe
     if undecided is not None and undecided.any():
         _hatch(ax, x, y, undecided)
         shown.append(Patch(facecolor="white", edgecolor="black", hatch="//////", linewidth=0.4, label="undecided"))
-    ax.set_xlabel(key_label(str(first)))
-    ax.set_ylabel(key_label(str(second)))
+    ax.set_xlabel(_axis_label(basin, str(first)))
+    ax.set_ylabel(_axis_label(basin, str(second)))
     legend_options: dict[str, Any] = {"loc": "lower center", "bbox_to_anchor": (0.5, 1.0), "ncols": 3}
     ax.legend(handles=shown, fontsize="small", frameon=False, handlelength=1.2, columnspacing=1.0, **legend_options)
     return ax
@@ -117,6 +117,11 @@ def _hatch(ax: Axes, x: NDArray[Any], y: NDArray[Any], cells: NDArray[np.bool_])
     ax.add_collection(PatchCollection(boxes, hatch="//////", **hatch_style))
 
 
+def _axis_label(results: xarray.Dataset | xarray.DataArray, key: str) -> str:
+    """The name of the axis of a key, whose values may be in SI units."""
+    return key_label(key, own_unit(results[key].attrs))
+
+
 def _edges(values: NDArray[Any]) -> NDArray[np.float64]:
     """Where the cells of evenly spaced values begin and end."""
     half = (values[-1] - values[0]) / (len(values) - 1) / 2 if len(values) > 1 else 0.5
@@ -143,7 +148,7 @@ def draw_erosion(eroded: xarray.Dataset, ax: Axes | None) -> Axes:
         }
         ax.plot(values, eroded["decided_fraction"], **decided_style)
     ax.set_ylim(bottom=0)
-    ax.set_xlabel(key_label(key))
+    ax.set_xlabel(_axis_label(eroded, key))
     ax.set_ylabel("safe part of the starts")
     if not np.isnan(eroded.attrs["knee"]):
         ax.axvline(eroded.attrs["knee"], **REFERENCE)
@@ -160,7 +165,9 @@ def draw_erosion(eroded: xarray.Dataset, ax: Axes | None) -> Axes:
             line_options: dict[str, Any] = {"color": colour, "linestyle": style, "marker": marker, "markersize": 3}
             right.plot(values, eroded[name], linewidth=1.1, label=legend_name, **line_options)
         right.set_ylim(bottom=0)
-        right.set_ylabel("distance in the window")
+        measured = eroded[defined[0][0]].attrs
+        unit = own_unit(measured) or measured.get("scale", "")
+        right.set_ylabel(f"distance in the window [{unit}]" if unit else "distance in the window")
         more = right.get_legend_handles_labels()
         lines, names = lines + more[0], names + more[1]
     legend_options: dict[str, Any] = {"loc": "lower center", "bbox_to_anchor": (0.5, 1.0), "ncols": 3}
@@ -192,7 +199,7 @@ def draw_diagram(diagram: xarray.Dataset, y: str, ax: Axes | None, style: dict[s
             label="stops at a limit",
             **stop_style,
         )
-    ax.set_xlabel(key_label(key))
-    ax.set_ylabel(label(y))
+    ax.set_xlabel(_axis_label(diagram, key))
+    ax.set_ylabel(label(y, unit=own_unit(diagram[y].attrs)))
     legend_above(ax)
     return ax

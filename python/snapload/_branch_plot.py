@@ -86,13 +86,19 @@ def draw_branch(branch: Branch, y: str, ax: Axes | None, style: dict[str, Any]) 
     return ax
 
 
-def key_label(key: str) -> str:
-    """The name of the axis of a key, with its scale."""
+def key_label(key: str, unit: str = "") -> str:
+    """The name of the axis of a key, with the unit of its values if they have one, else with its scale."""
     from ._schema import attributes
 
     symbols = {"f_o": "$f_o$", "nu": "$\\nu$", "omega": "$\\Omega$", "e": "$e$", "r": "$r$"}
     key_attrs = attributes()[key]
     if key in STATE:
-        return label(key)
-    scale = key_attrs.get("scale") or ("" if key_attrs.get("units", "1") == "1" else key_attrs["units"])
-    return f"{symbols.get(key, key)} [{scale}]" if scale else symbols.get(key, key)
+        return label(key, unit=unit)
+    shown = unit or key_attrs.get("scale") or own_unit(key_attrs)
+    return f"{symbols.get(key, key)} [{shown}]" if shown else symbols.get(key, key)
+
+
+def own_unit(attrs: Any) -> str:
+    """The unit of numbers by their metadata; empty if they have no dimension or are in scales of the case."""
+    unit: str = attrs.get("units", "1")
+    return "" if unit == "1" else unit

@@ -27,10 +27,11 @@ _AXIS_SYMBOLS = {
 }
 
 
-def label(name: str, nondimensional: bool = True) -> str:
-    """The name of an axis; the units of user-defined systems are unknown."""
+def label(name: str, nondimensional: bool = True, unit: str = "") -> str:
+    """The name of an axis, with the unit of its numbers if they have one; those of user-defined systems are unknown."""
     symbol, scale = _AXIS_SYMBOLS[name]
-    return f"{symbol} [{scale}]" if nondimensional or scale == "rad" else symbol
+    shown = unit or (scale if nondimensional or scale == "rad" else "")
+    return f"{symbol} [{shown}]" if shown else symbol
 
 
 def new_axes(ax: Axes | None, height: float = 0.8) -> Axes:

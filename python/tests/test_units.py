@@ -322,3 +322,20 @@ def test_results_of_a_system_are_in_units_of_the_user():
     attrs = {name: attrs for name, _, attrs, _ in run.impacts._table.parts()}
     assert attrs["v_n"]["dimension"] == study.rho1.attrs["dimension"] == "L/T"
     assert not {"units", "scale"} & {*attrs["v_n"], *study.rho1.attrs}
+
+
+def test_pictures_of_converted_results_have_their_units():
+    made = {name: DATASETS[name]() for name in ("orbit_diagram", "safe_basin", "erosion")}
+    for bring, force, length, velocity in (
+        (lambda results: results, "F", "L", "L/T"),
+        (SCALES.si, "N", "m", "m s-1"),
+    ):
+        found, eroded = bring(made["orbit_diagram"]), bring(made["erosion"])
+        ax = snapload.plot_diagram(found, "vx")
+        assert (ax.get_xlabel(), ax.get_ylabel()) == (f"$f_o$ [{force}]", f"$\\dot x$ [{velocity}]")
+        ax = snapload.plot_basin(bring(made["safe_basin"]))
+        assert (ax.get_xlabel(), ax.get_ylabel()) == (f"$x$ [{length}]", f"$y$ [{length}]")
+        ax = snapload.plot_erosion(eroded)
+        assert ax.get_xlabel() == f"$f_o$ [{force}]"
+        right = [axes for axes in ax.figure.axes if axes is not ax]
+        assert [axes.get_ylabel() for axes in right] == [f"distance in the window [{length}]"]
