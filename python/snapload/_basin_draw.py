@@ -97,7 +97,7 @@ def _label_numbers(labels: xarray.DataArray) -> tuple[NDArray[np.int64], list[tu
         if value > 0:
             style = _ATTRACTORS[(value - 1) % len(_ATTRACTORS)], f"attractor {value}"
         else:
-            style = (_APERIODIC_COLOUR, "no period") if value == 0 else _end_style(words[value])
+            style = (_APERIODIC_COLOUR, "no period found") if value == 0 else _end_style(words[value])
         styles.append(style)
         numbers[values == value] = len(styles)
     return numbers, styles

@@ -133,6 +133,13 @@ def test_attractors_are_those_of_the_command(command_json):
     assert {stops[label] for label in tumbling.values.ravel()} == {"rotation_limit"} and none == {}
 
 
+def test_a_map_of_attractors_does_not_say_that_a_motion_has_no_period():
+    attrs = {"flag_values": np.array([-1, 0, 1]), "flag_meanings": "not_legal aperiodic attractor_1"}
+    labels = xarray.DataArray([[0, 1], [1, -1]], {"x": [0.0, 0.1], "y": [0.2, 0.3]}, ("x", "y"), attrs=attrs)
+    legend = snapload.plot_basin(labels).get_legend()
+    assert [text.get_text() for text in legend.get_texts()] == ["attractor 1", "no period found"]
+
+
 @pytest.mark.parametrize(
     ("window", "message"),
     [
