@@ -10,7 +10,7 @@ use snapload_structure::{
 
 /// A body straight above its anchor on two equal lines that lie on each other, so that it moves up
 /// and down.
-fn vertical(restitution: f64, start_z: f64) -> ModelAtRest {
+pub(crate) fn vertical(restitution: f64, start_z: f64) -> ModelAtRest {
     let text = format!(
         "[body]\nmass = 500\nadded_mass = 300\ndisplaced_volume = 0.8\nwidth = 1\nposition = [0, -5]\n\
          [[line]]\nanchor = [0, -20]\nfairlead = [0, -5]\nlength = 15\nstiffness = 3e6\n\
@@ -35,7 +35,7 @@ fn structure(text: &str, set: &[&str]) -> Structure {
 
 const CYLINDER: &str = include_str!("../../../../docs/examples/cylinder.toml");
 
-fn run(prepared: &ModelAtRest, elastic_lines: &[ElasticLine]) -> ElasticRun {
+pub(crate) fn run(prepared: &ModelAtRest, elastic_lines: &[ElasticLine]) -> ElasticRun {
     run_elastic(prepared, elastic_lines, 0.05, &no_progress).expect("a run")
 }
 

@@ -297,7 +297,6 @@ fn run<const N: usize>(
     components[..STATE_WITHOUT_MEMORY].copy_from_slice(&state.components());
     let mut pulling = body.pulling(&state);
     record.change(t, &state, TautSet::SLACK, pulling);
-    record.add(t, &state, pulling);
     let (rules, system) = (&prepared.model.rules, &prepared.model.system);
     let mut stop = exceeded(system, rules, &state);
     while t < rules.t_end && stop.is_none() {

@@ -216,7 +216,8 @@ impl<'a> PullRecorder<'a> {
         }
     }
 
-    /// Records that lines begin or cease to pull.
+    /// Records that lines begin or cease to pull, and the tensions then: that of a strong damper is
+    /// the largest of its pull at the first instant.
     pub(super) fn change(&mut self, t: f64, state: &State, before: TautSet, after: TautSet) {
         let t_s = t * self.scales.time_s;
         for line in 0..self.open.len() {
@@ -230,7 +231,7 @@ impl<'a> PullRecorder<'a> {
                         to_s: t_s,
                         speed_m_s: speed,
                         rebound_m_s: None,
-                        peak_n: self.tension_n(line, state),
+                        peak_n: 0.0,
                         peak_s: t_s,
                     });
                 }
@@ -243,6 +244,7 @@ impl<'a> PullRecorder<'a> {
                 _ => {}
             }
         }
+        self.add(t, state, after);
     }
 
     /// Ends the record; what pulls then pulls to the end.
