@@ -81,21 +81,15 @@ impl Waterline {
         }
     }
 
-    /// Whether linear hydrostatics hold for a position in z and θ in the waves, which is added to those
-    /// that were seen before; they always do for a submerged body.
-    pub(crate) fn holds(
-        seen: &mut Option<Self>,
-        prepared: &ModelAtRest,
-        place: [f64; 2],
-        t_s: f64,
-    ) -> bool {
-        let Some(seen) = seen else {
-            return true;
-        };
+    /// The position in the waves of a floating body whose centre is at a level, turned by θ.
+    pub(crate) fn in_waves(prepared: &ModelAtRest, place: [f64; 2], t_s: f64) -> Self {
         let surface_m = prepared.model.surface_m(t_s);
-        let now = Self::at(&prepared.structure, place, Some(surface_m));
-        *seen = seen.with(&now);
-        now.beyond_m.iter().all(|beyond| *beyond <= 0.0)
+        Self::at(&prepared.structure, place, Some(surface_m))
+    }
+
+    /// Whether linear hydrostatics hold at a position in the waves: the sides pierce the surface.
+    pub(crate) fn allows_hydrostatics(&self) -> bool {
+        self.beyond_m.iter().all(|beyond| *beyond <= 0.0)
     }
 
     /// What the body did where they do not hold, in words; none where they do.

@@ -287,12 +287,18 @@ impl<'a> OutcomeCounter<'a> {
     /// only where a line pulls more than before.
     fn add_reliable(&mut self, place: [f64; 2], t_s: f64, pulls_n: &[f64]) {
         let mut lines = self.lines.iter().zip(pulls_n);
-        if lines.any(|(line, pull)| *pull > line.reliable_n)
-            && Waterline::holds(&mut self.waterline, self.prepared, place, t_s)
-        {
-            for (line, pull) in self.lines.iter_mut().zip(pulls_n) {
-                line.reliable_n = line.reliable_n.max(*pull);
+        if lines.all(|(line, pull)| *pull <= line.reliable_n) {
+            return;
+        }
+        if let Some(seen) = &mut self.waterline {
+            let now = Waterline::in_waves(self.prepared, place, t_s);
+            *seen = seen.with(&now);
+            if !now.allows_hydrostatics() {
+                return;
             }
+        }
+        for (line, pull) in self.lines.iter_mut().zip(pulls_n) {
+            line.reliable_n = line.reliable_n.max(*pull);
         }
     }
 

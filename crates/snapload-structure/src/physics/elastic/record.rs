@@ -195,17 +195,7 @@ impl<'a> PullRecorder<'a> {
                 }
                 self.run.waves_n.extend(self.waves[line].add([tension; 2]));
             }
-            let reliable = &mut self.run.reliable_peaks_n;
-            if tensions
-                .iter()
-                .zip(&*reliable)
-                .any(|(pull, peak)| pull > peak)
-                && Waterline::holds(&mut self.run.waterline, self.prepared, place, t_s)
-            {
-                for (peak, pull) in reliable.iter_mut().zip(tensions) {
-                    *peak = peak.max(*pull);
-                }
-            }
+            self.add_reliable(place, t_s, tensions);
         }
         for (line, &tension) in tensions.iter().enumerate() {
             if let Some(pull) = self.open[line].map(|place| &mut self.run.pulls[place])
@@ -213,6 +203,29 @@ impl<'a> PullRecorder<'a> {
             {
                 (pull.peak_n, pull.peak_s) = (tension, t_s);
             }
+        }
+    }
+
+    /// Takes in the tensions at a position in z and θ if linear hydrostatics hold there, which is asked
+    /// only where a line pulls more than before.
+    fn add_reliable(&mut self, place: [f64; 2], t_s: f64, tensions_n: &[f64]) {
+        let reliable = &mut self.run.reliable_peaks_n;
+        if reliable
+            .iter()
+            .zip(tensions_n)
+            .all(|(peak, pull)| pull <= peak)
+        {
+            return;
+        }
+        if let Some(seen) = &mut self.run.waterline {
+            let now = Waterline::in_waves(self.prepared, place, t_s);
+            *seen = seen.with(&now);
+            if !now.allows_hydrostatics() {
+                return;
+            }
+        }
+        for (peak, pull) in reliable.iter_mut().zip(tensions_n) {
+            *peak = peak.max(*pull);
         }
     }
 
