@@ -3,6 +3,7 @@
 use super::verdict::{OpenRules, VerdictKind, undecided_by};
 use crate::physics::elastic::LEAST_RESTITUTION;
 use crate::physics::gumbel::Gumbel;
+use crate::runs::outcome::Outcome;
 use crate::runs::quantile::{quantile, sorted};
 use crate::runs::seas::{Failing, Seas};
 use crate::runs::three_hours::NoDistribution;
@@ -32,6 +33,8 @@ struct SeasVerdictText {
     fastest_m_s: f64,
     median_m_s: f64,
     failing: Failing,
+    /// Whether the distribution is of tensions as computed, which are not reliable on any lines.
+    as_computed: bool,
     probability: Option<Share>,
     /// Of the records of which it is not known whether they fail, the number that ended early.
     cut_short: usize,
@@ -98,7 +101,9 @@ impl Seas {
         let speeds = sorted(self.speeds_m_s().into_iter().flatten());
         let structure = &self.prepared.structure;
         let standing = self.standing();
-        let unknown = || self.outcomes().filter(|one| one.fails(structure).is_none());
+        let unknown = || self.outcomes().filter(|one| one.lacks_an_answer(structure));
+        let open = undecided_by(&self.warnings);
+        let beyond = || self.outcomes().any(Outcome::exceeds_hydrostatics);
         paragraph(&SeasVerdictText {
             early: self.breaking_only_early(),
             transient_s: structure.transient_s,
@@ -111,7 +116,8 @@ impl Seas {
             probability: self.probability(),
             cut_short: unknown().filter(|one| one.stop != Stop::EndTime).count(),
             lacking: unknown().any(|one| one.lacks_a_load(structure)),
-            open: undecided_by(&self.warnings),
+            as_computed: open.as_ref().map_or_else(beyond, |open| open.of_all_lines),
+            open,
             too_plastic: structure.restitution < LEAST_RESTITUTION,
             too_short: self.too_short().filter(|_| standing == VerdictKind::Open),
             standing,

@@ -6,7 +6,7 @@ use crate::physics::warnings::Warning;
 use crate::runs::assess::Assessment;
 use crate::runs::elastic_comparison::ElasticComparison;
 use crate::runs::outcome::{LineOutcome, Outcome};
-use crate::structure::{Structure, Water};
+use crate::structure::{LineSi, Structure, Water};
 use crate::text_layout::{digits, kilo, paragraph, ratio, tenths};
 use askama::Template;
 use serde::Serialize;
@@ -231,10 +231,7 @@ fn verdict(
         .filter_map(|((number, line), u)| Some((number, line, u?)))
         .collect();
     let worst = known.iter().max_by(|a, b| a.2.total_cmp(&b.2));
-    let broken = known.iter().filter(|(_, _, u)| *u >= 1.0);
-    let broken: Vec<_> = broken
-        .map(|(number, line, u)| (*number, *u, how_it_breaks(line, elastic)))
-        .collect();
+    let broken = broken_lines(structure, outcome, elastic);
     let all_known = known.len() == outcome.lines.len();
     let open = undecided_by(warnings);
     let standing = if outcome.stop.exceeds() {
@@ -288,6 +285,26 @@ fn goes_slack(outcome: &Outcome) -> [bool; 2] {
         outcome.lines.iter().any(judged),
         outcome.lines.iter().any(in_all),
     ]
+}
+
+/// The lines that are known to break, which they do by tensions for which linear hydrostatics hold:
+/// by number from 1, each with its utilisation and how.
+fn broken_lines(
+    structure: &Structure,
+    outcome: &Outcome,
+    elastic: bool,
+) -> Vec<(usize, f64, &'static str)> {
+    let breaks = |((number, line), known): ((usize, &LineOutcome), &LineSi)| {
+        let reliable_n = outcome.reliable_n(line);
+        let part = reliable_n? / known.breaking_load_n?;
+        let how = match line.largest_n() > reliable_n {
+            true => "while linear hydrostatics hold",
+            false => how_it_breaks(line, elastic),
+        };
+        (part >= 1.0).then_some((number, part, how))
+    };
+    let lines = (1..).zip(&outcome.lines).zip(&structure.lines);
+    lines.filter_map(breaks).collect()
 }
 
 /// How a line would break.
@@ -368,7 +385,7 @@ impl Assessment {
             VerdictKind::Open | VerdictKind::Unknown => return verdict,
         };
         let structure = &self.prepared.structure;
-        let otherwise = |outcome: &Outcome| outcome.fails(structure) == Some(!fails);
+        let otherwise = |outcome: &Outcome| outcome.fails_as_computed(structure) == Some(!fails);
         let (in_neighbours, with_restitution) = match fails {
             false => (
                 "a line would break or the mooring fail",

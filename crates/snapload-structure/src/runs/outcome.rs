@@ -152,17 +152,38 @@ impl Outcome {
     pub(crate) fn depends_on_hydrostatics(&self, structure: &Structure) -> bool {
         let mut lines = self.lines.iter().zip(&structure.lines);
         let breaks = lines.any(|(outcome, line)| {
-            let load_n = line.breaking_load_n;
-            load_n.is_some_and(|load_n| outcome.reliable_n >= load_n)
+            let reliable_n = self.reliable_n(outcome);
+            reliable_n.is_some_and(|n| line.breaking_load_n.is_some_and(|load_n| n >= load_n))
         });
-        let beyond = |line: &LineOutcome| line.largest_n().is_some_and(|n| n > line.reliable_n);
-        !breaks && self.lines.iter().any(beyond)
+        !breaks && self.exceeds_hydrostatics()
+    }
+
+    /// Whether the largest tension of a line is one for which linear hydrostatics do not hold.
+    pub(crate) fn exceeds_hydrostatics(&self) -> bool {
+        self.lines
+            .iter()
+            .any(|line| line.largest_n() > self.reliable_n(line))
+    }
+
+    /// The largest tension of a line while linear hydrostatics hold, as they always do for a submerged
+    /// body; none if that is not known \[N\].
+    pub(crate) fn reliable_n(&self, line: &LineOutcome) -> Option<f64> {
+        let largest_n = line.largest_n()?;
+        Some(self.waterline.map_or(largest_n, |_| line.reliable_n))
     }
 
     /// Whether a line breaks in the judged time, the body turns over or touches the floor; none if
-    /// no line is known to break, and the run ended early or a tension or a breaking load is not
-    /// known.
+    /// that depends on tensions for which linear hydrostatics do not hold, or is not known as computed.
     pub(crate) fn fails(&self, structure: &Structure) -> Option<bool> {
+        match self.depends_on_hydrostatics(structure) && !self.stop.exceeds() {
+            true => None,
+            false => self.fails_as_computed(structure),
+        }
+    }
+
+    /// The same by all tensions as they are computed; none if no line is known to break, and the run
+    /// ended early or a tension or a breaking load is not known.
+    pub(crate) fn fails_as_computed(&self, structure: &Structure) -> Option<bool> {
         let parts = self.utilisations(structure);
         let breaks = parts.iter().flatten().any(|part| *part >= 1.0);
         if breaks || self.stop.exceeds() {
@@ -170,6 +191,11 @@ impl Outcome {
         }
         let whole = self.stop == Stop::EndTime && parts.iter().all(Option::is_some);
         whole.then_some(false)
+    }
+
+    /// Whether it is not known whether it fails, for another reason than linear hydrostatics.
+    pub(crate) fn lacks_an_answer(&self, structure: &Structure) -> bool {
+        self.fails(structure).is_none() && !self.depends_on_hydrostatics(structure)
     }
 
     /// Whether a breaking load is not known, or a tension in the judged time.

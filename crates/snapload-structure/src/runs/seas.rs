@@ -40,12 +40,14 @@ pub struct Seas {
 }
 
 /// The numbers of records that fail, and of which that is not known.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Failing {
     /// A line's breaking load is reached, or the body turns over or touches the floor.
     pub count: usize,
     /// They ended early, or a tension or a breaking load is not known.
     pub unknown: usize,
+    /// It depends on tensions of a floating body for which linear hydrostatics do not hold.
+    pub unreliable: usize,
 }
 
 /// The model of the lines.
@@ -203,19 +205,23 @@ impl Seas {
     /// the floor, and those of which that is not known.
     pub fn failing(&self) -> Failing {
         let structure = &self.prepared.structure;
-        let fails: Vec<Option<bool>> = self.outcomes().map(|one| one.fails(structure)).collect();
-        let count = |what: Option<bool>| fails.iter().filter(|fails| **fails == what).count();
-        Failing {
-            count: count(Some(true)),
-            unknown: count(None),
+        let mut failing = Failing::default();
+        for outcome in self.outcomes() {
+            match outcome.fails(structure) {
+                Some(fails) => failing.count += usize::from(fails),
+                None if outcome.lacks_an_answer(structure) => failing.unknown += 1,
+                None => failing.unreliable += 1,
+            }
         }
+        failing
     }
 
     /// The share of records that fail; none if that is not known of all, or a rule is violated on
     /// which tensions depend.
     pub fn probability(&self) -> Option<Share> {
         let failing = self.failing();
-        (failing.unknown == 0 && !self.is_open()).then_some(Share {
+        let known = failing.unknown + failing.unreliable == 0;
+        (known && !self.is_open()).then_some(Share {
             count: failing.count,
             of: self.records.len(),
             clear: false,

@@ -105,6 +105,73 @@ fn a_deck_under_the_crests_leaves_the_verdict_open() {
     );
 }
 
+/// Of two lines of one run the first one pulls most while the deck is above the waves, the second one
+/// under them. A line is said to break by a reliable tension alone, and by how much: the second one
+/// not at all with a breaking load between its two tensions, and by 1/0.8 with 0.8 of the reliable one.
+#[test]
+fn a_line_does_not_break_by_a_tension_under_the_waves() {
+    let water = "[wave]\nheight = 1.5\nperiod = 9\n[run]\nrestitution = 0.3\nduration = 180\n";
+    let mut answer = assess(moored(-10.0, -1.2, 8.5, water), 0, &no_progress).unwrap();
+    let [first, second] = [0, 1].map(|line| {
+        let of_line = &answer.outcome.lines[line];
+        [of_line.reliable_n, of_line.largest_n().unwrap()]
+    });
+    assert!(first[1] == first[0] && second[1] > 1.2 * second[0]);
+    let one = "One line would break (in brackets the ratio of estimated tension to breaking load): \
+               line 1 (1.25, in a snap).";
+    let both = "line 1 (1.25, in a snap), line 2 (1.25, while linear hydrostatics hold).";
+    for (second_n, told) in [
+        (0.5 * (second[0] + second[1]), one),
+        (0.8 * second[0], both),
+    ] {
+        let lines = &mut answer.prepared.structure.lines;
+        lines[0].breaking_load_n = Some(0.8 * first[0]);
+        lines[1].breaking_load_n = Some(second_n);
+        let verdict = answer.verdict();
+        assert_eq!(verdict.standing, VerdictKind::Breaks);
+        assert!(verdict.words.contains(told), "{}", verdict.words);
+    }
+}
+
+/// Of many records those are said to fail that fail alone, and those that are open alone are open:
+/// there is no probability, and the distribution is one of tensions as computed.
+#[test]
+fn records_fail_as_each_of_them_does_alone() {
+    let sea = |seed: u64| {
+        let sea = format!("[sea]\nhs = 1.9\ntp = 9\nseed = {seed}\n");
+        let run = "[run]\nrestitution = 0.3\nduration = 150\n";
+        let mut structure = moored(-10.0, -1.2, 8.55, &(sea + run));
+        for line in &mut structure.lines {
+            line.breaking_load_n = Some(3e6);
+        }
+        structure
+    };
+    let alone = |seed: u64| {
+        assess(sea(seed), 0, &no_progress)
+            .unwrap()
+            .verdict()
+            .standing
+    };
+    let all: Vec<VerdictKind> = (1..=5).map(alone).collect();
+    let count = |kind: VerdictKind| all.iter().filter(|one| **one == kind).count();
+    let [breaking, open] = [VerdictKind::Breaks, VerdictKind::Open].map(count);
+    assert!(breaking > 0 && open > 0, "{all:?}");
+    let records = seas(sea(1), 5, Lines::Inextensible, &no_progress).unwrap();
+    assert_eq!(records.standing(), VerdictKind::Breaks);
+    assert_eq!(records.probability(), None);
+    let words = records.words();
+    for told in [
+        format!("In {breaking} of 5 records a line would break or the mooring fail."),
+        format!(
+            "That is open in {open} more, as their tensions are not reliable (see hydrostatics)."
+        ),
+        "As computed the largest tension in three hours is expected".to_owned(),
+    ] {
+        assert!(words.contains(&told), "{words}");
+    }
+    assert!(!words.contains("is not known"), "{words}");
+}
+
 /// The added mass of a textbook is that of deep water: 0.2 m over the floor of 1.4 m, less than half
 /// the height of the box, is warned of, and 8.8 m over one of 10 m is not.
 #[test]
