@@ -379,6 +379,11 @@ impl Structure {
         (!parts.is_empty()).then(|| parts.join("; "))
     }
 
+    /// The time that is judged: what follows the transient, which is shorter than the duration \[s\].
+    pub(crate) fn judged_s(&self) -> f64 {
+        self.duration_s - self.transient_s
+    }
+
     /// The judged time in periods of the waves, the peak period for a sea; none in still water.
     pub(crate) fn judged_periods(&self) -> Option<f64> {
         let period_s = match self.water {
@@ -386,7 +391,7 @@ impl Structure {
             Water::Wave(wave) => wave.period_s,
             Water::Sea(sea) => sea.peak_period_s,
         };
-        Some((self.duration_s - self.transient_s) / period_s)
+        Some(self.judged_s() / period_s)
     }
 
     /// Whether less than one period of the waves is judged, which is too little for a verdict that

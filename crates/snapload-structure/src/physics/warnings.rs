@@ -7,7 +7,7 @@ use super::model_at_rest::ModelAtRest;
 use super::waterline::{Waterline, rest_beyond_in_words};
 use super::wave::LinearWave;
 use crate::structure::{Afloat, LineSi, Structure, THREE_HOURS_S, Water};
-use crate::text_layout::{decimals, digits, kilo, paragraph};
+use crate::text_layout::{decimals, digits, kilo, paragraph, tenths};
 use askama::Template;
 use serde::Serialize;
 use snapload_hydro::{Format, LARGE_PITCH};
@@ -402,16 +402,16 @@ pub(crate) fn phase_warning(structure: &Structure, z_m: f64, excursion_m: f64) -
 
 /// The warning that a distribution in three hours is based on much shorter records.
 pub(crate) fn short_records(structure: &Structure) -> Option<Warning> {
-    let judged_s = structure.duration_s - structure.transient_s;
-    let times = THREE_HOURS_S / judged_s.max(1.0);
+    let judged_s = structure.judged_s();
+    let times = THREE_HOURS_S / judged_s;
     warning_if(times > SHORT, "short records", [judged_s, times], "")
 }
 
 /// The warning that only few periods of the waves are judged.
 pub(crate) fn few_periods(structure: &Structure) -> Option<Warning> {
     let judged = structure.judged_periods()?;
-    let judged_s = structure.duration_s - structure.transient_s;
-    warning_if(judged < FEW_PERIODS, "short run", [judged_s, judged], "")
+    let numbers = [structure.judged_s(), judged];
+    warning_if(judged < FEW_PERIODS, "short run", numbers, "")
 }
 
 /// The warning that a body turns so far that a resistance to its rotation matters, and the case has

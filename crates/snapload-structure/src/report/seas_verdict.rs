@@ -15,6 +15,8 @@ use snapload::analysis::Share;
 
 /// Why records that are shorter than three hours do not tell whether a line breaks in those.
 enum TooShort {
+    /// Less than one period of the waves is judged.
+    PartOfAWave,
     /// Lines may snap that do not in the records, or there are too few.
     Snaps(NoDistribution),
     /// The distribution of the largest ratio of tension to breaking load, which may reach one.
@@ -87,7 +89,11 @@ impl Seas {
     /// Why shorter records do not tell whether a line breaks in three hours. Whether lines may snap
     /// can be known without their tensions.
     fn too_short(&self) -> Option<TooShort> {
-        if self.prepared.structure.duration_s >= THREE_HOURS_S {
+        let structure = &self.prepared.structure;
+        if structure.judges_too_little() {
+            return Some(TooShort::PartOfAWave);
+        }
+        if structure.duration_s >= THREE_HOURS_S {
             return None;
         }
         match self.check_beyond() {

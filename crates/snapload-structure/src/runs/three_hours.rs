@@ -20,6 +20,8 @@ pub enum NoDistribution {
     SomeWithoutSnaps(usize, usize),
     /// There are too few records.
     TooFew(usize),
+    /// Less than one period of the waves is judged in each record.
+    PartOfAWave,
     /// No line snaps in any of the records.
     NoSnaps,
     /// No line snaps in the records, but one may go slack within three hours, and then snap.
@@ -52,6 +54,7 @@ impl fmt::Display for NoDistribution {
             }
             Self::TooFew(1) => f.write_str("one record is too few: run more (--seeds)"),
             Self::TooFew(count) => write!(f, "{count} records are too few: run more (--seeds)"),
+            Self::PartOfAWave => write!(f, "less than one period of the waves is judged: {longer}"),
             Self::NoSnaps => f.write_str("no line snaps in any of the records"),
             Self::MaySnap => write!(
                 f,
@@ -123,9 +126,13 @@ impl Seas {
     }
 
     /// A snap begins at twice the tension at rest. Records with snaps and without them therefore
-    /// have two distributions, to which one fit is of no use.
+    /// have two distributions, to which one fit is of no use. Records of less than a wave have the
+    /// distribution of a part of a wave.
     fn check_snaps(&self) -> Result<(), NoDistribution> {
         let (records, without) = (self.records.len(), self.without_snaps());
+        if self.prepared.structure.judges_too_little() {
+            return Err(NoDistribution::PartOfAWave);
+        }
         if (1..records).contains(&without) {
             return Err(NoDistribution::SomeWithoutSnaps(without, records));
         }
@@ -173,8 +180,7 @@ impl Seas {
     }
 
     fn fit(&self, largest: &[f64]) -> Result<Gumbel, NoDistribution> {
-        let structure = &self.prepared.structure;
-        let judged_s = structure.duration_s - structure.transient_s;
+        let judged_s = self.prepared.structure.judged_s();
         let fit = Gumbel::fit(largest).ok_or(NoDistribution::AllEqual)?;
         Ok(fit.over_times(THREE_HOURS_S / judged_s))
     }

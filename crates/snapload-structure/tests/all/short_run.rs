@@ -2,9 +2,12 @@
 
 use crate::verdicts::structure;
 use snapload::analysis::no_progress;
-use snapload_structure::{Answer, ModelAtRest, VerdictKind, assess, compare_elastic};
+use snapload_structure::{
+    Answer, Lines, ModelAtRest, NoDistribution, VerdictKind, assess, compare_elastic, seas,
+};
 
 const EXAMPLE: &str = include_str!("../../../../docs/examples/cylinder.toml");
+const SEA: &str = include_str!("../../../../docs/examples/cylinder-sea.toml");
 
 /// The example for so many seconds, in waves of 6 s and so high.
 fn lasting(duration_s: f64, height_m: f64) -> snapload_structure::Structure {
@@ -52,4 +55,37 @@ fn a_part_of_a_wave_is_no_verdict() {
     assert!(rule(&minute.warnings));
     let long = assess(lasting(600.0, 0.5), 0, &no_progress).unwrap();
     assert!(!rule(&long.warnings));
+}
+
+/// 0.3 s of each record of a sea of 6 s, a 36,000th of three hours, give neither a verdict nor a
+/// distribution, and two periods do.
+#[test]
+fn parts_of_a_wave_in_many_records_are_no_verdict() {
+    let judged = |seconds: f64| {
+        let run = format!("[run]\ntransient = 60\nduration = {}", 60.0 + seconds);
+        let text = SEA.replace("hs = 1.2", "hs = 0.05").replace("[run]", &run);
+        seas(structure(&text), 4, Lines::Inextensible, &no_progress).unwrap()
+    };
+    let short = judged(0.3);
+    assert_eq!(short.standing(), VerdictKind::Open);
+    let reason = Err(NoDistribution::PartOfAWave);
+    assert_eq!(short.peak_in_three_hours(), reason);
+    assert_eq!(short.speed_in_three_hours(), reason);
+    let words = short.words();
+    let told = "Less than one period of the waves is judged, so the verdict is open";
+    assert!(
+        words.contains(told) && !words.contains("is expected at"),
+        "{words}"
+    );
+    let warning = short
+        .warnings
+        .iter()
+        .find(|warning| warning.rule == "short records");
+    let message = &warning.unwrap().message;
+    assert!(
+        message.contains("0.3 s of a record are judged"),
+        "{message}"
+    );
+    assert!(message.contains("36000 times"), "{message}");
+    assert_ne!(judged(12.0).peak_in_three_hours(), reason);
 }
