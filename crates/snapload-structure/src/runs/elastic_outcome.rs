@@ -31,8 +31,8 @@ impl Outcome {
         let transient_s = elastic_case.structure.transient_s;
         let judged = || run.pulls.iter().filter(|pull| pull.peak_s >= transient_s);
         let early = || run.pulls.iter().filter(|pull| pull.peak_s < transient_s);
-        let snapping =
-            || judged().filter(|pull| pull.from_s >= transient_s && pull.speed_m_s >= SLOWEST_M_S);
+        let beginning = || judged().filter(|pull| pull.from_s >= transient_s);
+        let snapping = || beginning().filter(|pull| pull.speed_m_s >= SLOWEST_M_S);
         let of_line = |line: usize| {
             let speeds = || {
                 snapping()
@@ -43,7 +43,9 @@ impl Outcome {
                 snaps: speeds().count() as u64,
                 speed_m_s: speeds().fold(0.0, f64::max),
                 impacts_while_taut: 0,
-                slower: 0,
+                slower: beginning()
+                    .filter(|pull| pull.line == line && pull.speed_m_s < SLOWEST_M_S)
+                    .count() as u64,
                 peak_n: Some(run.peaks_n[line]),
                 largest_taut_n: run.peaks_n[line],
                 reliable_n: run.reliable_peaks_n[line],

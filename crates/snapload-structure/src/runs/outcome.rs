@@ -133,6 +133,11 @@ impl Outcome {
         self.lines.iter().map(|line| line.snaps).sum()
     }
 
+    /// Whether a line snaps in the judged time, however slowly.
+    pub(crate) fn has_snaps(&self) -> bool {
+        self.lines.iter().any(|line| line.snaps + line.slower > 0)
+    }
+
     /// Whether snaps of other lines load a line while it is taut.
     pub(crate) fn has_impacts_while_taut(&self) -> bool {
         self.lines.iter().any(|line| line.impacts_while_taut > 0)

@@ -185,8 +185,14 @@ impl Seas {
         self.outcomes().filter(|one| one.is_unjudged()).count()
     }
 
-    /// The number of judged records in which no line snaps.
+    /// The number of judged records in which no line snaps, however slowly.
     pub(crate) fn without_snaps(&self) -> usize {
+        let judged = self.outcomes().filter(|one| !one.is_unjudged());
+        judged.filter(|one| !one.has_snaps()).count()
+    }
+
+    /// The number of those in which none is counted.
+    pub(crate) fn without_counted_snaps(&self) -> usize {
         let speeds = self.speeds_m_s();
         speeds.iter().filter(|speed| **speed == Some(0.0)).count()
     }

@@ -88,8 +88,9 @@ impl Seas {
     /// Why there is none.
     pub fn speed_in_three_hours(&self) -> Result<Gumbel, NoDistribution> {
         self.check_whole()?;
-        self.check_snaps()?;
-        if self.without_snaps() == self.records.len() {
+        let without = self.without_counted_snaps();
+        self.check_snaps(without)?;
+        if without == self.records.len() {
             return Err(NoDistribution::NoSnaps);
         }
         self.fit(&known(&self.speeds_m_s()))
@@ -128,8 +129,8 @@ impl Seas {
     /// A snap begins at twice the tension at rest. Records with snaps and without them therefore
     /// have two distributions, to which one fit is of no use. Records of less than a wave have the
     /// distribution of a part of a wave.
-    fn check_snaps(&self) -> Result<(), NoDistribution> {
-        let (records, without) = (self.records.len(), self.without_snaps());
+    fn check_snaps(&self, without: usize) -> Result<(), NoDistribution> {
+        let records = self.records.len();
         if self.prepared.structure.judges_too_little() {
             return Err(NoDistribution::PartOfAWave);
         }
@@ -146,8 +147,9 @@ impl Seas {
     /// rest, or becomes taut that has none. If no line snaps in the records, neither may happen
     /// within three hours.
     pub(crate) fn check_beyond(&self) -> Result<(), NoDistribution> {
-        self.check_snaps()?;
-        if self.without_snaps() < self.records.len() {
+        let without = self.without_snaps();
+        self.check_snaps(without)?;
+        if without < self.records.len() {
             return Ok(());
         }
         let rest_n = self.prepared.rest.inextensible_tensions_n();

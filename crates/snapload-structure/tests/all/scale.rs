@@ -1,11 +1,11 @@
 //! One structure at two sizes.
 
 use snapload::analysis::no_progress;
-use snapload_structure::{Assessment, Structure, VerdictKind};
+use snapload_structure::{Assessment, Lines, Structure, VerdictKind, seas};
 
 /// A cylinder that just snaps, with all lengths `scale` times as large and, by Froude, times by
-/// its root, masses and forces by its third power.
-fn cylinder(scale: f64) -> Structure {
+/// its root, masses and forces by its third power; in waves that are given.
+fn cylinder(scale: f64, water: &str) -> Structure {
     let (time, force) = (scale.sqrt(), scale.powi(3));
     let line = |anchor: f64, fairlead: f64, length: f64, stiffness: f64, mass: f64, load: f64| {
         format!(
@@ -24,8 +24,7 @@ fn cylinder(scale: f64) -> Structure {
     let text = format!(
         "[body]\nwidth = {}\ndisplaced_volume = {}\nmass = {}\nposition = [{}, {}]\n\
          moment_of_inertia = {}\nturning_damping = {}\n{}{}{}{}[site]\ndepth = {}\ngravity = 9.8\n\
-         [wave]\nheight = {}\nperiod = {}\ndirection = \"-x\"\n\
-         [run]\nrestitution = 0.3\nduration = {}\ntransient = {}\n",
+         {water}[run]\nrestitution = 0.3\nduration = {}\ntransient = {}\n",
         2.882_743_344_052_717_5 * scale,
         76.640_276_709_754_15 * force,
         38_742.562_148_583_96 * force,
@@ -66,8 +65,6 @@ fn cylinder(scale: f64) -> Structure {
             1e6
         ),
         13.525_391_809_384_626 * scale,
-        1.084_387_628_629_211_8 * scale,
-        5.992_548_929_200_369 * time,
         60.0 * time,
         10.0 * time,
     );
@@ -78,7 +75,12 @@ fn cylinder(scale: f64) -> Structure {
 /// load, although at the smaller size all snaps are slower than 1 cm/s and none is counted.
 #[test]
 fn a_model_breaks_where_the_full_size_does() {
-    let run = |scale: f64| Assessment::single_run(cylinder(scale), &no_progress).unwrap();
+    let run = |scale: f64| {
+        let (height, period) = (1.084_387_628_629_211_8, 5.992_548_929_200_369);
+        let (height, period) = (height * scale, period * scale.sqrt());
+        let wave = format!("[wave]\nheight = {height}\nperiod = {period}\ndirection = \"-x\"\n");
+        Assessment::single_run(cylinder(scale, &wave), &no_progress).unwrap()
+    };
     let [full, model] = [run(1.0), run(1.0 / 64.0)];
     let parts = |run: &Assessment| run.outcome.utilisations(&run.prepared.structure);
     for (full, model) in parts(&full).into_iter().zip(parts(&model)) {
@@ -100,4 +102,22 @@ fn a_model_breaks_where_the_full_size_does() {
             .summary("case")
             .contains("kN in slower ones than 1 cm/s")
     );
+}
+
+/// Records of a sea have the same distribution of the largest tension at full size and at 1:32,
+/// although at the smaller size all snaps of some records are slower than 1 cm/s.
+#[test]
+fn records_of_a_model_have_the_distribution_of_the_full_size() {
+    let records = |scale: f64| {
+        let sea = format!("[sea]\nhs = {}\ntp = {}\n", 0.4 * scale, 6.0 * scale.sqrt());
+        seas(cylinder(scale, &sea), 3, Lines::Inextensible, &no_progress).unwrap()
+    };
+    let [full, model] = [records(1.0), records(1.0 / 32.0)];
+    assert!(full.speeds_m_s().iter().all(|speed| speed.unwrap() > 0.01));
+    assert!(model.speeds_m_s().contains(&Some(0.0)));
+    // By the laws of Froude; the three hours are not scaled.
+    let [full, model] = [full, model].map(|seas| seas.peak_in_three_hours().unwrap());
+    let force = 32.0_f64.powi(3);
+    assert!((model.location * force / full.location - 1.0).abs() < 1e-6);
+    assert!((model.scale * force / full.scale - 1.0).abs() < 1e-6);
 }
