@@ -2,7 +2,7 @@
 //!
 //! A wave of tension lasts from one upcrossing of the tension at rest to the next, as a wave of the
 //! sea lasts from one upcrossing of the still water to the next. Its crest is the largest tension
-//! within it, including that of a snap, its trough the smallest, 0 if the line goes slack.
+//! within it, including that of a counted snap, its trough the smallest, 0 if the line goes slack.
 
 use super::equilibrium::Equilibrium;
 
