@@ -157,6 +157,9 @@ pub(crate) fn has_uncertain(map: &Map) -> bool {
     (0..map.cells.len()).any(|k| is_uncertain(map, k))
 }
 
+/// The words for what is past the horizon of trust, in a legend.
+pub const NOT_CERTAIN: &str = "not certain";
+
 /// The classes that occur, cells without a value, and uncertain ones, for the legend.
 pub(crate) fn samples(map: &Map) -> Vec<(Fill, String)> {
     let classes = map.classes.iter().enumerate();
@@ -166,7 +169,7 @@ pub(crate) fn samples(map: &Map) -> Vec<(Fill, String)> {
         .chain(others)
         .filter(|(cell, _)| map.cells.contains(cell));
     let sample = |(cell, words): (Cell, &str)| (fill(cell, (0.0, 1.0)), words.to_owned());
-    let uncertain = has_uncertain(map).then(|| (Fill::Uncertain, "not certain".to_owned()));
+    let uncertain = has_uncertain(map).then(|| (Fill::Uncertain, NOT_CERTAIN.to_owned()));
     occurring.map(sample).chain(uncertain).collect()
 }
 

@@ -6,7 +6,8 @@ use crate::study_file::{ShownValue, read_shown};
 use crate::table::{Column, columns};
 use snapload::key_named;
 use snapload_figures::{
-    Axis as PlotAxis, Cell, Layer, Map, Picture, Plot, Range, Stroke, Width, draw,
+    Axis as PlotAxis, Cell, Colour, Layer, Map, NOT_CERTAIN, Picture, Plot, Range, Shape, Stroke,
+    Width, draw,
 };
 use std::path::Path;
 
@@ -78,19 +79,12 @@ impl StudyPicture {
     fn line(&self, file: &Path, x: &Axis) -> Result<Plot, StudyError> {
         let thinned = Thinned::of(x, MOST_CELLS);
         let mut cells = Vec::new();
-        self.read(file, |row, cell, _| {
+        self.read(file, |row, cell, doubt| {
             if row.is_multiple_of(thinned.step) {
-                cells.push(cell);
+                cells.push((cell, doubt));
             }
         })?;
-        let value = |cell: &Cell| match cell {
-            Cell::Value(value) => *value,
-            _ => f64::NAN,
-        };
-        let points = thinned.values.iter().zip(&cells);
-        let points = points.map(|(x, cell)| [*x, value(cell)]).collect();
-        let mut layers = shades(&thinned.values, &cells);
-        layers.push(Layer::Line(vec![points], Stroke::default(), String::new()));
+        let layers = line_layers(thinned.values.into_iter().zip(cells).collect());
         // Also if there is no legal case.
         let [first, last] = [0, x.count() - 1].map(|k| x.value(k).number().unwrap_or_default());
         Ok(Plot {
@@ -108,14 +102,11 @@ impl StudyPicture {
         let of_x = Thinned::of(x, side.max(MOST_CELLS / y.count().min(side)));
         let of_y = Thinned::of(y, MOST_CELLS / of_x.values.len() as u64);
         let (mut cells, mut uncertain) = (Vec::new(), Vec::new());
-        // The end of trust itself is not uncertain beyond the horizon.
-        let of_trust = ["certain", "horizon_t", "horizon_impact"];
-        let of_motion = !of_trust.contains(&self.column.name);
         self.read(file, |row, cell, doubt| {
             let (i, j) = (row / y.count(), row % y.count());
             if i.is_multiple_of(of_x.step) && j.is_multiple_of(of_y.step) {
                 cells.push(cell);
-                uncertain.push(doubt && of_motion);
+                uncertain.push(doubt);
             }
         })?;
         let words = self.column.words().into_iter();
@@ -136,8 +127,12 @@ impl StudyPicture {
         })
     }
 
+    /// Visits the cells in their order, each with whether it is uncertain.
     fn read(&self, file: &Path, mut visit: impl FnMut(u64, Cell, bool)) -> Result<(), StudyError> {
         let words = self.column.words();
+        // The end of trust itself is not uncertain beyond the horizon.
+        let of_trust = ["certain", "horizon_t", "horizon_impact"];
+        let of_motion = !of_trust.contains(&self.column.name);
         read_shown(file, self.column, |row, shown, uncertain| {
             let cell = match shown {
                 ShownValue::Number(value) => Cell::Value(value),
@@ -148,7 +143,7 @@ impl StudyPicture {
                 ShownValue::Nothing => Cell::Empty,
                 ShownValue::Fault => Cell::Illegal,
             };
-            visit(row, cell, uncertain);
+            visit(row, cell, uncertain && of_motion);
         })
     }
 
@@ -181,6 +176,27 @@ impl Thinned {
         let values = drawn.filter_map(|k| axis.value(k).number()).collect();
         Self { step, values }
     }
+}
+
+/// The layers of a line over one key, from its values, each with its cell and whether that is
+/// uncertain. The key may be given in any order; a value that is not certain has a grey circle.
+fn line_layers(mut row: Vec<(f64, (Cell, bool))>) -> Vec<Layer> {
+    row.sort_by(|a, b| a.0.total_cmp(&b.0));
+    let (at, cells): (Vec<f64>, Vec<Cell>) = row.iter().map(|(x, (cell, _))| (*x, *cell)).unzip();
+    let point = |x: f64, cell: &Cell| match cell {
+        Cell::Value(value) => [x, *value],
+        _ => [x, f64::NAN],
+    };
+    let points = row.iter().map(|(x, (cell, _))| point(*x, cell)).collect();
+    let uncertain = row.iter().filter(|(_, (_, uncertain))| *uncertain);
+    let uncertain: Vec<_> = uncertain.map(|(x, (cell, _))| point(*x, cell)).collect();
+    let mut layers = shades(&at, &cells);
+    layers.push(Layer::Line(vec![points], Stroke::default(), String::new()));
+    if uncertain.iter().any(|point| point[1].is_finite()) {
+        let text = NOT_CERTAIN.to_owned();
+        layers.push(Layer::Markers(uncertain, Shape::Circle, Colour::GREY, text));
+    }
+    layers
 }
 
 /// Grey where there is no legal case: half the distance to the neighbours.
@@ -226,5 +242,34 @@ pub fn with_unit(symbol: &str, unit: &str) -> String {
     match unit {
         "" | "1" => symbol.to_owned(),
         unit => format!("{symbol} ({unit})"),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{Cell, Layer, line_layers};
+
+    /// Values that are not certain have a circle each and the words of maps; of cells without a value
+    /// there is none. Values in another order than that of the axis make the same line.
+    #[test]
+    fn a_line_marks_what_is_not_certain() {
+        let value = |x: f64, doubt: bool| (x, (Cell::Value(10.0 * x), doubt));
+        let row = vec![
+            value(0.5, false),
+            value(0.9, true),
+            value(0.7, false),
+            (0.8, (Cell::Empty, true)),
+        ];
+        let layers = line_layers(row);
+        let [Layer::Line(line, ..), Layer::Markers(marked, _, _, words)] = &layers[..] else {
+            panic!("{layers:?}");
+        };
+        let along: Vec<f64> = line[0].iter().map(|point| point[0]).collect();
+        assert_eq!(along, [0.5, 0.7, 0.8, 0.9]);
+        let marked: Vec<_> = marked.iter().filter(|point| point[1].is_finite()).collect();
+        assert_eq!(marked, [&[0.9, 9.0]]);
+        assert_eq!(words, "not certain");
+        let layers = line_layers(vec![value(0.5, false), value(0.6, false)]);
+        assert!(matches!(&layers[..], [Layer::Line(..)]));
     }
 }
