@@ -18,11 +18,13 @@ pub enum NoDistribution {
     TensionsUnknown,
     /// A line snaps in some of the records, and in so many of them none does.
     SomeWithoutSnaps(usize, usize),
+    /// The same of snaps that are counted.
+    SomeWithoutCountedSnaps(usize, usize),
     /// There are too few records.
     TooFew(usize),
     /// Less than one period of the waves is judged in each record.
     PartOfAWave,
-    /// No line snaps in any of the records.
+    /// No snap is counted in any of the records.
     NoSnaps,
     /// No line snaps in the records, but one may go slack within three hours, and then snap.
     MaySnap,
@@ -52,10 +54,16 @@ impl fmt::Display for NoDistribution {
             Self::SomeWithoutSnaps(count, of) => {
                 write!(f, "in {count} of {of} records no line snaps: {longer}")
             }
+            Self::SomeWithoutCountedSnaps(count, of) => write!(
+                f,
+                "in {count} of {of} records no line snaps at 1 cm/s or more: {longer}"
+            ),
             Self::TooFew(1) => f.write_str("one record is too few: run more (--seeds)"),
             Self::TooFew(count) => write!(f, "{count} records are too few: run more (--seeds)"),
             Self::PartOfAWave => write!(f, "less than one period of the waves is judged: {longer}"),
-            Self::NoSnaps => f.write_str("no line snaps in any of the records"),
+            Self::NoSnaps => {
+                f.write_str("no line snaps at 1 cm/s or more in any of the records")
+            },
             Self::MaySnap => write!(
                 f,
                 "no line snaps in the records, but within three hours one may go slack and snap: {longer}"
@@ -89,7 +97,7 @@ impl Seas {
     pub fn speed_in_three_hours(&self) -> Result<Gumbel, NoDistribution> {
         self.check_whole()?;
         let without = self.without_counted_snaps();
-        self.check_snaps(without)?;
+        self.check_snaps(without, NoDistribution::SomeWithoutCountedSnaps)?;
         if without == self.records.len() {
             return Err(NoDistribution::NoSnaps);
         }
@@ -129,13 +137,17 @@ impl Seas {
     /// A snap begins at twice the tension at rest. Records with snaps and without them therefore
     /// have two distributions, to which one fit is of no use. Records of less than a wave have the
     /// distribution of a part of a wave.
-    fn check_snaps(&self, without: usize) -> Result<(), NoDistribution> {
+    fn check_snaps(
+        &self,
+        without: usize,
+        some: fn(usize, usize) -> NoDistribution,
+    ) -> Result<(), NoDistribution> {
         let records = self.records.len();
         if self.prepared.structure.judges_too_little() {
             return Err(NoDistribution::PartOfAWave);
         }
         if (1..records).contains(&without) {
-            return Err(NoDistribution::SomeWithoutSnaps(without, records));
+            return Err(some(without, records));
         }
         if records < Gumbel::FEWEST {
             return Err(NoDistribution::TooFew(records));
@@ -148,7 +160,7 @@ impl Seas {
     /// within three hours.
     pub(crate) fn check_beyond(&self) -> Result<(), NoDistribution> {
         let without = self.without_snaps();
-        self.check_snaps(without)?;
+        self.check_snaps(without, NoDistribution::SomeWithoutSnaps)?;
         if without < self.records.len() {
             return Ok(());
         }

@@ -115,6 +115,11 @@ fn records_of_a_model_have_the_distribution_of_the_full_size() {
     let [full, model] = [records(1.0), records(1.0 / 32.0)];
     assert!(full.speeds_m_s().iter().all(|speed| speed.unwrap() > 0.01));
     assert!(model.speeds_m_s().contains(&Some(0.0)));
+    let reason = model.speed_in_three_hours().unwrap_err().to_string();
+    assert!(
+        reason.contains("no line snaps at 1 cm/s or more"),
+        "{reason}"
+    );
     // By the laws of Froude; the three hours are not scaled.
     let [full, model] = [full, model].map(|seas| seas.peak_in_three_hours().unwrap());
     let force = 32.0_f64.powi(3);
