@@ -205,7 +205,8 @@ class Hydro(Result):
 
         ``added_mass``, ``radiation_damping`` and ``excitation_force`` over ``omega``; ``response`` and
         ``response_of_the_memory`` per metre of wave; the memory as ``pole`` and ``residue``, with the
-        corresponding ``added_mass_inf`` and ``added_damping``.
+        corresponding ``added_mass_inf`` and ``added_damping``. Phases are those of a wave with its crest over the
+        reference point.
 
         See Also
         --------

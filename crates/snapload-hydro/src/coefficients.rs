@@ -5,6 +5,7 @@ use crate::error::HydroError;
 use crate::section_body::{SectionBody, SectionForce};
 use crate::spline::Spline;
 use crate::water::Water;
+use crate::waves::wave_number;
 use nalgebra::{Complex, Matrix3, Vector3};
 
 /// The degrees of freedom in their order: x, z, and rotation from z to x about the reference point.
@@ -31,7 +32,8 @@ pub struct Hydrostatics {
 pub struct Excitation {
     /// +1 for a wave that travels to +x (β = 0), −1 to −x (β = π).
     pub direction: f64,
-    /// X(ω) \[N/m, N/m, N m/m\], F = Re X e^{−iωt} for a wave with its crest at x = 0 at t = 0.
+    /// X(ω) \[N/m, N/m, N m/m\], F = Re X e^{−iωt} for a wave with its crest over the reference
+    /// point at t = 0. With a crest far from the body X would turn too fast to be interpolated.
     pub force: Vec<Vector3<Complex<f64>>>,
 }
 
@@ -117,8 +119,13 @@ impl Hydrodynamics {
         let range_rad_s = self.range_rad_s();
         if let Some(section) = &self.section {
             let from_section = [self.reference_m[0] - section.x_m, self.reference_m[1]];
+            let moved = Moved {
+                shift_m: from_section,
+                direction,
+                water: self.water,
+            };
             let force = Box::new(section.force(&self.water, direction)?);
-            let force = XOverOmega::Section(force, transport(from_section).transpose());
+            let force = XOverOmega::Section(force, moved);
             return Ok(ExcitationCurve { range_rad_s, force });
         }
         let part = |of: fn(Complex<f64>) -> f64, i: usize| {
@@ -195,8 +202,8 @@ pub struct ExcitationCurve {
 enum XOverOmega {
     /// Real and imaginary part of each degree of freedom.
     Splines(Box<[[Spline; 2]; 3]>),
-    /// The force about the section's own point, and its transport to the reference point.
-    Section(Box<SectionForce>, Matrix3<f64>),
+    /// The force about the section's own point, and the way from there to the reference point.
+    Section(Box<SectionForce>, Moved),
 }
 
 impl ExcitationCurve {
@@ -207,9 +214,7 @@ impl ExcitationCurve {
             return None;
         }
         Some(match &self.force {
-            XOverOmega::Section(force, transport) => {
-                transport.map(|entry| Complex::new(entry, 0.0)) * force.at(omega_rad_s)
-            }
+            XOverOmega::Section(force, moved) => moved.force(omega_rad_s, &force.at(omega_rad_s)),
             XOverOmega::Splines(parts) => Vector3::from_fn(|i, _| {
                 let [re, im] = &parts[i];
                 Complex::new(re.clamped(omega_rad_s), im.clamped(omega_rad_s))
@@ -219,13 +224,52 @@ impl ExcitationCurve {
 }
 
 /// J with q̇_O = J q̇_O' for another reference point O' = O + (dx, dz): matrices M, A, B, K become
-/// Jᵀ(·)J and forces JᵀX. The phase of a wave force does not change, as it refers to x = 0.
+/// Jᵀ(·)J and forces JᵀX. A wave force also gets another phase, as the crest is over O' at t = 0.
 ///
 /// ```text
 /// J = [[1, 0, −dz], [0, 1, dx], [0, 0, 1]]
 /// ```
 pub fn transport([dx, dz]: [f64; 2]) -> Matrix3<f64> {
     Matrix3::new(1.0, 0.0, -dz, 0.0, 1.0, dx, 0.0, 0.0, 1.0)
+}
+
+/// The way of the reference point to another place, in waves of one direction.
+#[derive(Clone, Copy, Debug)]
+struct Moved {
+    shift_m: [f64; 2],
+    direction: f64,
+    water: Water,
+}
+
+impl Moved {
+    /// X about the new place, with the crest over it at t = 0.
+    fn force(&self, omega_rad_s: f64, x: &Vector3<Complex<f64>>) -> Vector3<Complex<f64>> {
+        let j = transport(self.shift_m).map(|entry| Complex::new(entry, 0.0));
+        let ahead_m = self.shift_m[0];
+        crest_ahead(
+            j.transpose() * x,
+            ahead_m,
+            self.direction,
+            omega_rad_s,
+            &self.water,
+        )
+    }
+}
+
+/// A wave force if the crest at t = 0 is further along x by `ahead_m`: X e^{−ik Δx} of waves to +x,
+/// X e^{ik Δx} of waves to −x.
+pub(crate) fn crest_ahead(
+    force: Vector3<Complex<f64>>,
+    ahead_m: f64,
+    direction: f64,
+    omega_rad_s: f64,
+    water: &Water,
+) -> Vector3<Complex<f64>> {
+    if ahead_m == 0.0 {
+        return force;
+    }
+    let k = wave_number(omega_rad_s, water.depth_m, water.gravity_m_s2);
+    force * Complex::from_polar(1.0, -direction * k * ahead_m)
 }
 
 impl Hydrodynamics {
@@ -235,21 +279,27 @@ impl Hydrodynamics {
         let shift = [0, 1].map(|axis| reference_m[axis] - self.reference_m[axis]);
         let j = transport(shift);
         let matrix = |m: &Matrix3<f64>| j.transpose() * m * j;
-        let complex = j.map(|entry| Complex::new(entry, 0.0));
+        let excitation = |x: &Excitation| {
+            let moved = Moved {
+                shift_m: shift,
+                direction: x.direction,
+                water: self.water,
+            };
+            let both = self.omega_rad_s.iter().zip(&x.force);
+            Excitation {
+                direction: x.direction,
+                force: both
+                    .map(|(omega, force)| moved.force(*omega, force))
+                    .collect(),
+            }
+        };
         let statics = &self.hydrostatics;
         Self {
             added_mass: self.added_mass.iter().map(matrix).collect(),
             damping: self.damping.iter().map(matrix).collect(),
             added_mass_zero: self.added_mass_zero.as_ref().map(matrix),
             added_mass_inf: self.added_mass_inf.as_ref().map(matrix),
-            excitation: self
-                .excitation
-                .iter()
-                .map(|x| Excitation {
-                    direction: x.direction,
-                    force: x.force.iter().map(|f| complex.transpose() * f).collect(),
-                })
-                .collect(),
+            excitation: self.excitation.iter().map(excitation).collect(),
             reference_m,
             hydrostatics: Hydrostatics {
                 stiffness: statics.stiffness.as_ref().map(matrix),

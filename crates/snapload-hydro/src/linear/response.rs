@@ -7,8 +7,8 @@ use crate::memory::Memory;
 use crate::spline::Spline;
 use nalgebra::{Complex, Matrix3, Vector3};
 
-/// ξ(ω) per metre of wave amplitude, q = Re ξ e^{−iωt}: the phase by which the motion leads the
-/// crest at x = 0 is −arg ξ.
+/// ξ(ω) per metre of wave amplitude, q = Re ξ e^{−iωt}: the phase by which the motion leads
+/// the crest over the reference point is −arg ξ.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Response {
     /// +1 for waves to +x, −1 to −x.

@@ -1,6 +1,6 @@
 //! Coefficients that are read in any order, sorted by their frequencies.
 
-use crate::coefficients::{Excitation, FREEDOMS, Hydrodynamics, Hydrostatics};
+use crate::coefficients::{Excitation, FREEDOMS, Hydrodynamics, Hydrostatics, crest_ahead};
 use crate::error::HydroError;
 use crate::water::Water;
 use nalgebra::{Complex, Matrix3, Vector3};
@@ -14,7 +14,8 @@ pub(super) struct Row {
     pub added_mass: Matrix3<f64>,
     /// B; it has no meaning at 0 and at infinity.
     pub damping: Matrix3<f64>,
-    /// X of each direction, in the order of [`Table::directions`].
+    /// X of each direction, in the order of [`Table::directions`], with the crest at x = 0 at t = 0,
+    /// as all panel codes have it.
     pub excitation: Vec<Vector3<Complex<f64>>>,
 }
 
@@ -79,9 +80,16 @@ impl Table {
         let apart: Matrix3<f64> = damping().map(|b| (b - b.transpose()).abs()).sum();
         let damping_asymmetry = asymmetric_part(&apart, &damping().map(|b| b.abs()).sum());
         let excitation = self.directions.iter().enumerate();
-        let excitation = excitation.map(|(index, direction)| Excitation {
-            direction: *direction,
-            force: finite.iter().map(|row| row.excitation[index]).collect(),
+        let (ahead_m, water) = (self.reference_m[0], self.water);
+        let excitation = excitation.map(|(index, direction)| {
+            let here = |row: &Row| {
+                let force = row.excitation[index];
+                crest_ahead(force, ahead_m, *direction, row.omega, &water)
+            };
+            Excitation {
+                direction: *direction,
+                force: finite.iter().map(here).collect(),
+            }
         });
         Ok(Hydrodynamics {
             excitation: excitation.collect(),

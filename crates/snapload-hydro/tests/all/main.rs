@@ -5,6 +5,7 @@ mod damped;
 mod decay;
 mod linear;
 mod memory;
+mod places;
 mod readers;
 mod report;
 mod rest;

@@ -4,6 +4,7 @@ use crate::common::{dataset, hydro, path, reading};
 use nalgebra::{Complex, Matrix3};
 use snapload_hydro::{
     FirstColumn, Format, Given, Values, WamitText, from_dataset, from_nemoh, from_wamit, read,
+    wave_number,
 };
 
 fn close(a: f64, b: f64, part: f64) -> bool {
@@ -341,8 +342,8 @@ fn nemoh_is_read() {
     assert!(error.to_string().contains("Capytaine"), "{error}");
 }
 
-/// Another reference point: the power of damping is the same for the same motion of the body, and
-/// transforming back gives the original coefficients.
+/// Another reference point: the power of damping is the same for the same motion of the body, the force
+/// is that of a crest over the new point, and transforming back gives the original coefficients.
 #[test]
 fn coefficients_follow_the_reference_point() {
     let here = hydro("cylinder.nc");
@@ -363,6 +364,10 @@ fn coefficients_follow_the_reference_point() {
             there.excitation[0].force[index],
         );
         let moment = x[2] - x[0] * 1.1 + x[1] * 1.5;
-        assert!((y[2] - moment).norm() < 1e-9 * x.norm());
+        let k = wave_number(here.omega_rad_s[index], here.water.depth_m, 9.81);
+        let direction = here.excitation[0].direction;
+        let later = Complex::from_polar(1.0, -direction * k * 1.5);
+        assert!((y[2] - moment * later).norm() < 1e-9 * x.norm());
+        assert!((back.excitation[0].force[index] - x).norm() < 1e-9 * x.norm());
     }
 }

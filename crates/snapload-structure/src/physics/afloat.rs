@@ -157,7 +157,7 @@ fn impossible(error: &HydroError) -> CaseError {
     )
 }
 
-/// The waves' force, Re a e^{iε} X(ω) e^{−iωt} of each. A surface A sin(ωt + ε') at x = 0 is
+/// The waves' force, Re a e^{iε} X(ω) e^{−iωt} of each. A surface A sin(ωt + ε') over the body is
 /// a cos(−ωt + ε) with a = A and ε = π/2 − ε', so a e^{iε} = A (sin ε' + i cos ε').
 fn excitation(
     structure: &Structure,
