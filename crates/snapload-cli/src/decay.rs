@@ -1,9 +1,11 @@
 //! `snapload decay`: a floating body let go in still water.
+use crate::bar::Bar;
 use crate::failure::Failure;
 use crate::hydro_input::{HydroArgs, triple};
 use crate::json::JsonArgs;
 use crate::outputs::Outputs;
 use serde::Serialize;
+use snapload::analysis::Progress;
 use snapload_hydro::digits::digits;
 use snapload_hydro::{
     Body, Decay, FREEDOMS, Hydrodynamics, Swing, decay, large_motion, rest_without_tension, swings,
@@ -78,8 +80,13 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
     let from = args.from;
     check_release(from)?;
     let body = floating.body.afloat();
-    let motion = decay(&body, &fit.memory, &fit.added_mass_inf, from, times);
-    let motion = motion.map_err(bad)?;
+    let bar = Bar::new();
+    let on_progress = |part: f64| {
+        let _ = bar.show(Progress::new("decaying", part, 1.0));
+    };
+    let inf = &fit.added_mass_inf;
+    let motion = decay(&body, &fit.memory, inf, from, times, &on_progress).map_err(bad)?;
+    drop(bar);
     if let Some(out) = out {
         outputs.write(out, |out| out.write_all(table(&motion).as_bytes()))?;
     }

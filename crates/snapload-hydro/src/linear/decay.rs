@@ -1,11 +1,12 @@
 //! Free decay: the body is released from a displacement in still water, without lines.
 
 use super::body::Body;
-use super::natural::state_matrix;
+use super::natural::{of_matrix, state_matrix};
+use super::swings::{Turn, changes_sign};
 use crate::coefficients::Hydrodynamics;
 use crate::error::HydroError;
 use crate::memory::{DampingCurve, Memory};
-use nalgebra::{Complex, DMatrix, DVector, Matrix3, Vector3};
+use nalgebra::{Complex, DMatrix, Matrix3, Vector3};
 use std::f64::consts::PI;
 
 /// The motion after the release.
@@ -15,27 +16,23 @@ pub struct Decay {
     pub t_s: Vec<f64>,
     /// q \[m, m, rad\].
     pub q: Vec<Vector3<f64>>,
+    /// The turns of each freedom, between the rows, too. The release is the first.
+    pub turns: [Vec<Turn>; 3],
     /// Whether a stiffness brings each freedom back to zero.
     pub comes_back: [bool; 3],
 }
 
-/// One swing of a decay, from one turning point to the next on the same side.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Swing {
-    /// When it begins \[s\].
-    pub from_s: f64,
-    /// The amplitude there: from zero, or of a freedom that does not come back there from where it
-    /// swings about.
-    pub amplitude: f64,
-    /// How long it takes \[s\].
-    pub period_s: f64,
-    /// ζ = δ/sqrt(4π² + δ²), δ the logarithm of the ratio of the amplitudes.
-    pub damping_ratio: f64,
-}
+/// The most steps of a motion and the most rows of its table.
+const MOST_STEPS: f64 = 1e7;
+const MOST_ROWS: f64 = 1e6;
+/// The longest step as a part of 1/|λ| of the fastest oscillation: a cubic through velocities and
+/// accelerations that far apart is off by less than a millionth.
+const PART_OF_OSCILLATION: f64 = 0.125;
 
 /// The motion from rest at `start`, with the exponentials as the memory. It is linear with constant
 /// coefficients, so that each step of a fixed length is one multiplication, y ← e^{Lh} y, exact to
-/// rounding.
+/// rounding. Turns are found in steps that are short enough for the motion, however far the rows are
+/// apart. `on_progress` is called with the part that is done.
 ///
 /// # Errors
 /// A [`HydroError`] if the mass is not positive definite, or the times are not possible.
@@ -44,34 +41,121 @@ pub fn decay(
     memory: &Memory,
     added_mass_inf: &Matrix3<f64>,
     start: impl Into<Vector3<f64>>,
-    [duration_s, step_s]: [f64; 2],
+    [duration_s, row_s]: [f64; 2],
+    on_progress: &dyn Fn(f64),
 ) -> Result<Decay, HydroError> {
-    let steps = duration_s / step_s;
-    if !(step_s > 0.0 && steps.is_finite() && (0.0..=1e6).contains(&steps)) {
-        let expected = "the step must be above 0, and the duration at most a million steps";
-        return Err(HydroError::value("the step in s", step_s, expected));
-    }
+    let last_row = last_row(duration_s, row_s)?;
     let identity = DMatrix::identity(3, 3);
     let matrix = state_matrix(body, &body.stiffness, memory, added_mass_inf, &identity)?;
-    let forward = (matrix * step_s).exp();
-    let mut state = DVector::zeros(forward.nrows());
-    state.rows_mut(0, 3).copy_from(&start.into());
-    let count = (steps + 1e-9) as usize;
+    let parts = steps_per_row(&matrix, [duration_s, row_s])?;
+    let step_s = row_s / parts as f64;
+    let (to_row, step) = (Flow::new(&matrix, row_s), Flow::new(&matrix, step_s));
+    let mut row_state = vec![0.0; matrix.nrows()];
+    row_state[..3].copy_from_slice(start.into().as_slice());
+    let mut state = row_state.clone();
     let mut decay = Decay {
-        t_s: Vec::with_capacity(count + 1),
-        q: Vec::with_capacity(count + 1),
+        t_s: Vec::with_capacity(last_row + 1),
+        q: Vec::with_capacity(last_row + 1),
+        turns: std::array::from_fn(|i| Turn::at_release(state[i]).into_iter().collect()),
         comes_back: [0, 1, 2].map(|i| body.stiffness[(i, i)] != 0.0),
     };
-    for step in 0..=count {
-        decay.t_s.push(step as f64 * step_s);
-        decay.q.push(Vector3::new(state[0], state[1], state[2]));
-        state = &forward * state;
+    for row in 0..=last_row {
+        let t_s = row as f64 * row_s;
+        decay.t_s.push(t_s);
+        decay.q.push(Vector3::from_column_slice(&row_state[..3]));
+        if row == last_row {
+            break;
+        }
+        for part in 0..parts {
+            let next = step.applied(&state);
+            let times = [t_s + part as f64 * step_s, step_s];
+            decay.turns_within(times, &matrix, [&state, &next]);
+            state = next;
+        }
+        row_state = match parts {
+            1 => state.clone(),
+            _ => to_row.applied(&row_state),
+        };
+        on_progress(row as f64 / last_row as f64);
     }
     Ok(decay)
 }
 
-/// Ways between turns below so much of the furthest turn are rounding.
-const ROUNDING: f64 = 1e-9;
+/// The number of the last row, the first being 0.
+fn last_row(duration_s: f64, row_s: f64) -> Result<usize, HydroError> {
+    if !(row_s > 0.0 && row_s.is_finite()) {
+        let expected = "a number above 0 is expected";
+        return Err(HydroError::value("the step in s", row_s, expected));
+    }
+    if !(duration_s >= 0.0 && duration_s <= MOST_ROWS * row_s) {
+        let most = MOST_ROWS * row_s;
+        let expected = format!("0 to {most} is allowed, a million steps");
+        return Err(HydroError::value("the duration in s", duration_s, expected));
+    }
+    Ok((duration_s / row_s + 1e-9) as usize)
+}
+
+/// Into how many steps the motion from one row to the next is divided. Eigenvalues that are real make
+/// nothing turn back.
+fn steps_per_row(
+    matrix: &DMatrix<f64>,
+    [duration_s, row_s]: [f64; 2],
+) -> Result<usize, HydroError> {
+    let values = of_matrix(matrix.clone())?;
+    let oscillations = values.iter().filter(|value| value.im != 0.0);
+    let fastest = oscillations.map(|value| value.norm()).fold(0.0, f64::max);
+    let parts = (row_s * fastest / PART_OF_OSCILLATION).ceil().max(1.0);
+    if parts * duration_s / row_s > MOST_STEPS {
+        let most = MOST_STEPS * PART_OF_OSCILLATION / fastest;
+        let expected = format!("the motion is followed for at most {most:.0} s");
+        return Err(HydroError::value("the duration in s", duration_s, expected));
+    }
+    Ok(parts as usize)
+}
+
+/// e^{Lh}, by columns. Its products are loops of this crate, which is compiled with optimisation
+/// where the library of matrices is not.
+struct Flow {
+    size: usize,
+    columns: Vec<f64>,
+}
+
+impl Flow {
+    fn new(matrix: &DMatrix<f64>, h_s: f64) -> Self {
+        Self {
+            size: matrix.nrows(),
+            columns: (matrix * h_s).exp().as_slice().to_vec(),
+        }
+    }
+
+    /// The state h later.
+    fn applied(&self, state: &[f64]) -> Vec<f64> {
+        let mut later = vec![0.0; self.size];
+        for (column, value) in self.columns.chunks_exact(self.size).zip(state) {
+            for (sum, entry) in later.iter_mut().zip(column) {
+                *sum += entry * value;
+            }
+        }
+        later
+    }
+}
+
+impl Decay {
+    /// Adds the turns between two states a step apart.
+    fn turns_within(&mut self, times: [f64; 2], matrix: &DMatrix<f64>, [state, next]: [&[f64]; 2]) {
+        for (i, turns) in self.turns.iter_mut().enumerate() {
+            let acceleration = |state: &[f64]| -> f64 {
+                let row = matrix.row(3 + i);
+                row.iter().zip(state).map(|(entry, y)| entry * y).sum()
+            };
+            let v = [state, next].map(|state| state[3 + i]);
+            if changes_sign(v) {
+                let a = [state, next].map(acceleration);
+                turns.push(Turn::between(times, state[i], v, a));
+            }
+        }
+    }
+}
 
 /// Ends of the two ranges of the Fourier integral in last frequencies, and panels of each:
 /// resonances lie in the first.
@@ -136,67 +220,4 @@ fn filon(values: &[(f64, f64)], t: f64) -> f64 {
         (a, fa, sine, cosine) = (b, fb, next_sine, next_cosine);
     }
     sum
-}
-
-/// The swings of one freedom, from its turning points: about zero where a stiffness brings it back
-/// there. Surge without lines stays where it ends, and is described by the distances between its
-/// turns: in a swing with the ratio q² of one amplitude to the next about any place, the way from a
-/// turn to the next is the amplitude times 1 + q. Swings below a thousandth of the first are left
-/// out.
-pub fn swings(decay: &Decay, freedom: usize) -> Vec<Swing> {
-    let turns = turns(decay, freedom);
-    let about_zero = decay.comes_back[freedom];
-    let heights: Vec<f64> = match about_zero {
-        true => turns.iter().map(|turn| turn.1).collect(),
-        false => turns.windows(2).map(|two| two[0].1 - two[1].1).collect(),
-    };
-    let furthest = turns.iter().map(|turn| turn.1.abs()).fold(0.0, f64::max);
-    let first = heights.first().map_or(0.0, |height| height.abs());
-    let least = (1e-3 * first).max(ROUNDING * furthest);
-    let swing = |k: usize| {
-        let (x0, x1) = (heights[k], heights[k + 2]);
-        let ratio = x1 / x0;
-        (ratio > 0.0 && x1.abs() > least).then(|| {
-            let delta = -ratio.ln();
-            Swing {
-                from_s: turns[k].0,
-                amplitude: if about_zero {
-                    x0
-                } else {
-                    x0 / (1.0 + ratio.sqrt())
-                },
-                period_s: turns[k + 2].0 - turns[k].0,
-                damping_ratio: delta / (4.0 * PI * PI + delta * delta).sqrt(),
-            }
-        })
-    };
-    (0..heights.len().saturating_sub(2))
-        .filter_map(swing)
-        .collect()
-}
-
-/// Where a freedom turns, and when, with its start.
-fn turns(decay: &Decay, freedom: usize) -> Vec<(f64, f64)> {
-    let x: Vec<f64> = decay.q.iter().map(|q| q[freedom]).collect();
-    let [first_s, second_s, ..] = decay.t_s[..] else {
-        return Vec::new();
-    };
-    let start = x.first().filter(|first| **first != 0.0);
-    let start = start.map(|first| (first_s, *first));
-    let within = (1..x.len().saturating_sub(1)).filter_map(|k| {
-        let (before, here, after) = (x[k - 1], x[k], x[k + 1]);
-        let turns = (here - before) * (after - here) <= 0.0 && here != before;
-        (turns && here != 0.0).then(|| {
-            // The vertex of the parabola through three points.
-            let second_difference = before - 2.0 * here + after;
-            let shift = if second_difference == 0.0 {
-                0.0
-            } else {
-                0.5 * (before - after) / second_difference
-            };
-            let height = here - 0.25 * (before - after) * shift;
-            ((k as f64 + shift) * (second_s - first_s), height)
-        })
-    });
-    start.into_iter().chain(within).collect()
 }

@@ -8,14 +8,16 @@ mod resonance;
 mod response;
 mod rest;
 mod small_motion;
+mod swings;
 
 pub(crate) use body::BALANCED_ANGLE;
 pub use body::{Body, Weight};
 pub use damped::{Mode, natural_of_the_memory};
-pub use decay::{Decay, Swing, decay, decay_of_the_damping, swings};
+pub use decay::{Decay, decay, decay_of_the_damping};
 pub use natural::{Natural, eigenvalues, natural_of_the_file};
 pub use resonance::{Peak, fine_responses};
 pub use response::{Response, response_of_the_file, response_of_the_memory, significant};
 pub use rest::{Line, Rest, rest, rest_without_tension};
 pub use small_motion::{LARGE_PITCH, large_motion};
 pub(crate) use small_motion::{beyond_hydrostatics, draft_m};
+pub use swings::{Swing, Turn, swings};

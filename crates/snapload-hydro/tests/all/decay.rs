@@ -3,7 +3,7 @@
 use crate::common::{hydro, reference};
 use crate::linear::{body, file, given, near};
 use nalgebra::{Complex, Vector3};
-use snapload_hydro::{Decay, decay, swings};
+use snapload_hydro::{Decay, Memory, Turn, decay, swings};
 use std::f64::consts::PI;
 
 /// Surge has no stiffness: from wherever the pontoon is let go its swings are the same, and damped as
@@ -16,7 +16,7 @@ fn a_place_that_nothing_holds_does_not_change_the_swings() {
     let (memory, inf) = given("pontoon");
     let of = |x: f64, freedom: usize| {
         let start = Vector3::new(x, 0.0, 0.1);
-        let motion = decay(&body, &memory, &inf, start, [60.0, 0.01]).expect("a decay");
+        let motion = decay(&body, &memory, &inf, start, [60.0, 0.01], &|_| ()).expect("a decay");
         swings(&motion, freedom)
     };
     let values = entry["eigenvalues_of_the_exponentials"].as_array();
@@ -59,24 +59,26 @@ fn amplitudes_are_measured_from_where_it_swings_about() {
     for (about, damping) in [(0.0, 0.01_f64), (0.4, 0.01), (-3.0, 0.1), (0.4, 0.3)] {
         let omega = 2.0;
         let decrement = damping / (1.0 - damping * damping).sqrt() * omega;
-        let t_s: Vec<f64> = (0..4000).map(|k| f64::from(k) * 0.005).collect();
-        // Let go from rest: x' = 0 at t = 0.
-        let at = |t: &f64| {
-            let (sine, cosine) = (omega * t).sin_cos();
-            about + 0.2 * (-decrement * t).exp() * (cosine + decrement / omega * sine)
+        // Let go from rest it turns every half period, each time on the other side.
+        let turn = |k: u32| {
+            let t_s = f64::from(k) * PI / omega;
+            let side = if k.is_multiple_of(2) { 0.2 } else { -0.2 };
+            let height = about + side * (-decrement * t_s).exp();
+            Turn { t_s, height }
         };
         let motion = Decay {
-            q: t_s.iter().map(|t| Vector3::new(at(t), 0.0, 0.0)).collect(),
-            t_s,
+            t_s: Vec::new(),
+            q: Vec::new(),
+            turns: [(0..13).map(turn).collect(), Vec::new(), Vec::new()],
             comes_back: [about == 0.0, true, true],
         };
         let found = swings(&motion, 0);
         assert!(found.len() > 3);
         for (k, swing) in found.iter().enumerate() {
             let amplitude = 0.2 * (-decrement * PI / omega * k as f64).exp();
-            near(swing.amplitude.abs(), amplitude, 1e-4, "the amplitude");
+            near(swing.amplitude.abs(), amplitude, 1e-12, "the amplitude");
             assert_eq!(swing.amplitude > 0.0, k % 2 == 0);
-            near(swing.damping_ratio, damping, 1e-3, "the damping ratio");
+            near(swing.damping_ratio, damping, 1e-9, "the damping ratio");
         }
     }
 }
@@ -89,7 +91,49 @@ fn what_stays_does_not_swing() {
     let (memory, inf) = given("pontoon");
     for x in [1e-3, 0.5, 700.0] {
         let start = Vector3::new(x, 0.0, 0.0);
-        let motion = decay(&body, &memory, &inf, start, [60.0, 0.05]).expect("a decay");
+        let motion = decay(&body, &memory, &inf, start, [60.0, 0.05], &|_| ()).expect("a decay");
         assert_eq!(swings(&motion, 0), []);
+    }
+}
+
+/// The swings are those of the motion, however far the rows of its table are apart. Heave without
+/// memory is the oscillator of textbooks: ω0² = c/m, 2 ζ ω0 = b/m, and a half period of π/(ω0 √(1 − ζ²));
+/// with memory there is no closed form, but the swings are the same.
+#[test]
+fn rows_far_apart_leave_the_swings_as_they_are() {
+    let entry = &reference("linear.json")["pontoon"];
+    let mut body = body(&entry["case"], &hydro(file("pontoon")));
+    let (memory, inf) = given("pontoon");
+    let start = Vector3::new(0.0, 1.0, 0.0);
+    let none = Memory::default();
+    let mass = body.mass[(1, 1)] + inf[(1, 1)];
+    let omega = (body.stiffness[(1, 1)] / mass).sqrt();
+    for damping in [0.006, 0.1] {
+        body.damping[(1, 1)] = 2.0 * damping * omega * mass;
+        let period = 2.0 * PI / (omega * (1.0 - damping * damping).sqrt());
+        for row_s in [0.05, 1.0, 1.4, 4.0, 50.0] {
+            let motion = decay(&body, &none, &inf, start, [100.0, row_s], &|_| ());
+            let found = swings(&motion.expect("a decay"), 1);
+            assert!(found.len() > 12);
+            for (k, swing) in found.iter().enumerate() {
+                let (from_s, what) = (0.5 * period * k as f64, "a swing without memory");
+                assert!((swing.from_s - from_s).abs() < 1e-5 * period, "{swing:?}");
+                near(swing.period_s, period, 1e-5, what);
+                near(swing.damping_ratio, damping, 1e-4, what);
+            }
+        }
+    }
+    body.damping[(1, 1)] = 0.0;
+    let of = |row_s: f64| {
+        let motion = decay(&body, &memory, &inf, start, [40.0, row_s], &|_| ());
+        swings(&motion.expect("a decay"), 1)
+    };
+    let close = of(0.001);
+    for row_s in [0.05, 0.5, 2.0, 4.0] {
+        assert!(close.len() > 5 && of(row_s).len() == close.len());
+        for (far, close) in of(row_s).iter().zip(&close) {
+            near(far.period_s, close.period_s, 1e-5, "the period");
+            near(far.damping_ratio, close.damping_ratio, 1e-4, "the damping");
+        }
     }
 }

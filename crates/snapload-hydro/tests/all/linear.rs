@@ -327,7 +327,7 @@ fn the_sphere_decays_as_published() {
         |name: &str| -> Vec<f64> { serde_json::from_value(table[name].clone()).expect("numbers") };
     let (t, expected) = (list("t"), list("of_the_exponentials"));
     let start = Vector3::new(0.0, 1.0, 0.0);
-    let found = decay(&body, &memory, &inf, start, [30.0, 0.05]).expect("a decay");
+    let found = decay(&body, &memory, &inf, start, [30.0, 0.05], &|_| ()).expect("a decay");
     assert_eq!(found.q.len(), expected.len());
     for (k, q) in found.q.iter().enumerate() {
         assert!((found.t_s[k] - t[k]).abs() < 1e-12);
