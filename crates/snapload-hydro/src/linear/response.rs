@@ -7,6 +7,12 @@ use crate::memory::Memory;
 use crate::spline::Spline;
 use nalgebra::{Complex, Matrix3, Vector3};
 
+/// The spectrum of a sea is taken to end at this many times the last frequency of the file.
+const SPECTRUM_ENDS: f64 = 4.0;
+/// Panels of the integral over a sea, and the fewest of them between two frequencies of a response.
+const PANELS: f64 = 40_000.0;
+const FEWEST_PANELS: f64 = 4.0;
+
 /// ξ(ω) per metre of wave amplitude, q = Re ξ e^{−iωt}: the phase by which the motion leads
 /// the crest over the reference point is −arg ξ.
 #[derive(Clone, Debug, PartialEq)]
@@ -102,32 +108,43 @@ impl Response {
     /// σ_i² = ∫ |ξ_i|² S dω
     /// ```
     ///
-    /// |ξ_i| between the frequencies by cubic splines, the integral by the trapezoidal rule.
+    /// |ξ_i| between the frequencies by cubic splines, the integral by Gauss's rule between each two
+    /// of them: those of [`fine_responses`](super::fine_responses) are as dense as narrow peaks need.
     pub fn in_a_sea(&self, density: impl Fn(f64) -> f64) -> ([f64; 3], f64) {
         let moduli: [Spline; 3] = std::array::from_fn(|i| {
             let values: Vec<f64> = self.amplitude.iter().map(|xi| xi[i].norm()).collect();
             Spline::new(&self.omega_rad_s, &values)
         });
         let [first, last] = moduli[0].ends();
-        let steps = 40_000;
-        // The spectrum extends beyond the file's range.
-        let top = 4.0 * last;
-        let width = top / f64::from(steps);
-        let (mut sums, mut covered, mut all) = ([0.0; 3], 0.0, 0.0);
-        for step in 1..=steps {
-            let omega = width * f64::from(step);
-            let s = density(omega) * width;
-            all += s;
-            if (first..=last).contains(&omega) {
+        let top = SPECTRUM_ENDS * last;
+        let longest = top / PANELS;
+        let (mut sums, mut covered) = ([0.0; 3], 0.0);
+        for ends in self.omega_rad_s.windows(2) {
+            for (omega, width) in gauss_points([ends[0], ends[1]], longest) {
+                let s = density(omega) * width;
                 covered += s;
                 for (sum, modulus) in sums.iter_mut().zip(&moduli) {
                     *sum += modulus.clamped(omega).powi(2) * s;
                 }
             }
         }
+        let outside = [[0.0, first], [last, top]].into_iter();
+        let outside = outside.flat_map(|ends| gauss_points(ends, longest));
+        let outside: f64 = outside.map(|(omega, width)| density(omega) * width).sum();
+        let all = covered + outside;
         let part = if all > 0.0 { covered / all } else { 0.0 };
         (sums.map(f64::sqrt), part)
     }
+}
+
+/// The points of Gauss's rule of two points in panels of at most a length, and their weights.
+fn gauss_points([from, to]: [f64; 2], longest: f64) -> impl Iterator<Item = (f64, f64)> {
+    let panels = ((to - from) / longest).ceil().max(FEWEST_PANELS);
+    let half = 0.5 * (to - from) / panels;
+    (0..panels as usize).flat_map(move |k| {
+        let middle = from + half * (2 * k + 1) as f64;
+        [-1.0, 1.0].map(|side| (middle + side * half / 3.0_f64.sqrt(), half))
+    })
 }
 
 /// Twice the root mean square: the significant amplitude, the mean of the largest third of

@@ -228,7 +228,7 @@ fn long_waves_carry_the_body() {
     };
     let (rms, covered) = response.in_a_sea(narrow);
     assert!((covered - 1.0).abs() < 1e-9);
-    // The trapezoidal rule sees three or four points of this band.
+    // The rule sees a few points of this band.
     let expected = response.amplitude[at][1].norm();
     assert!(
         (rms[1] / expected - 1.0).abs() < 0.2,

@@ -9,5 +9,6 @@ mod places;
 mod readers;
 mod report;
 mod rest;
+mod seas;
 mod sections;
 mod textbook;
