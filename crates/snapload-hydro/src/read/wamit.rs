@@ -212,8 +212,8 @@ fn radiation(text: &str, units: &Units) -> Result<Vec<Row>, HydroError> {
             continue;
         };
         let Step { has, row, .. } = step_at(&mut steps, omega, line[0]);
-        has[(i, j)] = true;
         let scale = units.water.density_kg_m3 * units.power(3 + rotation(force) + rotation(motion));
+        let before = [row.added_mass[(i, j)], row.damping[(i, j)]];
         row.added_mass[(i, j)] = scale * line[3];
         match line.get(4) {
             Some(damping) => row.damping[(i, j)] = scale * omega * damping,
@@ -224,9 +224,32 @@ fn radiation(text: &str, units: &Units) -> Result<Vec<Row>, HydroError> {
                 return Err(HydroError::layout(name, found, expected));
             }
         }
+        if has[(i, j)] && differ(&before, &[row.added_mass[(i, j)], row.damping[(i, j)]]) {
+            return Err(twice(
+                name,
+                format!("{force},{motion} at PER = {}", line[0]),
+            ));
+        }
+        has[(i, j)] = true;
     }
     complete(&mut steps)?;
     Ok(steps.into_iter().map(|step| step.row).collect())
+}
+
+/// Whether values differ that are given twice. Damping at ω = 0 and ∞ may be no number.
+fn differ(before: &[f64], now: &[f64]) -> bool {
+    let mut pairs = before.iter().zip(now);
+    pairs.any(|(a, b)| a != b && !(a.is_nan() && b.is_nan()))
+}
+
+/// A copy of a line does no harm, but of two different ones it is not known which one is right.
+fn twice(name: &'static str, what: String) -> HydroError {
+    let expected = "each may occur only once; is it two runs in one file?";
+    HydroError::layout(
+        name,
+        format!("{what} occurs twice, with different values"),
+        expected,
+    )
 }
 
 /// The step of a frequency, which is added without values if it is new.
@@ -278,7 +301,7 @@ fn complete(steps: &mut [Step]) -> Result<(), HydroError> {
 fn excitation(text: &str, units: &Units, rows: &mut [Row]) -> Result<Vec<f64>, HydroError> {
     let name = "the .3 file";
     let unknown = Vector3::from_element(Complex::new(f64::NAN, f64::NAN));
-    let mut directions: Vec<f64> = Vec::new();
+    let mut columns: Vec<(f64, f64)> = Vec::new();
     let mut headings: Vec<f64> = Vec::new();
     for line in lines(name, text, 7..=7) {
         let line = line?;
@@ -291,10 +314,10 @@ fn excitation(text: &str, units: &Units, rows: &mut [Row]) -> Result<Vec<f64>, H
         };
         let force = Complex::new(line[5], -line[6]);
         agree(&line)?;
-        let at = directions.iter().position(|known| *known == direction);
-        let at = at.unwrap_or_else(|| {
-            directions.push(direction);
-            directions.len() - 1
+        let known = columns.iter().position(|(heading, _)| *heading == line[1]);
+        let at = known.unwrap_or_else(|| {
+            columns.push((line[1], direction));
+            columns.len() - 1
         });
         let omega = units.omega(line[0]);
         let Some(row) = rows.iter_mut().find(|row| row.omega == omega) else {
@@ -307,9 +330,16 @@ fn excitation(text: &str, units: &Units, rows: &mut [Row]) -> Result<Vec<f64>, H
         }
         let water = units.water;
         let scale = water.density_kg_m3 * water.gravity_m_s2 * units.power(2 + rotation(mode));
-        row.excitation[at][i] = force * scale;
+        let before = std::mem::replace(&mut row.excitation[at][i], force * scale);
+        let now = row.excitation[at][i];
+        if !before.re.is_nan() && differ(&[before.re, before.im], &[now.re, now.im]) {
+            return Err(twice(
+                name,
+                format!("{mode} at PER = {}, BETA = {}", line[0], line[1]),
+            ));
+        }
     }
-    if directions.is_empty() {
+    if columns.is_empty() {
         let advice = format!("the .3 file has the headings {headings:?}; 0 or 180 is required");
         return Err(HydroError::missing(
             "the excitation of waves along x",
@@ -317,9 +347,37 @@ fn excitation(text: &str, units: &Units, rows: &mut [Row]) -> Result<Vec<f64>, H
         ));
     }
     for row in rows.iter_mut() {
-        row.excitation.resize(directions.len(), unknown);
+        row.excitation.resize(columns.len(), unknown);
     }
-    Ok(directions)
+    one_of_each(&columns, rows)
+}
+
+/// Keeps one heading of each direction, as 0 and 360 degrees are the same: their forces must agree
+/// to a hundredth of the largest of each freedom, as rounding makes a difference.
+fn one_of_each(columns: &[(f64, f64)], rows: &mut [Row]) -> Result<Vec<f64>, HydroError> {
+    let mut kept: Vec<usize> = Vec::new();
+    for (at, (heading, direction)) in columns.iter().enumerate() {
+        let Some(same) = kept.iter().copied().find(|k| columns[*k].1 == *direction) else {
+            kept.push(at);
+            continue;
+        };
+        for i in 0..3 {
+            let sizes = rows.iter().map(|row| row.excitation[same][i].norm());
+            let largest = sizes.fold(0.0, f64::max);
+            let apart = |row: &&Row| (row.excitation[at][i] - row.excitation[same][i]).norm();
+            if let Some(row) = rows.iter().find(|row| apart(row) > 0.01 * largest) {
+                let what = format!(
+                    "{} at ω = {} rad/s, BETA = {} and {heading},",
+                    MODES[i], row.omega, columns[same].0
+                );
+                return Err(twice("the .3 file", what));
+            }
+        }
+    }
+    for row in rows.iter_mut() {
+        row.excitation = kept.iter().map(|at| row.excitation[*at]).collect();
+    }
+    Ok(kept.iter().map(|at| columns[*at].1).collect())
 }
 
 /// Whether MOD and PHA agree with RE and IM, to the digits that are printed.
@@ -353,20 +411,23 @@ fn direction(degrees: f64) -> Option<f64> {
 fn stiffness(text: &str, units: &Units) -> Result<Matrix3<f64>, HydroError> {
     let name = "the .hst file";
     let mut stiffness = Matrix3::zeros();
-    let mut heave = false;
+    let mut has = Matrix3::from_element(false);
     for line in lines(name, text, 3..=3) {
         let line = line?;
         let (force, motion) = (mode(name, line[0])?, mode(name, line[1])?);
         let (Some(i), Some(j)) = (place(force), place(motion)) else {
             continue;
         };
-        heave |= i == 1 && j == 1;
         let water = units.water;
         let rho_g = water.density_kg_m3 * water.gravity_m_s2;
         let scale = rho_g * units.power(2 + rotation(force) + rotation(motion));
-        stiffness[(i, j)] = scale * line[2];
+        let before = std::mem::replace(&mut stiffness[(i, j)], scale * line[2]);
+        if has[(i, j)] && differ(&[before], &[stiffness[(i, j)]]) {
+            return Err(twice(name, format!("{force},{motion}")));
+        }
+        has[(i, j)] = true;
     }
-    if !heave {
+    if !has[(1, 1)] {
         let advice = "the .hst file must have the line 3 3 C";
         return Err(HydroError::missing("the mode 3,3", advice));
     }

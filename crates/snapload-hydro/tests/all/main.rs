@@ -7,6 +7,7 @@ mod linear;
 mod memory;
 mod places;
 mod readers;
+mod repeated;
 mod report;
 mod rest;
 mod seas;

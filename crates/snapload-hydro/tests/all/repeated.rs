@@ -1,0 +1,128 @@
+//! Lines of WAMIT's files that occur twice.
+
+use crate::common::bytes;
+use snapload_hydro::{Given, WamitText, from_wamit};
+
+fn files() -> WamitText {
+    let text = |end: &str| String::from_utf8(bytes(&format!("pontoon-deep.{end}"))).expect("text");
+    WamitText {
+        radiation: text("1"),
+        excitation: text("3"),
+        hydrostatics: Some(text("hst")),
+    }
+}
+
+fn given() -> Given {
+    Given {
+        density_kg_m3: Some(1025.0),
+        gravity_m_s2: Some(9.81),
+        depth_m: Some(f64::INFINITY),
+        reference_m: Some([0.0, 0.0]),
+        unit_length_m: Some(1.0),
+        ..Given::default()
+    }
+}
+
+/// The lines that begin with some words, with a factor at some columns; the words may be replaced.
+fn lines(text: &str, from: &[&str], to: &[&str], columns: &[usize], factor: f64) -> String {
+    let chosen = text.lines().filter_map(|line| {
+        let mut words: Vec<String> = line.split_whitespace().map(str::to_owned).collect();
+        let begins = from.iter().zip(&words).all(|(from, word)| from == word);
+        if !begins {
+            return None;
+        }
+        for (word, to) in words.iter_mut().zip(to) {
+            (*to).clone_into(word);
+        }
+        for at in columns {
+            let value: f64 = words[*at].parse().expect("a number");
+            words[*at] = format!("{:e}", value * factor);
+        }
+        Some(words.join(" ") + "\n")
+    });
+    chosen.collect()
+}
+
+/// The text after a heading of the file whose waves go to +x.
+fn per_and_heading(excitation: &str) -> [String; 2] {
+    let first = excitation.lines().find(|line| {
+        let words: Vec<&str> = line.split_whitespace().collect();
+        words[1].parse::<f64>() == Ok(0.0) && words[0].parse::<f64>().is_ok_and(|per| per > 0.0)
+    });
+    let words: Vec<&str> = first.expect("a line").split_whitespace().collect();
+    [words[0].to_owned(), words[1].to_owned()]
+}
+
+/// A copy of lines changes nothing. With another value the file is refused, with the place: which of the
+/// two is right is not known.
+#[test]
+fn lines_that_contradict_each_other_are_refused() {
+    let plain = from_wamit(&files(), &given()).expect("coefficients");
+    let [per, heading] = per_and_heading(&files().excitation);
+    let (per, heading) = (per.as_str(), heading.as_str());
+    let more = |factor: f64| {
+        let own = files();
+        let one = lines(&own.radiation, &[per, "3", "3"], &[], &[3], factor);
+        let three = lines(
+            &own.excitation,
+            &[per, heading, "3"],
+            &[],
+            &[3, 5, 6],
+            factor,
+        );
+        let hydrostatics = own.hydrostatics.expect("a stiffness");
+        let hst = lines(&hydrostatics, &["3", "3"], &[], &[2], factor);
+        [one, three, hst]
+    };
+    let with = |[one, three, hst]: [&str; 3]| {
+        let mut files = files();
+        files.radiation += one;
+        files.excitation += three;
+        *files.hydrostatics.as_mut().expect("a stiffness") += hst;
+        from_wamit(&files, &given())
+    };
+    let copies = more(1.0);
+    assert!(
+        copies.iter().all(|copy| copy.lines().count() == 1),
+        "{copies:?}"
+    );
+    let [one, three, hst] = &copies;
+    assert_eq!(with([one, three, hst]), Ok(plain));
+    let [one, three, hst] = &more(0.2);
+    for (lines, file, place) in [
+        ([one.as_str(), "", ""], "the .1 file", "3,3 at PER"),
+        (["", three.as_str(), ""], "the .3 file", "3 at PER"),
+        (["", "", hst.as_str()], "the .hst file", "3,3 occurs"),
+    ] {
+        let error = with(lines).expect_err("a refusal").to_string();
+        let words = ["occurs twice, with different values", file, place];
+        assert!(words.iter().all(|words| error.contains(words)), "{error}");
+    }
+}
+
+/// 360 degrees are 0 degrees: their forces may differ by rounding, and by no more.
+#[test]
+fn a_full_turn_is_the_same_heading() {
+    let plain = from_wamit(&files(), &given()).expect("coefficients");
+    let own = files().excitation;
+    let with = |factor: f64| {
+        let mut turned = String::new();
+        for line in own.lines() {
+            let words: Vec<&str> = line.split_whitespace().collect();
+            if words[1].parse::<f64>() == Ok(0.0) {
+                let [per, heading] = [words[0], words[1]];
+                let from = [per, heading, words[2]];
+                turned += &lines(line, &from, &[per, "360.0"], &[3, 5, 6], factor);
+            }
+        }
+        let excitation = own.clone() + &turned;
+        let files = WamitText {
+            excitation,
+            ..files()
+        };
+        from_wamit(&files, &given())
+    };
+    assert_eq!(with(1.0 + 1e-6), Ok(plain));
+    let error = with(0.5).expect_err("a refusal").to_string();
+    assert!(error.contains("BETA = 0 and 360, occurs twice"), "{error}");
+}
