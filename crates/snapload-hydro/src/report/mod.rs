@@ -12,7 +12,7 @@ pub use page::page;
 use summary::plain;
 pub use summary::{held_summary, periods_summary};
 
-use crate::coefficients::transport;
+use crate::coefficients::{FREEDOMS, transport};
 use crate::digits::kilo;
 use crate::error::{HydroError, Warning};
 use crate::linear::{
@@ -101,6 +101,19 @@ pub struct Request {
     pub memory: Option<GivenMemory>,
 }
 
+impl Request {
+    /// Refuses damping that would feed energy into the motion.
+    fn check_damping(&self) -> Result<(), HydroError> {
+        for (freedom, damping) in FREEDOMS.into_iter().zip(self.damping) {
+            if !(damping >= 0.0 && damping.is_finite()) {
+                let what = format!("the damping of {freedom} in addition to that of waves");
+                return Err(HydroError::value(what, damping, "it must be 0 or above"));
+            }
+        }
+        Ok(())
+    }
+}
+
 /// The answers that need the body's weight and stiffness.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Floating {
@@ -140,6 +153,7 @@ impl Report {
     /// A [`HydroError`] if no memory is found, or lines and weights are not possible. If a file
     /// lacks weight or stiffness, only the answers that do not need them are given.
     pub fn new(name: &str, reading: Reading, request: &Request) -> Result<Self, HydroError> {
+        request.check_damping()?;
         let hydro = &reading.hydro;
         let fit = match (&request.memory, reading.format) {
             (Some(memory), _) => {

@@ -446,3 +446,25 @@ fn a_fit_is_no_better_than_its_worst_entry() {
         );
     }
 }
+
+/// Damping below zero would feed energy into the motion; that of the file is not asked.
+#[test]
+fn damping_below_zero_is_refused() {
+    for (damping, freedom) in [
+        ([0.0, -1.5e5, 0.0], "heave"),
+        ([0.0, 0.0, f64::NAN], "pitch"),
+        ([f64::INFINITY, 0.0, 0.0], "surge"),
+    ] {
+        let request = Request {
+            damping,
+            ..Request::default()
+        };
+        let report = Report::new("pontoon", reading("pontoon.nc"), &request);
+        let error = report.err().expect("a refusal").to_string();
+        let words = format!("the damping of {freedom}");
+        assert!(
+            error.contains(&words) && error.contains("0 or above"),
+            "{error}"
+        );
+    }
+}
