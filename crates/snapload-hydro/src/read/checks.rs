@@ -23,6 +23,8 @@ pub(super) fn check(format: Format, hydro: &Hydrodynamics) -> Result<Vec<Warning
     for excitation in &hydro.excitation {
         low_frequency(format, hydro, excitation, &mut warnings)?;
     }
+    // That no frequency is low is said once, and not of each direction.
+    warnings.dedup();
     coverage(hydro, &mut warnings);
     Ok(warnings)
 }

@@ -96,7 +96,8 @@ impl Floating {
             } else {
                 "−x"
             };
-            let message = largest(&self.largest(index));
+            let omega = &self.fine[index][0].omega_rad_s;
+            let message = largest(&self.largest(index), [omega.first(), omega.last()]);
             match rows.iter_mut().find(|(known, _)| *known == message) {
                 Some((_, directions)) => directions.push(to),
                 None => rows.push((message, vec![to])),
@@ -189,8 +190,8 @@ pub(super) fn plain(value: f64, unit: f64) -> f64 {
 }
 
 /// The largest response of each degree of freedom, and its frequency; for narrow peaks the damping
-/// on which they depend.
-fn largest(peaks: &[(Peak, Option<f64>); 3]) -> String {
+/// on which they depend. One at either end of the frequencies may be larger beyond it.
+fn largest(peaks: &[(Peak, Option<f64>); 3], [lowest, highest]: [Option<&f64>; 2]) -> String {
     let period = |peak: &Peak| 2.0 * PI / peak.omega_rad_s;
     let of = |i: usize| {
         let peak = &peaks[i].0;
@@ -202,7 +203,13 @@ fn largest(peaks: &[(Peak, Option<f64>); 3]) -> String {
             true => format!("{} {unit}", three_digits(size)),
             false => "unbounded (no damping)".to_owned(),
         };
-        format!("{} {size} at {:.2} s", FREEDOMS[i], period(peak))
+        let omega = Some(&peak.omega_rad_s);
+        let end = match (omega == lowest, omega == highest) {
+            (true, _) => " (the lowest frequency)",
+            (_, true) => " (the highest frequency)",
+            _ => "",
+        };
+        format!("{} {size} at {:.2} s{end}", FREEDOMS[i], period(peak))
     };
     let mut message = (0..3).map(of).collect::<Vec<_>>().join(", ");
     let narrow = (0..3).filter_map(|i| Some((i, peaks[i].1?)));

@@ -137,3 +137,25 @@ fn rows_far_apart_leave_the_swings_as_they_are() {
         }
     }
 }
+
+/// The error is about the time that is not allowed, and not about another one.
+#[test]
+fn times_that_are_not_possible_are_named() {
+    let entry = &reference("linear.json")["pontoon"];
+    let body = body(&entry["case"], &hydro(file("pontoon")));
+    let (memory, inf) = given("pontoon");
+    let start = Vector3::new(0.0, 1.0, 0.0);
+    for (times, says) in [
+        ([-5.0, 0.05], "the duration in s = -5"),
+        ([f64::NAN, 0.05], "the duration in s = NaN"),
+        ([1e5, 0.05], "0 to 50000 is allowed"),
+        ([40.0, 0.0], "the step in s = 0"),
+        ([40.0, f64::INFINITY], "the step in s = inf"),
+        // A million rows, but more steps than can be computed.
+        ([1e9, 1e3], "followed for at most"),
+    ] {
+        let motion = decay(&body, &memory, &inf, start, times, &|_| ());
+        let error = motion.expect_err("a refusal").to_string();
+        assert!(error.contains(says), "{error}");
+    }
+}

@@ -4,7 +4,7 @@ use crate::common::{hydro, reading};
 use crate::linear::near;
 use snapload_hydro::{
     Body, EntryQuality, FitOptions, Format, GivenMemory, Line, Reading, Report, Request, Weight,
-    page,
+    page, wave_number,
 };
 
 fn request() -> Request {
@@ -467,4 +467,23 @@ fn damping_below_zero_is_refused() {
             "{error}"
         );
     }
+}
+
+/// Long waves in water of depth h carry a body along by coth kh of their amplitude, the more the longer
+/// they are: its largest surge is at the end of a file, and said to be. Its heave has a peak.
+#[test]
+fn a_largest_response_at_the_end_of_a_file_is_named() {
+    let report = Report::new("pontoon", reading("pontoon.nc"), &request()).expect("a report");
+    let floating = report.floating.as_ref().expect("answers");
+    let [(surge, _), _, _] = floating.largest(0);
+    let k = wave_number(surge.omega_rad_s, 10.0, 9.81);
+    near(surge.amplitude, 1.0 / (k * 10.0).tanh(), 0.02, "surge");
+    let response = report.summary().into_iter();
+    let mut response = response.filter(|(label, _)| label == "response");
+    let (_, words) = response.next().expect("a response");
+    assert!(
+        words.contains(" s (the lowest frequency), heave"),
+        "{words}"
+    );
+    assert_eq!(words.matches("frequency)").count(), 1, "{words}");
 }
