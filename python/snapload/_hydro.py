@@ -112,9 +112,10 @@ class Hydro(Result):
               reference point;
             - ``pairs``: number of pole pairs of the memory, by default as many as 1 % accuracy needs;
             - ``body``: the name of the body, if the file has several;
-            - ``density``, ``gravity``, ``depth``, ``reference``, ``displaced_mass``, ``file_centre``,
-              ``unit_length``, ``first_column``: values that the file does not contain, as described in
-              ``snapload hydro --help``; a value that the file does contain has to agree.
+            - ``density``, ``gravity``, ``depth`` (``math.inf`` for deep water), ``reference``, ``displaced_mass``,
+              ``file_centre``, and for WAMIT's files ``unit_length`` and ``first_column``: values that the file does
+              not contain, as described in ``snapload hydro --help``; a value that the file does contain has to
+              agree.
 
         Returns
         -------
@@ -269,9 +270,11 @@ class Hydro(Result):
 
 
 def _json_value(key: str, value: Any) -> Any:
-    """An option as JSON can represent it; JSON has only finite numbers."""
+    """An option as JSON can represent it; JSON has only finite numbers, and the depth may be infinite."""
     if key == "pairs":
         return whole_number(key, value)
+    if key == "depth" and np.ndim(value) == 0 and value == np.inf:
+        return "inf"
     if isinstance(value, str):
         return value
     try:

@@ -4,7 +4,8 @@
 use crate::errors::{error_of_case, internal_error};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
-use serde::Deserialize;
+use serde::de::Error as _;
+use serde::{Deserialize, Deserializer};
 use serde_json::{Map, Value};
 use snapload::CaseError;
 use snapload_hydro::{
@@ -29,6 +30,7 @@ type DatasetVariable = (String, Vec<String>, Vec<usize>, VariableValues);
 struct HydroOptions {
     density: Option<f64>,
     gravity: Option<f64>,
+    #[serde(default, deserialize_with = "depth")]
     depth: Option<f64>,
     reference: Option<[f64; 2]>,
     displaced_mass: Option<f64>,
@@ -45,15 +47,21 @@ struct HydroOptions {
     lines: Option<Vec<[f64; 5]>>,
 }
 
-fn first_column(word: Option<&str>) -> PyResult<FirstColumn> {
-    let Some(word) = word else {
-        return Ok(FirstColumn::default());
-    };
+fn first_column(word: &str) -> PyResult<FirstColumn> {
     FirstColumn::from_word(word).ok_or_else(|| {
         let allowed = FirstColumn::WORDS.join(", ");
         let message = format!("first_column = {word:?} is not allowed; allowed: {allowed}");
         PyValueError::new_err(message)
     })
+}
+
+/// A depth: a number, or "inf", for which JSON has no number.
+fn depth<'de, D: Deserializer<'de>>(depth: D) -> Result<Option<f64>, D::Error> {
+    let value = Value::deserialize(depth)?;
+    match value.as_str() {
+        Some("inf") => Ok(Some(f64::INFINITY)),
+        _ => Option::deserialize(value).map_err(|_| D::Error::custom("expected a number or inf")),
+    }
 }
 
 /// The options, or an error that names the one that is of another form.
@@ -102,7 +110,11 @@ pub(crate) fn hydro(
         centre_of_gravity_m: options.file_centre,
         displaced_mass_kg: options.displaced_mass,
         unit_length_m: options.unit_length,
-        first_column: first_column(options.first_column.as_deref())?,
+        first_column: options
+            .first_column
+            .as_deref()
+            .map(first_column)
+            .transpose()?,
         body: options.body,
         source: GivenSource::Options,
     };

@@ -90,6 +90,19 @@ def test_memory_is_that_of_the_damping() -> None:
     assert "<table>" in pontoon._repr_html_()
 
 
+@pytest.mark.parametrize("depth", [np.inf, "inf"])
+def test_deep_water_can_be_given(depth: float) -> None:
+    """WAMIT's files do not say that the water is deep; those of Capytaine do, and the body is the same."""
+    beside = Path(__file__).parents[2] / "crates" / "snapload-hydro" / "tests" / "data"
+    options = {"density": 1025, "gravity": 9.81, "unit_length": 1, "reference": (0, 0), "inertia": 173_953.1}
+    options |= {"displaced_mass": 98_400, "file_centre": (0, -0.2), "depth": depth, "pairs": 4}
+    wamit = snapload.Hydro.from_file(beside / "pontoon-deep.1", **options)  # type: ignore[arg-type]
+    capytaine = snapload.Hydro.from_file(beside / "pontoon-deep.nc", pairs=4)
+    assert wamit.answer["water"]["depth_m"] is None
+    for mode, same in zip(wamit.natural, capytaine.natural, strict=True):
+        assert mode["period_s"] == pytest.approx(same["period_s"], rel=1e-6)
+
+
 def test_copies_are_equal() -> None:
     pontoon = snapload.Hydro.from_file(PONTOON, pairs=4)
     assert pontoon.dataset.sizes["omega"] > 0
@@ -114,6 +127,13 @@ def test_bad_datasets_are_refused() -> None:
     ):
         with pytest.raises(ValueError, match=message):
             snapload.Hydro.from_file(PONTOON, **options)  # type: ignore[arg-type]
+    for depth in ("deep", np.nan, -np.inf, (1, 2)):
+        with pytest.raises(ValueError, match="depth = .* is not allowed"):
+            snapload.Hydro.from_file(PONTOON, depth=depth)  # type: ignore[arg-type]
+    with pytest.raises(ValueError, match="unit_length is given in the options"):
+        snapload.Hydro.from_file(PONTOON, unit_length=7)
+    with pytest.raises(ValueError, match="the damping of heave .* = -1"):
+        snapload.Hydro.from_file(PONTOON, damping=(0, -1, 0))
     with pytest.raises(FileNotFoundError):
         snapload.Hydro.from_file("nowhere.nc")
     with pytest.raises(ValueError, match="first_column"):

@@ -34,9 +34,9 @@ pub(crate) struct HydroArgs {
     #[arg(long, value_name = "NUMBER", help_heading = "The file")]
     unit_length: Option<f64>,
     /// Quantity in the first column of the WAMIT files, as IPEROUT has it: period (1), frequency (2),
-    /// infinite-depth-wavenumber ω² ULEN/g (3), or wavenumber k ULEN at the depth (4)
-    #[arg(long, value_name = "WHAT", default_value = "period", value_parser = FirstColumn::WORDS, help_heading = "The file")]
-    first_column: String,
+    /// infinite-depth-wavenumber ω² ULEN/g (3), or wavenumber k ULEN at the depth (4); by default period
+    #[arg(long, value_name = "WHAT", value_parser = FirstColumn::WORDS, help_heading = "The file")]
+    first_column: Option<String>,
     /// Mass of the displaced water in kg, if the file does not give it
     #[arg(long, value_name = "NUMBER", help_heading = "The file")]
     displaced_mass: Option<f64>,
@@ -124,7 +124,10 @@ impl HydroArgs {
             centre_of_gravity_m: self.file_centre,
             displaced_mass_kg: self.displaced_mass,
             unit_length_m: self.unit_length,
-            first_column: FirstColumn::from_word(&self.first_column).unwrap_or_default(),
+            first_column: self
+                .first_column
+                .as_deref()
+                .and_then(FirstColumn::from_word),
             body: self.body.clone(),
             source: GivenSource::CommandLine,
         };

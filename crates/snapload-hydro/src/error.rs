@@ -56,6 +56,18 @@ pub enum HydroError {
         /// Where it was given.
         source_of_given: GivenSource,
     },
+    /// A value is given that has no meaning for files of this format.
+    #[error(
+        "{key} is given {source_of_given}, but a file of {format} has no use for it; only files of WAMIT need it"
+    )]
+    OnlyForWamit {
+        /// The name of the value in cases and options.
+        key: &'static str,
+        /// The format of the file.
+        format: String,
+        /// Where it was given.
+        source_of_given: GivenSource,
+    },
     /// No result is possible with these numbers.
     #[error("{0}")]
     Impossible(String),

@@ -4,7 +4,7 @@
 
 use super::dataset::Dataset;
 use super::table::{Row, Table};
-use super::{Given, agreed, agreed_water};
+use super::{Format, Given, agreed, agreed_point, agreed_water};
 use crate::coefficients::{Hydrodynamics, Hydrostatics};
 use crate::error::HydroError;
 use nalgebra::{Complex, Matrix3, Vector3};
@@ -71,6 +71,7 @@ impl Plane {
 /// # Errors
 /// A [`HydroError`] if something is missing, has another layout, or is not a number.
 pub fn from_dataset(dataset: &Dataset, given: &Given) -> Result<Hydrodynamics, HydroError> {
+    given.refuse_those_of_wamit(Format::Capytaine)?;
     refuse_speed(dataset)?;
     let (plane, rows) = freedoms(dataset, ROW, given)?;
     let (_, columns) = freedoms(dataset, COLUMN, given)?;
@@ -122,31 +123,16 @@ fn refuse_speed(dataset: &Dataset) -> Result<(), HydroError> {
     }
 }
 
-/// The reference point of the file and the given one, which have to agree to a millimetre.
+/// The reference point of the file, or the given one.
 fn reference(file: Option<[f64; 2]>, given: &Given) -> Result<[f64; 2], HydroError> {
-    match (file, given.reference_m) {
-        (Some(file), Some(asked)) => {
-            for (axis, what) in ["the reference point's x", "the reference point's z"]
-                .into_iter()
-                .enumerate()
-            {
-                if (file[axis] - asked[axis]).abs() > 1e-3 {
-                    return Err(HydroError::Disagreement {
-                        what,
-                        file: file[axis],
-                        given: asked[axis],
-                        source_of_given: given.source,
-                    });
-                }
-            }
-            Ok(file)
-        }
-        (Some(point), None) | (None, Some(point)) => Ok(point),
-        (None, None) => Err(HydroError::missing(
+    let what = ["the reference point's x", "the reference point's z"];
+    let point = agreed_point(what, file, (given.reference_m, given.source))?;
+    point.ok_or_else(|| {
+        HydroError::missing(
             "the reference point (rotation_center)",
             "the file does not say about which point its pitch turns; give the reference point",
-        )),
-    }
+        )
+    })
 }
 
 fn names(dataset: &Dataset, dim: &str) -> Result<usize, HydroError> {
@@ -409,6 +395,11 @@ fn hydrostatics(
     };
     let displaced = dataset.scalar("disp_mass")?.filter(|mass| mass.is_finite());
     let what = "the displaced mass in kg";
+    let centre = [
+        "the x of the centre of gravity that the file's stiffness assumes",
+        "the z of the centre of gravity that the file's stiffness assumes",
+    ];
+    let own_centre = point(dataset, "center_of_mass", plane)?;
     Ok(Hydrostatics {
         stiffness: matrix("hydrostatic_stiffness")?,
         displaced_mass_kg: agreed(
@@ -417,7 +408,11 @@ fn hydrostatics(
             (given.displaced_mass_kg, given.source),
             1e-3,
         )?,
-        centre_of_mass_m: point(dataset, "center_of_mass", plane)?.or(given.centre_of_gravity_m),
+        centre_of_mass_m: agreed_point(
+            centre,
+            own_centre,
+            (given.centre_of_gravity_m, given.source),
+        )?,
         centre_of_buoyancy_m: point(dataset, "center_of_buoyancy", plane)?,
         inertia: matrix("inertia_matrix")?,
     })

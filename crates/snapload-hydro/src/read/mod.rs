@@ -60,12 +60,30 @@ pub struct Given {
     pub displaced_mass_kg: Option<f64>,
     /// WAMIT's ULEN \[m\].
     pub unit_length_m: Option<f64>,
-    /// What the first column of WAMIT's files holds.
-    pub first_column: FirstColumn,
+    /// What the first column of WAMIT's files holds; by default periods.
+    pub first_column: Option<FirstColumn>,
     /// The body, if the file has several.
     pub body: Option<String>,
     /// Where these values are given.
     pub source: GivenSource,
+}
+
+impl Given {
+    /// Refuses values that would have no effect on a file that is not one of WAMIT.
+    fn refuse_those_of_wamit(&self, format: Format) -> Result<(), HydroError> {
+        let both = [
+            ("unit_length", self.unit_length_m.is_some()),
+            ("first_column", self.first_column.is_some()),
+        ];
+        match both.into_iter().find(|(_, given)| *given) {
+            Some((key, _)) => Err(HydroError::OnlyForWamit {
+                key,
+                format: format.to_string(),
+                source_of_given: self.source,
+            }),
+            None => Ok(()),
+        }
+    }
 }
 
 /// Coefficients that passed the checks, with warnings.
@@ -188,6 +206,27 @@ fn agreed(
                 given,
                 source_of_given,
             });
+        }
+    }
+    Ok(file.or(given))
+}
+
+/// The same of a point, whose coordinates have to agree to a millimetre.
+fn agreed_point(
+    what: [&'static str; 2],
+    file: Option<[f64; 2]>,
+    (given, source_of_given): (Option<[f64; 2]>, GivenSource),
+) -> Result<Option<[f64; 2]>, HydroError> {
+    if let (Some(file), Some(given)) = (file, given) {
+        for (axis, what) in what.into_iter().enumerate() {
+            if (file[axis] - given[axis]).abs() > 1e-3 {
+                return Err(HydroError::Disagreement {
+                    what,
+                    file: file[axis],
+                    given: given[axis],
+                    source_of_given,
+                });
+            }
         }
     }
     Ok(file.or(given))

@@ -11,7 +11,7 @@
 //! come with it.
 
 use super::table::{Row, Table};
-use super::{Given, agreed_water};
+use super::{Format, Given, agreed_water};
 use crate::coefficients::{Hydrodynamics, Hydrostatics};
 use crate::error::HydroError;
 use nalgebra::{Complex, Matrix3, Vector3};
@@ -38,6 +38,7 @@ pub fn from_nemoh(
     excitation: &str,
     given: &Given,
 ) -> Result<Hydrodynamics, HydroError> {
+    given.refuse_those_of_wamit(Format::Nemoh)?;
     let water = agreed_water([None; 3], given)?;
     let reference_m = given.reference_m.ok_or_else(|| {
         let advice = "Nemoh's results do not say about which point pitch turns; give it as x,z";

@@ -80,7 +80,7 @@ pub fn from_wamit(files: &WamitText, given: &Given) -> Result<Hydrodynamics, Hyd
     let units = Units {
         water,
         length: within("the unit of length", length, 1e-6..=1e6)?,
-        first: given.first_column,
+        first: given.first_column.unwrap_or_default(),
     };
     let reference_m = given.reference_m.ok_or_else(|| {
         let advice = "WAMIT's files do not say where the body's origin is; give it as x,z";

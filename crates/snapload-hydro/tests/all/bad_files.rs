@@ -283,7 +283,7 @@ fn periods_taken_as_frequencies_are_suspected() {
     };
     let (files, given) = wamit();
     let given = Given {
-        first_column: FirstColumn::Frequency,
+        first_column: Some(FirstColumn::Frequency),
         ..given
     };
     let periods = from_wamit(&files, &given).expect("coefficients");

@@ -3,6 +3,7 @@ mod bad_files;
 mod common;
 mod damped;
 mod decay;
+mod given;
 mod linear;
 mod memory;
 mod places;

@@ -166,7 +166,7 @@ fn wamit_has_four_first_columns() {
         let given = Given {
             depth_m: Some(depth),
             unit_length_m: Some(length),
-            first_column: FirstColumn::from_word(word).expect(word),
+            first_column: Some(FirstColumn::from_word(word).expect(word)),
             ..wamit_given()
         };
         let read = from_wamit(&files, &given).expect(word).omega_rad_s;

@@ -4,8 +4,8 @@ use super::{BodySi, Outline, Site};
 use nalgebra::Vector3;
 use snapload::{CaseError, Entries, Fields, FromValue};
 use snapload_hydro::{
-    FirstColumn, FitOptions, Format, Given, GivenMemory, GivenSource, HydroError, Reading, Report,
-    Request, SectionBody, Shape, Water, Weight, read,
+    FirstColumn, FitOptions, Given, GivenMemory, GivenSource, HydroError, Reading, Report, Request,
+    SectionBody, Shape, Water, Weight, read,
 };
 use std::path::{Path, PathBuf};
 
@@ -123,13 +123,18 @@ fn coefficients(
     };
     let reading = read(file, &given(fields, site)?);
     let mut reading = reading.map_err(|error| refused(fields, &error))?;
-    refuse_unused_keys(fields, &reading)?;
     same_volume(entries.table("body", 0), site, body, &mut reading)?;
     Ok(reading)
 }
 
 /// The error of coefficients that do not fit this body.
 fn refused(fields: Fields<'_>, error: &HydroError) -> CaseError {
+    if let HydroError::OnlyForWamit { key, format, .. } = error
+        && let Some(value) = fields.given(key)
+    {
+        let allowed = format!("nothing for a file of {format}; only files of WAMIT need it");
+        return fields.refuse(key, value, allowed);
+    }
     let given = fields.given("file");
     let shown = given.map_or("(left out)".to_owned(), ToString::to_string);
     let allowed = format!("coefficients of this body in this water; {error}");
@@ -204,37 +209,11 @@ fn given(fields: Fields<'_>, site: &Site) -> Result<Given, CaseError> {
         displaced_mass_kg: None,
         unit_length_m: fields.get("unit_length")?,
         first_column: fields
-            .get::<String>("first_column")?
-            .and_then(|word| FirstColumn::from_word(&word))
-            .unwrap_or_default(),
+            .given("first_column")
+            .and_then(|word| FirstColumn::from_word(&String::from_value(word)?)),
         body: fields.get("name")?,
         source: GivenSource::Case,
     })
-}
-
-/// Refuses keys that would have no effect with this file.
-fn refuse_unused_keys(fields: Fields<'_>, reading: &Reading) -> Result<(), CaseError> {
-    for key in ["unit_length", "first_column"] {
-        if let Some(value) = fields
-            .given(key)
-            .filter(|_| reading.format != Format::Wamit)
-        {
-            let allowed = format!(
-                "nothing for a file of {}; only files of WAMIT need it",
-                reading.format
-            );
-            return Err(fields.refuse(key, value, allowed));
-        }
-    }
-    let key = "file_centre_of_gravity";
-    let made = reading.hydro.hydrostatics.centre_of_mass_m;
-    match (fields.get::<[f64; 2]>(key)?, made) {
-        (Some(case), Some(file)) if case != file => {
-            let allowed = format!("[{}, {}], as the file has it", file[0], file[1]);
-            Err(fields.refuse(key, format!("[{}, {}]", case[0], case[1]), allowed))
-        }
-        _ => Ok(()),
-    }
 }
 
 /// Adds the case's displaced volume to coefficients whose file has none, and refuses a different

@@ -333,7 +333,7 @@ fn what_a_floating_body_can_not_be_is_refused() {
         (
             "pairs = 6",
             "pairs = 6\nfile_centre_of_gravity = [0, -0.5]",
-            "as the file has it",
+            "-0.2 in the file and -0.5 in the case",
         ),
         ("pairs = 6", "memory = \"pontoon.nc\"", "float.memory"),
         (
