@@ -8,7 +8,8 @@ use serde::Serialize;
 use snapload::analysis::Progress;
 use snapload_hydro::digits::digits;
 use snapload_hydro::{
-    Body, Decay, FREEDOMS, Hydrodynamics, Swing, decay, large_motion, rest_without_tension, swings,
+    Body, Decay, FREEDOMS, Fit, HydroError, Hydrodynamics, Swing, Warning, decay, large_motion,
+    rest_without_tension, swings,
 };
 use snapload_report::tables::in_digits;
 use snapload_structure::labelled_row;
@@ -53,6 +54,7 @@ struct Answer<'a> {
     heave_m: Vec<f64>,
     pitch_rad: Vec<f64>,
     swings: Vec<SwingRow>,
+    warnings: Vec<&'a Warning>,
 }
 
 #[derive(Serialize)]
@@ -75,18 +77,10 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
         .floating
         .as_ref()
         .map_err(|error| bad(error.clone()))?;
-    let times = [args.duration, args.step];
-    let fit = &report.fit;
     let from = args.from;
     check_release(from)?;
     let body = floating.body.afloat();
-    let bar = Bar::new();
-    let on_progress = |part: f64| {
-        let _ = bar.show(Progress::new("decaying", part, 1.0));
-    };
-    let inf = &fit.added_mass_inf;
-    let motion = decay(&body, &fit.memory, inf, from, times, &on_progress).map_err(bad)?;
-    drop(bar);
+    let motion = released(args, &body, &report.fit).map_err(bad)?;
     if let Some(out) = out {
         outputs.write(out, |out| out.write_all(table(&motion).as_bytes()))?;
     }
@@ -111,7 +105,8 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
     }
     let [_, heave, pitch] = from;
     let large = large_motion(&report.reading.hydro, &body, [heave, pitch], "the release");
-    for warning in report.warnings.iter().chain(&large) {
+    let warnings: Vec<&Warning> = report.warnings.iter().chain(&large).collect();
+    for warning in &warnings {
         text += &labelled_row("warning", &format!("{}: {}", warning.what, warning.message));
     }
     let of = |i: usize| motion.q.iter().map(|q| q[i]).collect();
@@ -123,8 +118,20 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
         heave_m: of(1),
         pitch_rad: of(2),
         swings: rows,
+        warnings,
     };
     outputs.finish_with_text(&answer, text)
+}
+
+/// The motion, with a bar while it is computed.
+fn released(args: &Args, body: &Body, fit: &Fit) -> Result<Decay, HydroError> {
+    let times = [args.duration, args.step];
+    let bar = Bar::new();
+    let on_progress = |part: f64| {
+        let _ = bar.show(Progress::new("decaying", part, 1.0));
+    };
+    let (memory, inf) = (&fit.memory, &fit.added_mass_inf);
+    decay(body, memory, inf, args.from, times, &on_progress)
 }
 
 /// A body that is released where it rests does not swing, and one that is turned over does not swing

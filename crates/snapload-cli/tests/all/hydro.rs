@@ -178,6 +178,12 @@ fn motions_that_are_not_small_are_warned_of() {
     assert!(far.contains("3.00 m of heave, more than 0.60 m"), "{far}");
     assert!(far.contains("29 degrees of pitch, more than 15"), "{far}");
     assert!(!decay("0,0.5,0.2").contains("small"));
+    let far = ["decay", "pontoon.nc", "--pairs", "6", "--from", "0,3,0"];
+    let answer = words(&[&far[..], &["--json", "-"]].concat());
+    let answer: serde_json::Value = serde_json::from_str(&answer).expect("JSON");
+    let warnings = answer["warnings"].as_array().expect("warnings");
+    let large = warnings.iter().filter(|row| row["what"] == "small heave");
+    assert_eq!(large.count(), 1, "{warnings:?}");
     let sea = |hs: &str| {
         words(&[
             "hydro",

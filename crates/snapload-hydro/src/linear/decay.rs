@@ -31,8 +31,8 @@ const PART_OF_OSCILLATION: f64 = 0.125;
 
 /// The motion from rest at `start`, with the exponentials as the memory. It is linear with constant
 /// coefficients, so that each step of a fixed length is one multiplication, y ← e^{Lh} y, exact to
-/// rounding. Turns are found in steps that are short enough for the motion, however far the rows are
-/// apart. `on_progress` is called with the part that is done.
+/// rounding. Turns are found in steps that are short enough for the motion, however far the rows
+/// are apart. `on_progress` is called with the part that is done.
 ///
 /// # Errors
 /// A [`HydroError`] if the mass is not positive definite, or the times are not possible.
@@ -84,7 +84,7 @@ pub fn decay(
 /// The number of the last row, the first being 0.
 fn last_row(duration_s: f64, row_s: f64) -> Result<usize, HydroError> {
     if !(row_s > 0.0 && row_s.is_finite()) {
-        let expected = "a number above 0 is expected";
+        let expected = "the step must be above 0";
         return Err(HydroError::value("the step in s", row_s, expected));
     }
     if !(duration_s >= 0.0 && duration_s <= MOST_ROWS * row_s) {
@@ -95,8 +95,8 @@ fn last_row(duration_s: f64, row_s: f64) -> Result<usize, HydroError> {
     Ok((duration_s / row_s + 1e-9) as usize)
 }
 
-/// Into how many steps the motion from one row to the next is divided. Eigenvalues that are real make
-/// nothing turn back.
+/// Into how many steps the motion from one row to the next is divided. Eigenvalues that are real
+/// make nothing turn back.
 fn steps_per_row(
     matrix: &DMatrix<f64>,
     [duration_s, row_s]: [f64; 2],

@@ -108,8 +108,9 @@ impl Response {
     /// σ_i² = ∫ |ξ_i|² S dω
     /// ```
     ///
-    /// |ξ_i| between the frequencies by cubic splines, the integral by Gauss's rule between each two
-    /// of them: those of [`fine_responses`](super::fine_responses) are as dense as narrow peaks need.
+    /// |ξ_i| between the frequencies by cubic splines, the integral by Gauss's rule between each
+    /// two of them: those of [`fine_responses`](super::fine_responses) are as dense as narrow peaks
+    /// need.
     pub fn in_a_sea(&self, density: impl Fn(f64) -> f64) -> ([f64; 3], f64) {
         let moduli: [Spline; 3] = std::array::from_fn(|i| {
             let values: Vec<f64> = self.amplitude.iter().map(|xi| xi[i].norm()).collect();

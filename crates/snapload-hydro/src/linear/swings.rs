@@ -38,8 +38,8 @@ impl Turn {
         (height != 0.0).then_some(Self { t_s: 0.0, height })
     }
 
-    /// The turn in a step from t that takes h, from place and velocity at its start and the velocity
-    /// and the accelerations at both ends. The velocity between them is taken as a cubic.
+    /// The turn in a step from t that takes h, from place and velocity at its start and the
+    /// velocity and the accelerations at both ends. The velocity between them is taken as a cubic.
     pub(super) fn between([t_s, h_s]: [f64; 2], x: f64, [v0, v1]: [f64; 2], a: [f64; 2]) -> Self {
         let [a0, a1] = a.map(|a| a * h_s);
         let (b, c) = (3.0 * (v1 - v0) - 2.0 * a0 - a1, 2.0 * (v0 - v1) + a0 + a1);
@@ -62,7 +62,8 @@ impl Turn {
     }
 }
 
-/// Whether the velocity changes its sign or becomes zero. One that was zero before has turned already.
+/// Whether the velocity changes its sign or becomes zero. One that was zero before has turned
+/// already.
 pub(super) fn changes_sign([before, after]: [f64; 2]) -> bool {
     before != 0.0 && (after == 0.0 || (before > 0.0) != (after > 0.0))
 }

@@ -14,8 +14,8 @@ pub(super) struct Row {
     pub added_mass: Matrix3<f64>,
     /// B; it has no meaning at 0 and at infinity.
     pub damping: Matrix3<f64>,
-    /// X of each direction, in the order of [`Table::directions`], with the crest at x = 0 at t = 0,
-    /// as all panel codes have it.
+    /// X of each direction, in the order of [`Table::directions`], with the crest at x = 0 at t =
+    /// 0, as all panel codes have it.
     pub excitation: Vec<Vector3<Complex<f64>>>,
 }
 

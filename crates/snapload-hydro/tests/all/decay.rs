@@ -97,8 +97,8 @@ fn what_stays_does_not_swing() {
 }
 
 /// The swings are those of the motion, however far the rows of its table are apart. Heave without
-/// memory is the oscillator of textbooks: ω0² = c/m, 2 ζ ω0 = b/m, and a half period of π/(ω0 √(1 − ζ²));
-/// with memory there is no closed form, but the swings are the same.
+/// memory is the oscillator of textbooks: ω0² = c/m, 2 ζ ω0 = b/m, and a half period of
+/// π/(ω0 √(1 − ζ²)). With memory there is no closed form, but the swings are the same.
 #[test]
 fn rows_far_apart_leave_the_swings_as_they_are() {
     let entry = &reference("linear.json")["pontoon"];
@@ -149,7 +149,7 @@ fn times_that_are_not_possible_are_named() {
         ([-5.0, 0.05], "the duration in s = -5"),
         ([f64::NAN, 0.05], "the duration in s = NaN"),
         ([1e5, 0.05], "0 to 50000 is allowed"),
-        ([40.0, 0.0], "the step in s = 0"),
+        ([40.0, 0.0], "the step in s = 0: the step must be above 0"),
         ([40.0, f64::INFINITY], "the step in s = inf"),
         // A million rows, but more steps than can be computed.
         ([1e9, 1e3], "followed for at most"),

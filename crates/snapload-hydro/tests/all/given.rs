@@ -3,8 +3,8 @@
 use crate::common::{dataset, path};
 use snapload_hydro::{FirstColumn, Format, Given, GivenSource, Reading, from_dataset, read};
 
-/// A value that has no effect on a file of Capytaine is refused, and so is another centre of gravity than
-/// the file's, which would be ignored.
+/// A value that has no effect on a file of Capytaine is refused, and so is another centre of
+/// gravity than the file's, which would be ignored.
 #[test]
 fn nothing_that_is_given_is_ignored() {
     let refusal = |given: Given| {

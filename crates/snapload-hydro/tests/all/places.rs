@@ -1,13 +1,13 @@
-//! A body at another x is the same body: its wave forces refer to the crest over it, whereas those of
-//! files refer to a crest at x = 0.
+//! A body at another x is the same body: its wave forces refer to the crest over it, whereas those
+//! of files refer to a crest at x = 0.
 
 use crate::common::{Spoilt, dataset, reading};
 use nalgebra::Complex;
 use snapload_hydro::{Format, Given, Reading, SectionBody, Shape, Values, Water, from_dataset};
 
-/// The file as the panel code writes it if the same hull is at another x: points have that x, and the
-/// wave has gone through the phase kx more when its crest arrives there. The file says how long its
-/// waves are.
+/// The file as the panel code writes it if the same hull is at another x: points have that x, and
+/// the wave has gone through the phase kx more when its crest arrives there. The file says how long
+/// its waves are.
 fn moved(name: &str, x: f64) -> Spoilt {
     let mut file = dataset(name);
     let (_, wave_number) = file
@@ -47,8 +47,8 @@ fn moved(name: &str, x: f64) -> Spoilt {
     file
 }
 
-/// The force is that of the hull at x = 0, also between the frequencies of the file, for waves in both
-/// directions and about another point; and so are the checks of the phases.
+/// The force is that of the hull at x = 0, also between the frequencies of the file, for waves in
+/// both directions and about another point; and so are the checks of the phases.
 #[test]
 fn a_hull_elsewhere_has_the_same_forces() {
     for name in ["pontoon-deep.nc", "pontoon.nc"] {
@@ -77,8 +77,8 @@ fn a_hull_elsewhere_has_the_same_forces() {
     }
 }
 
-/// A textbook's section has the same force about any point, wherever the wave's phase is counted from:
-/// back at its own place nothing is left of the way.
+/// The force on a textbook's section about another point is that of a crest over it, in its table
+/// and in closed form.
 #[test]
 fn a_section_is_seen_from_any_place() {
     let section = SectionBody {

@@ -342,8 +342,9 @@ fn nemoh_is_read() {
     assert!(error.to_string().contains("Capytaine"), "{error}");
 }
 
-/// Another reference point: the power of damping is the same for the same motion of the body, the force
-/// is that of a crest over the new point, and transforming back gives the original coefficients.
+/// Another reference point: the power of damping is the same for the same motion of the body, the
+/// force is that of a crest over the new point, and transforming back gives the original
+/// coefficients.
 #[test]
 fn coefficients_follow_the_reference_point() {
     let here = hydro("cylinder.nc");

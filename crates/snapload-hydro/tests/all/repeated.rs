@@ -53,8 +53,8 @@ fn per_and_heading(excitation: &str) -> [String; 2] {
     [words[0].to_owned(), words[1].to_owned()]
 }
 
-/// A copy of lines changes nothing. With another value the file is refused, with the place: which of the
-/// two is right is not known.
+/// A copy of lines changes nothing. With another value the file is refused, with the place: which
+/// of the two is right is not known.
 #[test]
 fn lines_that_contradict_each_other_are_refused() {
     let plain = from_wamit(&files(), &given()).expect("coefficients");

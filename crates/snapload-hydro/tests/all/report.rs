@@ -469,8 +469,9 @@ fn damping_below_zero_is_refused() {
     }
 }
 
-/// Long waves in water of depth h carry a body along by coth kh of their amplitude, the more the longer
-/// they are: its largest surge is at the end of a file, and said to be. Its heave has a peak.
+/// Long waves in water of depth h carry a body along by coth kh of their amplitude, the more the
+/// longer they are: its largest surge is at the end of a file, and said to be. Its heave has a
+/// peak.
 #[test]
 fn a_largest_response_at_the_end_of_a_file_is_named() {
     let report = Report::new("pontoon", reading("pontoon.nc"), &request()).expect("a report");

@@ -5,9 +5,9 @@ use nalgebra::{Complex, Matrix3, Vector3};
 use snapload_hydro::{Body, Memory, Weight, fine_responses};
 use std::f64::consts::PI;
 
-/// An oscillator under white noise S0 of its force has the variance π S0/(2 b c), whatever its mass, as
-/// ∫ dω/((c − m ω²)² + b² ω²) from 0 on is π/(2 b c). Heave is one if its coefficients do not depend on
-/// the frequency; its peak becomes narrower and narrower.
+/// An oscillator under white noise S0 of its force has the variance π S0/(2 b c), whatever its
+/// mass, as ∫ dω/((c − m ω²)² + b² ω²) from 0 on is π/(2 b c). Heave is one if its coefficients do
+/// not depend on the frequency; its peak becomes narrower and narrower.
 #[test]
 fn a_narrow_peak_has_its_part_of_the_variance() {
     let mut hydro = hydro("pontoon.nc");
