@@ -103,8 +103,8 @@ pub(crate) fn install() {
 mod tests {
     use super::TemporaryPaths;
 
-    /// A thread that writes files, many but not for ever, until their directory is gone, as the command does while it is
-    /// interrupted.
+    /// A thread that writes files, many but not for ever, until their directory is gone, as the
+    /// command does while it is interrupted.
     #[test]
     fn a_directory_is_removed_while_files_are_made_in_it() {
         for _ in 0..100 {
@@ -116,7 +116,9 @@ mod tests {
             std::thread::scope(|scope| {
                 scope.spawn(|| {
                     let made = (0..20_000).take_while(|k| std::fs::write(name(*k), "").is_ok());
-                    made.for_each(|_| drop(begun.send(())));
+                    for _ in made {
+                        let _ = begun.send(());
+                    }
                 });
                 has_begun.recv().unwrap();
                 let mut paths = TemporaryPaths::default();

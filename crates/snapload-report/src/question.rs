@@ -6,7 +6,7 @@ use serde::Serialize;
 use serde_json::value::{RawValue, to_raw_value};
 use snapload::analysis::{OnProgress, Unfinished};
 use snapload::{
-    CASE, Case, CaseError, DefaultValue, Entries, FromValue, Heading, Key, Kind, Table, Value,
+    Case, CaseError, DefaultValue, Entries, FromValue, Heading, Key, Kind, Table, Value,
 };
 
 /// A question about one case.
@@ -134,8 +134,8 @@ pub const TOLERANCE: Key = Key::new(
 mod tests {
     use super::*;
     use crate::verified::VERIFY;
-    use snapload::Parameters;
     use snapload::analysis::no_progress;
+    use snapload::{CASE, Parameters};
 
     fn refused(given: &[(&str, Value)]) -> Result<String, CaseError> {
         let case = Case::new(Parameters::STANDARD)?;
