@@ -216,7 +216,7 @@ fn a_snap_that_sticks_in_place_of_the_next_ends_no_branch() {
         e: 0.3,
         nu: 0.25,
         omega: 1.38,
-        f_o: 0.9376020269739951,
+        f_o: 0.9376,
         ..POINT
     };
     let keys = [Some("f_o"), None];
