@@ -152,7 +152,7 @@ fn a_curve_that_begins_where_energy_is_all_but_kept_goes_no_nearer() {
     let keys = [Some("f_o"), Some("e")];
     let family = Moored::case(case, keys);
     let start = [
-        0.407_789_360_217_623_43,
+        0.407_789_360_217_623_4,
         0.755_176_934_679_386_8,
         0.0,
         1.048_712_269_677_722,

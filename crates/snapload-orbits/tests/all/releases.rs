@@ -123,7 +123,7 @@ fn a_release_may_pass_the_section() {
     let branch = branch(case, orbit.unwrap().unwrap().z, "f_o", [1.1, 1.6]);
     let all = || branch.points.iter().map(|point| &point.orbit);
     assert!(all().all(|orbit| orbit.is_admissible()));
-    let [first, last] = [all().next(), all().last()].map(|orbit| {
+    let [first, last] = [all().next(), all().next_back()].map(|orbit| {
         let symbol = orbit.unwrap().lap.sequence.symbol();
         symbol[0].clone()
     });
