@@ -4,9 +4,9 @@
 //! step (Benettin, Galgani, Giorgilli & Strelcyn, *Meccanica* 15 (1980) 9). A cable that stays taut
 //! allows no deviation of its gap and of the gap's velocity, and one that a snap stops and lets go
 //! none of its gap. The linearised motion itself does not include this: off the constraints a
-//! deviation that is only rounding would grow with time, and be reported as a small exponent. So the
-//! directions are projected onto the constraints after each step, and those of which nothing remains
-//! are closed: their exponent is −∞.
+//! deviation that is only rounding would grow with time, and be reported as a small exponent. So
+//! the directions are projected onto the constraints after each step, and those of which nothing
+//! remains are closed: their exponent is −∞.
 
 use crate::Jet;
 use crate::hybrid::Family;

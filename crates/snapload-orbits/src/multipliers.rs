@@ -4,7 +4,7 @@
 //! zero. An eigenvalue problem would give rounding errors, or roots of them, instead; so the orbit
 //! is cut where most surfaces are held, and the problem is solved in the remaining directions
 //! there. A snap without rebound stops a surface even if it is let go at once, and closes its gap;
-//! where that closes more directions, the problem is solved in those that are left of the whole lap.
+//! where that closes more directions, the problem is solved in those that the whole lap leaves.
 
 use crate::hybrid::{DURATION, Family, Hybrid, Jet, Point, constant, variable};
 use crate::lap::{Lap, Leg};
@@ -151,8 +151,8 @@ fn closed_in_events<F: Family>(lap: &Lap<F>, legs: &[Leg]) -> usize {
     closed.max().unwrap_or(0)
 }
 
-/// A matrix of at most this rank, in the directions that it does not make zero: its other eigenvalues
-/// are exact zeros.
+/// A matrix of at most this rank, in the directions to which it leads: its other eigenvalues are
+/// exact zeros.
 fn within_range(matrix: DMatrix<f64>, rank: usize) -> DMatrix<f64> {
     if matrix.nrows() <= rank || !matrix.iter().all(|entry| entry.is_finite()) {
         return matrix;
@@ -268,9 +268,9 @@ pub(crate) fn closed_by<H: Hybrid<Jet>>(
     taken
 }
 
-/// The same just after an event at a time. Surfaces that the event `stops` without holding them open
-/// from rest: their gaps are closed to first order, and a delay of the event changes all of their
-/// velocities together, each by its acceleration.
+/// The same just after an event at a time. Surfaces that the event `stops` without holding them
+/// open from rest: their gaps are closed to first order, and a delay of the event changes all of
+/// their velocities together, each by its acceleration.
 pub(crate) fn closed_after<H: Hybrid<Jet>>(
     system: &H,
     variables: &[usize],
@@ -329,8 +329,8 @@ mod tests {
     use crate::moored::Moored;
     use snapload::{Parameters, TautSet};
 
-    /// A point mass that is stopped in the corner and let go by both cables is at rest there, so that
-    /// soon after all that may differ is how long it has fallen.
+    /// A point mass that is stopped in the corner and let go by both cables is at rest there, so
+    /// that soon after all that may differ is how long it has fallen.
     #[test]
     fn a_delay_changes_all_velocities_together() {
         let case = Parameters {

@@ -65,8 +65,8 @@ pub(crate) const LAPS: usize = 8;
 const FEWEST_LAPS: usize = 5;
 const KNOWN_DISTANCE: f64 = 1e-12;
 const ROUNDINGS: f64 = 4.0;
-/// A lap whose ends differ by more than this part of the distance between points fewer periods apart
-/// does not follow the motion that is approached, but comes to it.
+/// A lap whose ends differ by more than this part of the distance between points fewer periods
+/// apart does not follow the motion that is approached, but comes to it.
 const FOLLOWED: f64 = 0.25;
 /// The longest period that is searched for.
 pub const LONGEST_PERIOD: usize = 64;

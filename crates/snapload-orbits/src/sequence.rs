@@ -113,8 +113,8 @@ impl Event {
         }
     }
 
-    /// The surfaces that it brings to rest and does not hold: those that take an impulse and neither
-    /// stay nor rebound.
+    /// The surfaces that it brings to rest and does not hold: those that take an impulse and
+    /// neither stay nor rebound.
     pub(crate) fn stops(&self, rebounds: bool) -> TautSet {
         let struck = self.struck();
         let rests = |surface: &usize| !(rebounds && struck.contains(*surface));

@@ -123,7 +123,7 @@ fn exponents_text(section: &Section) -> String {
     let mut all: Vec<String> = left.map(|both| exponent_text(*both)).collect();
     let closed = exponents.len() - all.len();
     if closed > 0 {
-        // Each taut cable closes two directions, for good; what a snap closes besides is not counted.
+        // Each taut cable closes two directions, for good; what a snap closes is not counted.
         let times = section.contacts.get(closed.div_ceil(2) - 1).copied();
         let times = match times.unwrap_or(0) {
             0 => String::new(),

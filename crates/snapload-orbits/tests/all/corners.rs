@@ -78,9 +78,8 @@ fn only_the_instant_of_a_stop_in_the_corner_carries_on() {
     );
 }
 
-/// A snap without rebound that is not held stops the mass at the cable's end: one multiplier is zero
-/// for each lap, and the rule for snaps without contact, which would make all of the product zero,
-/// does not apply.
+/// A snap without rebound that is not held stops the mass at the cable's end: one multiplier is
+/// zero, and the rule for the product of all, which is zero then, does not apply.
 #[test]
 fn a_stop_of_an_instant_closes_the_gap() {
     let case = Parameters {

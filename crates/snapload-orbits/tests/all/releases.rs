@@ -110,7 +110,7 @@ fn the_loss_after_which_a_run_leaves_the_orbit_is_located() {
     }
 }
 
-/// A lap of any section has a release at some time. Where that passes the section no tension is lost.
+/// A release comes earlier or later along a branch. Where it passes the section no tension is lost.
 #[test]
 fn a_release_may_pass_the_section() {
     let case = point(1.2552, 0.0, 1.0096, 2.5825, 1.23);
