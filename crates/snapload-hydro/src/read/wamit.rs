@@ -361,14 +361,14 @@ fn one_of_each(columns: &[(f64, f64)], rows: &mut [Row]) -> Result<Vec<f64>, Hyd
             kept.push(at);
             continue;
         };
-        for i in 0..3 {
+        for (i, mode) in MODES.iter().enumerate() {
             let sizes = rows.iter().map(|row| row.excitation[same][i].norm());
             let largest = sizes.fold(0.0, f64::max);
             let apart = |row: &&Row| (row.excitation[at][i] - row.excitation[same][i]).norm();
             if let Some(row) = rows.iter().find(|row| apart(row) > 0.01 * largest) {
                 let what = format!(
-                    "{} at ω = {} rad/s, BETA = {} and {heading},",
-                    MODES[i], row.omega, columns[same].0
+                    "{mode} at ω = {} rad/s, BETA = {} and {heading},",
+                    row.omega, columns[same].0
                 );
                 return Err(twice("the .3 file", what));
             }

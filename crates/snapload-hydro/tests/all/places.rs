@@ -16,7 +16,7 @@ fn moved(name: &str, x: f64) -> Spoilt {
         .find(|(name, _)| name == "wavenumber")
         .expect("wave numbers");
     let Values::Numbers(k) = wave_number.values else {
-        panic!("no numbers");
+        unreachable!("no numbers");
     };
     for point in ["rotation_center", "center_of_mass", "center_of_buoyancy"] {
         file = file.numbers(
@@ -33,7 +33,7 @@ fn moved(name: &str, x: f64) -> Spoilt {
             let dims = ["complex", "omega", "wave_direction", "influenced_dof"];
             assert_eq!(variable.dims, dims);
             let Values::Numbers(numbers) = &mut variable.values else {
-                panic!("no numbers");
+                unreachable!("no numbers");
             };
             let half = numbers.len() / 2;
             for at in 0..half {

@@ -460,7 +460,7 @@ fn damping_below_zero_is_refused() {
             ..Request::default()
         };
         let report = Report::new("pontoon", reading("pontoon.nc"), &request);
-        let error = report.err().expect("a refusal").to_string();
+        let error = report.expect_err("a refusal").to_string();
         let words = format!("the damping of {freedom}");
         assert!(
             error.contains(&words) && error.contains("0 or above"),
