@@ -3,7 +3,8 @@
 use crate::branch_events::{BranchEvent, Kind, Tested};
 use crate::continuation::{Continuation, Goal, Unknowns};
 use crate::curve::Curve;
-use crate::follower::{BranchEnd, BranchOptions, BranchPoint, Follower, HalfBranch, point};
+use crate::follower::{BranchOptions, Follower};
+use crate::half_branch::{BranchEnd, BranchPoint, HalfBranch, point};
 use crate::hybrid::Family;
 use crate::orbit::{NoOrbit, Orbit};
 use crate::switch::doubled;
@@ -43,15 +44,13 @@ impl Branch {
             at: orbit.at,
         };
         let Some(up) = continuation.first_tangent(&start) else {
-            let end = BranchEnd {
-                at: orbit.at[0],
-                because: "the equations do not determine a direction here".to_owned(),
+            let nowhere = || {
+                HalfBranch::empty(
+                    orbit.at[0],
+                    "the equations do not determine a direction here",
+                )
             };
-            return Ok(Self {
-                points: vec![point(orbit.clone(), 0.0)],
-                events: Vec::new(),
-                ends: [end.clone(), end],
-            });
+            return Ok(joined(orbit, nowhere(), nowhere()));
         };
         let mut follower = Follower::new(options, on_progress);
         let first = Goal {

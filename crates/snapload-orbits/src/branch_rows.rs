@@ -2,7 +2,7 @@
 
 use crate::branch::Branch;
 use crate::branch_events::BranchEvent;
-use crate::follower::{BranchEnd, BranchPoint};
+use crate::half_branch::{BranchEnd, BranchPoint};
 use crate::hybrid::Point;
 use crate::orbit_row::StabilityRow;
 use serde::Serialize;

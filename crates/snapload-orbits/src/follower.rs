@@ -2,6 +2,7 @@
 
 use crate::branch_events::{BranchEvent, Kind, Test, Tested, located};
 use crate::continuation::{BranchStep, Continuation, Goal, SAME, Unknowns};
+use crate::half_branch::{HalfBranch, point};
 use crate::hybrid::Family;
 use crate::orbit::Orbit;
 use crate::survey::root;
@@ -17,24 +18,6 @@ pub struct BranchOptions {
     pub step: f64,
     /// The most points in either direction.
     pub most: usize,
-}
-
-/// A point of a branch.
-#[derive(Clone, Debug)]
-pub struct BranchPoint {
-    /// The orbit, which may be inadmissible.
-    pub orbit: Orbit,
-    /// The length along the branch from the orbit with which it was started.
-    pub arclength: f64,
-}
-
-/// Where a branch ends, and why.
-#[derive(Clone, Debug, PartialEq)]
-pub struct BranchEnd {
-    /// The value of the parameter.
-    pub at: f64,
-    /// Why.
-    pub because: String,
 }
 
 /// The longest and the shortest step, in units of the first.
@@ -61,47 +44,6 @@ pub(crate) const END_OF_RANGE: &str = "the end of the range";
 const LEAVES: f64 = 1e-6;
 /// A value this close to the border of the range is set to the border.
 const ON_BORDER: f64 = 1e-13;
-
-pub(crate) fn point(orbit: Orbit, arclength: f64) -> BranchPoint {
-    BranchPoint { orbit, arclength }
-}
-
-/// The branch in one direction.
-pub(crate) struct HalfBranch {
-    pub(crate) points: Vec<BranchPoint>,
-    pub(crate) events: Vec<BranchEvent>,
-    pub(crate) end: BranchEnd,
-    pub(crate) closed: bool,
-    /// Its length.
-    arclength: f64,
-    /// Its last point.
-    pub(crate) last: Option<Goal>,
-}
-
-impl HalfBranch {
-    pub(crate) fn empty(at: f64, because: &str) -> Self {
-        Self {
-            points: Vec::new(),
-            events: Vec::new(),
-            end: BranchEnd {
-                at,
-                because: because.to_owned(),
-            },
-            closed: false,
-            arclength: 0.0,
-            last: None,
-        }
-    }
-
-    /// Closes it at a point of the branch itself, which becomes its last one.
-    fn close<F: Family>(&mut self, goal: &Goal, sigma: f64, continuation: &Continuation<F>) {
-        let orbit = Orbit::of(&continuation.lap(goal.at.at), &goal.at.closed());
-        self.end.at = orbit.at[0];
-        self.end.because = "the branch is closed".to_owned();
-        self.closed = true;
-        self.points.push(point(orbit, self.arclength + sigma));
-    }
-}
 
 /// The next point of a branch, its distance, and the number of the corrector's iterations.
 struct Stepped {
@@ -145,8 +87,7 @@ impl<'a> Follower<'a> {
         let mut half = HalfBranch::empty(orbit.at[0], "");
         let mut step = self.options.step;
         while half.end.because.is_empty() {
-            if half.points.len() >= self.options.most {
-                half.end.because = format!("the limit of {} points is reached", self.options.most);
+            if half.is_full(self.options.most) {
                 break;
             }
             let Some((there, found)) = self.next(&continuation, &here, &tangent, step) else {
@@ -174,10 +115,10 @@ impl<'a> Follower<'a> {
             (here, tangent, tested) = (there.at, there.direction, reached);
             let renumbered = renumber_events(&mut continuation, &mut here, &mut tangent);
             let mut orbit = renumbered.unwrap_or(found);
-            if let Some(recounted) = continuation.recounted(&here, &orbit.lap, &tangent) {
-                (continuation, here, tangent) = recounted;
-                orbit = Orbit::of(&continuation.lap(here.at), &here.closed());
-                tested = Tested::new(&orbit, &tangent).reached_from(&tested);
+            if let Some(counted) = recount_snaps(&mut continuation, &mut here, &mut tangent, &orbit)
+            {
+                tested = Tested::new(&counted, &tangent).reached_from(&tested);
+                orbit = counted;
             }
             if there.length > 0.0 {
                 half.points.push(point(orbit, half.arclength));
@@ -418,6 +359,17 @@ fn renumber_events<F: Family>(
         orbit = Some(Orbit::of(&continuation.lap(here.at), &here.closed()));
     }
     orbit
+}
+
+/// Counts the snaps of accumulations anew; returns the orbit if their number is another one.
+fn recount_snaps<F: Family>(
+    continuation: &mut Continuation<F>,
+    here: &mut Unknowns,
+    tangent: &mut DVector<f64>,
+    orbit: &Orbit,
+) -> Option<Orbit> {
+    (*continuation, *here, *tangent) = continuation.recounted(here, &orbit.lap, tangent)?;
+    Some(Orbit::of(&continuation.lap(here.at), &here.closed()))
 }
 
 /// The next point, if the corrector finds one near enough, and the direction there.

@@ -38,6 +38,7 @@ mod distances;
 mod erosion;
 mod exponents;
 mod follower;
+mod half_branch;
 mod hybrid;
 mod impact_map;
 mod lap;
@@ -73,7 +74,8 @@ pub use curve::{Curve, CurveEnd, CurveOptions, CurvePoint};
 pub use curve_rows::{CurveRow, curve_summary};
 pub use diagram::{DiagramPoint, diagram};
 pub use erosion::{Erosion, KNEE};
-pub use follower::{BranchEnd, BranchOptions, BranchPoint};
+pub use follower::BranchOptions;
+pub use half_branch::{BranchEnd, BranchPoint};
 pub use hybrid::{
     DURATION, Family, Hybrid, Jet, Limits, PARAMETER, Point, Simulated, TIME, constant, distance,
     values, variable,

@@ -10,6 +10,7 @@ mod places;
 mod readers;
 mod repeated;
 mod report;
+mod reports_on_memory;
 mod rest;
 mod seas;
 mod sections;

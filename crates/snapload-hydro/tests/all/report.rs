@@ -3,8 +3,8 @@
 use crate::common::{hydro, reading};
 use crate::linear::near;
 use snapload_hydro::{
-    Body, EntryQuality, FitOptions, Format, GivenMemory, Line, Reading, Report, Request, Weight,
-    page, wave_number,
+    Body, FitOptions, Format, GivenMemory, Line, Reading, Report, Request, Weight, page,
+    wave_number,
 };
 
 fn request() -> Request {
@@ -329,121 +329,6 @@ fn a_body_without_lines_has_the_hydrostatics_of_where_it_floats() {
             let pitch = body.unbalanced_pitch().expect("a pitch");
             near(pitch, 0.05 / metacentric, 0.01, "the pitch");
         }
-    }
-}
-
-/// Damping that a memory needs to be passive acts with its exponentials alone: the response by the
-/// file solves (−ω²(M + A) − iωB + C) ξ = X with its own numbers. With the memory it is written to a
-/// file and read again, about another point, too, on which no period depends.
-#[test]
-fn damping_that_was_added_belongs_to_the_memory() {
-    let poor = || reading("pontoon-poor.nc");
-    let report = Report::new("poor", poor(), &Request::default()).expect("a report");
-    assert!(report.fit.memory.damping.amax() > 0.0);
-    let (hydro, floating) = (
-        &report.reading.hydro,
-        report.floating.as_ref().expect("a body"),
-    );
-    let (mass, stiffness) = (floating.body.mass, floating.body.afloat().stiffness);
-    let [of_the_file, _] = &floating.responses[0];
-    for (k, xi) in of_the_file.amplitude.iter().enumerate() {
-        let omega = hydro.omega_rad_s[k];
-        let real = stiffness - (mass + hydro.added_mass[k]) * (omega * omega);
-        let imaginary = hydro.damping[k] * -omega;
-        let force = &hydro.excitation[0].force[k];
-        let left = real.zip_map(&imaginary, nalgebra::Complex::new) * xi - force;
-        assert!(left.norm() < 1e-9 * force.norm(), "{omega}: {left}");
-    }
-    let json = serde_json::to_string(&report.to_json()).expect("JSON");
-    for point in [[0.0, 0.0], [0.3, -0.5]] {
-        let mut reading = poor();
-        reading.hydro = reading.hydro.about(point);
-        let request = Request {
-            memory: Some(serde_json::from_str(&json).expect("a memory")),
-            ..Request::default()
-        };
-        let again = Report::new("poor", reading, &request).expect("a report");
-        let modes = &again.floating.as_ref().expect("a body").modes;
-        for (found, known) in modes.iter().zip(&floating.modes) {
-            let apart = (found.eigenvalue - known.eigenvalue).norm();
-            assert!(apart < 1e-9, "{point:?}: {found:?} {known:?}");
-        }
-        assert!(again.memory_summary().ends_with("; damping added"));
-        assert!(
-            !again
-                .warnings
-                .iter()
-                .any(|warning| warning.what == "passivity")
-        );
-    }
-}
-
-/// A memory that can feed energy into the motion is not called passive.
-#[test]
-fn a_memory_that_is_not_passive_is_not_called_so() {
-    let report = |memory| {
-        let request = Request {
-            memory,
-            ..Request::default()
-        };
-        Report::new("sphere", reading("sphere.nc"), &request).expect("a report")
-    };
-    let fitted = report(None);
-    assert!(fitted.memory_summary().ends_with("; passive"));
-    let json = serde_json::to_string(&fitted.to_json()).expect("JSON");
-    let mut memory: GivenMemory = serde_json::from_str(&json).expect("a memory");
-    let same = report(Some(memory.clone())).memory_summary();
-    assert!(
-        same.starts_with("given, ") && same.ends_with("; passive"),
-        "{same}"
-    );
-    for row in &mut memory.memory {
-        let numbers = row.residue.as_flattened_mut().as_flattened_mut();
-        numbers.iter_mut().for_each(|number| *number = -*number);
-    }
-    let feeds = report(Some(memory.clone())).memory_summary();
-    assert!(feeds.ends_with("; not passive"), "{feeds}");
-    memory.memory.clear();
-    let empty = report(Some(memory)).memory_summary();
-    assert!(
-        empty.starts_with("given, 0 states; differs from the file by at most 100.00 %"),
-        "{empty}"
-    );
-}
-
-/// What a memory is off the file by is said of the entry that it is said of, and of a block that
-/// fits badly the entry that fits worse than the whole.
-#[test]
-fn a_fit_is_no_better_than_its_worst_entry() {
-    let mut request = request();
-    request.fit = FitOptions { pairs: Some(2) };
-    let report = Report::new("pontoon", reading("pontoon-deep.nc"), &request).expect("a report");
-    let worst = EntryQuality::worst(&report.fit.entries).expect("entries");
-    let expected = format!(
-        "{:.2} % (root mean square; {})",
-        100.0 * worst.rms,
-        worst.name()
-    );
-    assert!(report.memory_summary().contains(&expected), "{expected}");
-    let mut blocks = report.fit.blocks.iter();
-    assert!(blocks.any(|block| block.freedoms.len() > 1));
-    for block in report
-        .fit
-        .blocks
-        .iter()
-        .filter(|block| block.freedoms.len() > 1)
-    {
-        let own = report.fit.entries.iter();
-        let own = own.filter(|entry| block.freedoms.contains(&entry.force));
-        let worst = EntryQuality::worst(own).expect("entries");
-        assert!(worst.rms > block.rms && block.rms > 0.02, "{block:?}");
-        let expected = format!("{} alone to {:.1} %", worst.name(), 100.0 * worst.rms);
-        assert!(
-            report
-                .warnings
-                .iter()
-                .any(|warning| warning.message.contains(&expected))
-        );
     }
 }
 

@@ -8,6 +8,7 @@
 //! have another event than the run: there the linearisation ends, and with it the knowledge of what
 //! follows.
 
+mod bounce_reach;
 mod bounces;
 mod causes;
 mod certainty;
