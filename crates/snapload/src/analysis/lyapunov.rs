@@ -103,17 +103,19 @@ impl Frame {
     }
 
     /// Carries it through a step that a run has made, and projects it onto the constraints of the
-    /// cables that are taut then.
+    /// cables that are taut then, and of those that its snap stops.
     #[inline(always)]
     pub(crate) fn follow_step(&mut self, map: &StepMap, simulation: &Simulation, step: &Step) {
         self.follow_here(map);
-        if step.taut_after.is_empty() {
+        let stopped = stopped(simulation.system(), step);
+        if step.taut_after.union(stopped).is_empty() {
             return;
         }
         self.taut_steps += 1;
-        if step.taut_after != step.taut || self.taut_steps >= MOST_TAUT_STEPS {
+        let other = step.taut_after != step.taut || !stopped.is_empty();
+        if other || self.taut_steps >= MOST_TAUT_STEPS {
             self.taut_steps = 0;
-            self.keep_along(simulation.system(), &step.after, step.taut_after);
+            self.project(simulation.system(), &step.after, [step.taut_after, stopped]);
         }
     }
 
@@ -122,11 +124,17 @@ impl Frame {
     /// exponents −∞. The linearised motion does not project: off the constraints a deviation that
     /// is only rounding would evolve by itself, and be reported as a small exponent.
     pub fn keep_along(&mut self, system: &System, state: &State, taut: TautSet) {
+        self.project(system, state, [taut, TautSet::SLACK]);
+    }
+
+    /// The same, and onto the constraints of the gaps alone of cables that were just stopped.
+    fn project(&mut self, system: &System, state: &State, [taut, stopped]: [TautSet; 2]) {
         let mut rows = [[0.0; 6]; 6];
         let mut count = 0;
-        for cable in taut.iter() {
-            for row in slopes_of_gap_and_rate(&system.cables[cable], state) {
-                count += usize::from(count < 6 && add_orthogonal(&mut rows, count, row));
+        for cable in taut.union(stopped).iter() {
+            let slopes = slopes_of_gap_and_rate(&system.cables[cable], state);
+            for row in &slopes[..if taut.contains(cable) { 2 } else { 1 }] {
+                count += usize::from(count < 6 && add_orthogonal(&mut rows, count, *row));
             }
         }
         for row in &rows[..count] {
@@ -264,6 +272,21 @@ impl Frame {
         exponents.truncate(self.count);
         exponents
     }
+}
+
+/// The cables that the snap of a step brings to rest and that open again at once: those that take an
+/// impulse and neither rebound nor stay taut. No deviation of their gaps is left; their rates differ,
+/// as each neighbour has opened for another time.
+fn stopped(system: &System, step: &Step) -> TautSet {
+    let Some(result) = &step.result else {
+        return TautSet::SLACK;
+    };
+    let rebound = match system.restitution > 0.0 {
+        true => step.event.reached.gaps,
+        false => TautSet::SLACK,
+    };
+    let stopped = rebound.union(step.taut_after).iter();
+    stopped.fold(result.pulling, TautSet::without)
 }
 
 /// ∂g and ∂ġ of a taut cable by x, y, θ, ẋ, ẏ, θ̇, where ġ = n·v + s θ̇; g itself up to a factor.

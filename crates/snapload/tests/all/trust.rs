@@ -293,3 +293,35 @@ fn a_pendulum_has_two_exponents_that_cancel() {
     // Deviations of a swing grow like time.
     assert!(exponents[0] < 2.0 * t.hypot(1.0).ln() / t, "{exponents:?}");
 }
+
+/// A snap without rebound after which the cable opens again closes the direction of its gap: the
+/// rate of the gap afterwards differs, as each neighbour has opened for another time. Where both
+/// cables pull at once a point mass is at rest in the corner, whatever came before, and only when it
+/// was there makes a difference.
+#[test]
+fn a_snap_without_rebound_closes_directions() {
+    let closed = |t_end: f64| {
+        let case = Case::new(Parameters {
+            r: 1.341,
+            e: 0.0,
+            a: 0.0,
+            inertia: None,
+            f_o: 1.83,
+            nu: 1.13,
+            omega: 3.18,
+            x: 0.085,
+            y: 0.37,
+            t_end,
+            stop_when_settled: false,
+            stop_when_sliding: false,
+            ..Parameters::STANDARD
+        });
+        let (exponents, is_slack) = exponents_of(case.expect("legal").simulation());
+        let count = exponents.iter().filter(|e| **e == f64::NEG_INFINITY);
+        (count.count(), is_slack)
+    };
+    // Up to the snap of cable 2 at 2.07, which stops cable 1, one cable was taut at a time.
+    assert_eq!(closed(2.0), (2, false));
+    assert_eq!(closed(2.1), (3, false));
+    assert_eq!(closed(50.0).0, 3);
+}
