@@ -4,6 +4,7 @@ use crate::branch_events::{BranchEvent, Kind, Test, Tested, located};
 use crate::continuation::{BranchStep, Continuation, Goal, SAME, Unknowns};
 use crate::half_branch::{HalfBranch, point};
 use crate::hybrid::Family;
+use crate::newton::{Closed, close};
 use crate::orbit::Orbit;
 use crate::survey::root;
 use nalgebra::DVector;
@@ -44,6 +45,8 @@ pub(crate) const END_OF_RANGE: &str = "the end of the range";
 const LEAVES: f64 = 1e-6;
 /// A value this close to the border of the range is set to the border.
 const ON_BORDER: f64 = 1e-13;
+/// One this close is searched for there.
+const NEAR_BORDER: f64 = 1e-9;
 
 /// The next point of a branch, its distance, and the number of the corrector's iterations.
 struct Stepped {
@@ -228,10 +231,7 @@ impl<'a> Follower<'a> {
                 before => root(&of, (0.0, before), (step, beyond(&there.at))),
             };
             (there.at, _, there.direction) = continuation.corrected(here, tangent, there.length)?;
-            if beyond(&there.at).abs() > ON_BORDER * border.abs().max(1.0) {
-                return None;
-            }
-            there.at.at[0] = border;
+            there.at = on_border(continuation, there.at, border)?;
         }
         Some(there)
     }
@@ -334,6 +334,23 @@ impl<'a> Follower<'a> {
         half.arclength += step.length;
         true
     }
+}
+
+/// A point that is on a border up to rounding, just there; none if it is not. Where the unknowns are
+/// known worse, as those of an accumulation are, the orbit is found for the border's value.
+fn on_border<F: Family>(
+    continuation: &Continuation<F>,
+    near: Unknowns,
+    border: f64,
+) -> Option<Unknowns> {
+    let (off, size) = ((near.at[0] - border).abs(), border.abs().max(1.0));
+    let at = [border, near.at[1]];
+    if off <= ON_BORDER * size {
+        return Some(Unknowns { at, ..near });
+    }
+    let found = close(&continuation.lap(at), &near.z, &near.durations);
+    let Closed { z, durations, .. } = found.filter(|_| off <= NEAR_BORDER * size)?;
+    Some(Unknowns { z, durations, at })
 }
 
 /// By how much the gap of a cable is larger than the largest one allowed.
