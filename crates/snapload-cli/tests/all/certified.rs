@@ -76,6 +76,33 @@ fn a_run_that_is_known_to_its_end_has_what_is_proved() {
     assert!((end - run["end"]["t"].as_f64().unwrap()).abs() < 1e-13);
 }
 
+/// An impact a billionth after the start is known to rounding, which is some of its digits.
+#[test]
+fn what_is_known_to_rounding_agrees() {
+    let keys = "body=point r=1.5 x=-0.49137321483515284 y=0.9573917338114211 \
+                vx=-0.04119960933161363 vy=0.3808622499964365 t_end=1.5";
+    let mut args = vec!["run", "--certify"];
+    for key in keys.split_whitespace() {
+        args.extend(["--set", key]);
+    }
+    let run = json(&args);
+    let t = run["impacts"][0]["t"].as_f64().unwrap();
+    assert!((0.0..2e-9).contains(&t), "{t}");
+    assert_eq!(run["certificate"]["proved"], true);
+    assert!(run["certificate"]["departure"].is_null());
+}
+
+/// 0.30000000000000002 and 0.30000000000000004 are one double, and two cases.
+#[test]
+fn a_proof_names_the_numbers_that_were_written() {
+    for f_o in ["0.30000000000000002", "0.30000000000000004"] {
+        let set = format!("f_o={f_o}");
+        let text = output(&["run", "--certify", "--set", &set, "--ensemble", "0"]);
+        let caption = format!("Case      standard case with f_o = {f_o}\n");
+        assert!(text.starts_with(&caption), "{text}");
+    }
+}
+
 #[test]
 fn the_proof_continues_where_a_cable_sticks() {
     let keys = "e=0.5 omega=0 stop_when_settled=false t_end=0.88";

@@ -46,11 +46,12 @@ impl<L: Lane> AtStart<L> {
             .abs()
             .mul_add(reach, before.velocity().length_bound());
         let turned = two_cables.force[0].mul_add(s, speed) * s * cable.per_length() * 0.25;
-        let place = (reach * reach).mul_add(theta, x + y) * 2.0;
+        let swung = (before.vtheta.abs() * s).mul_add(L::from_f64(0.25), turned) * reach;
+        let place = (swung * swung).mul_add(theta, turned * turned * (x + y)) * 2.0;
         Self {
             theta,
             height: y,
-            open: (turned * turned).mul_add(place, square(&along)) * 2.0,
+            open: (place + square(&along)) * 2.0,
         }
     }
 }

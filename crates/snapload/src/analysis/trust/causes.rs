@@ -315,9 +315,10 @@ fn may_snap(
 }
 
 /// A bound on how far neighbours that drift from `before` to the run reach along the normal of a
-/// cable within a step: each just after its own event, along the normal there, which turns by ṡ/r
-/// while they come nearer in proportion to time, and so by no more than a quarter of the way over
-/// the length. If the cable is closed at the start it is so for all, and their gaps spread from zero.
+/// cable within a step: each just after its own event, along the normal there. The normal turns by
+/// at most the way over the cable's length, and the lever by the body's rotation, both from zero
+/// on, while neighbours come nearer in proportion to time: a quarter of that counts at most. If the
+/// cable is closed at the start it is so for all, and their gaps spread from zero.
 fn reach_from_start(simulation: &Simulation, step: &Step, before: &Spread, cable: usize) -> f64 {
     if simulation.contact_at_start(step, cable).gap >= 0.0 {
         return 0.0;
@@ -325,10 +326,12 @@ fn reach_from_start(simulation: &Simulation, step: &Step, before: &Spread, cable
     let tether = &simulation.system().cables[cable];
     let Normal { n, arm } = tether.normal(&step.start);
     let lever = tether.fairlead().length();
+    let (first, last, s) = (&step.start, &step.before, step.t_end - step.t_start);
     let speed = |at: &State| at.velocity().length() + at.vtheta.abs() * lever;
-    let way = (speed(&step.start) + speed(&step.before)) * (step.t_end - step.t_start);
-    let place = before.at_most(&[1.0, 1.0, lever, 0.0, 0.0, 0.0]);
-    before.reach(&[n.x, n.y, arm, 0.0, 0.0, 0.0]) + 0.25 * way / tether.length() * place
+    let turned = 0.25 * s * (speed(first) + speed(last)) / tether.length();
+    let swung = turned + 0.25 * s * (first.vtheta.abs() + last.vtheta.abs());
+    before.reach(&[n.x, n.y, arm, 0.0, 0.0, 0.0])
+        + before.at_most(&[turned, turned, swung * lever, 0.0, 0.0, 0.0])
 }
 
 /// How far neighbours reach along the normal of a cable a time `s` into a step. In a free flight, in
