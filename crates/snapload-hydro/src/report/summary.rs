@@ -248,7 +248,7 @@ pub fn periods_summary(natural: &[Natural], modes: &[Mode]) -> String {
             false => "",
         };
         let damped = match mode.is_overdamped() {
-            true => "overdamped".to_owned(),
+            true => "overdamped with damping".to_owned(),
             false => format!(
                 "{:.3} s with {:.2} % of critical damping",
                 mode.period_s,

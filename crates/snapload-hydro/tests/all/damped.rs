@@ -111,7 +111,7 @@ fn an_overdamped_motion_is_called_so() {
         .find(|(label, _)| label == "periods")
         .expect("a row");
     assert!(
-        periods.contains("heave 3.254 s undamped, overdamped"),
+        periods.contains("heave 3.254 s undamped, overdamped with damping"),
         "{periods}"
     );
     let page = page(&report, "snapload hydro").expect("a page");
