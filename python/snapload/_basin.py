@@ -52,12 +52,13 @@ def safe_basin(case: Case, *, trust: bool = True, progress: bool = True, **windo
         or a limit and therefore not in the window); ``outcome_code``, the same as numbers for maps; ``t``, the time of
         the end; ``legal``; ``safe``; and with trust ``decided``, whether the neighbours at 1e-8 end alike, and
         ``trusted``, whether the horizon of trust lies past the end. Attributes: the numbers of ``legal``, ``safe`` and
-        ``undecided`` cells; ``fraction`` and ``gim``, the global integrity measure, with ``interval95``; and
+        ``undecided`` cells, and of those whose run is ``cut_short`` by the impact limit or a standstill, which count
+        neither as safe nor as unsafe; ``fraction`` and ``gim``, the global integrity measure, with ``interval95``; and
         ``cell``, the size of a cell. If both keys are start values, there are also ``lim``, the distance of the
         nearest unsafe start from the equilibrium, ``if``, the radius of the largest disc in the window without unsafe
         starts, and ``iim``, the smallest unsafe velocity if one of the keys is a velocity. They are NaN where there is
         no such value; ``lim`` and ``iim`` are also NaN where another start key is not 0, because the equilibrium is
-        then not in the plane of the two keys, and where legal starts beyond the window's border are nearer. The
+        then not in the plane of the two keys, and where legal starts that were not run to their end are nearer. The
         scale of such an attribute is in another one: ``lim_scale`` is ``L``, but ``L and L/T`` for a window of a
         position and a velocity, where a distance has no single unit.
 
@@ -334,7 +335,7 @@ _VELOCITIES = ("vx", "vy", "vtheta")
 
 def _measure_attributes(data: dict[str, Any]) -> dict[str, Any]:
     """The measures as attributes of a kind that every file format of xarray can store."""
-    names = ("legal", "safe", "fraction", "undecided", "past_horizon", "gim", "lim", "if", "iim")
+    names = ("legal", "safe", "fraction", "undecided", "cut_short", "past_horizon", "gim", "lim", "if", "iim")
     return {name: or_nan(data[name]) for name in names} | {"interval95": np.array(data["interval95"])}
 
 

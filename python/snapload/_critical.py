@@ -39,14 +39,17 @@ class CriticalForce(Result):
     t : float or None
         The time of that end [T].
     certain : bool
-        Whether the run of ``f_cr`` ends before its horizon of trust, and no smaller amplitude is ``uncertain``; if none
-        exceeds a limit, whether none is.
+        Whether the run of ``f_cr`` ends before its horizon of trust, and no smaller amplitude is ``uncertain`` or
+        ``cut_short``; if none exceeds a limit, whether none is.
     exceeding : numpy.ndarray, shape (n, 2)
         All amplitudes that exceed a limit, as intervals ``[from, to]`` of adjacent amplitudes [F]. There may be several
         intervals, because a run with an amplitude above the critical one may settle.
     uncertain : numpy.ndarray, shape (n, 2)
         All amplitudes at which neighbours disagree, as such intervals [F]: the run passes its horizon of trust, and of
         20 neighbours within rounding, or of the `members`, some exceed a limit and others do not.
+    cut_short : numpy.ndarray, shape (n, 2)
+        All amplitudes whose run stopped at the impact limit or a standstill, as such intervals [F]: whether they exceed
+        a limit is not known.
     probability : numpy.recarray or None
         With an ensemble, at each amplitude: ``f_o``; whether the end is ``certain``, so that no members are run;
         ``count``, the number of members that exceed a limit, NaN where none are run; ``part``, their fraction, which is
@@ -73,11 +76,12 @@ class CriticalForce(Result):
     certain: bool
     exceeding: NDArray[np.float64]
     uncertain: NDArray[np.float64]
+    cut_short: NDArray[np.float64]
     probability: np.recarray[Any, Any] | None
     passes: dict[str, float | None]
     _step: float
     _largest: float
-    _repr_fields = ("f_cr", "certain", "reason", "t", "exceeding", "uncertain")
+    _repr_fields = ("f_cr", "certain", "reason", "t", "exceeding", "uncertain", "cut_short")
 
     def plot(self, ax: matplotlib.axes.Axes | None = None) -> matplotlib.axes.Axes:
         """Draw which amplitudes exceed a limit, or with which probability.
@@ -112,7 +116,7 @@ class CriticalForce(Result):
         for place, (start, stop) in enumerate(self.exceeding):
             label = "exceeds" if place == 0 else None
             ax.axvspan(start - half, stop + half, color=ORANGE, alpha=0.35, linewidth=0, label=label)
-        for place, (start, stop) in enumerate(self.uncertain):
+        for place, (start, stop) in enumerate((*self.uncertain, *self.cut_short)):
             label = "not certain" if place == 0 else None
             ax.axvspan(
                 start - half, stop + half, facecolor="none", edgecolor="0.4", hatch="////", linewidth=0, label=label
@@ -144,6 +148,8 @@ class CriticalForce(Result):
             rows.append(("reason", f"{self.reason.replace('_', ' ')} at t = {self.t:.4f}"))
         rows.append(("exceeding", ", ".join(interval(*pair) for pair in self.exceeding)))
         rows.append(("uncertain", ", ".join(interval(*pair) for pair in self.uncertain)))
+        if len(self.cut_short):
+            rows.append(("cut short", ", ".join(interval(*pair) for pair in self.cut_short)))
         rows += [
             (f"{name[1:].lstrip('0')} % exceed first at", "none" if f_o is None else f"{f_o:g}")
             for name, f_o in self.passes.items()
@@ -215,7 +221,8 @@ def critical_force(
     CriticalForce or xarray.Dataset
         The smallest amplitude that exceeds a limit, and all others that do. With `over`, a dataset over those keys
         with ``f_cr`` (NaN if no amplitude exceeds a limit), whether it is ``certain``, ``reason``, ``t``, and over
-        these keys and ``f_o`` which amplitudes exceed a limit (``exceeds``), and of which this is ``uncertain``.
+        these keys and ``f_o`` which amplitudes exceed a limit (``exceeds``), of which this is ``uncertain``, and whose
+        runs are ``cut_short``.
 
     Raises
     ------
@@ -263,9 +270,9 @@ def critical_force(
         points = [tuple(point[name] for name, _ in kinds) for point in data["probability"]]
         probability = np.array(points, dtype=kinds).view(np.recarray)
     f_cr, reason, t, certain = (data[name] for name in ("f_cr", "reason", "t", "certain"))
-    intervals = (data[name] for name in ("exceeding", "uncertain"))
-    exceeding, uncertain = (np.array(pairs, dtype=np.float64).reshape(-1, 2) for pairs in intervals)
-    return CriticalForce(f_cr, reason, t, certain, exceeding, uncertain, probability, passes, step, largest)
+    intervals = (data[name] for name in ("exceeding", "uncertain", "cut_short"))
+    lists = (np.array(pairs, dtype=np.float64).reshape(-1, 2) for pairs in intervals)
+    return CriticalForce(f_cr, reason, t, certain, *lists, probability, passes, step, largest)
 
 
 def _critical_over_keys(
@@ -311,6 +318,11 @@ def _critical_over_keys(
             (*dims, "f_o"),
             within("uncertain"),
             {"long_name": "whether rounding decides"},
+        ),
+        "cut_short": (
+            (*dims, "f_o"),
+            within("cut_short"),
+            {"long_name": "whether the run stopped too early to tell"},
         ),
     }
     if any("error" in row for row in rows):

@@ -175,11 +175,7 @@ pub(crate) fn safe_basin<'py>(
         filled(py, "outcome", ends),
         filled(py, "t", Values::Numbers(times)),
         filled(py, "legal", flags(|cell| cell.end.is_some())),
-        filled(
-            py,
-            "safe",
-            flags(|cell| cell.end.is_some() && !cell.escapes()),
-        ),
+        filled(py, "safe", flags(Cell::is_safe)),
     ];
     if trust {
         columns.push(filled(py, "decided", flags(|cell| cell.decided)));

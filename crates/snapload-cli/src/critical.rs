@@ -12,6 +12,7 @@ use snapload::analysis::{
     CriticalForce, ExceedanceCurve, ForceScan, NEIGHBOURS, NONZERO_MEMBERS, OnProgress, Progress,
 };
 use snapload::{CaseError, Value};
+use snapload_report::tables::in_digits;
 use snapload_report::{CriticalRow, Probability, case_in_words};
 use snapload_study::Axis;
 use std::fmt::Write;
@@ -106,6 +107,10 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
     outputs.finish(&answer, text)
 }
 
+/// What is not known of runs that are cut short.
+const CUT_SHORT: &str = "not known whether these exceed, as their runs stopped at the impact limit or a standstill \
+                         (max_impacts sets the limit)";
+
 /// What decides where neighbours disagree.
 const DECIDED_BY: &str = "(--ensemble N gives the probability, snapload certify a proof)";
 
@@ -152,6 +157,11 @@ fn over(
     Ok(Answer::Many { over: key, points })
 }
 
+/// A value rounded to six digits.
+fn significant(value: f64) -> f64 {
+    format!("{value:.5e}").parse().unwrap_or(value)
+}
+
 /// The answer, in the form of its JSON.
 #[derive(Serialize)]
 #[serde(untagged)]
@@ -189,8 +199,11 @@ impl Answer {
                         reason.replace('_', " "),
                         row.exceeding()
                     ),
-                    _ => writeln!(text, "Critical  none up to f_o = {}{sure}", args.max),
+                    _ => writeln!(text, "Critical  none up to f_o = {}{sure}", row.up_to),
                 };
+                if let Some(cut_short) = row.cut_short() {
+                    let _ = writeln!(text, "Cut short f_o = {cut_short}: {CUT_SHORT}");
+                }
                 if let Some(uncertain) = row.uncertain() {
                     let _ = writeln!(
                         text,
@@ -215,14 +228,14 @@ impl Answer {
                     } else {
                         format!("~{first}")
                     };
-                    let value = format!("{value:.6}");
-                    let value = value.trim_end_matches('0').trim_end_matches('.');
+                    let value = in_digits(significant(*value));
                     let _ = writeln!(text, "{value:<12} {first:<8} {}", row.exceeding());
                 }
                 if points.iter().any(|point| !point.row.certain) {
                     let _ = writeln!(
                         text,
-                        "~ not certain: its run passes its horizon, or neighbours at or below it disagree"
+                        "~ not certain: its run passes its horizon, or at or below it neighbours disagree or runs stopped \
+                         at the impact limit"
                     );
                 }
                 text

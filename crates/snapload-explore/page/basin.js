@@ -174,10 +174,11 @@ export class SafeBasin {
   }
 
   #words([i, j]) {
-    const { x, y, ends, escapes, decided, question } = this.answer;
+    const { x, y, ends, escapes, cut, decided, question } = this.answer;
     const k = j * x.length + i;
     const place = `${question.x.key} = ${number(x[i], 6)}, ${question.y.key} = ${number(y[j], 6)}: `;
     if (ends[k] === null) return `${place}no legal start, as it is beyond the reach of a cable or beyond a limit`;
+    if (cut[k]) return `${place}not known whether safe, as the run stopped early (${reasonText(ends[k])})`;
     const sure = decided[k] ? "" : ", undecided: neighbours end differently";
     return `${place}${escapes[k] ? "not safe" : "safe"} (${reasonText(ends[k])})${sure}`;
   }
@@ -212,12 +213,13 @@ export class SafeBasin {
   }
 
   #paint() {
-    const { ends, escapes, decided, question, legal, safe, undecided } = this.answer;
+    const { ends, escapes, cut, decided, question, legal, safe, undecided, cut_short } = this.answer;
     const colours = this.colours();
     setProperties(this.canvas, { hidden: false });
     const { context, width, height } = prepare(this.canvas);
     const frame = (this.frame = frameOf(width, height, question));
-    const fill = (k) => (ends[k] === null ? colours.faint : escapes[k] ? colours.escaped : colours.safe);
+    const known = (k) => (escapes[k] ? colours.escaped : colours.safe);
+    const fill = (k) => (ends[k] === null || cut[k] ? colours.faint : known(k));
     paintCells(context, frame, question, fill, (k) => !decided[k]);
     const words = [question.x, question.y].map(({ key }) => axisWords(this.numeric, key));
     drawCellAxes(context, frame, question, colours, words);
@@ -226,9 +228,12 @@ export class SafeBasin {
     crosshair(context, frame, own);
     if (this.pointed) outline(context, frame, question, this.pointed, colours);
     const swatch = (paint, text) => `<span><i class="swatch" style="background:${paint}"></i>${text}</span>`;
-    const parts = [swatch(colours.safe, `safe (${safe})`), swatch(colours.escaped, `reaches a limit (${legal - safe})`)];
+    const parts = [swatch(colours.safe, `safe (${safe})`), swatch(colours.escaped, `reaches a limit (${legal - safe - cut_short})`)];
     if (ends.length > legal) parts.push(swatch(colours.faint, `no legal start (${ends.length - legal})`));
-    if (undecided) parts.push(`<span><i class="swatch hatched"></i>undecided: neighbours end differently (${undecided})</span>`);
+    if (undecided) {
+      const why = cut_short ? "neighbours end differently, or the run stops early" : "neighbours end differently";
+      parts.push(`<span><i class="swatch hatched"></i>undecided: ${why} (${undecided})</span>`);
+    }
     const html = parts.join("");
     if ($("basin-legend").innerHTML !== html) $("basin-legend").innerHTML = html;
     const over = `Safe basin over ${question.x.key} and ${question.y.key}: ${safe} of ${legal} legal cells are safe`;

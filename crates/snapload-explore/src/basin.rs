@@ -40,8 +40,10 @@ struct Picture {
     y: Vec<f64>,
     /// How each cell ends, x fastest; null where its start is not legal.
     ends: Vec<Option<&'static str>>,
-    /// For each cell whether it reaches a limit, and whether its neighbours end alike.
+    /// For each cell whether it reaches a limit, whether its run is cut short, and whether its
+    /// neighbours end alike.
     escapes: Vec<bool>,
+    cut: Vec<bool>,
     decided: Vec<bool>,
 }
 
@@ -103,6 +105,7 @@ impl Picture {
                 .map(|cell| cell.end.map(|(stop, _)| stop.name()))
                 .collect(),
             escapes: cells.iter().map(Cell::escapes).collect(),
+            cut: cells.iter().map(Cell::is_cut_short).collect(),
             decided: cells.iter().map(|cell| cell.decided).collect(),
             x,
             y,

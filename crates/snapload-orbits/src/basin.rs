@@ -118,7 +118,7 @@ fn run(
     });
     let ended = |outcome: Outcome, trusted| Cell {
         end: Some((outcome.end.reason, outcome.end.t)),
-        decided: true,
+        decided: !outcome.end.reason.cuts_short(),
         trusted,
     };
     let ended_cells: Vec<Cell> = if trust {

@@ -142,7 +142,8 @@ mod tests {
                 lim: None,
                 lim_at_most: None,
                 integrity_factor: None,
-                disc_meets_border: false,
+                cut_short: 0,
+                disc_meets_unknown: false,
                 iim: [None; 2],
             },
         };

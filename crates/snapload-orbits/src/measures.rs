@@ -9,32 +9,35 @@ use snapload::analysis::Share;
 pub struct Measures {
     /// Cells that are legal.
     pub legal: usize,
-    /// Legal cells that reach no limit.
+    /// Legal cells that reach no limit up to the end of time.
     pub safe: usize,
-    /// Legal cells of which some neighbours end differently.
+    /// Legal cells of which some neighbours end differently, or whose run is cut short.
     pub undecided: usize,
-    /// Undecided cells that reach no limit.
+    /// Undecided cells that count as safe.
     pub undecided_safe: usize,
+    /// Legal cells whose run is cut short ([`snapload::Stop::cuts_short`]): they count neither as
+    /// safe nor as unsafe.
+    pub cut_short: usize,
     /// Legal cells whose run has its horizon of trust before its end. Those among them that count
     /// as decided were compared with more neighbours.
     pub past_horizon: usize,
     /// The part of the legal cells that is safe: the global integrity measure.
     pub gim: f64,
-    /// Wilson's interval of 95 % about it.
+    /// Wilson's interval of 95 % about it, wherever the cells that are cut short belong.
     pub interval: [f64; 2],
     /// The least distance from the equilibrium to an unsafe cell: the local integrity measure. None
-    /// in a plane that does not hold the equilibrium, and where legal starts beyond the border of
-    /// the window are nearer.
+    /// in a plane that does not hold the equilibrium, and where legal starts that were not run to
+    /// their end are nearer: those beyond the border of the window, and those cut short.
     pub lim: Option<f64>,
-    /// The distance of the nearest unsafe cell, where starts beyond the border are nearer.
+    /// The distance of the nearest unsafe cell, where such starts are nearer.
     pub lim_at_most: Option<f64>,
     /// The radius of the largest disc in the window without unsafe cells: the integrity factor.
     pub integrity_factor: Option<f64>,
-    /// Whether the window's border makes it smaller than unsafe cells alone do.
-    pub disc_meets_border: bool,
+    /// Whether starts that were not run to their end make it smaller than unsafe cells alone do.
+    pub disc_meets_unknown: bool,
     /// The least unsafe velocity along either key in the row of the equilibrium: the impulsive
     /// integrity measure. None for other keys, and where there is no such row, or smaller
-    /// velocities are beyond the border.
+    /// velocities were not run to their end.
     pub iim: [Option<f64>; 2],
 }
 
@@ -46,14 +49,14 @@ impl Measures {
     /// Of the cells of a window.
     pub(crate) fn of(window: &Window, cells: &[Cell]) -> Self {
         let legal = cells.iter().filter(|cell| cell.end.is_some()).count();
-        let unsafe_cells = cells.iter().filter(|cell| cell.escapes()).count();
+        let safe = cells.iter().filter(|cell| cell.is_safe()).count();
+        let cut_short = cells.iter().filter(|cell| cell.is_cut_short()).count();
         let undecided = cells.iter().filter(|cell| !cell.decided).count();
         let undecided_cells = cells.iter().filter(|cell| !cell.decided);
-        let undecided_safe = undecided_cells.filter(|cell| !cell.escapes()).count();
+        let undecided_safe = undecided_cells.filter(|cell| cell.is_safe()).count();
         let past_horizon = cells.iter().filter(|cell| !cell.trusted).count();
-        let safe = legal - unsafe_cells;
-        let share = Share {
-            count: safe,
+        let share = |count| Share {
+            count,
             of: legal,
             clear: false,
         };
@@ -62,13 +65,17 @@ impl Measures {
             safe,
             undecided,
             undecided_safe,
+            cut_short,
             past_horizon,
-            gim: share.part(),
-            interval: share.interval(),
+            gim: share(safe).part(),
+            interval: [
+                share(safe).interval()[0],
+                share(safe + cut_short).interval()[1],
+            ],
             lim: None,
             lim_at_most: None,
             integrity_factor: None,
-            disc_meets_border: false,
+            disc_meets_unknown: false,
             iim: [None; 2],
         };
         match window.are_starts() {
@@ -79,9 +86,9 @@ impl Measures {
 
     /// The same with distances, in a plane of starts.
     fn with_distances(mut self, window: &Window, framed: &Framed) -> Self {
-        let [disc, within_unsafe] = [true, false].map(|in_window| framed.largest_disc(in_window));
+        let [disc, within_unsafe] = [true, false].map(|known| framed.largest_disc(known));
         self.integrity_factor = disc.filter(|radius| radius.is_finite());
-        self.disc_meets_border = disc < within_unsafe;
+        self.disc_meets_unknown = disc < within_unsafe;
         if window.keys_off_equilibrium().is_empty() {
             let nearest = framed.nearest_unsafe(|[a, b]| Some(a.hypot(b)));
             let is_plane = framed.cell.iter().all(|width| *width > 0.0);
@@ -100,7 +107,8 @@ impl Measures {
 enum Start {
     Safe,
     Unsafe,
-    /// Legal, but beyond the border of the window: it was not run.
+    /// Legal, but not run to its end: its run was cut short, or it is beyond the border of the
+    /// window and was not run at all.
     Unknown,
     Illegal,
 }
@@ -140,7 +148,8 @@ impl Framed {
             let run = inner.map(|(i, j)| &cells[i * sizes[1] + j]);
             match run {
                 Some(cell) if cell.escapes() => Start::Unsafe,
-                Some(cell) if cell.end.is_some() => Start::Safe,
+                Some(cell) if cell.is_safe() => Start::Safe,
+                Some(cell) if cell.is_cut_short() => Start::Unknown,
                 None if window.case([outer(0, i), outer(1, j)]).is_some() => Start::Unknown,
                 _ => Start::Illegal,
             }
@@ -189,13 +198,12 @@ impl Framed {
     }
 
     /// The largest distance of a safe start from the nearest unsafe one, or unknown one if the disc
-    /// has to be in the window; none without a safe start or in a single row of cells.
-    fn largest_disc(&self, in_window: bool) -> Option<f64> {
+    /// must hold only starts that were run; none without a safe start or in a single row of cells.
+    fn largest_disc(&self, known: bool) -> Option<f64> {
         if self.cell.contains(&0.0) {
             return None;
         }
-        let limits =
-            |start: &Start| *start == Start::Unsafe || (in_window && *start == Start::Unknown);
+        let limits = |start: &Start| *start == Start::Unsafe || (known && *start == Start::Unknown);
         let marked: Vec<bool> = self.starts.iter().map(limits).collect();
         let squares = squared_distances(&marked, self.values.each_ref().map(Vec::len), self.cell);
         let safe = self.starts.iter().zip(&squares);

@@ -251,6 +251,17 @@ pub fn basin_summary(basin: &Basin) -> String {
     if basin.neighbours_run {
         let _ = writeln!(text, "Undecided {}", m.undecided);
     }
+    text += &cut_short_text(m.cut_short);
+    let [unknown, limits] = match m.cut_short {
+        0 => [
+            "lie beyond the window's border",
+            "the window's border limits it",
+        ],
+        _ => [
+            "lie beyond the window's border or were not run to their end",
+            "the window's border or starts not run to their end limit it",
+        ],
+    };
     if let Some(lim) = m.lim {
         let _ = writeln!(
             text,
@@ -260,15 +271,14 @@ pub fn basin_summary(basin: &Basin) -> String {
     if let Some(lim) = m.lim_at_most {
         let _ = writeln!(
             text,
-            "Nearest   unsafe start at most {lim:.4} from the equilibrium (LIM unknown): nearer starts lie beyond the \
-             window's border"
+            "Nearest   unsafe start at most {lim:.4} from the equilibrium (LIM unknown): nearer starts {unknown}"
         );
     }
     text += &distances_undefined_text(&basin.window);
     if let Some(radius) = m.integrity_factor {
-        let limited = match m.disc_meets_border {
-            true => "; the window's border limits it",
-            false => "",
+        let limited = match m.disc_meets_unknown {
+            true => format!("; {limits}"),
+            false => String::new(),
         };
         let _ = writeln!(
             text,
@@ -284,6 +294,17 @@ pub fn basin_summary(basin: &Basin) -> String {
         }
     }
     text
+}
+
+/// What is not known of cells whose runs are cut short; nothing where there are none.
+fn cut_short_text(cells: usize) -> String {
+    match cells {
+        0 => String::new(),
+        _ => format!(
+            "Cut short {cells}: not known whether safe, as the runs stopped at the impact limit or a standstill \
+             (max_impacts sets the limit)\n"
+        ),
+    }
 }
 
 /// Why a plane of starts has no distances from the equilibrium; nothing where it has them.
@@ -350,6 +371,13 @@ pub fn erosion_summary(erosion: &Erosion) -> String {
     if !erosion.neighbours_run() {
         text += "Undecided unknown, as neighbours were not run\n";
     }
+    text += &cut_short_text(
+        erosion
+            .points
+            .iter()
+            .map(|(_, b)| b.measures.cut_short)
+            .sum(),
+    );
     text
 }
 
@@ -409,6 +437,10 @@ fn knee_text(erosion: &Erosion) -> String {
 /// Basins of attraction.
 pub fn attraction_summary(found: &Attraction) -> String {
     let mut text = String::new();
+    let no_orbit = match found.window.are_starts() {
+        true => "orbit not found",
+        false => "orbit not searched for, as the keys change the motion itself",
+    };
     for (attractor, number) in found.attractors.iter().zip(1..) {
         let symbol = attractor
             .orbit
@@ -419,9 +451,7 @@ pub fn attraction_summary(found: &Attraction) -> String {
             "Attractor {number}: {} cells, {}, {}",
             attractor.cells,
             periods(attractor.period),
-            symbol.map_or("orbit not found".to_owned(), |symbol| format!(
-                "symbol {symbol}"
-            ))
+            symbol.map_or(no_orbit.to_owned(), |symbol| format!("symbol {symbol}"))
         );
     }
     let count = |is: &dyn Fn(&CellOutcome) -> bool| found.outcomes.iter().filter(|o| is(o)).count();

@@ -18,7 +18,7 @@ pub struct Window {
 pub struct Cell {
     /// How and when its run ended; none if it is not legal.
     pub end: Option<(Stop, f64)>,
-    /// Whether its neighbours end alike.
+    /// Whether its neighbours end alike, and none of these runs is cut short.
     pub decided: bool,
     /// Whether the run ends before its horizon of trust.
     pub trusted: bool,
@@ -139,5 +139,15 @@ impl Cell {
     /// Whether it is legal and reaches a limit.
     pub fn escapes(&self) -> bool {
         self.end.is_some_and(|(stop, _)| stop.exceeds())
+    }
+
+    /// Whether it is legal and its run is cut short, so that it may yet reach a limit.
+    pub fn is_cut_short(&self) -> bool {
+        self.end.is_some_and(|(stop, _)| stop.cuts_short())
+    }
+
+    /// Whether it is legal and reaches no limit up to the end of time.
+    pub fn is_safe(&self) -> bool {
+        self.end.is_some() && !self.escapes() && !self.is_cut_short()
     }
 }

@@ -10,7 +10,7 @@ use std::fmt::Write;
 pub struct CriticalRow {
     /// The smallest amplitude that exceeds; none if none does.
     pub f_cr: Option<f64>,
-    /// Whether its run ends before its horizon, and rounding decides at no smaller amplitude.
+    /// Whether its run ends before its horizon, and no smaller amplitude is uncertain or cut short.
     pub certain: bool,
     /// The limit that its run reaches.
     pub reason: Option<&'static str>,
@@ -18,6 +18,9 @@ pub struct CriticalRow {
     pub t: Option<f64>,
     exceeding: Vec<[f64; 2]>,
     uncertain: Vec<[f64; 2]>,
+    cut_short: Vec<[f64; 2]>,
+    /// The largest amplitude of the scan.
+    pub up_to: f64,
 }
 
 impl CriticalRow {
@@ -27,6 +30,8 @@ impl CriticalRow {
             first,
             exceeding,
             uncertain,
+            cut_short,
+            up_to,
             certain,
         } = found;
         Self {
@@ -36,6 +41,8 @@ impl CriticalRow {
             t: first.map(|first| first.t),
             exceeding,
             uncertain,
+            cut_short,
+            up_to,
         }
     }
 
@@ -47,6 +54,11 @@ impl CriticalRow {
     /// Those at which rounding decides, in words; none if there are none.
     pub fn uncertain(&self) -> Option<String> {
         (!self.uncertain.is_empty()).then(|| in_words(&self.uncertain))
+    }
+
+    /// Those whose run is cut short, in words; none if there are none.
+    pub fn cut_short(&self) -> Option<String> {
+        (!self.cut_short.is_empty()).then(|| in_words(&self.cut_short))
     }
 }
 

@@ -131,6 +131,41 @@ fn a_window_beyond_the_cables_is_reported() {
 
 /// Distances from the equilibrium are told in planes that hold it, and in no other: there no start is
 /// nearer to it than what the other keys are.
+/// A run that stops at the impact limit is neither safe nor unsafe: what counts as safe, the safe part
+/// and the disc are no more than without that limit, and the nearest unsafe start may be nearer.
+#[test]
+fn cells_that_are_cut_short_are_not_safe() {
+    let window = |max_impacts| Window {
+        base: Parameters {
+            t_end: 60.0,
+            max_impacts,
+            ..Parameters::STANDARD
+        },
+        keys: ["x", "y"],
+        values: [(-10, 10), (1, 18)].map(|(first, last): (i32, i32)| {
+            let all = first..=last;
+            all.map(|k| f64::from(k) * 0.04).collect()
+        }),
+    };
+    let basin = |max_impacts, trust| Basin::of(window(max_impacts), trust, &no_progress).unwrap();
+    let whole = basin(1_000_000, false);
+    assert_eq!(whole.measures.cut_short, 0);
+    for (max_impacts, trust) in [(3, false), (3, true), (10, false)] {
+        let cut = basin(max_impacts, trust);
+        let (few, all) = (&cut.measures, &whole.measures);
+        let unsafe_cells = cut.cells.iter().filter(|cell| cell.escapes()).count();
+        assert!(few.cut_short > 0 && few.safe < all.safe);
+        assert_eq!(few.legal, few.safe + unsafe_cells + few.cut_short);
+        assert!(few.undecided >= few.cut_short);
+        for (cut, whole) in cut.cells.iter().zip(&whole.cells) {
+            assert!(!cut.is_safe() || whole.is_safe());
+        }
+        assert!(few.integrity_factor <= all.integrity_factor);
+        assert_eq!(few.lim, None);
+        assert!(basin_summary(&cut).contains(&format!("Cut short {}", few.cut_short)));
+    }
+}
+
 #[test]
 fn a_plane_without_the_equilibrium_has_no_distances_from_it() {
     let mut window = window(&reference()["grids"]["circle_xy_f0.3"]);

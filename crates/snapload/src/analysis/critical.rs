@@ -110,8 +110,13 @@ pub struct CriticalForce {
     /// trust, and of [`NEIGHBOURS`] neighbours within rounding, or of those of an
     /// [`crate::analysis::ExceedanceCurve`], some exceed and others do not.
     pub uncertain: Vec<[f64; 2]>,
-    /// Whether the run of the first ends before its horizon, and no smaller amplitude is uncertain;
-    /// if none exceeds, whether none is uncertain.
+    /// All amplitudes whose run is cut short ([`Stop::cuts_short`]), as such intervals: whether they
+    /// exceed is not known.
+    pub cut_short: Vec<[f64; 2]>,
+    /// The largest amplitude of the scan.
+    pub up_to: f64,
+    /// Whether the run of the first ends before its horizon, and no smaller amplitude is uncertain or
+    /// cut short; if none exceeds, whether none is.
     pub certain: bool,
 }
 
@@ -173,18 +178,23 @@ impl CriticalForce {
     /// The answer from the end of the run at each amplitude.
     pub(crate) fn of(ends: &[DecidedEnd]) -> Self {
         let exceeds = |end: &DecidedEnd| end.end.reason.exceeds();
+        let cut_short = |end: &DecidedEnd| end.end.reason.cuts_short();
         let first = ends.iter().position(exceeds);
         let up_to = first.unwrap_or(ends.len());
         Self {
             certain: first.is_none_or(|first| ends[first].certain)
-                && ends[..up_to].iter().all(|end| end.decided),
+                && ends[..up_to]
+                    .iter()
+                    .all(|end| end.decided && !cut_short(end)),
             first: first.map(|first| Exceedance {
                 f_o: ends[first].f_o,
                 reason: ends[first].end.reason,
                 t: ends[first].end.t,
             }),
             exceeding: intervals(ends, exceeds),
-            uncertain: intervals(ends, |end| !end.decided),
+            uncertain: intervals(ends, |end| !end.decided && !cut_short(end)),
+            cut_short: intervals(ends, cut_short),
+            up_to: ends.last().map_or(0.0, |end| end.f_o),
         }
     }
 }
@@ -201,7 +211,7 @@ pub(crate) struct DecidedEnd {
 }
 
 /// For each run, whether all its neighbours exceed if it does, and none otherwise; they do not if
-/// some can not be drawn. The neighbours of all runs are run side by side: the first few, which
+/// some can not be drawn or are cut short. The neighbours of all runs are run side by side: the first few, which
 /// mostly show where they disagree, and then the others of those that agree so far.
 fn neighbours_agree(runs: &[(&Case, &Outcome)], counter: &Counter) -> Result<Vec<bool>, Cancelled> {
     let about = |case| Ensemble::about(case, &Uncertainty::default(), NEIGHBOURS, 1);
@@ -223,7 +233,8 @@ fn neighbours_agree(runs: &[(&Case, &Outcome)], counter: &Counter) -> Result<Vec
             outcomes_on_one_thread(numbers.map(|n| neighbours[n].1.clone()), counter)
         })?;
         for ((k, _), outcome) in neighbours.iter().zip(outcomes.iter()) {
-            agree[*k] &= outcome.exceeds() == runs[*k].1.exceeds();
+            let cut_short = outcome.end.reason.cuts_short();
+            agree[*k] &= !cut_short && outcome.exceeds() == runs[*k].1.exceeds();
         }
         counter.add((runs.len() * members.len() - neighbours.len()) as u64)?;
     }

@@ -133,6 +133,12 @@ impl Stop {
     pub fn exceeds(self) -> bool {
         self.limit().is_some()
     }
+
+    /// Whether the run ended before the motion did, so that it leaves open whether a limit would have
+    /// been reached later.
+    pub fn cuts_short(self) -> bool {
+        matches!(self, Self::ImpactLimit | Self::Standstill)
+    }
 }
 
 /// The largest number of event functions of all limits together.

@@ -88,6 +88,38 @@ fn none_may_exceed() -> Result<(), Unfinished> {
     Ok(())
 }
 
+/// A run that stops at the impact limit leaves open whether it would have exceeded: such amplitudes
+/// are listed by themselves, and nothing above or about them is certain. Some of them do exceed
+/// without that limit.
+#[test]
+fn runs_that_are_cut_short_decide_nothing() -> Result<(), Unfinished> {
+    let scan = ForceScan::new(0.01, 0.6)?;
+    let whole = CriticalForce::scan(&Parameters::STANDARD, scan, &no_progress)?;
+    let within = |intervals: &[[f64; 2]], f_o: f64| {
+        let mut intervals = intervals.iter();
+        intervals.any(|[from, to]| (*from..=*to).contains(&f_o))
+    };
+    for max_impacts in [5, 11] {
+        let few = Parameters {
+            max_impacts,
+            ..Parameters::STANDARD
+        };
+        let found = CriticalForce::scan(&few, scan, &no_progress)?;
+        assert!(!found.certain, "{max_impacts}: {found:?}");
+        for f_o in scan.amplitudes() {
+            let [exceeds, cut] =
+                [&found.exceeding, &found.cut_short].map(|intervals| within(intervals, f_o));
+            assert!(!(exceeds && cut), "{max_impacts} {f_o}");
+            assert!(
+                exceeds || cut || !within(&whole.exceeding, f_o),
+                "{max_impacts} {f_o}"
+            );
+        }
+    }
+    assert!(whole.cut_short.is_empty());
+    Ok(())
+}
+
 /// Only 200 members are run if they end in the same way, and all members otherwise.
 #[test]
 fn as_many_members_are_run_as_tell() -> Result<(), Unfinished> {

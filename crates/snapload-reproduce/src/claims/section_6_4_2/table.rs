@@ -150,6 +150,8 @@ mod tests {
             first: None,
             exceeding: Vec::new(),
             uncertain: Vec::new(),
+            cut_short: Vec::new(),
+            up_to: 0.4,
             certain: true,
         };
         let reason = |f_o: f64| match f_o < 0.305 {
