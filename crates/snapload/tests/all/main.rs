@@ -30,3 +30,4 @@ mod starts;
 mod ties;
 mod touches;
 mod trust;
+mod uncertain_parameters;

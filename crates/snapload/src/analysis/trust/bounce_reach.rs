@@ -2,7 +2,7 @@
 //! another event than the run; where a bound does not hold, [`crate::analysis::trust::causes`]
 //! decides.
 
-use crate::analysis::trust::causes::SIGMA_REACH;
+use crate::analysis::trust::covariance::SIGMA_REACH;
 use crate::analysis::trust::parts::{COLUMNS, square};
 use crate::analysis::trust::spread::ERROR;
 use crate::arithmetic::lane::Lane;
@@ -18,7 +18,7 @@ pub(super) struct AtStart<L> {
     theta: L,
     height: L,
     /// Of what they reach from there within the flight along the cable that is open at the start
-    /// ([`crate::analysis::trust::causes`]).
+    /// ([`crate::analysis::trust::near_miss`]).
     open: L,
 }
 

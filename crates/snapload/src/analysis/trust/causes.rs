@@ -1,90 +1,15 @@
 //! Where neighbours may have another event than the run.
 
 use crate::analysis::trust::HorizonCause;
-use crate::analysis::trust::covariance::CovarianceFactor;
+use crate::analysis::trust::covariance::SIGMA_REACH;
+use crate::analysis::trust::near_miss::may_snap;
+use crate::analysis::trust::neighbours::{Approach, Neighbours, Spread};
+use crate::analysis::trust::uncertain_key::reach_by;
 use crate::model::cable::Normal;
-use crate::model::state::State;
 use crate::model::system::System;
-use crate::model::taut_set::TautSet;
 use crate::motion::active_set::normal_acceleration;
 use crate::motion::events::Reached;
 use crate::motion::simulation::{Progress, Simulation, Step};
-use crate::motion::step_map::Deviation;
-
-/// Neighbours are assumed to be within this many standard deviations.
-pub(super) const SIGMA_REACH: f64 = 3.0;
-
-/// When a cable comes near is found by so many trials at most, each with the neighbours' reach at
-/// the instant found by the one before, until it is within this part of the step.
-const TRIALS: usize = 16;
-const SAME_INSTANT: f64 = 1e-3;
-
-/// The spread of the neighbours at some instant.
-pub(super) struct Spread<'a> {
-    pub(super) covariance: &'a CovarianceFactor,
-    /// Standard deviation of each component.
-    pub(super) sizes: Deviation,
-}
-
-impl<'a> Spread<'a> {
-    #[inline(always)]
-    pub(super) fn of(covariance: &'a CovarianceFactor) -> Self {
-        Self {
-            covariance,
-            sizes: covariance.sizes(),
-        }
-    }
-
-    /// The largest deviation of the neighbours along a linear function of the state.
-    #[inline(always)]
-    pub(super) fn reach(&self, direction: &[f64; 6]) -> f64 {
-        SIGMA_REACH * self.covariance.along(direction)
-    }
-
-    /// A bound on the reach along every function whose derivatives are at most these.
-    #[inline(always)]
-    pub(super) fn at_most(&self, slopes: &[f64; 6]) -> f64 {
-        let mut sum = 0.0;
-        for (slope, size) in slopes.iter().zip(&self.sizes) {
-            // Zero slopes are skipped, as 0 × ∞ would be NaN.
-            sum += if *slope > 0.0 { slope * size } else { 0.0 };
-        }
-        SIGMA_REACH * sum
-    }
-}
-
-/// The spread of the neighbours of a step. Between its ends they drift away from the run with
-/// constant velocities if it is a free flight, so that each is furthest from it at one of them.
-pub(super) struct Neighbours<'a> {
-    /// Just after the previous event, each at the time of its own.
-    pub(super) before: Spread<'a>,
-    /// Just before its event, at the time of the previous event.
-    pub(super) along: Spread<'a>,
-    /// Each neighbour at the time of its own event.
-    pub(super) met: Spread<'a>,
-    /// Standard deviation of the error, by rounding, of the time at which the event is located.
-    pub(super) late: f64,
-    /// Cables that have been open since the start, in all of them.
-    pub(super) opening: TautSet,
-}
-
-/// How the run approaches its event.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Approach {
-    /// ż just before it.
-    pub(super) rate: [f64; 6],
-    /// −∇h/ḣ, the delay of the event per deviation.
-    pub(super) delay: [f64; 6],
-}
-
-impl Neighbours<'_> {
-    /// The largest time by which neighbours reach the event before or after the run.
-    #[inline(always)]
-    fn reach_in_time(&self, approach: &Approach) -> f64 {
-        let (along, late) = (self.along.covariance.along(&approach.delay), self.late);
-        SIGMA_REACH * (along * along + late * late).sqrt()
-    }
-}
 
 /// Why, and when, neighbours may leave the run's sequence of events at this step, if they may.
 #[inline(always)]
@@ -246,124 +171,17 @@ fn may_or_may_not_stick(
     let speed = before.velocity().length() + before.vtheta.abs() * reach;
     let turns = speed * (1.0 + reach) * (1.0 + reach) / tether.length();
     let slopes = [turns, turns, turns, 1.0, 1.0, reach];
-    if off > neighbours.met.at_most(&slopes) {
+    let by_keys = reach_by(neighbours.keys, |key| key.of_normal_velocity(cable));
+    if off > neighbours.met.parts_at_most(&slopes) + by_keys {
         return false;
     }
     let (Normal { n, arm }, slopes) = tether.normal_and_slopes(before);
     let [x, y, theta] = slopes
         .map(|slopes| slopes[0] * before.vx + slopes[1] * before.vy + slopes[2] * before.vtheta);
-    off <= neighbours.met.reach(&[x, y, theta, n.x, n.y, arm])
-}
-
-/// When a slack cable first comes within the neighbours' reach of being taut, if it does: along the
-/// stretch, unless it has been open since the start, or at the event at its end, which is at another
-/// time for each neighbour, unless it closes there in all of them.
-#[inline(always)]
-fn may_snap(
-    simulation: &Simulation,
-    step: &Step,
-    approach: &Approach,
-    neighbours: &Neighbours,
-    cable: usize,
-) -> Option<f64> {
-    let Neighbours {
-        before, along, met, ..
-    } = neighbours;
-    let tether = &simulation.system().cables[cable];
-    let per_place = 2.0 * tether.length();
-    let closes = step.event.closed.contains(cable);
-    let near_at_end = |margin: f64| !closes && simulation.contact(cable).gap > -margin;
-    // A bound first: |n| = 1, and the arm is no longer than the lever.
-    let [a, b] = tether.fairlead().components();
-    let slopes = [1.0, 1.0, a.abs() + b.abs(), 0.0, 0.0, 0.0];
-    let at_start = reach_from_start(simulation, step, before, cable);
-    let at_end = along.at_most(&slopes).max(met.at_most(&slopes));
-    let most = per_place * at_end.max(at_start);
-    // So is what is known of a bounce.
-    let bounced = simulation.bounced(step).filter(|_| closes);
-    if bounced.is_some_and(|bounced| bounced.is_open_before_last_rise(most * most)) {
-        return None;
-    }
-    let open = neighbours.opening.contains(cable);
-    if open && step.event.reached == Reached::default() {
-        return None;
-    }
-    let first = match open {
-        true => None,
-        false => simulation.comes_near(step, cable, most),
-    };
-    if first.is_none() && !near_at_end(most) {
-        return None;
-    }
-    let mut near = first;
-    for _ in 0..TRIALS {
-        let Some(s) = near else {
-            break;
-        };
-        let reach = reach_within(simulation, step, approach, neighbours, (cable, s));
-        near = simulation.comes_near(step, cable, per_place * reach);
-        let moved = near.map_or(0.0, |next| (next - s).abs());
-        if moved <= SAME_INSTANT * (step.t_end - step.t_start) {
-            break;
-        }
-    }
-    let Normal { n, arm } = tether.normal(&step.before);
-    let direction = [n.x, n.y, arm, 0.0, 0.0, 0.0];
-    let at_end = along.reach(&direction).max(met.reach(&direction));
-    let at_end = near_at_end(per_place * at_end).then_some(step.t_end);
-    near.map(|s| (step.t_start + s).min(step.t_end)).or(at_end)
-}
-
-/// A bound on how far neighbours that drift from `before` to the run reach along the normal of a
-/// cable within a step: each just after its own event, along the normal there. The normal turns by
-/// at most the way over the cable's length, and the lever by the body's rotation, both from zero
-/// on, while neighbours come nearer in proportion to time: a quarter of that counts at most. If the
-/// cable is closed at the start it is so for all, and their gaps spread from zero.
-fn reach_from_start(simulation: &Simulation, step: &Step, before: &Spread, cable: usize) -> f64 {
-    if simulation.contact_at_start(step, cable).gap >= 0.0 {
-        return 0.0;
-    }
-    let tether = &simulation.system().cables[cable];
-    let Normal { n, arm } = tether.normal(&step.start);
-    let lever = tether.fairlead().length();
-    let (first, last, s) = (&step.start, &step.before, step.t_end - step.t_start);
-    let speed = |at: &State| at.velocity().length() + at.vtheta.abs() * lever;
-    let turned = 0.25 * s * (speed(first) + speed(last)) / tether.length();
-    let swung = turned + 0.25 * s * (first.vtheta.abs() + last.vtheta.abs());
-    before.reach(&[n.x, n.y, arm, 0.0, 0.0, 0.0])
-        + before.at_most(&[turned, turned, swung * lever, 0.0, 0.0, 0.0])
-}
-
-/// How far neighbours reach along the normal of a cable a time `s` into a step. In a free flight, in
-/// which deviations only drift, with the normal there; if the cable was closed at the start, what
-/// they reach at the end if it grows in proportion to time. Otherwise with the normal at the end.
-fn reach_within(
-    simulation: &Simulation,
-    step: &Step,
-    approach: &Approach,
-    Neighbours { before, along, .. }: &Neighbours,
-    (cable, s): (usize, f64),
-) -> f64 {
-    let (tether, end) = (&simulation.system().cables[cable], &step.before);
-    let was_open = simulation.contact_at_start(step, cable).gap < 0.0;
-    if !simulation.system().flies_freely(step.taut) || s == 0.0 && !was_open {
-        let Normal { n, arm } = tether.normal(end);
-        let at_end = along.reach(&[n.x, n.y, arm, 0.0, 0.0, 0.0]);
-        return at_end.max(reach_from_start(simulation, step, before, cable));
-    }
-    let now = simulation.within(step, s);
-    let (Normal { n, arm }, left) = (tether.normal(&now), step.t_end - step.t_start - s);
-    let [.., x, y, _] = approach.rate;
-    let later = n.x * (now.vx - end.vx + left * x) + n.y * (now.vy - end.vy + left * y);
-    let place = [n.x, n.y, arm];
-    let [by_vx, by_vy, by_spin] = place.map(|slope| -left * slope);
-    let direction = [n.x, n.y, arm, by_vx, by_vy, by_spin, later];
-    let reach = SIGMA_REACH * along.covariance.along_with_time(&direction);
-    if was_open {
-        reach
-    } else {
-        reach * (s + left) / s
-    }
+    let by_parts = neighbours
+        .met
+        .reach_of_parts(&[x, y, theta, n.x, n.y, arm, 0.0]);
+    off <= by_parts.hypot(by_keys)
 }
 
 /// When neighbours may meet a stop rule that the run does not meet, or the other way round.
@@ -374,8 +192,13 @@ fn may_stop(simulation: &Simulation, step: &Step, neighbours: &Neighbours) -> Op
     let exceeds = rules.limits.iter().filter_map(|(limit, bound)| {
         let slopes = limit.slope_bounds(system, bound);
         let [first, last] = [&neighbours.before, &neighbours.along];
-        let margin = first.at_most(&slopes).max(last.at_most(&slopes));
-        let at_end = neighbours.met.at_most(&slopes);
+        let within = reach_by(neighbours.keys, |key| key.of_limit_within(limit));
+        let margin = first
+            .parts_at_most(&slopes)
+            .max(last.parts_at_most(&slopes))
+            + within;
+        let met = reach_by(neighbours.keys, |key| key.of_limit_at_end(limit));
+        let at_end = neighbours.met.parts_at_most(&slopes) + met;
         let within =
             |margin: f64| simulation.largest_within(step, limit, bound - margin) + margin >= bound;
         let near = || simulation.comes_near_limit(step, limit, margin);

@@ -20,6 +20,9 @@ pub(super) struct CovarianceFactor {
     pub(super) memory: Vec<[f64; COLUMNS]>,
 }
 
+/// Neighbours are assumed to be within this many standard deviations.
+pub(super) const SIGMA_REACH: f64 = 3.0;
+
 /// A spread beyond this is not carried further: its directions no longer mean anything, and its
 /// squares would leave the range of doubles.
 pub(super) const LARGEST_SPREAD: f64 = 1e30;

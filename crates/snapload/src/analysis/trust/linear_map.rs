@@ -1,6 +1,7 @@
 //! The effect of a step on deviations, and who is told of it.
 
-use crate::analysis::trust::causes::{Approach, Closing};
+use crate::analysis::trust::causes::Closing;
+use crate::analysis::trust::neighbours::Approach;
 use crate::analysis::trust::parts::COLUMNS;
 use crate::model::rules::Stop;
 use crate::motion::bounce_map::BounceMap;

@@ -15,6 +15,8 @@ mod certainty;
 mod covariance;
 mod linear_map;
 mod monitor;
+mod near_miss;
+mod neighbours;
 mod parts;
 mod passed_impulse;
 mod rounding;

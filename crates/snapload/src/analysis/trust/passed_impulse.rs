@@ -12,8 +12,7 @@
 //! place, as for a point mass, the coupling does not vary, and zero is no doubt.
 
 use crate::analysis::trust::HorizonCause;
-use crate::analysis::trust::causes::SIGMA_REACH;
-use crate::analysis::trust::covariance::CovarianceFactor;
+use crate::analysis::trust::covariance::{CovarianceFactor, SIGMA_REACH};
 use crate::analysis::trust::uncertain_key::UncertainKey;
 use crate::model::system::System;
 use crate::motion::simulation::{Step, zero_velocity};

@@ -1,9 +1,10 @@
 //! Follows the spread of a run's neighbours up to the end of trust.
 
 use crate::analysis::trust::bounces::Followed;
-use crate::analysis::trust::causes::{Approach, Closing, Neighbours, Spread, cause};
+use crate::analysis::trust::causes::{Closing, cause};
 use crate::analysis::trust::covariance::{CovarianceFactor, LARGEST_SPREAD, larger, relative};
 use crate::analysis::trust::linear_map::{LinearMap, Observer, meet};
+use crate::analysis::trust::neighbours::{Approach, Neighbours, Spread};
 use crate::analysis::trust::parts::{COLUMNS, squares};
 use crate::analysis::trust::passed_impulse;
 use crate::analysis::trust::rounding::{self, Rounding};
@@ -296,6 +297,7 @@ impl SpreadMonitor {
             met: Spread::of(&met),
             late: 0.0,
             opening: TautSet::SLACK,
+            keys: &[],
         };
         let approach = Approach {
             rate: map.rate(),
@@ -323,6 +325,10 @@ impl SpreadMonitor {
         let met = along
             .carried(|w, memory| meet(step, &map, w, memory), column(1))
             .with_part(&rounding.location, map.memory_rate(), rounding.late);
+        let by_tension = match self.horizon {
+            None => self.horizon_of_tension(simulation, step, &map, [&before, &along]),
+            Some(_) => None,
+        };
         let neighbours = Neighbours {
             before: Spread::of(&before),
             along: Spread::of(&along),
@@ -332,12 +338,12 @@ impl SpreadMonitor {
                 .loose
                 .as_ref()
                 .map_or(TautSet::SLACK, |loose| loose.opening),
+            keys: &self.keys,
         };
         let approach = LinearMap::Step(&map).approach();
         let closing = Closing::of(simulation, step, &approach);
         let mut after = met.carried(|w, _| map.carry_through(w), column(2));
         if self.horizon.is_none() {
-            let by_tension = self.horizon_of_tension(simulation, step, &map, [&before, &along]);
             let other = cause(simulation, step, &approach, &neighbours, closing).or_else(|| {
                 let (tangent, keys) = (self.tangent.as_deref()?, &self.keys);
                 passed_impulse::cause(simulation.system(), tangent, step, &met, keys)

@@ -19,8 +19,9 @@
 //! within a tenth its error is a fortieth of the deviation.
 
 use crate::analysis::trust::HorizonCause;
-use crate::analysis::trust::causes::{Closing, SIGMA_REACH, Spread};
-use crate::analysis::trust::covariance::CovarianceFactor;
+use crate::analysis::trust::causes::Closing;
+use crate::analysis::trust::covariance::{CovarianceFactor, SIGMA_REACH};
+use crate::analysis::trust::neighbours::Spread;
 use crate::model::cable::Normal;
 use crate::model::taut_set::{MAX_CABLES, PerCable, TautSet};
 use crate::motion::simulation::{Simulation, Step};

@@ -14,8 +14,7 @@
 //! it rises again, and then trust has ended where it was first near zero.
 
 use crate::analysis::trust::HorizonCause;
-use crate::analysis::trust::causes::SIGMA_REACH;
-use crate::analysis::trust::covariance::CovarianceFactor;
+use crate::analysis::trust::covariance::{CovarianceFactor, SIGMA_REACH};
 use crate::analysis::trust::uncertain_key::UncertainKey;
 use crate::model::taut_set::TautSet;
 use crate::motion::active_set::{normal_acceleration, tensions};

@@ -1,13 +1,17 @@
 //! An uncertain parameter along a run.
 
+use crate::analysis::trust::covariance::SIGMA_REACH;
 use crate::arithmetic::dual::Dual;
+use crate::arithmetic::plane::Vector2;
 use crate::case::Case;
 use crate::case::error::CaseError;
 use crate::case::value::Value;
+use crate::model::cable::Cable;
+use crate::model::rules::Limit;
 use crate::model::state::State;
 use crate::model::taut_set::{MAX_CABLES, PerCable};
 use crate::motion::active_set::normal_acceleration;
-use crate::motion::simulation::Simulation;
+use crate::motion::simulation::{Simulation, Step};
 use crate::motion::step_map::{Deviation, StepMap};
 
 /// The same run with its derivatives by an uncertain parameter.
@@ -22,6 +26,22 @@ pub(super) struct UncertainKey {
     pub(super) tensions: [[f64; MAX_CABLES]; 2],
     /// Those of the reactions, per impulse, of the cables that were taut at the latest impact.
     pub(super) reactions: PerCable<f64>,
+    /// The latest step.
+    step: Option<Box<Step<Dual<f64, 1>>>>,
+}
+
+/// A quantity that depends on time alone within a step is evaluated at the ends of so many equal parts.
+const EVALUATIONS: usize = 32;
+
+/// How far neighbours reach, given the standard deviation by each parameter.
+#[inline(always)]
+pub(super) fn reach_by(keys: &[UncertainKey], of: impl Fn(&UncertainKey) -> f64) -> f64 {
+    let mut variance = 0.0;
+    for key in keys {
+        let deviation = of(key);
+        variance += deviation * deviation;
+    }
+    SIGMA_REACH * variance.sqrt()
 }
 
 /// The standard deviation of a value that lies anywhere within ± `size`.
@@ -54,6 +74,7 @@ impl UncertainKey {
             deviation: [w[0], w[1], w[2], w[3], w[4], w[5], 0.0],
             tensions: [[0.0; MAX_CABLES]; 2],
             reactions: [0.0; MAX_CABLES],
+            step: None,
         })
     }
 
@@ -96,6 +117,152 @@ impl UncertainKey {
             }
         }
         self.deviation = at(&step.after);
+        self.step = Some(Box::new(step));
         [along, met, self.deviation]
     }
+
+    /// The standard deviation of the time of the latest event.
+    pub(super) fn delay(&self) -> f64 {
+        self.deviation[6]
+    }
+
+    /// That of the gap of a cable a time `s` into the latest step, by each neighbour's own time. This
+    /// includes what the parameter changes of forces and cables, and is zero at the start if the cable
+    /// was closed there.
+    pub(super) fn of_gap(&self, cable: usize, s: f64) -> f64 {
+        self.of_step(|step| self.simulation.gap_along(step, cable)(Dual::constant(s)))
+    }
+
+    /// A bound on it along the step.
+    pub(super) fn of_gap_within(&self, cable: usize) -> f64 {
+        let tether = &self.simulation.system().cables[cable];
+        self.step.as_deref().map_or(0.0, |step| {
+            let change = Change::along(&self.simulation, step);
+            let most = self.largest(step, self.simulation.gap_along(step, cable));
+            most + self.between(step, change.of_gap(tether))
+        })
+    }
+
+    /// That of the gap of a cable at the end of the latest step, each at its own event.
+    pub(super) fn of_gap_at_end(&self, cable: usize) -> f64 {
+        self.of_step(|_| self.simulation.contact(cable).gap)
+    }
+
+    /// That of the normal velocity of a cable just before the event at the end of the latest step.
+    pub(super) fn of_normal_velocity(&self, cable: usize) -> f64 {
+        let tether = &self.simulation.system().cables[cable];
+        self.of_step(|step| tether.normal(&step.before).velocity(&step.before))
+    }
+
+    /// That of a limit's quantity over its bound at the end of the latest step.
+    pub(super) fn of_limit_at_end(&self, limit: Limit) -> f64 {
+        self.of_step(|step| self.over_limit(limit, &step.before))
+    }
+
+    /// A bound on it along the step.
+    pub(super) fn of_limit_within(&self, limit: Limit) -> f64 {
+        self.step.as_deref().map_or(0.0, |step| {
+            let state = self.simulation.state_along(step);
+            let change = Change::along(&self.simulation, step);
+            let reach = self.simulation.system().body.reach();
+            let most = self.largest(step, |s| self.over_limit(limit, &state(s)));
+            most + self.between(step, change.of_acceleration([reach.value, reach.slope[0]]))
+        })
+    }
+
+    fn over_limit(&self, limit: Limit, state: &State<Dual<f64, 1>>) -> Dual<f64, 1> {
+        let bound = self.simulation.rules().limits.of(limit);
+        let quantity = limit.quantity(self.simulation.system(), state);
+        quantity - bound.unwrap_or(quantity)
+    }
+
+    /// The standard deviation of a quantity of the latest step.
+    fn of_step(&self, quantity: impl Fn(&Step<Dual<f64, 1>>) -> Dual<f64, 1>) -> f64 {
+        let step = self.step.as_deref();
+        step.map_or(0.0, |step| quantity(step).slope[0] * self.size)
+    }
+
+    /// The largest standard deviation of a quantity at some times of a step.
+    fn largest(
+        &self,
+        step: &Step<Dual<f64, 1>>,
+        quantity: impl Fn(Dual<f64, 1>) -> Dual<f64, 1>,
+    ) -> f64 {
+        let width = (step.t_end - step.t_start).value / EVALUATIONS as f64;
+        let seen = |k: usize| quantity(Dual::constant(width * k as f64)).slope[0].abs();
+        (0..=EVALUATIONS).map(seen).fold(0.0, f64::max) * self.size
+    }
+
+    /// By how much a standard deviation may exceed those at these times in between, given a bound on
+    /// the second derivative of the quantity's derivative by the parameter. In a flight: the steps of
+    /// a series are short.
+    fn between(&self, step: &Step<Dual<f64, 1>>, second_derivative: f64) -> f64 {
+        let width = (step.t_end - step.t_start).value / EVALUATIONS as f64;
+        match self.simulation.system().has_closed_form(step.taut) {
+            true => second_derivative * width * width * 0.125 * self.size,
+            false => 0.0,
+        }
+    }
+}
+
+/// Bounds on what of a flight a parameter changes: for each the quantity itself and its derivative by
+/// the parameter.
+struct Change {
+    force: [f64; 2],
+    speed: [f64; 2],
+    spin: [f64; 2],
+    /// Of the place and of the rotation the derivatives alone.
+    place: f64,
+    turn: f64,
+}
+
+impl Change {
+    /// By each neighbour's own time, so that the force is also that at another time.
+    fn along(simulation: &Simulation<Dual<f64, 1>>, step: &Step<Dual<f64, 1>>) -> Self {
+        let (forcing, start) = (&simulation.system().forcing, &step.start);
+        let s = (step.t_end - step.t_start).value;
+        let t = step.t_end.value.abs().max(step.t_start.value.abs());
+        let [bound, rate, _] = forcing.bounds().map(|bound| bound.value);
+        let mut change = length_of_slope(forcing.constant) + rate * step.t_start.slope[0].abs();
+        for wave in &forcing.harmonics {
+            let slope = wave.map(|number| number.slope[0]).amplitude();
+            change += slope + wave.omega.slope[0].abs() * t * wave.amplitude().value;
+        }
+        let speed = start.velocity().map(|v| v.value).length() + bound * s;
+        let speed_slope = length_of_slope(start.velocity()) + change * s;
+        let spin = [start.vtheta.value.abs(), start.vtheta.slope[0].abs()];
+        Self {
+            force: [bound, change],
+            speed: [speed, speed_slope],
+            spin,
+            place: length_of_slope([start.x, start.y].into()) + speed_slope * s,
+            turn: start.theta.slope[0].abs() + spin[1] * s,
+        }
+    }
+
+    /// Of the acceleration of a point of the body at a distance from its centre, f(t) − θ̇²Rρ.
+    fn of_acceleration(&self, [reach, reach_slope]: [f64; 2]) -> f64 {
+        let [spin, spin_slope] = self.spin;
+        let centripetal = spin * spin * (reach_slope + reach * self.turn);
+        self.force[1] + 2.0 * spin * spin_slope * reach + centripetal
+    }
+
+    /// Of g̈ = 2 (Ṗ² + d·P̈), where |d| ≤ r.
+    fn of_gap(&self, tether: &Cable<Dual<f64, 1>>) -> f64 {
+        let fairlead = tether.fairlead();
+        let (reach, reach_slope) = (fairlead.length().value, length_of_slope(fairlead));
+        let [spin, spin_slope] = self.spin;
+        let turning = spin_slope * reach + spin * (reach_slope + reach * self.turn);
+        let velocity = [self.speed[0] + spin * reach, self.speed[1] + turning];
+        let acceleration = self.force[0] + spin * spin * reach;
+        let span = self.place + reach_slope + reach * self.turn + length_of_slope(tether.anchor());
+        let by_span = span * acceleration;
+        let by_acceleration = tether.length().value * self.of_acceleration([reach, reach_slope]);
+        2.0 * (2.0 * velocity[0] * velocity[1] + by_span + by_acceleration)
+    }
+}
+
+/// The length of the derivative of a vector.
+fn length_of_slope(vector: Vector2<Dual<f64, 1>>) -> f64 {
+    vector.map(|component| component.slope[0]).length()
 }

@@ -10,6 +10,9 @@ use crate::motion::simulation::within::{LatestStep, SegmentMotion};
 use crate::motion::simulation::{Simulation, Step};
 use crate::motion::taut_series::STILL;
 
+/// The beginning of the last rise of a gap is found to this part of the step.
+const RISE: f64 = 1e-2;
+
 /// A gap to be evaluated, by the best instructions for it.
 struct GapAndRate<'a, T: Real>(&'a SegmentMotion<'a, T>, usize, T);
 
@@ -57,6 +60,62 @@ impl<T: Real> Simulation<T> {
             (T::ZERO, margin / s)
         };
         self.first_near(step, cable, [offset, slope], acceleration)
+    }
+
+    /// How long after its start the gap of a cable was first above zero in a part of the latest step,
+    /// from one time after its start to another, raised by margins at both and by what lies on the line
+    /// between them within; none if it was not. If it is at the start of the part, and falls, that is
+    /// left out.
+    pub(crate) fn comes_near_between(
+        &self,
+        step: &Step<T>,
+        cable: usize,
+        [first, last]: [T; 2],
+        [from, to]: [T; 2],
+    ) -> Option<T> {
+        let length = to - from;
+        if length <= T::ZERO {
+            return None;
+        }
+        let (bound, motion) = (
+            self.gap_acceleration_bound(step, cable),
+            self.motion(step.taut),
+        );
+        let slope = (last - first) / length;
+        let nearness = |later: T| {
+            let at = GapAndRate(&motion, cable, from + later);
+            let (gap, rate) = dispatch_over::<T, _>(at);
+            (gap + first + slope * later, rate + slope)
+        };
+        Some(from + first_above_zero(&nearness, length, bound)?)
+    }
+
+    /// How long after its start the gap of a cable rises for the last time in the latest step, if the
+    /// cable closes at its end; the length of the step if it does not. On a stretch as long as the rate
+    /// at its end over the bound on the acceleration the rate does not change its sign.
+    pub(crate) fn last_rise(&self, step: &Step<T>, cable: usize) -> T {
+        let s = step.t_end - step.t_start;
+        if !step.event.reached.gaps.contains(cable) {
+            return s;
+        }
+        let (bound, motion) = (
+            self.gap_acceleration_bound(step, cable),
+            self.motion(step.taut),
+        );
+        let mut place = s;
+        loop {
+            let at = GapAndRate(&motion, cable, place);
+            let (_, rate) = dispatch_over::<T, _>(at);
+            let back = rate / bound;
+            if back >= place {
+                return T::ZERO;
+            }
+            if back > s * RISE {
+                place -= back;
+            } else {
+                return place;
+            }
+        }
     }
 
     /// How long after its start the gap of a cable first came within a margin of zero in the latest

@@ -139,6 +139,18 @@ impl<T: Real> Simulation<T> {
         self.motion(step.taut).state(s)
     }
 
+    /// The state as a function of the time since the latest step began, for many times.
+    pub(crate) fn state_along(&self, step: &Step<T>) -> impl Fn(T) -> State<T> {
+        let motion = self.motion(step.taut);
+        move |s| motion.state(s)
+    }
+
+    /// The gap of a slack cable as such a function.
+    pub(crate) fn gap_along(&self, step: &Step<T>, cable: usize) -> impl Fn(T) -> T {
+        let motion = self.motion(step.taut);
+        move |s| motion.contact(cable, s).gap
+    }
+
     /// The state of the water's memory when the latest step began.
     #[inline(always)]
     pub(crate) fn memory_at_start(&self) -> Box<[Complex<T>]> {
