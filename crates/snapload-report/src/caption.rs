@@ -2,6 +2,7 @@
 
 use crate::digits::digits;
 use snapload::{CASE, Entries, Parameters, Value};
+use snapload_certificate::Decimal;
 
 /// The name of the case, and how it differs from the standard one. Values that were given have all
 /// their digits, so that two cases with one caption are the same case; an inertia that follows from
@@ -50,19 +51,10 @@ fn written_otherwise<'a>(
     key: &str,
     value: Option<&Value>,
 ) -> Option<&'a str> {
-    let written = entries
-        .written(key)
-        .filter(|text| text.len() > MOST_DIGITS)?;
-    let plain = written.strip_prefix('+').unwrap_or(written);
-    let plain = match plain.contains('.') && !plain.contains(['e', 'E']) {
-        true => plain.trim_end_matches('0').trim_end_matches('.'),
-        false => plain,
-    };
-    (value?.to_string() != plain).then_some(written)
+    let written = entries.written(key)?;
+    let shortest = value?.to_string();
+    (Decimal::typed(written) != Decimal::typed(&shortest)).then_some(written)
 }
-
-/// So many characters never hold more digits than tell a double from all others.
-const MOST_DIGITS: usize = 17;
 
 #[cfg(test)]
 mod tests {
@@ -90,7 +82,7 @@ mod tests {
     }
 
     /// A number that is the standard one as a double, but not as it was written, is no standard
-    /// case; zeros at its end change nothing.
+    /// case; zeros at its end and powers of ten change nothing.
     #[test]
     fn a_caption_tells_decimals_of_one_double_apart() {
         let caption = |f_o: &str| {
@@ -99,10 +91,35 @@ mod tests {
             case_as_written("standard case", &Parameters::STANDARD, &entries)
         };
         let standard = "the standard case (1910001000-359)";
-        assert_eq!(caption("0.3000000000000000000"), standard);
-        assert_eq!(caption("+0.300000000000000000"), standard);
+        for text in [
+            "0.3000000000000000000",
+            "+0.300000000000000000",
+            "3.0000000000000000000e-1",
+            "30000000000000000000e-20",
+        ] {
+            assert_eq!(caption(text), standard, "{text}");
+        }
         for text in ["0.30000000000000001", "3.00000000000000000001e-1"] {
             assert_eq!(caption(text), format!("standard case with f_o = {text}"));
+        }
+    }
+
+    /// Doubles from 8 to 16 are 2^-49 = 1.8e-15 apart, so that sixteen digits do not tell all from
+    /// each other: 9.000000000000001 and 9.000000000000002 are both 9 + 2^-49.
+    #[test]
+    fn a_caption_tells_short_decimals_of_one_double_apart() {
+        let texts = ["9.000000000000001", "9.000000000000002"];
+        for text in texts {
+            let omega: f64 = text.parse().expect("a number");
+            assert_eq!(omega, 9.0 + 2_f64.powi(-49));
+            let mut entries = Entries::new(&CASE);
+            entries.set(&format!("omega={text}")).expect("a number");
+            let parameters = Parameters {
+                omega,
+                ..Parameters::STANDARD
+            };
+            let caption = case_as_written("standard case", &parameters, &entries);
+            assert_eq!(caption, format!("standard case with omega = {text}"));
         }
     }
 }

@@ -158,6 +158,13 @@ impl Decimal {
     }
 }
 
+/// Two decimals are equal if they are the same number, however it is written.
+impl PartialEq for Decimal {
+    fn eq(&self, other: &Self) -> bool {
+        self.minus(other).is_zero()
+    }
+}
+
 impl fmt::Display for Decimal {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(&self.text)
