@@ -223,8 +223,7 @@ fn other_shapes_are_no_certificates() {
     }
 }
 
-/// A list of the values in the order of the keys does not replace an object with the keys.
-/// A message about them repeats no more than their beginnings.
+/// A message about long texts repeats no more than their beginnings.
 #[test]
 fn texts_of_a_megabyte_are_no_certificates() {
     let true_one = certificate();
@@ -251,6 +250,7 @@ fn texts_of_a_megabyte_are_no_certificates() {
     }
 }
 
+/// A list of the values in the order of the keys does not replace an object with the keys.
 #[test]
 fn lists_in_place_of_keys_are_no_certificates() {
     let whole = certificate();
