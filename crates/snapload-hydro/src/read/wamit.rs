@@ -160,15 +160,12 @@ fn lines<'a>(
                 Some(Err(HydroError::layout(name, found, expected)))
             }
             Err(_) => {
-                let found = format!("line {} is {:?}", index + 1, shortened(line));
+                let beginning: String = line.trim().chars().take(60).collect();
+                let found = format!("line {} is {beginning:?}", index + 1);
                 Some(Err(HydroError::layout(name, found, "numbers are expected")))
             }
         }
     })
-}
-
-fn shortened(line: &str) -> String {
-    line.trim().chars().take(60).collect()
 }
 
 /// A mode, 1 to 6; those of further bodies are refused.
@@ -244,7 +241,7 @@ fn differ(before: &[f64], now: &[f64]) -> bool {
 
 /// A copy of a line does no harm, but of two different ones it is not known which one is right.
 fn twice(name: &'static str, what: String) -> HydroError {
-    let expected = "each may occur only once; is it two runs in one file?";
+    let expected = "both have to be the same; is it two runs in one file?";
     HydroError::layout(
         name,
         format!("{what} occurs twice, with different values"),
@@ -341,31 +338,42 @@ fn excitation(text: &str, units: &Units, rows: &mut [Row]) -> Result<Vec<f64>, H
     }
     if columns.is_empty() {
         let advice = format!("the .3 file has the headings {headings:?}; 0 or 180 is required");
-        return Err(HydroError::missing(
-            "the excitation of waves along x",
-            advice,
-        ));
+        let what = "the excitation of waves along x";
+        return Err(HydroError::missing(what, advice));
     }
     for row in rows.iter_mut() {
         row.excitation.resize(columns.len(), unknown);
     }
-    one_of_each(&columns, rows)
+    one_of_each(&columns, rows, units)
 }
 
+/// What rounding leaves of a force that is zero, as a part of the largest number of the file.
+const ROUNDING: f64 = 1e-4;
+
 /// Keeps one heading of each direction, as 0 and 360 degrees are the same: their forces must agree
-/// to a hundredth of the largest of each freedom, as rounding makes a difference.
-fn one_of_each(columns: &[(f64, f64)], rows: &mut [Row]) -> Result<Vec<f64>, HydroError> {
+/// to a hundredth of the largest of each freedom, or where a freedom has no force to rounding.
+fn one_of_each(
+    columns: &[(f64, f64)],
+    rows: &mut [Row],
+    units: &Units,
+) -> Result<Vec<f64>, HydroError> {
     let mut kept: Vec<usize> = Vec::new();
     for (at, (heading, direction)) in columns.iter().enumerate() {
         let Some(same) = kept.iter().copied().find(|k| columns[*k].1 == *direction) else {
             kept.push(at);
             continue;
         };
-        for (i, mode) in MODES.iter().enumerate() {
+        // As numbers of the file, in which moments are beside forces.
+        let scales = MODES.map(|mode| units.power(rotation(mode)));
+        let largest = [0, 1, 2].map(|i| {
             let sizes = rows.iter().map(|row| row.excitation[same][i].norm());
-            let largest = sizes.fold(0.0, f64::max);
+            sizes.fold(0.0, f64::max) / scales[i]
+        });
+        let rounding = ROUNDING * largest.into_iter().fold(0.0, f64::max);
+        for (i, mode) in MODES.iter().enumerate() {
+            let allowed = scales[i] * rounding.max(0.01 * largest[i]);
             let apart = |row: &&Row| (row.excitation[at][i] - row.excitation[same][i]).norm();
-            if let Some(row) = rows.iter().find(|row| apart(row) > 0.01 * largest) {
+            if let Some(row) = rows.iter().find(|row| apart(row) > allowed) {
                 let what = format!(
                     "{mode} at ω = {} rad/s, BETA = {} and {heading},",
                     row.omega, columns[same].0

@@ -1,7 +1,7 @@
 //! Lines of WAMIT's files that occur twice.
 
 use crate::common::bytes;
-use snapload_hydro::{Given, WamitText, from_wamit};
+use snapload_hydro::{Given, HydroError, Hydrodynamics, WamitText, from_wamit};
 
 fn files() -> WamitText {
     let text = |end: &str| String::from_utf8(bytes(&format!("pontoon-deep.{end}"))).expect("text");
@@ -100,29 +100,48 @@ fn lines_that_contradict_each_other_are_refused() {
     }
 }
 
+/// The lines of the heading of 0 degrees as lines of another one, with factors at forces and pitch.
+fn turned(excitation: &str, heading: &str, [forces, pitch]: [f64; 2]) -> String {
+    let mut turned = String::new();
+    for line in excitation.lines() {
+        let words: Vec<&str> = line.split_whitespace().collect();
+        if words[1].parse::<f64>() == Ok(0.0) {
+            let factor = if words[2] == "5" { pitch } else { forces };
+            turned += &lines(line, &[], &[words[0], heading], &[3, 5, 6], factor);
+        }
+    }
+    turned
+}
+
+fn with_excitation(excitation: String) -> Result<Hydrodynamics, HydroError> {
+    let files = WamitText {
+        excitation,
+        ..files()
+    };
+    from_wamit(&files, &given())
+}
+
 /// 360 degrees are 0 degrees: their forces may differ by rounding, and by no more.
 #[test]
 fn a_full_turn_is_the_same_heading() {
     let plain = from_wamit(&files(), &given()).expect("coefficients");
     let own = files().excitation;
-    let with = |factor: f64| {
-        let mut turned = String::new();
-        for line in own.lines() {
-            let words: Vec<&str> = line.split_whitespace().collect();
-            if words[1].parse::<f64>() == Ok(0.0) {
-                let [per, heading] = [words[0], words[1]];
-                let from = [per, heading, words[2]];
-                turned += &lines(line, &from, &[per, "360.0"], &[3, 5, 6], factor);
-            }
-        }
-        let excitation = own.clone() + &turned;
-        let files = WamitText {
-            excitation,
-            ..files()
-        };
-        from_wamit(&files, &given())
-    };
-    assert_eq!(with(1.0 + 1e-6), Ok(plain));
-    let error = with(0.5).expect_err("a refusal").to_string();
-    assert!(error.contains("BETA = 0 and 360, occurs twice"), "{error}");
+    let with = |factors: [f64; 2]| with_excitation(own.clone() + &turned(&own, "360.0", factors));
+    assert_eq!(with([1.0 + 1e-6; 2]), Ok(plain));
+    for factors in [[0.5; 2], [1.0, 0.5], [0.5, 1.0]] {
+        let error = with(factors).expect_err("a refusal").to_string();
+        let words = "BETA = 0 and 360, occurs twice, with different values";
+        assert!(error.contains(words), "{error}");
+    }
+}
+
+/// A circle is not turned by waves about its centre: what a file has there is rounding, which is
+/// not the same at both headings.
+#[test]
+fn a_moment_that_is_rounding_may_be_another_after_a_full_turn() {
+    let own = files().excitation;
+    let round = turned(&own, "0.0", [1.0, 1e-9]);
+    let plain = with_excitation(round.clone()).expect("coefficients");
+    let other = turned(&own, "360.0", [1.0, -3e-9]);
+    assert_eq!(with_excitation(round + &other), Ok(plain));
 }
