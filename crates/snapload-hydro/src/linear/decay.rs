@@ -106,8 +106,8 @@ fn steps_per_row(
     let fastest = oscillations.map(|value| value.norm()).fold(0.0, f64::max);
     let parts = (row_s * fastest / PART_OF_OSCILLATION).ceil().max(1.0);
     if parts * duration_s / row_s > MOST_STEPS {
-        let most = MOST_STEPS * PART_OF_OSCILLATION / fastest;
-        let expected = format!("the motion is followed for at most {most:.0} s");
+        let most = (MOST_STEPS * row_s / parts).floor();
+        let expected = format!("with this step the motion is followed for at most {most} s");
         return Err(HydroError::value("the duration in s", duration_s, expected));
     }
     Ok(parts as usize)
@@ -220,4 +220,23 @@ fn filon(values: &[(f64, f64)], t: f64) -> f64 {
         (a, fa, sine, cosine) = (b, fb, next_sine, next_cosine);
     }
     sum
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// The longest duration that a refusal names is allowed, and a longer one is not. A mass that
+    /// oscillates with 1 rad/s is followed in steps of at most 0.125 s: 11 of them from row to row,
+    /// where 10.02 would do, so that ten million steps are 10^7/11 rows.
+    #[test]
+    fn the_longest_duration_that_is_named_is_allowed() {
+        let oscillator = DMatrix::from_row_slice(2, 2, &[0.0, 1.0, -1.0, 0.0]);
+        let row_s = 10.02 * 0.125;
+        let of = |duration_s: f64| steps_per_row(&oscillator, [duration_s, row_s]);
+        let most = (1e7 / 11.0 * row_s).floor();
+        assert_eq!(of(most), Ok(11));
+        let error = of(most + 1.0).expect_err("a refusal").to_string();
+        assert!(error.ends_with(&format!("at most {most} s")), "{error}");
+    }
 }
