@@ -13,8 +13,8 @@ use std::f64::consts::PI;
 const RADIUS: f64 = 1e-6;
 const POINTS: usize = 8;
 
-/// A natural motion with the memory's damping. It oscillates, λ being the eigenvalue with Im λ > 0, or
-/// is overdamped and has a real λ.
+/// A natural motion with the memory's damping. It oscillates, λ being the eigenvalue with Im λ > 0,
+/// or is overdamped and has a real λ.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Mode {
     /// λ \[1/s\].
@@ -74,9 +74,9 @@ pub(super) struct Damped<'a> {
 }
 
 impl Damped<'_> {
-    /// For each natural motion the eigenvalue that has the largest share in the motion after a release
-    /// at rest from its shape. The nearest to iω may be one that hardly moves the body in this shape, as
-    /// waves of other motions oscillate, too.
+    /// For each natural motion the eigenvalue that has the largest share in the motion after a
+    /// release at rest from its shape. The nearest to iω may be one that hardly moves the body in
+    /// this shape, as waves of other motions oscillate, too.
     pub fn modes(&self, natural: &[Natural]) -> Result<Vec<Mode>, HydroError> {
         let (stiffness, inf) = (self.stiffness, self.added_mass_inf);
         let matrix = state_matrix(self.body, stiffness, self.memory, inf, self.basis)?;
@@ -107,9 +107,9 @@ impl Damped<'_> {
         Ok(natural.iter().zip(&taken).map(of).collect())
     }
 
-    /// The size of the part with e^{λt}, or e^{λt} and its conjugate, in the motion after a release at
-    /// rest from a shape u, measured by uᵀCq/uᵀCu: of the residue of its Laplace transform at λ, which is
-    /// the integral over a circle about λ.
+    /// The size of the part with e^{λt}, or e^{λt} and its conjugate, in the motion after a release
+    /// at rest from a shape u, measured by uᵀCq/uᵀCu: of the residue of its Laplace transform at λ,
+    /// which is the integral over a circle about λ.
     fn share(&self, natural: &Natural, value: Complex<f64>) -> f64 {
         let shape = self.basis.transpose() * natural.shape;
         let pushed = reduced(self.stiffness, self.basis) * &shape;

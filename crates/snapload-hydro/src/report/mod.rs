@@ -162,7 +162,9 @@ impl Report {
                 given(hydro, inf, damping, &memory.memory)?
             }
             (None, Format::Section) => {
-                given(hydro, rows(&hydro.added_mass[0]), Default::default(), &[])?
+                let inf = rows(&hydro.added_mass[0]);
+                let no_damping = [[0.0; 3]; 3];
+                given(hydro, inf, no_damping, &[])?
             }
             (None, _) => fit(hydro, request.fit)?,
         };
