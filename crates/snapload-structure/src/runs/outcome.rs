@@ -265,28 +265,20 @@ impl<'a> OutcomeCounter<'a> {
         let scales = &self.prepared.model.scales;
         let transient_s = self.prepared.structure.transient_s;
         let end_s = step.t_end * scales.time_s;
-        let is_judged = end_s >= transient_s;
         let place = [z, state.theta];
         if let Some(seen) = &mut self.waterline {
             *seen = seen.with(&Waterline::at(&self.prepared.structure, place, None));
         }
-        let ranges = simulation.tension_ranges(step);
-        let quarter = 0.25 * (step.t_end - step.t_start);
-        let along = || (1..=4).map(|k| simulation.within(step, f64::from(k) * quarter));
-        let lines = self.lines.iter_mut().zip(&mut self.waves).enumerate();
-        for ((index, (line, wave)), range) in lines.zip(&ranges) {
-            // A taut line can not push: a negative tension is rounding.
-            let [least, largest] = range.map(|tension| tension.max(0.0) * scales.force_n);
-            if is_judged {
-                self.waves_n.extend(wave.add([least, largest]));
-                line.largest_taut_n = line.largest_taut_n.max(largest);
-                line.least_n = Some(line.least_n.map_or(least, |before| before.min(least)));
-                if let Some(used) = self.prepared.slack_used(index, along()) {
-                    line.slack_used = Some(line.slack_used.map_or(used, |before| before.max(used)));
-                }
-            } else {
-                line.early_n = line.early_n.max(largest);
-            }
+        // Of a step in which judging begins, only the part from there on is judged.
+        let length = step.t_end - step.t_start;
+        let from = (transient_s / scales.time_s - step.t_start).clamp(0.0, length);
+        if from > 0.0 {
+            self.add_early(&simulation.tension_ranges_between(step, [0.0, from]));
+        }
+        let is_judged = end_s >= transient_s;
+        let judged = is_judged.then(|| simulation.tension_ranges_between(step, [from, length]));
+        if let Some(ranges) = &judged {
+            self.add_judged(simulation, step, from, ranges);
         }
         let snaps = snaps_of_step(self.prepared, simulation, step);
         // A snap that is too slow to be counted loads its line, too.
@@ -304,7 +296,7 @@ impl<'a> OutcomeCounter<'a> {
                 false => line.slower += 1,
             }
         }
-        if is_judged {
+        if let Some(ranges) = judged {
             let mut pulls_n = ranges.map(|[_, most]| most * scales.force_n);
             for snap in &snaps {
                 pulls_n[snap.line] = pulls_n[snap.line].max(snap.peak_n.unwrap_or(0.0));
@@ -312,6 +304,33 @@ impl<'a> OutcomeCounter<'a> {
             self.add_reliable(place, end_s, &pulls_n);
         }
         snaps
+    }
+
+    /// Takes in the range of each tension in time that is not judged.
+    fn add_early(&mut self, ranges: &[[f64; 2]]) {
+        let force_n = self.prepared.model.scales.force_n;
+        for (line, [_, largest]) in self.lines.iter_mut().zip(ranges) {
+            line.early_n = line.early_n.max(largest * force_n);
+        }
+    }
+
+    /// Takes in the judged part of a step, which begins `from` after the step: the range of each
+    /// tension, and the slack that is used up.
+    fn add_judged(&mut self, simulation: &Simulation, step: &Step, from: f64, ranges: &[[f64; 2]]) {
+        let quarter = 0.25 * (step.t_end - step.t_start - from);
+        let along = || (0..=4).map(|k| simulation.within(step, from + f64::from(k) * quarter));
+        let lines = self.lines.iter_mut().zip(&mut self.waves).enumerate();
+        for ((index, (line, wave)), range) in lines.zip(ranges) {
+            // A taut line can not push: a negative tension is rounding.
+            let [least, largest] =
+                range.map(|tension| tension.max(0.0) * self.prepared.model.scales.force_n);
+            self.waves_n.extend(wave.add([least, largest]));
+            line.largest_taut_n = line.largest_taut_n.max(largest);
+            line.least_n = Some(line.least_n.map_or(least, |before| before.min(least)));
+            if let Some(used) = self.prepared.slack_used(index, along()) {
+                line.slack_used = Some(line.slack_used.map_or(used, |before| before.max(used)));
+            }
+        }
     }
 
     /// Takes in the tensions at a position in z and θ if linear hydrostatics hold there, which is asked

@@ -14,6 +14,7 @@ mod elastic_peaks;
 mod equilibrium;
 mod hydrostatics;
 mod judged;
+mod judged_step;
 mod manual;
 mod moordyn;
 mod moordyn_edits;

@@ -6,7 +6,7 @@ use crate::model::taut_set::MAX_CABLES;
 use crate::motion::active_set::tensions;
 use crate::motion::simulation::{Simulation, Step};
 
-/// The number of evenly spaced instants along a step at which tensions are evaluated.
+/// The number of evenly spaced instants along a step, or a part of one, at which tensions are evaluated.
 const INSTANTS: usize = 17;
 /// The least tension is found in so many rounds of three evaluations about the least parabola
 /// through those before, at distances shorter by `CLOSER` each time.
@@ -24,14 +24,14 @@ impl<T: Real> Kernel for TensionsWithin<'_, T> {
     }
 }
 
-/// The ranges of tensions to be found, likewise.
-struct TensionRanges<'a, T: Real>(&'a Simulation<T>, &'a Step<T>);
+/// The ranges of tensions to be found between two instants, likewise.
+struct TensionRanges<'a, T: Real>(&'a Simulation<T>, &'a Step<T>, [T; 2]);
 
 impl<T: Real> Kernel for TensionRanges<'_, T> {
     type Output = [[T; 2]; MAX_CABLES];
     #[inline(always)]
     fn run(self) -> Self::Output {
-        self.0.tension_ranges_here(self.1)
+        self.0.tension_ranges_here(self.1, self.2)
     }
 }
 
@@ -50,15 +50,20 @@ impl<T: Real> Simulation<T> {
     /// The least and the largest tension of each cable along the latest step, by parabolas through
     /// its values at evenly spaced instants; 0 for a cable that is slack \[F\].
     pub fn tension_ranges(&self, step: &Step<T>) -> [[T; 2]; MAX_CABLES] {
+        self.tension_ranges_between(step, [T::ZERO, step.t_end - step.t_start])
+    }
+
+    /// The same of the part of the latest step between two times after its start.
+    pub fn tension_ranges_between(&self, step: &Step<T>, part: [T; 2]) -> [[T; 2]; MAX_CABLES] {
         if step.taut.is_empty() {
             return [[T::ZERO; 2]; MAX_CABLES];
         }
-        dispatch_over::<T, _>(TensionRanges(self, step))
+        dispatch_over::<T, _>(TensionRanges(self, step, part))
     }
 
     #[inline(always)]
-    fn tension_ranges_here(&self, step: &Step<T>) -> [[T; 2]; MAX_CABLES] {
-        let instants = instants(step);
+    fn tension_ranges_here(&self, step: &Step<T>, part: [T; 2]) -> [[T; 2]; MAX_CABLES] {
+        let instants = instants(part);
         let mut ranges = [[T::ZERO; 2]; MAX_CABLES];
         if let (Some(series), true) = (self.expanded(step.taut), step.taut == step.carrying) {
             for cable in step.taut.iter() {
@@ -85,7 +90,7 @@ impl<T: Real> Simulation<T> {
 
     #[inline(always)]
     fn least_tension_here(&self, step: &Step<T>, cable: usize) -> T {
-        let instants = instants(step);
+        let instants = instants([T::ZERO, step.t_end - step.t_start]);
         let values = instants.map(|s| self.tensions_here(step, s)[cable]);
         let (s, spacing) = (instants[INSTANTS - 1], instants[1]);
         let mut least = values.into_iter().fold(values[0], T::min);
@@ -144,13 +149,12 @@ impl<T: Real> Simulation<T> {
     }
 }
 
-/// The evenly spaced instants along a step.
+/// Evenly spaced instants from one to another, both included.
 #[inline(always)]
-fn instants<T: Real>(step: &Step<T>) -> [T; INSTANTS] {
-    let s = step.t_end - step.t_start;
+fn instants<T: Real>([first, last]: [T; 2]) -> [T; INSTANTS] {
     let mut instants = [T::ZERO; INSTANTS];
     for (k, instant) in instants.iter_mut().enumerate() {
-        *instant = s * (k as f64 / (INSTANTS - 1) as f64);
+        *instant = first + (last - first) * (k as f64 / (INSTANTS - 1) as f64);
     }
     instants
 }
