@@ -1,12 +1,16 @@
 //! The objects of a MoorDyn file: types, the body, points; and whether they lie in one vertical
 //! plane.
 
-use super::sections::{Row, Section, Sections};
+use super::sections::{Row, Section, Sections, number};
 use snapload::CaseError;
 use std::collections::BTreeMap;
 
 /// The largest distance of a point from the plane \[m\].
 const OFF_PLANE_M: f64 = 1e-6;
+/// The number of columns from which on a row of POINTS has an applied force.
+const COLUMNS_WITH_FORCE: usize = 12;
+/// How MoorDyn calls a body or a point that another program moves.
+const COUPLED: [&str; 5] = ["coupled", "cpld", "vessel", "ves", "coup"];
 
 /// The object to which a point is attached.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -84,7 +88,8 @@ pub(super) fn body<'a>(sections: &'a Sections<'a>) -> Result<Option<Body<'a>>, C
     }
     let column = "Attachment";
     let attachment = row.word(1, column)?;
-    if !["free", "coupled", "vessel"].contains(&attachment.to_lowercase().as_str()) {
+    let lower = attachment.to_lowercase();
+    if lower != "free" && !COUPLED.contains(&lower.as_str()) {
         let hint = "snapload's body is free in x, z and rotation";
         return Err(row.refuse(column, attachment, "Free or Coupled", hint));
     }
@@ -116,21 +121,37 @@ pub(super) fn points<'a>(
             return Err(row.refuse("ID", id, "a number that no other point has", ""));
         }
         let point = point(row, body)?;
-        // Rows that are too short are left to MoorDyn to refuse.
-        let given = [(5, "Mass"), (6, "Volume"), (7, "CdA")].into_iter();
-        for (index, column) in given.filter(|(index, _)| row.words.len() > *index) {
-            let hint = "add mass and volume of a point on the body to those of the body";
-            row.number(index, column)?;
-            row.zero(
-                index,
-                column,
-                "0: points have no mass, volume or drag",
-                hint,
-            )?;
-        }
+        refuse_own_properties(row)?;
         points.insert(id, (row, point));
     }
     Ok(points)
+}
+
+/// Refuses mass, volume, drag and forces of a point. Rows that are too short are left to MoorDyn to
+/// refuse.
+fn refuse_own_properties(row: &Row<'_>) -> Result<(), CaseError> {
+    // MoorDyn takes a longer row as one in which a force stands before CdA.
+    let columns: &[&str] = match row.words.len() < COLUMNS_WITH_FORCE {
+        true => &["Mass", "Volume", "CdA"],
+        false => &["Mass", "Volume", "Fx", "Fy", "Fz", "CdA"],
+    };
+    let mut given = columns.iter().zip(row.words.iter().skip(5));
+    if let Some((column, word)) = given.find(|(_, word)| number(word) != Some(0.0)) {
+        let (allowed, hint) = match column.starts_with('F') {
+            true => (
+                "0: no force acts on a point; in a row of twelve columns and more Fx, Fy and Fz stand \
+                 before CdA",
+                "give a force on the centre of the body as body.constant_force by --set; a comment \
+                 begins with !",
+            ),
+            false => (
+                "0: points have no mass, volume or drag",
+                "add mass and volume of a point on the body to those of the body",
+            ),
+        };
+        return Err(row.refuse(column, word, allowed, hint));
+    }
+    Ok(())
 }
 
 fn point(row: &Row<'_>, body: Option<&Body<'_>>) -> Result<Point, CaseError> {
@@ -141,9 +162,10 @@ fn point(row: &Row<'_>, body: Option<&Body<'_>>) -> Result<Point, CaseError> {
         .strip_prefix("body")
         .or_else(|| lower.strip_prefix('b'));
     let refuse = |allowed: &str, hint| Err(row.refuse("Attachment", attachment, allowed, hint));
+    let is_coupled = lower == "fairlead" || COUPLED.contains(&lower.as_str());
     let (attached_to, place_m) = match (lower.as_str(), number, body) {
         ("fixed" | "fix" | "anchor" | "body0", ..) => (PointOf::Ground, own),
-        ("coupled" | "vessel" | "ves" | "coup", _, None) => (PointOf::Body, own),
+        (_, _, None) if is_coupled => (PointOf::Body, own),
         (_, Some(number), Some(body)) if body.row.words.first() == Some(&number) => {
             (PointOf::Body, [0, 1, 2].map(|i| body.place_m[i] + own[i]))
         }
@@ -156,11 +178,14 @@ fn point(row: &Row<'_>, body: Option<&Body<'_>>) -> Result<Point, CaseError> {
             return refuse(allowed, "each Body has a row in the section BODIES");
         }
         _ => {
-            return refuse(
-                "Fixed (the ground) or Body1 (the body)",
-                "a free point, such as a joint or a clump, is not supported: lines \
-                 run from the ground straight to the body",
-            );
+            let hint = match is_coupled {
+                true => "in a file with a section BODIES the body moves, and its points with it",
+                false => {
+                    "a free point, such as a joint or a clump, is not supported: lines run from the \
+                     ground straight to the body"
+                }
+            };
+            return refuse("Fixed (the ground) or Body1 (the body)", hint);
         }
     };
     Ok(Point {

@@ -10,7 +10,7 @@ use snapload::{CaseError, Entries, Value};
 use std::f64::consts::PI;
 
 /// MoorDyn's own defaults \[m/s²\], \[kg/m³\].
-const GRAVITY: f64 = 9.81;
+const GRAVITY: f64 = 9.806_65;
 const WATER_DENSITY: f64 = 1025.0;
 
 /// The keys that a file gives, and notes on what they do not represent.
@@ -86,6 +86,18 @@ pub fn read(name: &str, text: &str) -> Result<Reading, CaseError> {
     let kinds = sections.rows(Section::LineTypes);
     let used = kinds.filter(|kind| types.iter().any(|name| kind.words[0] == name));
     notes.extend(used.flat_map(|kind| left_out_of_type(kind, by_restitution)));
+    let added_mass = entries.table("body", 0).given("added_mass");
+    let uneven = added_mass
+        .and_then(Value::triple)
+        .is_some_and(|[x, z, _]| x != z);
+    // A file that `write` made says so itself.
+    if uneven && !by_restitution {
+        notes.push(
+            "The added mass differs by axis: MoorDyn turns it with the body, and here it keeps the \
+             axes at rest."
+                .to_owned(),
+        );
+    }
     Ok(Reading { entries, notes })
 }
 
@@ -104,6 +116,8 @@ fn left_out_of_type(kind: &Row<'_>, by_restitution: bool) -> Vec<String> {
         .zip(columns)
         .filter_map(|(index, column)| given(index, column));
     let water = water.collect::<Vec<_>>().join(", ");
+    // Without a lift coefficient MoorDyn computes no vibration.
+    let lift = given(10, "Cl").filter(|_| number(kind.words[10]).is_some());
     let name = kind.words[0];
     let damping = given(4, "BA").filter(|_| !by_restitution);
     let damping = damping.map(|damping| {
@@ -112,7 +126,10 @@ fn left_out_of_type(kind: &Row<'_>, by_restitution: bool) -> Vec<String> {
     let water = (!water.is_empty()).then(|| {
         format!("Type {name}: {water} left out: lines have no bending, drag or added mass.")
     });
-    damping.into_iter().chain(water).collect()
+    let vibration = lift.map(|lift| {
+        format!("Type {name}: {lift} was left out: lines have no vortex-induced vibration.")
+    });
+    damping.into_iter().chain(water).chain(vibration).collect()
 }
 
 struct Reader {
@@ -345,15 +362,28 @@ fn drag(row: &Row<'_>) -> Result<[f64; 2], CaseError> {
     }
 }
 
+/// The number of a point, without the word that MoorDyn allows before it, as in `Point2`.
+fn number_of_point(id: &str) -> &str {
+    let (word, number) = id.split_at(id.find(|c: char| c.is_ascii_digit()).unwrap_or(0));
+    match word.to_lowercase().as_str() {
+        "p" | "point" | "c" | "con" => number,
+        _ => id,
+    }
+}
+
 /// The anchor and the fairlead of a line, in whichever order they are written.
 fn ends<'a>(row: &Row<'_>, points: &'a Points<'a>) -> Result<Ends<'a>, CaseError> {
     let find = |index: usize, column: &str| {
         let id = row.word(index, column)?;
-        points.get(id).ok_or_else(|| {
+        points.get(number_of_point(id)).ok_or_else(|| {
             let known = points.keys().copied().collect::<Vec<_>>().join(", ");
             let allowed = format!("the number of a point: {known}");
-            let hint =
-                "an end of a rod, such as R1A, is not supported; make it a point of the body";
+            let hint = match id.starts_with(['R', 'r']) {
+                true => {
+                    "an end of a rod, such as R1A, is not supported; make it a point of the body"
+                }
+                false => "",
+            };
             row.refuse(column, id, &allowed, hint)
         })
     };

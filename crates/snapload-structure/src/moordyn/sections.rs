@@ -212,7 +212,7 @@ impl<'a> Sections<'a> {
             }
             if *preamble > 0 {
                 *preamble -= 1;
-                refuse_first_version(&origin, line)?;
+                refuse_first_lines(&origin, line)?;
                 continue;
             }
             let line = line.split(['!', '#', '%']).next().unwrap_or_default();
@@ -224,6 +224,7 @@ impl<'a> Sections<'a> {
                     what,
                     words,
                 };
+                refuse_first_version(*section, &row)?;
                 sections.rows.push((*section, row));
             }
         }
@@ -241,17 +242,32 @@ impl<'a> Sections<'a> {
     }
 }
 
-/// Refuses a file of version 1, whose columns have another order, by the names of its columns.
-fn refuse_first_version(origin: &str, line: &str) -> Result<(), CaseError> {
-    let old = ["NodeAnch", "NodeFair", "MassDenInAir", "MassDen"];
+/// The number of columns of a type of version 1; one of version 2 has ten or more.
+const COLUMNS_OF_FIRST_VERSION: usize = 9;
+
+/// Refuses a type of version 1, whose columns have another meaning. Their names in the header do not
+/// tell the versions apart: MoorDyn does not read them, and files of version 2 keep old ones.
+fn refuse_first_version(section: Section, row: &Row<'_>) -> Result<(), CaseError> {
+    if section != Section::LineTypes || row.words.len() != COLUMNS_OF_FIRST_VERSION {
+        return Ok(());
+    }
+    let allowed = "ten or more, as in MoorDyn version 2; a file of version 1 has nine";
+    let shown = COLUMNS_OF_FIRST_VERSION;
+    Err(row.refuse("number of columns", shown, allowed, SECOND_VERSION))
+}
+
+/// Refuses the names that only the columns of lines of version 1 have, which are in another order.
+fn refuse_first_lines(origin: &str, line: &str) -> Result<(), CaseError> {
+    let old = ["NodeAnch", "NodeFair"];
     let is_old = |word: &&str| old.iter().any(|old| word.eq_ignore_ascii_case(old));
     let Some(word) = line.split_whitespace().find(is_old) else {
         return Ok(());
     };
     let allowed = "the columns of MoorDyn version 2; this is a file of version 1";
-    let error = CaseError::value("column", word, allowed).with_hint(
-        "write LINE TYPES, POINTS and LINES as in the manual of MoorDyn v2, with the columns \
-         ID LineType AttachA AttachB UnstrLen NumSegs for a line",
-    );
-    Err(error.at(origin))
+    let error = CaseError::value("column", word, allowed);
+    Err(error.with_hint(SECOND_VERSION).at(origin))
 }
+
+const SECOND_VERSION: &str = "write LINE TYPES, POINTS and LINES as in the manual of MoorDyn v2, \
+                              with the columns ID LineType AttachA AttachB UnstrLen NumSegs for a \
+                              line";

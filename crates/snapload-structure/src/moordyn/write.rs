@@ -27,6 +27,8 @@ struct File<'a> {
     segments: u32,
     /// Ca, by axis where it differs.
     added_mass: String,
+    /// Whether the added mass differs by axis.
+    uneven_added_mass: bool,
     /// Whether the added mass has parts besides a Ca.
     own_added_mass: bool,
     /// Diameter, mass per length, stiffness and damping of each line.
@@ -77,6 +79,7 @@ pub fn write(name: &str, structure: &Structure, segments: u32) -> Result<String,
             true => along.to_string(),
             false => format!("{along}|{along}|{up}"),
         },
+        uneven_added_mass: !same,
         own_added_mass: !same || structure.body.added_mass.pitch_kg_m2 > 0.0,
         name: name.replace("---", "-"),
         project: project(structure),

@@ -17,6 +17,7 @@ mod judged;
 mod judged_step;
 mod manual;
 mod moordyn;
+mod moordyn_columns;
 mod moordyn_edits;
 mod moordyn_keys;
 mod physics;

@@ -185,7 +185,7 @@ fn a_file_by_hand_is_read() {
     assert_eq!(case.site.depth_m, 20.0);
     assert_eq!(
         (case.site.water_density_kg_m3, case.site.gravity_m_s2),
-        (1020.0, 9.81)
+        (1020.0, 9.806_65)
     );
 }
 
