@@ -5,7 +5,7 @@ use crate::physics::elastic::elastic_lines;
 use crate::physics::model_at_rest::ModelAtRest;
 use crate::structure::{BodySi, Outline, Site, SpectrumShape, Structure, Water};
 use askama::Template;
-use snapload::CaseError;
+use snapload::{CaseError, Value};
 use std::f64::consts::PI;
 
 /// Internal damping of lines of several segments, as a part of the critical damping of a segment:
@@ -18,7 +18,7 @@ const COURANT: f64 = 0.2;
 #[template(path = "moordyn.txt")]
 struct File<'a> {
     name: String,
-    /// The keys of the project that are given, with their texts.
+    /// The keys of the project that are given, with their texts in quotes.
     project: Vec<(&'a str, String)>,
     structure: &'a Structure,
     body: &'a BodySi,
@@ -36,15 +36,21 @@ struct File<'a> {
     step_s: f64,
 }
 
-/// The keys of the project with their texts, each on one line and without characters that would end
-/// a text in quotes.
+/// The keys of the project with their texts, each on one line and in quotes. Three hyphens begin a
+/// section of the file wherever they stand: of two that stand together the second is escaped.
 fn project(structure: &Structure) -> Vec<(&str, String)> {
-    let plain = |text: &str| -> String {
-        let one_line = text.chars().filter(|c| !c.is_control() && *c != '\\');
-        one_line.map(|c| if c == '"' { '\'' } else { c }).collect()
-    };
+    let quoted = |text: &str| Value::from(text).to_string().replace("--", "-\\u002D");
     let rows = structure.project.rows().into_iter();
-    rows.map(|[key, _, text]| (key, plain(text))).collect()
+    rows.map(|[key, _, text]| (key, quoted(text))).collect()
+}
+
+/// The name of a case on one line, which begins no section.
+fn title(name: &str) -> String {
+    let mut title: String = name.chars().filter(|c| !c.is_control()).collect();
+    while title.contains("---") {
+        title = title.replace("---", "-");
+    }
+    title
 }
 
 /// A structure's case in MoorDyn's format, each line in `segments` segments.
@@ -71,7 +77,6 @@ pub fn write(name: &str, structure: &Structure, segments: u32) -> Result<String,
         COURANT * line.length_m / f64::from(segments) * (mass / stiffness).sqrt()
     };
     let steps_s = structure.lines.iter().zip(&types).map(length_s);
-    let name: String = name.chars().filter(|c| !c.is_control()).collect();
     let [along, up] = structure.added_mass_coefficients();
     let same = along == up;
     let file = File {
@@ -81,7 +86,7 @@ pub fn write(name: &str, structure: &Structure, segments: u32) -> Result<String,
         },
         uneven_added_mass: !same,
         own_added_mass: !same || structure.body.added_mass.pitch_kg_m2 > 0.0,
-        name: name.replace("---", "-"),
+        name: title(name),
         project: project(structure),
         structure,
         body: &structure.body,
@@ -98,9 +103,13 @@ pub fn write(name: &str, structure: &Structure, segments: u32) -> Result<String,
 fn types(prepared: &ModelAtRest, segments: u32) -> Result<Vec<[f64; 4]>, CaseError> {
     let (structure, scales) = (&prepared.structure, &prepared.model.scales);
     let unit = scales.force_n / scales.length_m * scales.time_s;
-    let elastic_lines = elastic_lines(prepared, 1.0)?;
-    let lines = (1..).zip(structure.lines.iter().zip(&elastic_lines));
-    let one = |(number, (line, elastic_line)): (usize, (&crate::LineSi, &crate::ElasticLine))| {
+    // The damper of the restitution, which lines of several segments do not have.
+    let springs = match segments {
+        1 => Some(elastic_lines(prepared, 1.0)?),
+        _ => None,
+    };
+    let one = |(index, line): (usize, &crate::LineSi)| {
+        let number = index + 1;
         let needed = |value: Option<f64>, key: &str, what: &str| {
             value.ok_or_else(|| {
                 let allowed = format!("a {what}, which a line of MoorDyn needs");
@@ -111,11 +120,11 @@ fn types(prepared: &ModelAtRest, segments: u32) -> Result<Vec<[f64; 4]>, CaseErr
         let stiffness = needed(line.stiffness_n, "stiffness", "stiffness EA in N")?;
         let mass = needed(line.mass_per_length_kg_m, "mass_per_length", "mass in kg/m")?;
         let diameter = (4.0 * mass / (PI * structure.site.water_density_kg_m3)).sqrt();
-        let damping = match segments {
-            1 => elastic_line.damping * unit * line.length_m,
-            _ => -SEGMENT_DAMPING,
+        let damping = match &springs {
+            Some(springs) => springs[index].damping * unit * line.length_m,
+            None => -SEGMENT_DAMPING,
         };
         Ok([diameter, mass, stiffness, damping])
     };
-    lines.map(one).collect()
+    structure.lines.iter().enumerate().map(one).collect()
 }

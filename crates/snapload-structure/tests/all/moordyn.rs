@@ -431,8 +431,7 @@ proptest! {
     }
 }
 
-/// Texts that resemble other values are read back as texts; characters that would end a text are
-/// not written.
+/// Texts that resemble other values are read back as texts, with characters that would end a text.
 #[test]
 fn texts_of_a_project_come_back() {
     let sets = [
@@ -446,5 +445,5 @@ fn texts_of_a_project_come_back() {
     let back = Structure::parse("case", &reading.entries.to_toml()).unwrap();
     assert_eq!(back.project.date, "2026-11-23");
     assert_eq!(back.project.name, "true");
-    assert_eq!(back.project.client, "Port of 'X'");
+    assert_eq!(back.project.client, "Port of \"X\"");
 }

@@ -154,3 +154,37 @@ fn gravity_is_the_standard_one_if_it_is_left_out() {
     assert_eq!(case.site.gravity_m_s2, 9.80665);
     assert_eq!(case, read(&file).0);
 }
+
+/// Three hyphens begin a section wherever they stand: no text of a case may contain them, and all of
+/// them come back.
+#[test]
+fn hyphens_in_texts_begin_no_section() {
+    let texts = [
+        "project.name=\"Marina --- mooring LINES\"",
+        "project.date=\"2026 ----- 05\"",
+        "project.client='a \\--- \"b\" -- c-'",
+    ];
+    let plain = written(&[]);
+    let headers = |text: &str| text.matches("---").count();
+    for name in [
+        "case",
+        "c---LINES.toml",
+        "c-----LINES.toml",
+        "c---------- POINTS",
+    ] {
+        let case = structure(&texts);
+        let text = moordyn::write(name, &case, 1).unwrap();
+        assert_eq!(headers(&text), headers(&plain), "{text}");
+        assert_eq!(read(&text).0.project, case.project);
+    }
+}
+
+/// The damper of the restitution is that of lines of one segment: those of several do not need a
+/// restitution that it could have.
+#[test]
+fn lines_of_several_segments_need_no_damper() {
+    let case = structure(&["run.restitution=0"]);
+    assert!(moordyn::write("case", &case, 1).is_err());
+    let (back, _) = read(&moordyn::write("case", &case, 20).unwrap());
+    assert_eq!(back.restitution, 0.0);
+}
