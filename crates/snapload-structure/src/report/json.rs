@@ -221,6 +221,7 @@ impl ElasticComparison {
             json!({
                 "snaps": other.snaps.iter().map(snap).collect::<Vec<_>>(),
                 "slack_fraction": other.slack_fraction,
+                "end": { "t_s": other.end_s, "reason": end_text(other.stop) },
                 "took_s": other.took_s,
             })
         });

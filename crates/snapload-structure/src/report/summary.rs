@@ -11,7 +11,7 @@ use crate::physics::warnings::Warning;
 use crate::physics::wave::LinearWave;
 use crate::runs::assess::Assessment;
 use crate::runs::design::Check;
-use crate::runs::elastic_comparison::ElasticComparison;
+use crate::runs::elastic_comparison::{ElasticComparison, Inextensible};
 use crate::runs::outcome::Outcome;
 use crate::runs::quantile::{quantile, slack_part};
 use crate::runs::seas::{Lines, Seas};
@@ -60,6 +60,8 @@ struct ElasticText<'a> {
     comparison: &'a ElasticComparison,
     /// What ended it early.
     end: Option<&'static str>,
+    /// What ended the run on inextensible lines early, and when \[s\].
+    other_end: Option<(&'static str, f64)>,
     e: f64,
     zeta: f64,
     /// Spring rate, damping, part of the time slack, and peak of each line; and its part of the
@@ -172,6 +174,9 @@ impl ElasticComparison {
             name,
             comparison: self,
             end: self.elastic.stop.map(end_text),
+            other_end: other
+                .and_then(Inextensible::ended_early)
+                .map(|(stop, end_s)| (end_text(stop), end_s)),
             e,
             zeta: damping_ratio(e),
             lines: lines.collect(),

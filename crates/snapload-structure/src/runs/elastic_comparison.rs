@@ -9,8 +9,8 @@ use crate::physics::snap::{Snap, snaps_of_step};
 use crate::physics::warnings::{
     Warning, few_periods, limits_afloat, phase_warning, turning_warning, warnings,
 };
-use snapload::CaseError;
 use snapload::analysis::{OnProgress, Unfinished};
+use snapload::{CaseError, Stop};
 use std::time::Instant;
 
 /// The same case on both models of a line.
@@ -35,12 +35,16 @@ pub struct ElasticComparison {
 }
 
 /// A motion on inextensible lines.
-#[derive(Clone, Debug, Default)]
+#[derive(Clone, Debug)]
 pub struct Inextensible {
     /// The snaps, without slow ones and impacts while taut.
     pub snaps: Vec<Snap>,
     /// The part of the time in which each line is slack.
     pub slack_fraction: Vec<f64>,
+    /// How it ended.
+    pub stop: Stop,
+    /// When it ended \[s\].
+    pub end_s: f64,
     /// Time that its computation took \[s\].
     pub took_s: f64,
 }
@@ -111,6 +115,11 @@ impl ElasticComparison {
 }
 
 impl Inextensible {
+    /// How it ended and when, if that was before the end of the time.
+    pub fn ended_early(&self) -> Option<(Stop, f64)> {
+        (self.stop != Stop::EndTime).then_some((self.stop, self.end_s))
+    }
+
     /// The tensions of its snaps are those of lines `stiffer` times as stiff as given.
     fn of(prepared: &ModelAtRest, stiffer: f64) -> Result<Self, CaseError> {
         let clock = Instant::now();
@@ -127,9 +136,16 @@ impl Inextensible {
             snaps.extend(found.filter(|snap| snap.counts() && !snap.is_impact_while_taut));
         }
         let end = simulation.time().max(f64::MIN_POSITIVE);
+        let stop = simulation.stop().unwrap_or(Stop::EndTime);
         Ok(Self {
             snaps,
             slack_fraction: slack.into_iter().map(|time| time / end).collect(),
+            stop,
+            end_s: match stop {
+                // The duration as it was given, not converted back from the engine's units.
+                Stop::EndTime => prepared.structure.duration_s,
+                _ => simulation.time() * prepared.model.scales.time_s,
+            },
             took_s: clock.elapsed().as_secs_f64(),
         })
     }

@@ -10,6 +10,7 @@ mod conversion;
 mod current;
 mod design;
 mod elastic;
+mod elastic_comparison;
 mod elastic_peaks;
 mod equilibrium;
 mod hydrostatics;
