@@ -387,10 +387,11 @@ impl Structure {
     /// The judged time in periods of the waves, the peak period for a sea; none in still water.
     pub(crate) fn judged_periods(&self) -> Option<f64> {
         let period_s = match self.water {
-            Water::Still => return None,
-            Water::Wave(wave) => wave.period_s,
-            Water::Sea(sea) => sea.peak_period_s,
+            Water::Still => None,
+            Water::Wave(wave) => Some(wave.period_s),
+            Water::Sea(sea) => Some(sea.peak_period_s),
         };
+        let period_s = period_s.filter(|_| self.has_waves())?;
         Some(self.judged_s() / period_s)
     }
 
@@ -398,6 +399,15 @@ impl Structure {
     /// nothing fails.
     pub(crate) fn judges_too_little(&self) -> bool {
         self.judged_periods().is_some_and(|periods| periods < 1.0)
+    }
+
+    /// Whether there are waves; those of no height are still water.
+    pub(crate) fn has_waves(&self) -> bool {
+        match self.water {
+            Water::Still => false,
+            Water::Wave(wave) => wave.height_m > 0.0,
+            Water::Sea(sea) => sea.significant_height_m > 0.0,
+        }
     }
 
     /// The direction of the waves: the value of their key.

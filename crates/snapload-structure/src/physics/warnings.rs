@@ -280,7 +280,7 @@ fn no_elastic_rest(rest: &Equilibrium) -> Option<Warning> {
 /// The warning that lines are too soft for a motion in still water, by the scale of its time, 2πT.
 fn soft_lines_in_still_water(prepared: &ModelAtRest) -> Option<Warning> {
     let structure = &prepared.structure;
-    let moves = structure.start_m.is_some() && matches!(structure.water, Water::Still);
+    let moves = structure.start_m.is_some() && !structure.has_waves();
     let scale_s = 2.0 * PI * prepared.model.scales.time_s;
     let soft = soft_lines(prepared, scale_s);
     let is = moves && !soft.is_empty();

@@ -92,6 +92,8 @@ struct VerdictText<'a> {
     /// The line with the largest utilisation that is known.
     worst: (usize, f64),
     transient_s: f64,
+    /// Whether there are waves, which begin at once.
+    waves: bool,
     early: Option<Early>,
     /// The violated rules that leave the verdict open.
     open: Option<OpenRules>,
@@ -259,6 +261,7 @@ fn verdict(
         worst: worst.map_or((0, 0.0), |(number, _, u)| (*number, *u)),
         broken,
         transient_s: structure.transient_s,
+        waves: structure.has_waves(),
         early,
         open,
         unjudged: outcome.is_unjudged(),

@@ -11,7 +11,7 @@ use crate::physics::snap::Snap;
 use crate::physics::warnings::{
     Warning, few_periods, limits_afloat, phase_warning, turning_warning, warnings,
 };
-use crate::structure::{Structure, Water};
+use crate::structure::Structure;
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::SeedableRng;
 use serde::Serialize;
@@ -155,11 +155,11 @@ struct FurtherRuns<'a> {
 
 impl<'a> FurtherRuns<'a> {
     fn new(prepared: &'a ModelAtRest, neighbours: u32) -> Self {
-        let still = matches!(prepared.structure.water, Water::Still);
+        let waves = prepared.structure.has_waves();
         Self {
             prepared,
             restitutions: restitutions_about(prepared.structure.restitution),
-            neighbours: if still { 0 } else { neighbours as usize },
+            neighbours: if waves { neighbours as usize } else { 0 },
         }
     }
 

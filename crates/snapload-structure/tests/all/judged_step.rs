@@ -1,8 +1,9 @@
-//! The step of the motion in which judging begins.
+//! The time at which judging begins: it is within a step of the motion, and needs no waves.
 
-use crate::verdicts::structure;
+use crate::verdicts::{source, structure};
 use snapload::analysis::no_progress;
-use snapload_structure::{Outcome, assess};
+use snapload_structure::note::page;
+use snapload_structure::{Outcome, VerdictKind, assess};
 use std::f64::consts::FRAC_PI_2;
 
 const GRAVITY: f64 = 10.0;
@@ -54,11 +55,11 @@ impl Pendulum {
         Self::LIFT_N * (3.0 * cosine - 2.0 * self.angle_rad.cos())
     }
 
-    /// The outcome of the run up to a φ that is judged from another on.
-    fn outcome(&self, [from, to]: [f64; 2]) -> Outcome {
+    /// The case whose run goes up to a φ and is judged from another on.
+    fn case(&self, [from, to]: [f64; 2]) -> String {
         let x = LENGTH_M * self.angle_rad.sin();
         let z = ANCHOR_Z_M + LENGTH_M * self.angle_rad.cos() - 1e-12;
-        let text = format!(
+        format!(
             "[body]\nshape = \"circle\"\nwidth = 3\ndisplaced_volume = {VOLUME_M3}\n\
              mass = {MASS_KG}\nadded_mass = {ADDED_KG}\nmoment_of_inertia = 163000\n\
              position = [0, -3.5]\n[[line]]\nanchor = [0, {ANCHOR_Z_M}]\nfairlead = [0, -3.5]\n\
@@ -67,8 +68,12 @@ impl Pendulum {
              transient = {}\nduration = {}\n",
             self.time_s(from),
             self.time_s(to)
-        );
-        assess(structure(&text), 0, &no_progress).unwrap().outcome
+        )
+    }
+
+    fn outcome(&self, judged: [f64; 2]) -> Outcome {
+        let case = structure(&self.case(judged));
+        assess(case, 0, &no_progress).unwrap().outcome
     }
 }
 
@@ -91,5 +96,32 @@ fn only_the_judged_part_of_a_step_counts() {
         // Up to the lowest point the least tension is that at the beginning.
         let line = &pendulum.outcome([from.min(-0.1), 0.0]).lines[0];
         near(line.least_n.unwrap(), pendulum.tension_n(from.min(-0.1)));
+    }
+}
+
+/// What is said of a run that begins with waves is not said in still water, which waves of no height
+/// are, too: they do not begin, and there are no neighbours in them.
+#[test]
+fn still_water_has_no_waves_that_begin() {
+    let pendulum = Pendulum { angle_rad: 0.5 };
+    let still = pendulum
+        .case([1.0, 1.4])
+        .replace("stiffness", "breaking_load = 2.2e5\nstiffness");
+    for waves in ["", "[wave]\nheight = 0\nperiod = 4\n"] {
+        let text = format!("{still}{waves}");
+        let assessment = assess(structure(&text), 12, &no_progress).unwrap();
+        // The largest tension is that of φ = 0, before it is judged.
+        let most = pendulum.tension_n(0.0) / 2.2e5;
+        assert!(most > 1.0 && pendulum.tension_n(1.0) < 2.2e5);
+        let verdict = assessment.verdict();
+        assert_eq!(verdict.standing, VerdictKind::Open);
+        for words in ["s are not judged. In them line 1", "run.transient = 0"] {
+            assert!(verdict.words.contains(words), "{}", verdict.words);
+        }
+        let note = page(source("case"), &assessment, None).unwrap();
+        for words in [assessment.summary("case"), note] {
+            assert!(!words.contains("waves begin") && !words.contains("neighbours in waves"));
+            assert!(!words.contains("snapload seas") && !words.contains("period of the waves"));
+        }
     }
 }
