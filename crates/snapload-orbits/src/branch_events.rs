@@ -5,7 +5,8 @@ use crate::continuation::{BranchStep, Unknowns};
 use crate::hybrid::{DURATION, Family, Hybrid, Jet, Point, constant};
 use crate::multipliers::Multipliers;
 use crate::orbit::Orbit;
-use crate::survey::{Extreme, root};
+use crate::roots::root;
+use crate::survey::Extreme;
 use nalgebra::DVector;
 use snapload::Limit;
 

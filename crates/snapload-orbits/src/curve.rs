@@ -13,7 +13,7 @@ use crate::multipliers::Stability;
 use crate::normal_form::{Coefficient, coefficient};
 use crate::on_curve::OnCurve;
 use crate::orbit::{NoOrbit, Orbit};
-use crate::survey::root;
+use crate::roots::root;
 use nalgebra::DVector;
 use snapload::analysis::{Cancelled, OnProgress, Progress};
 

@@ -1,12 +1,13 @@
 //! Follows a branch in one direction, step by step.
 
+use crate::arrived::Arrived;
 use crate::branch_events::{BranchEvent, Kind, Test, Tested, located};
 use crate::continuation::{BranchStep, Continuation, Goal, SAME, Unknowns};
 use crate::half_branch::{HalfBranch, point};
 use crate::hybrid::Family;
 use crate::newton::{Closed, close};
 use crate::orbit::Orbit;
-use crate::survey::root;
+use crate::roots::root;
 use nalgebra::DVector;
 use snapload::analysis::{Cancelled, OnProgress, Progress};
 
@@ -30,9 +31,11 @@ const SHORTEN_FROM: usize = 5;
 const LENGTHEN_TO: usize = 3;
 /// An event that is not located lies between two points of no more than this part of the first step.
 const RESOLVED: f64 = 1e-3;
+/// The end of an accumulation is located up to this part of the first step.
+const CLOSED_IN: f64 = 1e-5;
 /// Two events whose parameters and states differ by no more than these are one: where a branch
 /// turns back the first is the square of the second.
-const SAME_VALUE: f64 = 1e-6;
+pub(crate) const SAME_VALUE: f64 = 1e-6;
 const SAME_STATE: f64 = 1e-2;
 /// The time between two events does not change by more than this in one step.
 const LONGEST_TIME_CHANGE: f64 = 0.3;
@@ -89,10 +92,8 @@ impl<'a> Follower<'a> {
         let (mut here, mut tangent) = (start.clone(), tangent.clone());
         let mut half = HalfBranch::empty(orbit.at[0], "");
         let mut step = self.options.step;
-        while half.end.because.is_empty() {
-            if half.is_full(self.options.most) {
-                break;
-            }
+        let mut closes_in = false;
+        while half.end.because.is_empty() && !half.is_full(self.options.most) {
             let Some((there, found)) = self.next(&continuation, &here, &tangent, step) else {
                 step *= 0.5;
                 if step < self.options.step * SHORTEST_STEP {
@@ -100,35 +101,37 @@ impl<'a> Follower<'a> {
                 }
                 continue;
             };
-            let reached = Tested::new(&found, &there.direction).reached_from(&tested);
+            let at = (&there.at, &there.direction);
+            let arrived = Arrived::at(&continuation, at, found, &tested);
+            if !arrived.orbit.accumulates_in_order() {
+                (step, closes_in) = (0.5 * there.length, true);
+                if step < self.options.step * CLOSED_IN {
+                    half.end_with_accumulation();
+                }
+                continue;
+            }
             let branch_step = BranchStep {
                 continuation: &continuation,
                 from: &here,
                 tangent: &tangent,
                 length: there.length,
             };
-            let tests = [&tested, &reached];
-            if !self.take(&branch_step, tests, &found, goal, &mut half) {
+            if !self.take(&branch_step, &tested, &arrived, goal, &mut half) {
                 step = 0.5 * there.length;
                 continue;
             }
             if !half.end.because.is_empty() {
                 break;
             }
-            (here, tangent, tested) = (there.at, there.direction, reached);
-            let renumbered = renumber_events(&mut continuation, &mut here, &mut tangent);
-            let mut orbit = renumbered.unwrap_or(found);
-            if let Some(counted) = recount_snaps(&mut continuation, &mut here, &mut tangent, &orbit)
-            {
-                tested = Tested::new(&counted, &tangent).reached_from(&tested);
-                orbit = counted;
-            }
+            (continuation, here) = (arrived.continuation, arrived.here);
+            (tangent, tested) = (arrived.tangent, arrived.tested);
             if there.length > 0.0 {
-                half.points.push(point(orbit, half.arclength));
+                half.points.push(point(arrived.orbit, half.arclength));
             }
             half.end.because = there.end.unwrap_or_default().to_owned();
             self.report()?;
-            step = self.next_step(step, there.steps);
+            closes_in &= step > self.options.step * CLOSED_IN;
+            step = self.next_step(step, there.steps, closes_in);
         }
         half.last = Some(Goal {
             sequence: continuation.sequence,
@@ -236,9 +239,11 @@ impl<'a> Follower<'a> {
         Some(there)
     }
 
-    /// The length of the next step, from the number of the corrector's iterations.
-    fn next_step(&self, step: f64, steps: usize) -> f64 {
+    /// The length of the next step, from the number of the corrector's iterations, or on the way to
+    /// where an accumulation ends.
+    fn next_step(&self, step: f64, steps: usize, closes_in: bool) -> f64 {
         match steps {
+            _ if closes_in => 0.5 * step,
             SHORTEN_FROM.. => step * 0.6,
             0..=LENGTHEN_TO => (step * 1.4).min(self.options.step * LONGEST_STEP),
             _ => step,
@@ -267,11 +272,9 @@ impl<'a> Follower<'a> {
         }
         let end = found.last().filter(|event| event.ends_branch());
         let resolved = branch_step.length <= self.options.step * RESOLVED;
-        if let Some(end) = end.filter(|end| end.kind == Kind::Graze) {
-            // Before a snap of an accumulation has no velocity left it sticks instead, unless there
-            // are no more of them. Elsewhere the branch ends, where the multipliers are infinite.
-            let is_counted = end.orbit.lap.is_slowest_in_accumulation();
-            return (!is_counted || resolved).then_some(found);
+        if end.is_some_and(|end| end.kind == Kind::Graze) {
+            // The branch ends where the multipliers are infinite.
+            return Some(found);
         }
         let multipliers = &end.map_or(beyond, |end| &end.orbit).multipliers;
         let passed_over = before
@@ -293,22 +296,22 @@ impl<'a> Follower<'a> {
         Some(found)
     }
 
-    /// Takes the events of a step to an orbit, and ends the branch where one of them, its goal or
-    /// the orbit itself does; false if the step has to be shorter.
+    /// Takes the events of a step, and ends the branch where one of them or its goal does; false if
+    /// the step has to be shorter.
     fn take<F: Family>(
         &self,
         step: &BranchStep<F>,
-        tests: [&Tested; 2],
-        found: &Orbit,
+        before: &Tested,
+        to: &Arrived<F>,
         goal: &Goal,
         half: &mut HalfBranch,
     ) -> bool {
-        let Some(events) = self.events(step, tests, found) else {
+        let Some(events) = self.events(step, [before, &to.tested], &to.orbit) else {
             return false;
         };
         let closes = step.passes(goal);
         let [low, high] = self.options.range;
-        half.end.at = found.at[0];
+        half.end.at = to.orbit.at[0];
         for mut event in events {
             if closes.is_some_and(|sigma| event.sigma >= sigma - SAME) {
                 break;
@@ -361,32 +364,6 @@ pub(crate) fn beyond_largest_gap(orbit: &Orbit) -> f64 {
 fn is_same(event: &BranchEvent, other: &BranchEvent) -> bool {
     (event.value[0] - other.value[0]).abs() < SAME_VALUE
         && crate::distance(&event.orbit.z, &other.orbit.z) < SAME_STATE
-}
-
-/// Renumbers the events if one has passed the section; returns the orbit then.
-fn renumber_events<F: Family>(
-    continuation: &mut Continuation<F>,
-    here: &mut Unknowns,
-    tangent: &mut DVector<f64>,
-) -> Option<Orbit> {
-    let mut orbit = None;
-    while let Some((moved, renumbered, shift)) = continuation.renumbered(here) {
-        *tangent = moved.tangent_after(&renumbered, tangent, shift)?;
-        (*continuation, *here) = (moved, renumbered);
-        orbit = Some(Orbit::of(&continuation.lap(here.at), &here.closed()));
-    }
-    orbit
-}
-
-/// Counts the snaps of accumulations anew; returns the orbit if their number is another one.
-fn recount_snaps<F: Family>(
-    continuation: &mut Continuation<F>,
-    here: &mut Unknowns,
-    tangent: &mut DVector<f64>,
-    orbit: &Orbit,
-) -> Option<Orbit> {
-    (*continuation, *here, *tangent) = continuation.recounted(here, &orbit.lap, tangent)?;
-    Some(Orbit::of(&continuation.lap(here.at), &here.closed()))
 }
 
 /// The next point, if the corrector finds one near enough, and the direction there.

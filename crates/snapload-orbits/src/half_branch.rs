@@ -1,9 +1,13 @@
 //! A branch in one direction, and its end.
 
-use crate::branch_events::BranchEvent;
+use crate::branch_events::{BranchEvent, Kind};
 use crate::continuation::{Continuation, Goal};
+use crate::follower::SAME_VALUE;
 use crate::hybrid::Family;
 use crate::orbit::Orbit;
+
+const ACCUMULATION: &str =
+    "an accumulation of snaps changes here: beyond, they do not come to rest in this way";
 
 /// A point of a branch.
 #[derive(Clone, Debug)]
@@ -61,6 +65,16 @@ impl HalfBranch {
             self.end.because = format!("the limit of {most} points is reached");
         }
         full
+    }
+
+    /// Ends it where an accumulation ends. There the multipliers are infinite, so that rounding
+    /// decides whether it turns back just before.
+    pub(crate) fn end_with_accumulation(&mut self) {
+        self.end.because = ACCUMULATION.to_owned();
+        let at = self.end.at;
+        let is_at_end = |event: &BranchEvent| (event.value[0] - at).abs() < SAME_VALUE;
+        self.events
+            .retain(|event| event.kind != Kind::Fold || !is_at_end(event));
     }
 
     /// Closes it at a point of the branch itself, which becomes its last one.

@@ -14,7 +14,7 @@
 use crate::hybrid::{
     DURATION, Family, Hybrid, Jet, PARAMETER, Point, TIME, distance, values, variable,
 };
-use crate::sequence::{Event, EventKind, Sequence};
+use crate::sequence::{Event, EventKind, Sequence, Timed};
 use nalgebra::{DMatrix, DVector};
 use snapload::TautSet;
 
@@ -112,6 +112,20 @@ impl<F: Family> Lap<'_, F> {
             }
         }
         legs
+    }
+
+    /// Its events with their times and velocities, from its legs.
+    pub(crate) fn timed(&self, system: &F::Plain, legs: &[Leg]) -> Timed {
+        let events = self.sequence.events.iter().zip(legs);
+        let speed = |(event, leg): (&Event, &Leg)| {
+            let struck = event.struck().iter().next();
+            struck.map_or(0.0, |surface| system.speed(surface, &leg.end))
+        };
+        Timed {
+            sequence: self.sequence.clone(),
+            durations: events.clone().map(|(_, leg)| leg.s).collect(),
+            speeds: events.map(speed).collect(),
+        }
     }
 
     /// The state at the section after a number of periods of the forcing, from its legs.

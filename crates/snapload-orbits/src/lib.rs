@@ -21,6 +21,7 @@
 //! # Ok::<(), snapload_orbits::NoOrbit>(())
 //! ```
 
+mod arrived;
 mod attraction;
 mod attractor;
 mod basin;
@@ -55,6 +56,7 @@ mod orbit_row;
 mod orbit_search;
 mod proof;
 mod quantities;
+mod roots;
 mod rows;
 mod scan;
 mod section;

@@ -260,7 +260,7 @@ fn simulate(system: System, rules: &Rules, t: f64, z: &Point, t_end: f64) -> Sim
     }
     let stop = simulation.stop().zip(Some(simulation.time()));
     Simulated {
-        lap,
+        lap: lap.cut_off(rules.v_stick),
         end: simulation.state().components(),
         stop: stop.filter(|(_, t)| *t < t_end),
         illegal: None,

@@ -99,12 +99,11 @@ impl Orbit {
         let multipliers = multipliers(lap, closed, &system, &legs);
         let survey = survey(lap, &system, &legs);
         let (_, length) = lap.times();
-        let timed = Timed {
-            sequence: lap.sequence.clone(),
-            durations: closed.durations.clone(),
-            speeds: speeds(lap, &system, &legs),
-        };
+        let timed = lap.timed(&system, &legs);
         let mut why_not = survey.why_not(&closed.durations);
+        if !timed.accumulates_in_order() {
+            why_not.push("snaps that accumulate would come in another order".to_owned());
+        }
         let return_error = run_once(lap, closed, &timed, multipliers.largest(), &mut why_not);
         let slack = timed
             .sequence
@@ -118,10 +117,9 @@ impl Orbit {
             .map(|shrinking| {
                 family.snap_contraction(lap.at).powi(snaps) * (-shrinking * length).exp()
             });
-        let gaps = [survey.largest_gap, survey.corner_gap]
-            .into_iter()
-            .flatten();
-        let reported = gaps.map(|gap| family.reported_gap(&system, gap.surface, gap.value));
+        let reported = survey
+            .gaps()
+            .map(|gap| family.reported_gap(&system, gap.surface, gap.value));
         let largest_gap = reported.max_by(f64::total_cmp);
         Self {
             at: lap.at,
@@ -176,6 +174,11 @@ impl Orbit {
         self
     }
 
+    /// Whether its snaps that accumulate do so one after the other, and none opens a surface.
+    pub(crate) fn accumulates_in_order(&self) -> bool {
+        self.lap.accumulates_in_order() && self.survey.accumulates_in_order()
+    }
+
     /// The stability by its multipliers.
     pub fn stability(&self) -> Stability {
         self.multipliers.stability()
@@ -213,16 +216,6 @@ fn run_once<F: Family>(
         ));
     }
     Some(error)
-}
-
-/// The closing velocity of each event.
-fn speeds<F: Family>(lap: &Lap<F>, system: &F::Plain, legs: &[Leg]) -> Vec<f64> {
-    let events = lap.sequence.events.iter().zip(legs);
-    let speed = |(event, leg): (&crate::sequence::Event, &Leg)| {
-        let struck = event.struck().iter().next();
-        struck.map_or(0.0, |surface| system.speed(surface, &leg.end))
-    };
-    events.map(speed).collect()
 }
 
 /// The events as rows.

@@ -3,8 +3,8 @@
 
 use crate::hybrid::{Family, Hybrid, Point};
 use crate::lap::after;
+use crate::roots::root;
 use crate::sequence::{Event, EventKind, Sequence, Timed};
-use crate::survey::root;
 use snapload::TautSet;
 
 /// Steps per period of the forcing.

@@ -45,9 +45,12 @@ pub struct Timed {
     pub speeds: Vec<f64>,
 }
 
-/// Snaps slower than this before a stick belong to an accumulation, whose number of snaps has no
-/// meaning.
+/// Snaps slower than this that lead to rest belong to an accumulation: their number, and the order
+/// in which those of several surfaces come, have no meaning.
 const ACCUMULATING: f64 = 0.01;
+/// What is left of an accumulation where it is cut off takes no longer than this, so that it moves
+/// the body by little more than rounding.
+const AT_ONCE: f64 = 1e-5;
 
 impl Sequence {
     /// The held surfaces of each leg: from the section to the first event, and so on, to the
@@ -133,54 +136,93 @@ impl Event {
 }
 
 impl Timed {
-    /// Which events are slow snaps that lead to a stick.
-    fn accumulating(&self) -> Vec<bool> {
+    /// The rows of snaps, each slower than `v`, at whose end all surfaces are held that were struck
+    /// in them: the places of the first and the last one.
+    fn rows_to_rest(&self, v: f64) -> Vec<[usize; 2]> {
         let events = &self.sequence.events;
-        let taut_sets = self.sequence.taut_sets();
-        let mut marks = vec![false; events.len()];
-        for (k, event) in events.iter().enumerate() {
-            if !event
-                .after
-                .iter()
-                .any(|cable| !taut_sets[k].contains(cable))
-            {
-                continue;
-            }
-            let is_slow = |i: &usize| {
-                !marks[*i] && !events[*i].struck().is_empty() && self.speeds[*i] < ACCUMULATING
+        let is_slow = |k: &usize| !events[*k].struck().is_empty() && self.speeds[*k] < v;
+        let mut rows = Vec::new();
+        let mut first = 0;
+        while first < events.len() {
+            let mut struck = TautSet::SLACK;
+            let mut rests = |k: &usize| {
+                struck = struck.union(events[*k].struck());
+                struck.intersection(events[*k].after) == struck
             };
-            let first = (0..k).rev().take_while(is_slow).last().unwrap_or(k);
-            marks[first..k].fill(true);
+            let slow = (first..events.len()).take_while(is_slow);
+            let last = slow.filter(|k| rests(k)).last();
+            rows.extend(last.map(|last| [first, last]));
+            first = last.unwrap_or(first) + 1;
+        }
+        rows
+    }
+
+    /// The accumulations: rows of several slow snaps that lead to rest.
+    fn accumulations(&self) -> impl Iterator<Item = [usize; 2]> {
+        let rows = self.rows_to_rest(ACCUMULATING).into_iter();
+        rows.filter(|[first, last]| first < last)
+    }
+
+    /// Whether slow snaps lead to rest.
+    pub(crate) fn accumulates(&self) -> bool {
+        self.accumulations().next().is_some()
+    }
+
+    /// Which events belong to an accumulation.
+    pub(crate) fn accumulating(&self) -> Vec<bool> {
+        let mut marks = vec![false; self.sequence.events.len()];
+        for [first, last] in self.accumulations() {
+            marks[first..=last].fill(true);
         }
         marks
     }
 
-    /// Whether slow snaps lead to a stick.
-    pub(crate) fn accumulates(&self) -> bool {
-        self.accumulating().contains(&true)
+    /// Whether all snaps of accumulations close, one after the other and before the next event.
+    pub(crate) fn accumulates_in_order(&self) -> bool {
+        self.accumulations().all(|[first, last]| {
+            let mut speeds = self.speeds[first..=last].iter();
+            let mut durations = self.durations.iter().take(last + 2).skip(first + 1);
+            speeds.all(|v| *v > 0.0) && durations.all(|s| *s >= 0.0)
+        })
     }
 
-    /// Whether the slowest snap is one of those that lead to a stick, or that stick itself.
-    pub(crate) fn is_slowest_in_accumulation(&self) -> bool {
-        let marks = self.accumulating();
-        let events = self.sequence.events.iter().zip(&self.speeds).enumerate();
-        let snaps = events.filter(|(_, (event, _))| !event.struck().is_empty());
-        let slowest = snaps.min_by(|(_, (_, a)), (_, (_, b))| a.total_cmp(b));
-        slowest.is_some_and(|(k, _)| marks[k] || k > 0 && marks[k - 1])
-    }
-
-    /// The sequence without the slow snaps that lead to a stick.
-    fn without_accumulations(&self) -> Sequence {
-        let marks = self.accumulating();
-        let kept = self.sequence.events.iter().zip(marks);
-        let kept = kept.filter(|(_, accumulates)| !accumulates);
-        Sequence {
-            start: self.sequence.start,
-            events: kept.map(|(event, _)| *event).collect(),
+    /// The same with the surfaces at rest from the first snap on that is slower than `v`, where all
+    /// snaps from there to their rest are: those have no more meaning than the ones left out, and
+    /// rounding decides about them.
+    pub(crate) fn cut_off(mut self, v: f64) -> Self {
+        for [first, last] in self.rows_to_rest(v).into_iter().rev() {
+            let rest = |k: usize| self.durations[k + 1..=last].iter().sum::<f64>();
+            let first = (first..last).find(|k| rest(*k) <= AT_ONCE);
+            let Some((first, rest)) = first.map(|first| (first, rest(first))) else {
+                continue;
+            };
+            self.sequence.events[first].after = self.sequence.events[last].after;
+            self.sequence.events.drain(first + 1..=last);
+            self.speeds.drain(first + 1..=last);
+            self.durations.drain(first + 1..=last);
+            if let Some(next) = self.durations.get_mut(first + 1) {
+                *next += rest;
+            }
         }
+        self
     }
 
-    /// Whether the events are the same, apart from the number of snaps in an accumulation.
+    /// The sequence with one snap, of the surfaces that come to rest, in place of each accumulation.
+    fn without_accumulations(&self) -> Sequence {
+        let mut sequence = self.sequence.clone();
+        let taut_sets = self.sequence.taut_sets();
+        let rows: Vec<_> = self.accumulations().collect();
+        for [first, last] in rows.into_iter().rev() {
+            let rest = self.sequence.events[last].after.iter();
+            let struck = rest.filter(|&s| !taut_sets[first].contains(s)).collect();
+            let pulling = struck;
+            sequence.events[last].kind = EventKind::Snap { struck, pulling };
+            sequence.events.drain(first..last);
+        }
+        sequence
+    }
+
+    /// Whether the events are the same, apart from the snaps within accumulations.
     pub fn same_events(&self, other: &Self) -> bool {
         self.sequence == other.sequence
             || self.without_accumulations().symbol() == other.without_accumulations().symbol()

@@ -6,6 +6,7 @@
 
 use crate::hybrid::{DURATION, Family, Hybrid, Jet, Limits, Point, constant};
 use crate::lap::{Lap, Leg};
+use crate::roots::{golden, root};
 use crate::sequence::Event;
 use snapload::{Limit, TautSet};
 
@@ -14,11 +15,6 @@ use snapload::{Limit, TautSet};
 const SAMPLES: f64 = 160.0;
 const TAUT_SAMPLES: f64 = 64.0;
 const FEWEST_SAMPLES: f64 = 6.0;
-/// The most iterations by which an extreme is refined.
-const MOST_REFINEMENTS: usize = 60;
-/// The accuracy of an extreme's position, as a part of a sample's width; its value is known to the
-/// square of that.
-const POSITION_ERROR: f64 = 1e-5;
 /// A limit that is never closer than this needs no refinement.
 const FAR_FROM_LIMIT: f64 = 0.05;
 
@@ -42,6 +38,9 @@ pub struct Survey {
     pub largest_gap: Option<Extreme>,
     /// The largest gap of a surface at an instant when another one is struck.
     pub corner_gap: Option<Extreme>,
+    /// The same within accumulations: however slow their snaps are, one surface is all but touched
+    /// there at the snaps of another.
+    pub accumulated_gap: Option<Extreme>,
     /// The least tension of held surfaces. At the end of a leg where a surface is released its
     /// tension is zero whatever the lap is, so that this does not count.
     pub least_tension: Option<Extreme>,
@@ -72,6 +71,17 @@ impl Survey {
         both.into_iter().flatten().min_by(less)
     }
 
+    /// The largest gaps between events and at them.
+    pub(crate) fn gaps(&self) -> impl Iterator<Item = Extreme> {
+        let gaps = [self.largest_gap, self.corner_gap, self.accumulated_gap];
+        gaps.into_iter().flatten()
+    }
+
+    /// Whether no surface is passed while snaps accumulate.
+    pub(crate) fn accumulates_in_order(&self) -> bool {
+        self.accumulated_gap.is_none_or(|gap| gap.value <= ROUNDING)
+    }
+
     /// Why no body can have the lap, whose events follow each other by these durations.
     pub fn why_not(&self, durations: &[f64]) -> Vec<String> {
         let mut why = Vec::new();
@@ -84,7 +94,7 @@ impl Survey {
                 snap.value
             ));
         }
-        for gap in [self.largest_gap, self.corner_gap].into_iter().flatten() {
+        for gap in self.gaps() {
             if gap.value > ROUNDING {
                 why.push(format!(
                     "cable {} would have to be {:.3e} longer at t = {:.6}",
@@ -120,6 +130,7 @@ pub fn survey<F: Family>(lap: &Lap<F>, system: &F::Plain, legs: &[Leg]) -> Surve
     let mut found = Survey {
         largest_gap: None,
         corner_gap: None,
+        accumulated_gap: None,
         least_tension: None,
         slowest_release: None,
         least_speed: None,
@@ -137,6 +148,7 @@ pub fn survey<F: Family>(lap: &Lap<F>, system: &F::Plain, legs: &[Leg]) -> Surve
     };
     let mut before = lap.sequence.last();
     let between = between_events(system, legs);
+    let accumulating = lap.timed(system, legs).accumulating();
     for (k, leg) in legs.iter().enumerate() {
         if between[k].s > 0.0 {
             // The last leg ends at the section, or at the first event if that comes before it.
@@ -162,10 +174,11 @@ pub fn survey<F: Family>(lap: &Lap<F>, system: &F::Plain, legs: &[Leg]) -> Surve
         let busy = event.struck().union(leg.taut).union(event.after);
         for surface in system.surfaces().iter().filter(|&s| !busy.contains(s)) {
             if !event.struck().is_empty() {
-                most(
-                    &mut found.corner_gap,
-                    at(system.gap(surface, &leg.end), surface),
-                );
+                let kept = match accumulating[k] {
+                    true => &mut found.accumulated_gap,
+                    false => &mut found.corner_gap,
+                };
+                most(kept, at(system.gap(surface, &leg.end), surface));
             }
         }
         if k > 0 && lap.sequence.events[k - 1].surface() != event.surface() {
@@ -394,53 +407,4 @@ impl Sampled<'_> {
             false => (best, self.width * place as f64),
         }
     }
-}
-
-/// The zero of a function between two places at which it has opposite signs: regula falsi
-/// (Illinois).
-pub(crate) fn root(of: &dyn Fn(f64) -> f64, mut a: (f64, f64), mut b: (f64, f64)) -> f64 {
-    for _ in 0..MOST_REFINEMENTS {
-        let mut middle = (a.0 * b.1 - b.0 * a.1) / (b.1 - a.1);
-        if !middle.is_finite() {
-            middle = 0.5 * (a.0 + b.0);
-        }
-        let value = of(middle);
-        if value == 0.0 {
-            return middle;
-        }
-        if (value > 0.0) == (b.1 > 0.0) {
-            a.1 *= 0.5;
-        } else {
-            a = b;
-        }
-        b = (middle, value);
-        if (a.0 - b.0).abs() <= 1e-15 * (a.0.abs() + b.0.abs()) {
-            break;
-        }
-    }
-    b.0
-}
-
-/// The largest value of a unimodal function between 0 and `width`, by golden section.
-fn golden(of: &dyn Fn(f64) -> f64, width: f64) -> (f64, f64) {
-    const PART: f64 = 0.618_033_988_749_894_8;
-    let (mut low, mut high) = (0.0, width);
-    let mut inner = [high - PART * (high - low), low + PART * (high - low)];
-    let mut values = inner.map(of);
-    for _ in 0..MOST_REFINEMENTS {
-        if high - low <= POSITION_ERROR * width {
-            break;
-        }
-        if values[0] > values[1] {
-            high = inner[1];
-            inner = [high - PART * (high - low), inner[0]];
-            values = [of(inner[0]), values[0]];
-        } else {
-            low = inner[0];
-            inner = [inner[1], low + PART * (high - low)];
-            values = [values[1], of(inner[1])];
-        }
-    }
-    let k = usize::from(values[1] > values[0]);
-    (inner[k], values[k])
 }

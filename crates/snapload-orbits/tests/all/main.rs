@@ -2,6 +2,7 @@
 //! in one program.
 #![allow(clippy::unwrap_used, clippy::panic)]
 
+mod accumulations;
 mod basins;
 mod branch_points;
 mod branches;
