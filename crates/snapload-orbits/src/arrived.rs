@@ -18,7 +18,7 @@ pub(crate) struct Arrived<'a, F: Family> {
 }
 
 impl<'a, F: Family> Arrived<'a, F> {
-    /// From the point as the step found it, the direction and the orbit there, and the point before.
+    /// From the point as the step found it, with its direction and orbit, and the point before.
     pub(crate) fn at(
         continuation: &Continuation<'a, F>,
         (here, tangent): (&Unknowns, &DVector<f64>),

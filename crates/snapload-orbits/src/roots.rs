@@ -2,8 +2,8 @@
 
 /// The most iterations by which a place is refined.
 const MOST_REFINEMENTS: usize = 60;
-/// The accuracy of an extreme's position, as a part of the interval's width; its value is known to the
-/// square of that.
+/// The accuracy of an extreme's position, as a part of the interval's width; its value is known to
+/// the square of that.
 const POSITION_ERROR: f64 = 1e-5;
 
 /// The zero of a function between two places at which it has opposite signs: regula falsi

@@ -207,7 +207,7 @@ impl Timed {
         self
     }
 
-    /// The sequence with one snap, of the surfaces that come to rest, in place of each accumulation.
+    /// The sequence with one snap of the surfaces that come to rest in place of each accumulation.
     fn without_accumulations(&self) -> Sequence {
         let mut sequence = self.sequence.clone();
         let taut_sets = self.sequence.taut_sets();

@@ -66,6 +66,20 @@ fn the_tails_of_accumulations_end_no_branch() {
     }
 }
 
+/// Below f_c = 1/√(h² + ν²) the mass stays in the corner: there the accumulations have shrunk to
+/// nothing, and their first snap has no velocity left.
+#[test]
+fn accumulations_shrink_to_rest_in_the_corner() {
+    let case = Parameters {
+        f_o: 0.941,
+        ..NESTED
+    };
+    let found = branch(&case, "f_o", [0.93, 0.941], 0.01);
+    let known = 1.0 / (case.r * case.r - 1.0 + case.nu * case.nu).sqrt();
+    assert!((found.ends[0].at - known).abs() < 1e-9, "{:?}", found.ends);
+    assert!(found.points.iter().all(|point| point.orbit.is_admissible()));
+}
+
 /// Both cables snap in turn into the corner, where the mass rests at the section: another number of
 /// those snaps is no corner of the branch.
 #[test]
