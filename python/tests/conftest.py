@@ -13,7 +13,17 @@ import matplotlib
 import pytest
 
 pytest.register_assert_rewrite("explore")
-from explore import browser, code, open_at, open_page, url, windows  # noqa: E402, F401  (fixtures)
+from explore import (  # noqa: E402, F401  (fixtures)
+    browser,
+    code,
+    open_at,
+    open_page,
+    open_structure,
+    serve,
+    structure_url,
+    url,
+    windows,
+)
 
 ROOT = Path(__file__).resolve().parents[2]
 

@@ -8,6 +8,7 @@ import shutil
 import signal
 import subprocess
 from collections.abc import Callable, Iterator
+from contextlib import ExitStack, contextmanager
 from pathlib import Path
 from typing import Any
 
@@ -17,6 +18,7 @@ from playwright.sync_api import Browser, Page, sync_playwright
 from windows import Window, Windows
 
 ROOT = Path(__file__).resolve().parents[2]
+CYLINDER = "docs/examples/cylinder.toml"
 DESKTOP = {"width": 1440, "height": 900}
 SMALLER = {"width": 1024, "height": 768}
 PHONE = {"width": 390, "height": 844}
@@ -43,6 +45,19 @@ def served(*args: str) -> Iterator[str]:
 def url() -> Iterator[str]:
     """The address of a program that began with the standard case; all tests share it."""
     yield from served()
+
+
+@pytest.fixture(scope="session")
+def structure_url() -> Iterator[str]:
+    """The address of a program that began with the manual's cylinder."""
+    yield from served(CYLINDER)
+
+
+@pytest.fixture
+def serve() -> Iterator[Callable[..., str]]:
+    """Starts programs with other cases. A test asks for it before the pages, which are closed while they answer."""
+    with ExitStack() as programs:
+        yield lambda *args: programs.enter_context(contextmanager(served)(*args))
 
 
 @pytest.fixture(scope="session")
@@ -97,6 +112,12 @@ def open_at(windows: Windows, request: pytest.FixtureRequest) -> Iterator[Callab
 def open_page(open_at: Callable[..., Page], url: str) -> Callable[..., Page]:
     """Opens the page of the thesis's model with a state."""
     return lambda fragment="", **options: open_at(url, fragment, **options)
+
+
+@pytest.fixture
+def open_structure(open_at: Callable[..., Page], structure_url: str) -> Callable[..., Page]:
+    """Opens the page of the cylinder with a state."""
+    return lambda fragment="t=0", **options: open_at(structure_url, fragment, **options)
 
 
 PAINTED = """after => new Promise((done, failed) => {

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import os
 import re
 import signal
@@ -363,3 +364,31 @@ def test_the_digits_of_the_norms_are_those_of_the_command(open_page, command):
     for norm, digits in known.items():
         term = page.locator("#summary div", has=page.locator(f'[data-norm="{norm}"]'))
         expect(term.locator("small")).to_have_text(digits)
+
+
+def test_a_section_is_drawn_with_a_force_that_turns_the_other_way(code, open_page):
+    sections = "async omegas => omegas.map(omega => window.sectionTimes(omega, [0, 20]))"
+    code.evaluate("async () => { window.sectionTimes = (await import('./trajectory.js')).sectionTimes; }")
+    there, back, none = code.evaluate(sections, [0.9, -0.9, 0])
+    assert there == back == pytest.approx([k * 2 * math.pi / 0.9 for k in range(3)])
+    assert none == []
+    many = code.evaluate("async () => window.sectionTimes(1000, [0, 1e6]).length")
+    assert 10_000 < many <= 20_000
+    # With the same frequency backwards and the other sign of ν the force is the same.
+    pictures = []
+    for turned in ["omega=0.9&nu=0.5", "omega=-0.9&nu=-0.5"]:
+        page = open_page(f"{turned}&stop_when_settled=false&t_end=40&plane=section&t=0")
+        pictures.append(page.locator("#trajectory .base").evaluate("canvas => canvas.toDataURL()"))
+    assert pictures[0] == pictures[1]
+
+
+def test_a_changed_case_has_a_name_of_its_own(serve, open_at):
+    code = "1922001000-359"
+    page = open_at(serve("--case", code, "--set", "f_o=0.4"))
+    chosen = page.locator("#case option:checked")
+    expect(chosen).to_have_text(re.compile("f_o = 0.4"))
+    page.locator("#case").select_option(code)
+    expect(page.locator("#field-f_o")).to_have_value("0.3")
+    expect(chosen).not_to_have_text(re.compile("f_o = 0.4"))
+    page.go_back()
+    expect(page.locator("#field-f_o")).to_have_value("0.4")

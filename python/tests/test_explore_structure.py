@@ -6,8 +6,7 @@ import json
 import os
 import re
 import subprocess
-from collections.abc import Callable, Iterator
-from contextlib import ExitStack, contextmanager
+from collections.abc import Callable
 from itertools import groupby
 from pathlib import Path
 from types import SimpleNamespace
@@ -16,30 +15,10 @@ from urllib.parse import quote
 
 import pytest
 import snapload
-from explore import DESKTOP, PHONE, ROOT, blameless, comes_true, count, download, exact_time, served, settled
+from explore import CYLINDER, DESKTOP, PHONE, ROOT, blameless, comes_true, count, download, exact_time, settled
 from playwright.sync_api import Page, expect
 
-CYLINDER = "docs/examples/cylinder.toml"
 SHORT = "run.duration=120"
-
-
-@pytest.fixture(scope="module")
-def structure_url() -> Iterator[str]:
-    """The address of a program that began with the manual's cylinder."""
-    yield from served(CYLINDER)
-
-
-@pytest.fixture
-def serve() -> Iterator[Callable[..., str]]:
-    """Starts programs with other cases. A test asks for it before the pages, which are closed while they answer."""
-    with ExitStack() as programs:
-        yield lambda *args: programs.enter_context(contextmanager(served)(*args))
-
-
-@pytest.fixture
-def open_structure(open_at: Callable[..., Page], structure_url: str) -> Callable[..., Page]:
-    """Opens the page of the cylinder with a state."""
-    return lambda fragment="t=0", **options: open_at(structure_url, fragment, **options)
 
 
 @pytest.fixture

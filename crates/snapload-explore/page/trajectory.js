@@ -7,6 +7,7 @@ import { fixed, number } from "./formatting.js";
 const MARGIN = { left: 50, right: 10, top: 8, bottom: 34 };
 const REACH_PX = 40;
 const MOST_MARKS = 2500;
+const MOST_POINTS = 20_000;
 const PIECES = 64;
 /** The number of rotations at which a boundary is tested for being in the frame. */
 const LOOKS = 60;
@@ -21,7 +22,7 @@ export const PLANES = {
     words: "Section once per period, x and y",
     x: "x",
     y: "y",
-    axes: ["x  [L] at t = k 2π/Ω", "y  [L]"],
+    axes: ["x  [L] at t = k 2π/|Ω|", "y  [L]"],
     section: true,
   },
 };
@@ -124,11 +125,9 @@ export class Trajectory {
   /** The section once a period of the forcing, at its phase at t = 0; points past the horizon are pale. */
   #section(context, colours) {
     const { run } = this;
-    const period = (2 * Math.PI) / run.values.omega;
     const { t } = run.motion;
-    const first = Math.ceil(t[this.rows[0]] / period - 1e-9);
-    for (let k = first; k * period <= t[this.rows[1] - 1]; k += 1) {
-      const moment = run.at(k * period);
+    for (const at of sectionTimes(run.values.omega, [t[this.rows[0]], t[this.rows[1] - 1]])) {
+      const moment = run.at(at);
       context.fillStyle = run.beyond(moment.t) ? colours.past : colours.ink;
       context.beginPath();
       context.arc(this.frame.x(moment.x), this.frame.y(moment.y), 2.4, 0, 2 * Math.PI);
@@ -316,6 +315,20 @@ export class Trajectory {
     const words = `${about(read)}t ${fixed(read.t, 3)}  ${this.plane.x} ${across}  ${this.plane.y} ${up}`;
     if (this.reading.value !== words) this.reading.value = words;
   }
+}
+
+/**
+ * The times k 2π/|Ω| within a range of time; of too many to be drawn every second, third and so on.
+ * @param {number} omega
+ * @param {number[]} range
+ */
+export function sectionTimes(omega, [from, to]) {
+  if (omega === 0) return [];
+  const period = (2 * Math.PI) / Math.abs(omega);
+  const first = Math.ceil(from / period - 1e-9);
+  const count = Math.max(Math.floor(to / period) - first + 1, 0);
+  const step = Math.ceil(count / MOST_POINTS) || 1;
+  return Array.from({ length: Math.ceil(count / step) }, (_, k) => (first + k * step) * period);
 }
 
 const short = (px) => Math.round(px * 10) / 10;
