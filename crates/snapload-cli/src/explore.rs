@@ -6,6 +6,7 @@ use crate::option_values::whole_number;
 use crate::structure_input::{entries_of, structure_of};
 use snapload::{Key, Kind, Parameters};
 use snapload_explore::{Opened, Server, Start};
+use snapload_report::case_in_words;
 use std::io;
 use std::path::Path;
 
@@ -85,14 +86,14 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
 /// The first case of the thesis's model.
 fn start(case: &CaseArgs) -> Result<Start, Failure> {
     let input = case.read()?;
+    let parameters = *input.case.parameters();
     let name = match input.name.as_str() {
+        // A changed case may not have the name of the one that it was.
+        name if !case.changes().is_empty() => case_in_words(name, &parameters),
         "standard case" => "the standard case".to_owned(),
         name => name.to_owned(),
     };
-    Ok(Start {
-        name,
-        parameters: *input.case.parameters(),
-    })
+    Ok(Start { name, parameters })
 }
 
 /// The first structure, if the file is the case of one.
