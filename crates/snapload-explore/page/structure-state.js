@@ -51,6 +51,8 @@ export class StructureState extends ObservableState {
     this.floats = floats;
     this.file = file;
     this.schema = { ...schema, keys: keysOf(schema, lines) };
+    /** Which case a link changes: the name of its file, and what its values are. */
+    this.identity = `${name.split(/[\\/]/).at(-1)}:${checksum(JSON.stringify(given))}`;
   }
 
   get waterNow() {
@@ -101,7 +103,8 @@ export class StructureState extends ObservableState {
 
   /** The state as the fragment of a link. */
   toFragment() {
-    const parts = Object.entries(this.values).map(([name, value]) => [name, fieldText(value)]);
+    const changes = Object.entries(this.values).map(([name, value]) => [name, fieldText(value)]);
+    const parts = [["case", this.identity], ...changes];
     for (const name of ["water", "speed", "loop", "elastic"]) {
       if (this[name] !== BEGINNING[name]) parts.push([name, String(this[name])]);
     }
@@ -111,13 +114,21 @@ export class StructureState extends ObservableState {
     return parts.map(([name, value]) => `${name}=${encodeURIComponent(value).replaceAll("%2C", ",")}`).join("&");
   }
 
-  /** Takes the whole state of a fragment. Returns what could not be read. */
+  /**
+   * Takes the whole state of a fragment, unless it is that of another case. Returns what could not be read, or the part
+   * that names the other case.
+   */
   readFragment(fragment) {
     const next = { ...BEGINNING, values: {} };
     const broken = [];
     for (const part of fragment ? fragment.split("&") : []) {
       const [name, ...rest] = part.split("=");
       const text = decode(rest.join("="));
+      if (name === "case") {
+        if (text === this.identity) continue;
+        this.set({ ...BEGINNING, values: {} });
+        return [part];
+      }
       const key = this.#key(name);
       const value = text === null ? undefined : key ? (readValue(key, text) ?? text) : readView(name, text);
       if (value === undefined) broken.push(part);
@@ -127,6 +138,16 @@ export class StructureState extends ObservableState {
     this.set(next);
     return broken;
   }
+}
+
+/** The name of the case in the part of a fragment that names it; undefined for other parts. */
+export const caseOfLink = (part) => part.match(/^case=(.*?)(:\w*)?$/)?.[1];
+
+/** A short text that differs for different texts (FNV-1a). */
+function checksum(text) {
+  let sum = 0x811c9dc5;
+  for (const byte of new TextEncoder().encode(text)) sum = Math.imul(sum ^ byte, 0x01000193) >>> 0;
+  return sum.toString(36);
 }
 
 function readView(name, text) {

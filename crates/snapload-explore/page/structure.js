@@ -24,7 +24,8 @@ import { PinnedAnswers } from "./structure-pinned-answers.js";
 import { StructureRun } from "./structure-run.js";
 import { structureShapes } from "./structure-scene.js";
 import { StructureSceneView } from "./structure-scene-view.js";
-import { StructureState } from "./structure-state.js";
+import { decode } from "./state.js";
+import { StructureState, caseOfLink } from "./structure-state.js";
 import { showChecks, showLines, showSnaps } from "./structure-tables.js";
 import { StructurePlaybackControls } from "./structure-playback-controls.js";
 import { StructureWaves } from "./structure-waves.js";
@@ -46,7 +47,7 @@ class Page {
     this.hover = null;
     this.background = null;
     this.link = new Link(this.state, {
-      onBroken: (parts) => note(`Not understood in the link, and ignored: ${parts.join(", ")}`),
+      onBroken: (parts) => note(brokenLinkWords(parts)),
     });
     this.playback = new Playback(this.state, () => this.run);
     this.sceneView = new StructureSceneView(this.state, this.playback);
@@ -370,6 +371,13 @@ class Page {
     state.set({ values, water: water === state.ownWater ? null : water, window: null });
     this.link.write({ now: true });
   }
+}
+
+/** What was not taken from a link: parts that are not understood, or all of the link of another case. */
+function brokenLinkWords(parts) {
+  const other = caseOfLink(decode(parts[0]) ?? "");
+  if (other === undefined) return `Not understood in the link, and ignored: ${parts.join(", ")}`;
+  return `The link belongs to ${other} with other values than those of the case that is open, and is ignored. Open that file first, then the link.`;
 }
 
 const keyOf = (value) => JSON.stringify(value);

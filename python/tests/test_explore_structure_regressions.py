@@ -1,0 +1,42 @@
+"""What went wrong on the page of a structure once, and must not again."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from urllib.parse import urljoin
+
+from explore import CYLINDER, ROOT, comes_true
+from playwright.sync_api import expect
+
+SHORT = "run.duration=60&run.transient=10&elastic=false"
+
+
+def test_a_link_of_another_structure_is_not_applied(open_structure, structure_url, tmp_path: Path):
+    page = open_structure(f"{SHORT}&t=0")
+    restitution = page.locator('[id="field-run.restitution"]')
+    own = restitution.input_value()
+    other = tmp_path / "other.toml"
+    other.write_text((ROOT / CYLINDER).read_text().replace("height = 2\n", "height = 1.2\n"), encoding="utf-8")
+    page.locator("#open-case").set_input_files(other)
+    expect(page.locator("#file")).to_have_text("other.toml", timeout=30_000)
+    restitution.fill("0.3")
+    comes_true(page, lambda: "run.restitution=0.3" in page.url)
+    link = page.url
+    page.reload()
+    expect(restitution).to_have_value("0.3")
+    expect(page.locator("#note")).to_be_hidden()
+    # Nothing of the file is in another window, whose program has the cylinder open.
+    page.evaluate("() => sessionStorage.clear()")
+    page.reload()
+    expect(page.locator("#file")).to_have_text(CYLINDER)
+    expect(page.locator("#note")).to_contain_text("The link belongs to other.toml")
+    expect(restitution).to_have_value(own)
+    expect(page.locator("#shell")).not_to_contain_text("restitution")
+    # A link of the cylinder itself is applied there.
+    page.goto(urljoin(structure_url, "icon.svg"))
+    page.goto(link.split("#")[0] + "#run.restitution=0.4")
+    expect(restitution).to_have_value("0.4")
+    comes_true(page, lambda: "case=cylinder.toml" in page.url)
+    page.reload()
+    expect(restitution).to_have_value("0.4")
+    expect(page.locator("#note")).to_be_hidden()
