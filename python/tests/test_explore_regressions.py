@@ -10,6 +10,7 @@ import socket
 import subprocess
 from itertools import pairwise
 from pathlib import Path
+from urllib.parse import quote, unquote
 
 import pytest
 from explore import PHONE, ROOT, SMALLEST, comes_true, count, download, drawn, exact_time, read, settled
@@ -392,3 +393,21 @@ def test_a_changed_case_has_a_name_of_its_own(serve, open_at):
     expect(chosen).not_to_have_text(re.compile("f_o = 0.4"))
     page.go_back()
     expect(page.locator("#field-f_o")).to_have_value("0.4")
+
+
+def test_a_pin_is_the_run_that_is_shown(open_page):
+    refused, other = (quote(pin) for pin in ['{"r":0.5}', '{"f_o":0.31}'])
+    page = open_page(f"pin={refused}&pin={other}&t=0", refused=1)
+    pins = page.locator("#pins li")
+    expect(pins).to_have_count(2)
+    expect(pins.nth(0)).to_contain_text("can not be run")
+    # The values of the fields are refused: the pin has those of the picture.
+    page.locator("#field-r").fill("0.5")
+    page.locator("#field-r").press("Enter")
+    expect(page.locator("#failed")).to_be_visible()
+    page.locator("#pin").click()
+    expect(pins.nth(2)).to_contain_text("the run that is shown")
+    pins.nth(1).locator(".unpin").click()
+    expect(pins).to_have_count(2)
+    expect(pins.nth(1)).to_contain_text("the run that is shown")
+    comes_true(page, lambda: unquote(page.url).count("pin=") == 2 and unquote(page.url).endswith("pin={}"))

@@ -40,3 +40,17 @@ def test_a_link_of_another_structure_is_not_applied(open_structure, structure_ur
     page.reload()
     expect(restitution).to_have_value("0.4")
     expect(page.locator("#note")).to_be_hidden()
+
+
+def test_a_pinned_answer_is_the_one_that_is_shown(open_structure):
+    page = open_structure(f"{SHORT}&line.length=6.05&t=0", refused=1)
+    page.locator('[id="field-line.length"]').fill("2.9")
+    page.locator('[id="field-line.length"]').press("Enter")
+    expect(page.locator("#failed")).to_contain_text("2.9 is not allowed")
+    page.locator("#pin").click()
+    pin = page.locator("#pins li")
+    expect(pin).to_contain_text("line.length = 6.05")
+    expect(pin).not_to_contain_text("2.9")
+    page.locator("#pins .back").click()
+    expect(page.locator('[id="field-line.length"]')).to_have_value("6.05")
+    expect(page.locator("#failed")).to_be_hidden()

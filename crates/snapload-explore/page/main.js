@@ -97,7 +97,8 @@ class Page {
         caption: (run, t) => `t = ${fixed(t, 2)} T · ${modeName(run.tautAt(t))}`,
       },
     });
-    this.pins = new PinnedRuns(this.state, () => this.run, { onChange: () => this.drawAll() });
+    const current = () => ({ run: this.run, values: this.question?.values });
+    this.pins = new PinnedRuns(this.state, current, { onChange: () => this.drawAll() });
     this.outcome = new Outcome();
     this.proof = new Proof();
     this.questions = new Questions(schema.questions, { values: () => this.state.values });

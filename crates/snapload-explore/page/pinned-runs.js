@@ -11,27 +11,35 @@ const SAMPLES = 1200;
 const COLOURS = ["#009e73", "#cc79a7", "#7a6a00"];
 
 export class PinnedRuns {
-  /** `currentRun` returns the run that is shown; `onChange` is called when there is something else to draw. */
-  constructor(state, currentRun, { onChange }) {
+  /** `current` returns the run that is shown and its values; `onChange` is called when there is something else to draw. */
+  constructor(state, current, { onChange }) {
     this.state = state;
-    this.currentRun = currentRun;
+    this.current = current;
     this.onChange = onChange;
-    this.kept = [];
+    /** The pins in their order; those without a run can not be computed. @type {any[]} */
+    this.all = [];
     this.asked = "";
     $("pin").addEventListener("click", () => this.add());
     $("pins").addEventListener("click", (event) => {
       const button = event.target.closest("button");
       if (!button) return;
       const at = Number(button.dataset.pin);
-      const { values } = this.kept[at];
+      const { values } = this.all[at];
       if (button.className === "unpin") state.set({ pins: state.pins.filter((_, i) => i !== at) });
       else state.set({ values: { ...values } });
     });
   }
 
+  /** The pinned runs that are drawn. */
+  get kept() {
+    return this.all.filter(({ run }) => run !== null);
+  }
+
+  /** Pins the run that is shown; the values of the fields may be refused, or on their way. */
   add() {
-    if (!this.currentRun()) return;
-    const { pins, values } = this.state;
+    const { run, values } = this.current();
+    if (!run) return;
+    const { pins } = this.state;
     this.state.set({ pins: [...pins, { ...values }].slice(-MOST_PINS) });
   }
 
@@ -44,36 +52,40 @@ export class PinnedRuns {
     const known = new Map(this.kept.map((pin) => [JSON.stringify(pin.values), pin.run]));
     const runs = await Promise.all(pins.map((values) => known.get(JSON.stringify(values)) ?? run(values)));
     if (asked !== this.asked) return;
-    this.kept = pins.map((values, i) => ({ values, run: runs[i], colour: COLOURS[i] })).filter((pin) => pin.run);
+    this.all = pins.map((values, i) => ({ values, run: runs[i], colour: COLOURS[i] }));
     this.onChange();
   }
 
   /** The differences of each from the current run, and its outcome. */
   show() {
-    const run = this.currentRun();
-    $("pin").disabled = this.kept.length >= MOST_PINS;
-    const html = this.kept.map((pin, i) => this.#line(pin, i, run)).join("");
+    const shown = this.current();
+    $("pin").disabled = this.all.length >= MOST_PINS;
+    const html = this.all.map((pin, i) => this.#line(pin, i, shown)).join("");
     if ($("pins").innerHTML !== html) $("pins").innerHTML = html;
   }
 
   #line({ values, run, colour }, i, shown) {
     const keys = this.state.schema.keys.map((key) => key.name);
     const value = (of, name) => fieldText(of[name] ?? this.state.defaults[name]);
-    const differ = keys.filter((name) => value(values, name) !== value(this.state.values, name));
+    const differ = keys.filter((name) => value(values, name) !== value(shown.values, name));
     const what = differ.map((name) => `${name} = ${value(values, name)}`).join(", ") || "the run that is shown";
-    const more = (a, b, words) => (a === b ? "" : ` (${words[a > b ? 0 : 1]})`);
-    const hardest = more(number(run.norms.rho1), number(shown.norms.rho1), ["harder", "softer"]);
-    const sure = run.horizon.t === null ? "" : " (not certain)";
-    const outcome = `${reasonText(run.end.reason)} at t = ${number(run.end.t)}${sure}, hardest snap ${number(run.norms.rho1)}`;
     return (
       `<li><i class="swatch" style="background:${colour}"></i> <button type="button" class="back" data-pin="${i}" ` +
-      `title="Show this run">${what}</button>: ${outcome}${run.norms.rho1 === shown.norms.rho1 ? "" : hardest} ` +
+      `title="Show this run">${what}</button>: ${run ? compared(run, shown.run) : "can not be run"} ` +
       `<button type="button" class="unpin" data-pin="${i}" aria-label="Unpin ${what}">×</button></li>`
     );
   }
 }
 
-/** A pinned run that can not be computed, for example of an old link, is left out. */
+/** How a pinned run ends, and how hard it snaps, compared with the run that is shown. */
+function compared(run, shown) {
+  const [hardest, now] = [run, shown].map(({ norms }) => number(norms.rho1));
+  const more = hardest === now ? "" : ` (${run.norms.rho1 > shown.norms.rho1 ? "harder" : "softer"})`;
+  const sure = run.horizon.t === null ? "" : " (not certain)";
+  return `${reasonText(run.end.reason)} at t = ${number(run.end.t)}${sure}, hardest snap ${hardest}${more}`;
+}
+
+/** A pinned run; null if it can not be computed, for example that of an old link. */
 async function run(values) {
   try {
     return new Run(await fetchRun({ values, ghost: null, samples: SAMPLES }));

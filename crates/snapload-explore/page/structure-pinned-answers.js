@@ -36,8 +36,10 @@ export class PinnedAnswers {
   add() {
     const run = this.currentRun();
     if (!run || this.kept.length >= MOST_PINS) return;
-    const { values, water, waterNow } = this.state;
-    this.kept.push({ values: { ...values }, water, waterNow, outcome: outcome(run), preview: run.preview });
+    // The values of the run; those of the fields may be refused, or on their way.
+    const { set, water } = run.ofCase;
+    const values = this.state.valuesOf(set);
+    this.kept.push({ values, water, outcome: outcome(run), preview: run.preview });
     this.show();
   }
 
@@ -59,8 +61,8 @@ function compared(value, now, written) {
   return Number(far) === 0 ? "the same as now" : `${far} ${value > now ? "more" : "less"} than now`;
 }
 
-function line({ values, water, waterNow, outcome: of, preview }, i, shown) {
-  const waters = water === null ? "" : `water: ${waterNow}`;
+function line({ values, water, outcome: of, preview }, i, shown) {
+  const waters = water === null ? "" : `water: ${water}`;
   const what = escape([waters, changesText(values)].filter(Boolean).join(", ")) || "the case, unchanged";
   const more = of.largest === null ? compared(of.fastest, shown.fastest, speed) : compared(of.largest, shown.largest, ratio);
   const much = of.largest === null ? `fastest snap ${speed(of.fastest)} m/s` : `utilisation ${ratio(of.largest)}`;

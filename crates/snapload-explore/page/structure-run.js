@@ -43,6 +43,8 @@ const ofLine = (line) => ({
 });
 
 export class StructureRun {
+  /** The case that was asked for. @type {any} */
+  ofCase;
   /** The server's answer. @type {any} */
   assessment;
   /** @type {any} */
@@ -71,8 +73,9 @@ export class StructureRun {
   /** @type {StructureMotion | null} */
   elasticAt = null;
 
-  constructor(answer) {
+  constructor(answer, ofCase = null) {
     Object.assign(this, answer);
+    this.ofCase = ofCase;
     this.motionAt = new StructureMotion(answer.motion);
     this.tEnd = answer.assessment.end.t_s;
     this.horizon = { t: answer.assessment.trust.horizon_s };

@@ -101,6 +101,12 @@ export class StructureState extends ObservableState {
     return { file: this.file, set, water: this.water };
   }
 
+  /** The values by path that changes in the notation of `--set` stand for. */
+  valuesOf(set) {
+    const pairs = set.map((change) => [change.slice(0, change.indexOf("=")), change.slice(change.indexOf("=") + 1)]);
+    return Object.fromEntries(pairs.map(([name, text]) => [name, valueOf(this.#key(name), text)]));
+  }
+
   /** The state as the fragment of a link. */
   toFragment() {
     const changes = Object.entries(this.values).map(([name, value]) => [name, fieldText(value)]);
@@ -130,7 +136,7 @@ export class StructureState extends ObservableState {
         return [part];
       }
       const key = this.#key(name);
-      const value = text === null ? undefined : key ? (readValue(key, text) ?? text) : readView(name, text);
+      const value = text === null ? undefined : key ? valueOf(key, text) : readView(name, text);
       if (value === undefined) broken.push(part);
       else if (key) next.values[name] = value;
       else next[name] = value;
@@ -139,6 +145,9 @@ export class StructureState extends ObservableState {
     return broken;
   }
 }
+
+/** The value of a key; text that is none for the page is left to the server. */
+const valueOf = (key, text) => readValue(key, text) ?? text;
 
 /** The name of the case in the part of a fragment that names it; undefined for other parts. */
 export const caseOfLink = (part) => part.match(/^case=(.*?)(:\w*)?$/)?.[1];

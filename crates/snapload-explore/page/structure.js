@@ -141,10 +141,9 @@ class Page {
 
   receive(answer, since, question) {
     const before = this.run;
-    this.run = new StructureRun(answer);
+    this.run = new StructureRun(answer, question.case);
     // Results for elastic lines stay valid for another interval of the same run.
-    this.sameCase = before !== null && keyOf(this.ofCase) === keyOf(question.case);
-    this.ofCase = question.case;
+    this.sameCase = before !== null && keyOf(before.ofCase) === keyOf(question.case);
     const latest = this.asked === JSON.stringify(question);
     this.show();
     if (this.playsAtOnce) this.playback.play();
@@ -188,7 +187,7 @@ class Page {
       const text = await fetchWithProgress("api/structure/run", { ...question, ...how }, abort.signal, onProgress);
       if (!current()) return;
       this.#showProgress(how.neighbours ? "" : this.#toCome());
-      this.run = new StructureRun(JSON.parse(text));
+      this.run = new StructureRun(JSON.parse(text), question.case);
       this.show();
     };
     try {
