@@ -13,7 +13,7 @@ from pathlib import Path
 from urllib.parse import quote, unquote
 
 import pytest
-from explore import PHONE, ROOT, SMALLEST, comes_true, count, download, drawn, exact_time, read, settled
+from explore import DESKTOP, PHONE, ROOT, SMALLEST, comes_true, count, download, drawn, exact_time, read, settled
 from playwright.sync_api import expect
 
 SLIDE = "(slider, value) => { slider.value = value; slider.dispatchEvent(new Event('input')); }"
@@ -411,3 +411,19 @@ def test_a_pin_is_the_run_that_is_shown(open_page):
     expect(pins).to_have_count(2)
     expect(pins.nth(1)).to_contain_text("the run that is shown")
     comes_true(page, lambda: unquote(page.url).count("pin=") == 2 and unquote(page.url).endswith("pin={}"))
+
+
+def test_a_first_case_that_takes_too_long_is_asked_for_once(serve, windows):
+    long = ["body=point", "e=1", "t_end=1000000", "max_impacts=10000000", "f_o=0", "y=0.005"]
+    url = serve(*(text for change in long for text in ["--set", change]))
+    window = windows.take(has_touch=False)
+    asked = []
+    window.page.on("request", lambda request: request.url.endswith("/api/run") and asked.append(request.post_data_json))
+    page = window.load(url, "", wrong=[], refused=1, viewport=DESKTOP, reduced_motion="reduce")
+    settled(page)
+    expect(page.locator("#failed")).to_contain_text("after 2 s of computing")
+    expect(page.locator("#failed")).to_contain_text("The picture shows the standard case.")
+    expect(page.locator("#message")).to_contain_text("Settled at t = 7.246")
+    page.wait_for_timeout(2500)
+    assert [question["values"] for question in asked] == [asked[0]["values"], {}]
+    window.context.close()

@@ -51,6 +51,8 @@ class Page {
     this.hover = null;
     /** The time cursor before a run arrived that ends earlier. */
     this.keptTime = null;
+    /** Why the values can not be run. */
+    this.refusal = "";
     this.link = new Link(this.state, {
       onBroken: (parts) => note(`Not understood in the link, and ignored: ${parts.join(", ")}`),
     });
@@ -164,6 +166,7 @@ class Page {
     this.shown = keyOf(question);
     const latest = this.asked === keyOf(question);
     if (latest) {
+      this.refusal = "";
       setProperties($("failed"), { hidden: true });
       this.controls.clearError();
       if (question.ghost === this.state.ghost) this.sceneView.refuseGhost("");
@@ -247,18 +250,26 @@ class Page {
 
   fail(error, question) {
     if (error.key === "ghost") return this.failGhost(error, question);
-    this.controls.showError(error);
-    this.#fillTables();
-    // The values of a link may not be runnable: then the case of the start is shown.
-    const shown = this.run ? "the last values that could be run" : `the first case of the page, ${this.state.schema.start.name}`;
-    $("failed").textContent = `Not run: ${error.message}\nThe picture shows ${shown}.`;
-    $("failed").hidden = false;
-    if (!this.run) {
-      this.runner.ask(
-        { values: this.state.schema.start.values, ghost: null, samples: SAMPLES.first },
-        performance.now(),
-      );
+    // What is shown instead may be refused, too: the reason is that of the values asked for.
+    if (keyOf(question) === this.asked || !this.refusal) {
+      this.controls.showError(error);
+      this.refusal = error.message;
     }
+    this.#fillTables();
+    const instead = this.run ? null : this.#instead(question);
+    const shown = this.run ? "the last values that could be run" : instead?.words;
+    $("failed").textContent = `Not run: ${this.refusal}${shown ? `\nThe picture shows ${shown}.` : ""}`;
+    $("failed").hidden = false;
+    if (instead) this.runner.ask({ values: instead.values, ghost: null, samples: SAMPLES.first }, performance.now());
+  }
+
+  /** The case to show after one that can not be run: the first one of the page, then the standard case, then none. */
+  #instead(question) {
+    const { start } = this.state.schema;
+    const standard = { values: {}, words: "the standard case" };
+    const first = { values: start.values, words: `the first case of the page, ${start.name}` };
+    const failed = ({ values }) => keyOf({ values, ghost: null }) === keyOf(question);
+    return failed(standard) ? null : failed(first) ? standard : first;
   }
 
   /** Requests the run without the ghost if only the ghost can not be run. */
