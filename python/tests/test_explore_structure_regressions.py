@@ -54,3 +54,55 @@ def test_a_pinned_answer_is_the_one_that_is_shown(open_structure):
     page.locator("#pins .back").click()
     expect(page.locator('[id="field-line.length"]')).to_have_value("6.05")
     expect(page.locator("#failed")).to_be_hidden()
+
+
+def test_neighbours_and_elastic_lines_follow_a_drag_of_the_body(open_structure):
+    page = open_structure("run.duration=12&run.transient=2&t=0")
+    expect(page.locator("#lines thead")).to_contain_text("elastic", timeout=60_000)
+    box = page.locator("#scene").bounding_box()
+    middle = (box["x"] + box["width"] / 2, box["y"])
+    # The body is where the pointer takes hold of something.
+    y = next(
+        middle[1] + k
+        for k in range(20, int(box["height"]), 6)
+        if page.mouse.move(middle[0], middle[1] + k)
+        or page.locator("#scene").evaluate("one => one.style.cursor") == "grab"
+    )
+    # The answers wait for the end of the drag: the last values are asked for before the answer to those before them.
+    page.evaluate(
+        """() => {
+            const ask = window.fetch;
+            const end = new Promise(done => (window.endOfDrag = done));
+            window.fetch = async (path, options) => {
+                const answer = await ask(path, { ...options, signal: undefined });
+                await end;
+                return answer;
+            };
+        }"""
+    )
+    page.mouse.move(middle[0], y + 4)
+    page.mouse.down()
+    for k in range(5):
+        page.mouse.move(middle[0] + 3 * k, y + 4 + k)
+    page.mouse.up()
+    page.evaluate("() => window.endOfDrag()")
+    comes_true(page, lambda: "run.start" in page.locator("#shell").inner_text())
+    expect(page.locator("#lines thead")).not_to_contain_text("elastic")
+    expect(page.locator("#trust")).to_contain_text("neighbours", timeout=60_000)
+    expect(page.locator("#lines thead")).to_contain_text("elastic", timeout=60_000)
+    expect(page.locator("#coming")).to_be_empty()
+
+
+def test_back_leaves_the_page_of_a_structure(open_structure, structure_url):
+    page = open_structure(f"{SHORT}&t=0")
+    page.goto(urljoin(structure_url, "index.html#t=0"))
+    page.goto(structure_url)
+    comes_true(page, lambda: "window=" in page.url)
+    page.locator('[id="field-wave.height"]').fill("1.7")
+    page.locator('[id="field-wave.height"]').press("Enter")
+    comes_true(page, lambda: "wave.height=1.7" in page.url)
+    page.go_back()
+    expect(page.locator('[id="field-wave.height"]')).to_have_value("2")
+    page.go_back()
+    assert page.url.startswith(urljoin(structure_url, "index.html"))
+    expect(page.locator("#field-f_o")).to_have_value("0.3")

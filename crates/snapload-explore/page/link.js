@@ -24,10 +24,10 @@ export class Link {
 
   /**
    * Writes the state into the address soon, or now. It waits while a slider is dragged. Changes of one gesture make one
-   * entry in the history.
+   * entry in the history; `sameEntry`: the change makes none.
    */
-  write({ now = false, gesture = null } = {}) {
-    if (now) this.#flush(gesture);
+  write({ now = false, gesture = null, sameEntry = false } = {}) {
+    if (now) this.#flush(gesture, sameEntry);
     else this.timer ??= setTimeout(() => this.#flush(), PACE_MS);
   }
 
@@ -36,14 +36,14 @@ export class Link {
     return `${location.origin}${location.pathname}#${this.state.toFragment()}`;
   }
 
-  #flush(gesture = null) {
+  #flush(gesture = null, sameEntry = false) {
     clearTimeout(this.timer);
     this.timer = null;
     const fragment = this.state.toFragment();
     if (this.held || fragment === this.written) return;
     const goesOn = gesture !== null && gesture === this.gesture;
-    const step = timeless(fragment) !== timeless(this.written) && !goesOn;
-    this.gesture = gesture;
+    const step = timeless(fragment) !== timeless(this.written) && !goesOn && !sameEntry;
+    if (!sameEntry) this.gesture = gesture;
     if (step) history.pushState(null, "", `#${fragment}`);
     else history.replaceState(null, "", `#${fragment}`);
     this.written = fragment;

@@ -145,7 +145,7 @@ class Page {
     // Results for elastic lines stay valid for another interval of the same run.
     this.sameCase = before !== null && keyOf(before.ofCase) === keyOf(question.case);
     const latest = this.asked === JSON.stringify(question);
-    this.show();
+    this.show(latest);
     if (this.playsAtOnce) this.playback.play();
     this.playsAtOnce = false;
     reportPaintTime(since);
@@ -157,22 +157,31 @@ class Page {
     this.resting = setTimeout(() => this.computeFurther(), this.sameCase ? 0 : REST_MS);
   }
 
-  /** Shows the current run. */
-  show() {
+  /** Shows the current run; latest: that of the current values, and not of earlier ones while others are on their way. */
+  show(latest = true) {
     const { run, state } = this;
     this.sceneView.setRun(run);
     this.playbackControls.setRun(run);
-    // The interval chosen by the server is kept while values change, so that only one thing changes at a time.
     const [from, to] = run.window;
     const t = state.t >= from && state.t <= to ? state.t : from;
-    this.asked = JSON.stringify({ case: state.asked, window: run.window });
-    state.set({ window: run.window, t });
+    if (latest) this.#keepWindow();
+    state.set({ t });
     showLines(run);
     showChecks(run);
     showSnaps(run);
     this.exports.setRun(run);
     this.#legend();
     this.drawAll();
+  }
+
+  /** Keeps the interval chosen by the server while values change, so that only one thing changes at a time. */
+  #keepWindow() {
+    const { run, state } = this;
+    const chosen = state.window === null;
+    this.asked = JSON.stringify({ case: state.asked, window: run.window });
+    state.set({ window: run.window });
+    // It belongs to the entry of the history that was made without an interval.
+    if (chosen) this.link.write({ now: true, sameEntry: true });
   }
 
   /** After the last change: the whole of a long record, neighbours, and elastic lines, one after the other. */
