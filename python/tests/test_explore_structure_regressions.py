@@ -62,12 +62,11 @@ def test_neighbours_and_elastic_lines_follow_a_drag_of_the_body(open_structure):
     box = page.locator("#scene").bounding_box()
     middle = (box["x"] + box["width"] / 2, box["y"])
     # The body is where the pointer takes hold of something.
+    grabs = "() => document.getElementById('scene').style.cursor === 'grab'"
     y = next(
-        middle[1] + k
-        for k in range(20, int(box["height"]), 6)
-        if page.mouse.move(middle[0], middle[1] + k)
-        or page.locator("#scene").evaluate("one => one.style.cursor") == "grab"
+        y for y in range(20, int(box["height"]), 6) if page.mouse.move(middle[0], middle[1] + y) or page.evaluate(grabs)
     )
+    y += middle[1]
     # The answers wait for the end of the drag: the last values are asked for before the answer to those before them.
     page.evaluate(
         """() => {
@@ -106,3 +105,31 @@ def test_back_leaves_the_page_of_a_structure(open_structure, structure_url):
     page.go_back()
     assert page.url.startswith(urljoin(structure_url, "index.html"))
     expect(page.locator("#field-f_o")).to_have_value("0.3")
+
+
+EARLY = (
+    "wave.height=1.56&wave.period=5&run.duration=150&run.transient=30&run.restitution=0.89&line.length=6.04"
+    "&window=40,70&t=68"
+)
+
+
+def test_a_run_on_elastic_lines_that_ends_early_is_shown_as_such(open_structure):
+    page = open_structure(EARLY)
+    words = page.locator("#elastic-words")
+    expect(words).to_contain_text("the run stopped where the body had turned by 90 degrees at 56.1 s", timeout=60_000)
+    expect(page.locator("#lines thead")).to_contain_text("Slack to")
+    picture = "canvas => canvas.toDataURL()"
+    # After its end nothing of it is in the scene: the picture is that without elastic lines.
+    ended = page.locator("#scene").evaluate(picture)
+    page.locator("#elastic").uncheck()
+    expect(words).to_be_empty()
+    comes_true(page, lambda: page.locator("#elastic-key").is_hidden())
+    page.wait_for_timeout(100)
+    assert page.locator("#scene").evaluate(picture) == ended
+
+
+def test_elastic_lines_of_a_long_record_are_left_to_the_command(open_structure):
+    page = open_structure("run.duration=1300&run.transient=10&t=0")
+    words = page.locator("#elastic-words")
+    expect(words).to_contain_text("are run by the command: snapload elastic", timeout=60_000)
+    expect(page.locator("#elastic-message")).to_be_empty()

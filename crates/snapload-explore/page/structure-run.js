@@ -96,6 +96,11 @@ export class StructureRun {
     this.elasticAt = answer && answer.motion.t.length ? new StructureMotion(answer.motion) : null;
   }
 
+  /** The run on elastic lines at a time; null if there is none, or it has ended before. */
+  elasticMoment(t) {
+    return this.elasticAt && t <= this.elastic.elastic.end.t_s ? this.elasticAt.at(t) : null;
+  }
+
   at(t) {
     const moment = this.motionAt.at(t);
     moment.taut = this.tautAt(t);

@@ -55,7 +55,7 @@ export function structureShapes(run, t, options) {
   const { colours } = options;
   const moment = run.at(t);
   const snaps = recentSnaps(run, t, options);
-  const elastic = run.elasticAt?.at(t);
+  const elastic = run.elasticMoment(t);
   const { lines } = run.geometry;
   return [
     ...water(run, t, cam, options),

@@ -8,6 +8,8 @@ const [LISTED, EARLY] = [10, 3];
 
 /** The heading of slack; the tensions and snaps beside it are those of the judged time. */
 const SLACK = "Slack of<br>all time";
+/** The same of a run on elastic lines, which may have ended before the record. */
+const elasticSlack = ({ end }, lasts_s) => (end.t_s < lasts_s ? `Slack to<br>${round(end.t_s)} s` : SLACK);
 
 const kilo = (newtons) => (newtons === null || newtons === undefined ? "–" : round(newtons / 1e3, 4));
 const percent = (part) => (part === null ? "–" : fixed(100 * part, 1));
@@ -50,7 +52,7 @@ export function showLines(run) {
   $("lines").innerHTML =
     `<thead><tr><th scope="col">Line</th>${head("Utilisation", "", "")}${head("Safety<br>factor", "")}` +
     `${head("Breaking<br>load", "kN")}${head("While<br>taut", "kN")}${head("Snap<br>peak", "kN")}${elasticHead("Peak", "kN")}` +
-    `${head(SLACK, "%")}${elasticHead(SLACK, "%")}${head("Fastest<br>snap", "m/s")}${head("Snaps", "")}` +
+    `${head(SLACK, "%")}${elastic ? elasticHead(elasticSlack(elastic, run.lasts_s), "%") : ""}${head("Fastest<br>snap", "m/s")}${head("Snaps", "")}` +
     `${head("At rest", "kN")}${head("Least", "kN")}</tr></thead><tbody>` +
     run.lines.map((line, i) => lineRow(line, elastic?.lines[i])).join("") +
     "</tbody>";
@@ -64,6 +66,14 @@ export function showLines(run) {
     "judged included. Utilisation: the larger of these two tensions over the breaking load; the safety factor is its inverse, " +
     "and includes no factor of any rule." +
     (elastic ? " Elastic: the same with elastic lines, as computed by snapload elastic." : "");
+  $("elastic-words").textContent = elastic ? elasticWords(elastic, run.assessment.warnings) : "";
+}
+
+/** The verdict of the run on elastic lines, and the warnings that the inextensible one does not have. */
+function elasticWords({ verdict, warnings }, others) {
+  const heard = new Set(others.map(({ message }) => message));
+  const own = warnings.filter(({ message }) => !heard.has(message)).map(({ message }) => sentence(message));
+  return [`On elastic lines: ${verdict.words}`, ...own].join(" ");
 }
 
 /** Checks by the rule of the case, other restitutions, and warnings. */

@@ -34,7 +34,7 @@ import { fixed, round } from "./formatting.js";
 
 /** Neighbours and elastic lines are computed this long after the last change of values. */
 const REST_MS = 300;
-/** The longest record whose neighbours are computed here [s]: forty longer ones would take minutes. */
+/** The longest record whose neighbours and elastic lines are computed here [s]: those of longer ones may take minutes. */
 const LONGEST_WITH_NEIGHBOURS = 1200;
 const PURPOSE_READ = "snapload-structure-purpose-read";
 
@@ -223,6 +223,11 @@ class Page {
   }
 
   async #computeElastic(question, abort) {
+    if (this.run.lasts_s > LONGEST_WITH_NEIGHBOURS) {
+      const command = this.run.shell.replace("snapload assess", "snapload elastic");
+      $("elastic-words").textContent = `Elastic lines of so long a record are run by the command: ${command}`;
+      return;
+    }
     $("elastic-message").textContent = "computing…";
     try {
       const answer = await fetchLong("api/structure/elastic", question, abort.signal);

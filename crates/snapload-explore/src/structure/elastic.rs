@@ -48,7 +48,8 @@ pub(crate) fn answer(
         let prepared = ModelAtRest::for_elastic_lines(case.structure.clone())?;
         compare_elastic(prepared, 1.0, every_s, &on_progress)
     });
-    let comparison = comparison.map_err(|unfinished| too_long(&case, BUDGET, unfinished))?;
+    let comparison =
+        comparison.map_err(|unfinished| too_long(&case, "elastic", BUDGET, unfinished))?;
     let mut json = comparison.to_json(&case.opened.name);
     if let Some(json) = json.as_object_mut() {
         json.remove("pulls");

@@ -75,8 +75,9 @@ impl File {
             return serde_json::to_vec_pretty(&answer).map_err(Refusal::failed);
         }
         let scan = note::scan(&case.structure, &|progress| allowance.check(progress));
-        let scan =
-            scan.map_err(|cancelled| too_long(&case, BUDGET, Unfinished::Cancelled(cancelled)))?;
+        let scan = scan.map_err(|cancelled| {
+            too_long(&case, "assess", BUDGET, Unfinished::Cancelled(cancelled))
+        })?;
         let command = case.command("assess");
         let source = Source {
             name,

@@ -95,7 +95,7 @@ pub(super) fn assessed(
     let kept = &latest.assessment;
     let allowance = allowance.within(wanted_run.time);
     let on_progress = |progress: Progress| allowance.check(progress);
-    let refuse = |unfinished| too_long(case, wanted_run.time, unfinished);
+    let refuse = |unfinished| too_long(case, "assess", wanted_run.time, unfinished);
     let fingerprint = format!("{} {}", case_request.fingerprint(), wanted_run.preview);
     let with_neighbours = format!("{fingerprint} beside its neighbours");
     if let Some(found) = kept.get(&with_neighbours) {
@@ -129,14 +129,15 @@ fn beginning(structure: &Structure) -> Structure {
     }
 }
 
-/// The refusal of work that failed or did not end within its time.
-pub(super) fn too_long(case: &Case, time: Duration, unfinished: Unfinished) -> Refusal {
+/// The refusal of work that failed or did not end within its time; `verb` names the command that has
+/// no limit.
+pub(super) fn too_long(case: &Case, verb: &str, time: Duration, unfinished: Unfinished) -> Refusal {
     match unfinished {
         Unfinished::Case(error) => error.into(),
         Unfinished::Cancelled(_) => Refusal::values(format!(
             "this takes more than {} s, the limit of the page\nhint: lower run.duration, or use the command line: {}",
             time.as_secs(),
-            case.command("assess")
+            case.command(verb)
         )),
     }
 }

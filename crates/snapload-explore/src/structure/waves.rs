@@ -39,7 +39,7 @@ pub(crate) fn answer(
     let allowance = allowance.within(BUDGET);
     let on_progress = |progress: Progress| allowance.check(progress);
     let scan = note::scan(&case.structure, &on_progress)
-        .map_err(|cancelled| too_long(&case, BUDGET, Unfinished::Cancelled(cancelled)))?
+        .map_err(|cancelled| too_long(&case, "assess", BUDGET, Unfinished::Cancelled(cancelled)))?
         .ok_or_else(|| {
             Refusal::values("other waves are computed around a regular wave; the case has none")
         })?;
