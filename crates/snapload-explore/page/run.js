@@ -23,6 +23,9 @@ export function hermite(p0, v0, p1, v1, d, u) {
 /** Between rows that are further apart than this [T] the cubic is only approximate. */
 const ROUGH_T = 0.25;
 
+/** Two runs have separated if they differ by this. */
+const SEPARATED = 1e-3;
+
 const COORDINATES = [
   ["x", "vx"],
   ["y", "vy"],
@@ -104,6 +107,11 @@ export class Run {
     this.timeTaut = taut.reduce((sum, set, i) => sum + (set.length ? t_end[i] - t_start[i] : 0), 0);
     this.mostTension = Math.max(largest(answer.motion.T1), largest(answer.motion.T2));
     this.reach = { x: ends(answer.motion.x), y: ends(answer.motion.y) };
+  }
+
+  /** The ghost at a time; null if there is none, or it has ended longer before than what separates the two. */
+  ghostMoment(t) {
+    return this.ghostAt && t <= this.ghost.end.t + SEPARATED ? this.ghostAt.at(t) : null;
   }
 
   at(t) {

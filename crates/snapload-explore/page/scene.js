@@ -67,7 +67,7 @@ export function sceneShapes(run, t, options) {
   const cam = options.camera ?? camera(run, options);
   const moment = run.at(t);
   const snaps = recentSnaps(run, t, options);
-  const ghost = run.ghostAt?.at(Math.min(t, run.ghost.end.t));
+  const ghost = run.ghostMoment(t);
   const close = options.view === "close";
   const paths = [
     ...path(

@@ -27,6 +27,9 @@ const SAMPLES: std::ops::RangeInclusive<u32> = 2..=20_000;
 const FARTHEST: f64 = 0.1;
 /// Two runs have separated if x, y or θ differ by more than this.
 const SEPARATED: f64 = 1e-3;
+/// The times per T, and at most, at which two runs are compared besides their impacts.
+const LOOKS_PER_T: f64 = 20.0;
+const MOST_LOOKS: u32 = 200_000;
 
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -384,7 +387,7 @@ impl Ghost {
             by,
             motion: Columns::of(&other, shown, sampling),
             end: EndWithText::of(&other, end_in_words(&other, neighbour.parameters())),
-            parts_at: separation_time(run, &other, sampling),
+            parts_at: separation_time(run, &other),
         })
     }
 }
@@ -404,15 +407,37 @@ fn neighbour(case: &Case, by: f64) -> Result<(&'static str, f64, Case), CaseErro
         .or_else(|_| at("y", by))
 }
 
-/// When two runs have separated, while both last.
-fn separation_time(run: &Trajectory, other: &Trajectory, sampling: Times) -> Option<f64> {
+/// When two runs have separated, while both last: to rounding, whatever the times of the answer.
+fn separation_time(run: &Trajectory, other: &Trajectory) -> Option<f64> {
     let (mut one, mut two) = (Playback::new(run), Playback::new(other));
     let apart = |p: &State, q: &State| {
         let distances = [p.x - q.x, p.y - q.y, p.theta - q.theta];
         distances.iter().any(|distance| distance.abs() > SEPARATED)
     };
-    sampling
-        .evenly(0.0, run.end().t)
-        .take_while(|t| *t <= other.end().t)
-        .find(|t| apart(&one.at(*t).state, &two.at(*t).state))
+    let end = run.end().t.min(other.end().t);
+    let looks = ((LOOKS_PER_T * end).ceil() as u32).clamp(1, MOST_LOOKS);
+    let evenly = (0..=looks).map(|k| end * f64::from(k) / f64::from(looks));
+    // In slack flight the distances change evenly, so that they are largest at an impact of either.
+    let impacts = [run, other].into_iter().flat_map(Trajectory::impacts);
+    let mut times: Vec<f64> = impacts.map(|impact| impact.t).chain(evenly).collect();
+    times.retain(|t| *t <= end);
+    times.sort_unstable_by(f64::total_cmp);
+    let mut apart_at = |t| apart(&one.at(t).state, &two.at(t).state);
+    let at = times.iter().position(|t| apart_at(*t))?;
+    let mut after = times[at];
+    let mut before = if at == 0 {
+        return Some(after);
+    } else {
+        times[at - 1]
+    };
+    loop {
+        let middle = before + (after - before) / 2.0;
+        if middle <= before || middle >= after {
+            return Some(after);
+        }
+        match apart_at(middle) {
+            true => after = middle,
+            false => before = middle,
+        }
+    }
 }

@@ -237,8 +237,16 @@ fn a_neighbour_starts_near_the_run_and_separates_at_the_reported_time() {
         let apart = [p.x - q.x, p.y - q.y, p.theta - q.theta].map(f64::abs);
         apart.into_iter().fold(0.0, f64::max)
     };
-    let (parts_at, step) = (ghost["parts_at"].as_f64().unwrap(), run.end().t / 999.0);
-    assert!(distance(parts_at) > 1e-3 && distance(parts_at - step) <= 1e-3);
+    let parts_at = ghost["parts_at"].as_f64().unwrap();
+    assert!(distance(parts_at) > 1e-3 && distance(parts_at.next_down()) <= 1e-3);
+    let earlier = (0..50_000).map(|k| parts_at * f64::from(k) / 5e4);
+    assert!(earlier.into_iter().all(|t| distance(t) <= 1e-3));
+    // The time does not depend on the times at which the motion is sent.
+    for samples in [50, 20_000] {
+        let request = json!({ "values": { "f_o": 0.4 }, "ghost": 1e-6, "samples": samples });
+        let again = server.post("/api/run", &request).json();
+        assert_eq!(again["ghost"]["parts_at"].as_f64(), Some(parts_at));
+    }
 }
 
 #[test]
