@@ -427,3 +427,33 @@ def test_a_first_case_that_takes_too_long_is_asked_for_once(serve, windows):
     page.wait_for_timeout(2500)
     assert [question["values"] for question in asked] == [asked[0]["values"], {}]
     window.context.close()
+
+
+def test_what_is_past_the_horizon_is_marked_wherever_it_is_shown(open_page):
+    other = quote('{"f_o":0.31}')
+    page = open_page(f"pin={other}&t=0")
+    for norm in ["rho1", "impulse", "taut", "impacts"]:
+        term = page.locator("#summary div", has=page.locator(f'[data-norm="{norm}"]'))
+        expect(term.locator("small")).to_have_text("not certain")
+    expect(page.locator("#pins li")).to_contain_text(re.compile(r"\((harder|softer), not certain\)"))
+
+
+def test_a_ghost_is_not_drawn_after_its_end(open_page):
+    page = open_page("f_o=0.463&e=0.9&omega=0.99&t_end=60&ghost=0.01&t=12")
+    expect(page.locator("#message")).to_contain_text("It ends otherwise:")
+    before = page.evaluate("() => document.getElementById('scene').toDataURL()")
+    number = count(page)
+    page.locator("#ghost").uncheck()
+    settled(page, number)
+    assert page.evaluate("() => document.getElementById('scene').toDataURL()") == before
+
+
+def test_zeros_of_a_logarithmic_map_have_a_colour_of_their_own(open_page):
+    page = open_page("t=0&map=f_o,0.1,0.4,13,e,0.7,0.95,3,t_sliding")
+    legend = page.locator("#map-legend")
+    expect(page.locator("#map-progress")).to_have_text("39 runs", timeout=60_000)
+    expect(legend).to_contain_text("logarithmic")
+    expect(legend).to_contain_text(re.compile(r"\b0 \(\d+\)"))
+    page.locator("#map").hover()
+    page.locator("#map-colour").select_option("horizon_t")
+    expect(page.locator("#map-message")).not_to_contain_text("taut cable")

@@ -109,7 +109,7 @@ const CHARTS = [
       above(span(all(run, pins).flatMap(({ motion }) => [seen(motion, motion.T1), seen(motion, motion.T2)]))),
     draw: drawTensions,
     read: (run, moment) => moment.tensions.map((T, i) => `T${"₁₂"[i]} ${number(T, 3)}`).join("  ") + " F",
-    words: (run) => (run.timeTaut > 0 ? `at most ${number(run.mostTension, 3)} F` : "no cable stays taut"),
+    words: (run) => (run.timeTaut > 0 ? `up to about ${number(run.mostTension, 2)} F` : "no cable stays taut"),
   },
   {
     id: "energy",

@@ -88,6 +88,7 @@ export class SweepMap {
     this.box.open = map !== null;
     if (!map) return this.stop("");
     $("map-colour").value = map.colour;
+    if (this.cells && this.pointed) $("map-message").textContent = this.#words(this.pointed);
     for (const axis of this.axes) axis.show();
     const question = this.#ask();
     if (JSON.stringify(question) !== this.question) {
@@ -350,16 +351,19 @@ export class SweepMap {
     const other = (k) => (cells.error[k] ? colours.faint : null);
     if (colour === "reason") return (k) => (cells.reason[k] ? endColour(colours, cells.reason[k]) : other(k));
     const { low, high, log } = this.#scale(colour);
-    const along = log ? (value) => Math.log(Math.max(value, low) / low) / Math.log(high / low) : null;
-    const linear = (value) => (value - low) / (high - low || 1);
-    return (k) => (cells[colour][k] === null ? other(k) : cividis((along ?? linear)(cells[colour][k])));
+    const along = (value) => (log ? Math.log(value / low) / Math.log(high / low) : (value - low) / (high - low || 1));
+    return (k) => {
+      const value = cells[colour][k];
+      // A logarithmic scale has no zero.
+      return value === null ? other(k) : log && value === 0 ? colours.rule : cividis(along(value));
+    };
   }
 
   /** The range of all values; logarithmic if they span several decades. */
   #scale(colour) {
     const [low, high] = rangeOf(this.cells[colour]);
     const [least] = rangeOf(this.cells[colour].map((value) => (value > 0 ? value : null)));
-    const log = low >= 0 && high > DECADES * least;
+    const log = low >= 0 && least > 0 && high > DECADES * least;
     return { low: log ? least : low, high, log };
   }
 
@@ -401,7 +405,10 @@ export class SweepMap {
       );
     } else {
       const { low, high, log } = this.#scale(colour);
-      parts.unshift({ from: number(low, 3), words: `${number(high, 3)}${log ? ", logarithmic" : ""}` });
+      const zeros = log ? cells[colour].filter((value) => value === 0).length : 0;
+      if (zeros) parts.unshift({ fill: colours.rule, words: `0 (${zeros})` });
+      const known = cells[colour].some((value) => value !== null);
+      if (known) parts.unshift({ from: number(low, 3), words: `${number(high, 3)}${log ? ", logarithmic" : ""}` });
     }
     const unsure = cells.reason.filter((_, k) => this.#uncertain(k)).length;
     if (unsure) parts.push({ hatched: true, words: `not certain: rounding may decide how they end (${unsure})` });

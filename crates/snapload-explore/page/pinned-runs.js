@@ -80,7 +80,9 @@ export class PinnedRuns {
 /** How a pinned run ends, and how hard it snaps, compared with the run that is shown. */
 function compared(run, shown) {
   const [hardest, now] = [run, shown].map(({ norms }) => number(norms.rho1));
-  const more = hardest === now ? "" : ` (${run.norms.rho1 > shown.norms.rho1 ? "harder" : "softer"})`;
+  const notes = hardest === now ? [] : [run.norms.rho1 > shown.norms.rho1 ? "harder" : "softer"];
+  if ([run, shown].some(({ norms_known }) => norms_known.rho1 === "not certain")) notes.push("not certain");
+  const more = notes.length ? ` (${notes.join(", ")})` : "";
   const sure = run.horizon.t === null ? "" : " (not certain)";
   return `${reasonText(run.end.reason)} at t = ${number(run.end.t)}${sure}, hardest snap ${hardest}${more}`;
 }

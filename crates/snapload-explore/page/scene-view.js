@@ -59,7 +59,7 @@ export class SceneView {
     $("message").textContent = words;
     this.announceTimer = setTimeout(() => ($("announced").textContent = words), $("announced").textContent ? REST_MS : 0);
     $("ramp-key").hidden = !(run.timeTaut > 0);
-    $("ramp-words").textContent = `tension, up to ${number(run.mostTension, 3)} F`;
+    $("ramp-words").textContent = `tension, up to about ${number(run.mostTension, 2)} F`;
   }
 
   /** The end of the run, its horizon of trust, and when its neighbour separates from it, in a sentence each. */
@@ -70,6 +70,7 @@ export class SceneView {
       const apart =
         ghost.parts_at === null ? "stays within 1e−3 while both last" : `is 1e−3 away at t = ${number(ghost.parts_at, 5)}`;
       parts.push(`The ghost, started ${number(Math.abs(ghost.by))} away in ${ghost.key}, ${apart}.`);
+      if (ghost.end.reason !== end.reason) parts.push(`It ends otherwise: ${withSymbols(ghost.end.words)}.`);
     }
     if (this.run.ghost_error) parts.push(sentence(`no ghost: ${this.run.ghost_error}`));
     if (cut) parts.push(`Only the first ${cut.shown} of ${cut.impacts} rows of impacts are shown.`);
@@ -86,15 +87,19 @@ export class SceneView {
       ["<i>y</i><sub>max</sub>", `${number(norms.y_max, 5)} L`, "y_max"],
       ["|<i>θ</i>|<sub>max</sub>", `${number(norms.theta_max, 5)} rad`, "theta_max"],
       ["Largest impulse", `${number(this.run.hardest, 5)} m L/T`, "impulse"],
-      ["Time taut", `${number(timeTaut, 4)} T`],
+      ["Time taut", `${number(timeTaut, 4)} T`, "taut"],
     ];
     // Counts over the whole run are no more certain than its end.
-    const impacts = this.run.horizon.t === null ? "" : "not certain";
-    const known = { impacts, impulse: this.run.cut ? "of the impacts shown" : "", ...this.run.norms_known };
+    const sums = this.run.horizon.t === null ? "" : "not certain";
+    const cut = this.run.cut ? "of the impacts shown" : "";
+    // The largest impulse is no more certain than the largest velocity.
+    const known = this.run.norms_known;
+    const largest = known.rho1 === "not certain" ? known.rho1 : "";
+    const notes = { impacts: sums, taut: cut || sums, impulse: cut || largest, ...known };
     $("summary").innerHTML = rows
       .map(([term, value, name = ""]) => {
         const sum = `<span data-norm="${name}">${value}</span>`;
-        return `<div><dt>${term}</dt><dd>${sum}${known[name] ? ` <small>${known[name]}</small>` : ""}</dd></div>`;
+        return `<div><dt>${term}</dt><dd>${sum}${notes[name] ? ` <small>${notes[name]}</small>` : ""}</dd></div>`;
       })
       .join("");
   }
