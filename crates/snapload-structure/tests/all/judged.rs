@@ -66,6 +66,9 @@ fn where_nothing_is_judged_no_numbers_are_reported() {
     let note = flat(&page(source("case"), &assessment, None).unwrap());
     assert!(note.contains("nothing is judged</td>") && note.contains("before anything is judged"));
     assert!(!note.contains("No line snaps at 1 cm/s or more"));
+    // There is no hardest snap for its plots to be around.
+    assert!(note.contains("the end of the run, as no snap is judged"));
+    assert!(!note.contains("around the hardest snap"));
 }
 
 /// The same for elastic lines, and for records.
