@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import re
 
 from explore import comes_true, count, settled
 from playwright.sync_api import Page, expect
@@ -177,3 +178,14 @@ def test_an_axis_is_one_row_of_the_panel(open_page):
         )
         assert len({top for _, top, _ in fields}) == 1 and len(fields) == 3, fields
         assert all(cut <= 0 for _, _, cut in fields), fields
+
+
+def test_zeros_of_a_logarithmic_map_have_a_colour_of_their_own(open_page):
+    page = open_page("t=0&map=f_o,0,1,21,e,0,0.95,11,t_sliding")
+    legend = page.locator("#map-legend")
+    expect(page.locator("#map-progress")).to_have_text("231 runs", timeout=60_000)
+    expect(legend).to_contain_text("logarithmic")
+    expect(legend).to_contain_text(re.compile(r"0 \(\d+\)"))
+    page.locator("#map").hover()
+    page.locator("#map-colour").select_option("horizon_t")
+    expect(page.locator("#map-message")).not_to_contain_text("taut cable")

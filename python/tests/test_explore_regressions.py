@@ -446,14 +446,3 @@ def test_a_ghost_is_not_drawn_after_its_end(open_page):
     page.locator("#ghost").uncheck()
     settled(page, number)
     assert page.evaluate("() => document.getElementById('scene').toDataURL()") == before
-
-
-def test_zeros_of_a_logarithmic_map_have_a_colour_of_their_own(open_page):
-    page = open_page("t=0&map=f_o,0,1,21,e,0,0.95,11,t_sliding")
-    legend = page.locator("#map-legend")
-    expect(page.locator("#map-progress")).to_have_text("231 runs", timeout=60_000)
-    expect(legend).to_contain_text("logarithmic")
-    expect(legend).to_contain_text(re.compile(r"0 \(\d+\)"))
-    page.locator("#map").hover()
-    page.locator("#map-colour").select_option("horizon_t")
-    expect(page.locator("#map-message")).not_to_contain_text("taut cable")
