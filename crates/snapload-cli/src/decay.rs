@@ -6,7 +6,7 @@ use crate::json::JsonArgs;
 use crate::outputs::Outputs;
 use serde::Serialize;
 use snapload::analysis::Progress;
-use snapload_hydro::digits::digits;
+use snapload_hydro::digits::{digits, tenths};
 use snapload_hydro::{
     Body, Decay, FREEDOMS, Fit, HydroError, Hydrodynamics, Swing, Warning, decay, large_motion,
     rest_without_tension, swings,
@@ -88,7 +88,7 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
     let mut rows = Vec::new();
     for (freedom, called) in FREEDOMS.iter().enumerate().filter(|(i, _)| from[*i] != 0.0) {
         let swings = swings(&motion, freedom);
-        text += &swing_table(called, &swings, freedom, motion.comes_back[freedom]);
+        text += &swing_table(called, &swings, freedom, &motion);
         rows.extend(swings.into_iter().map(|swing| SwingRow {
             freedom: called,
             from_s: swing.from_s,
@@ -170,9 +170,13 @@ fn measured_from(body: &Body, hydro: &Hydrodynamics) -> Option<String> {
 }
 
 /// The swings of a freedom as a small table below its name.
-fn swing_table(called: &str, swings: &[Swing], freedom: usize, comes_back: bool) -> String {
+fn swing_table(called: &str, swings: &[Swing], freedom: usize, motion: &Decay) -> String {
     if swings.is_empty() {
-        return labelled_row(called, "it does not swing");
+        let end = motion.t_s.last().map_or_else(String::new, tenths);
+        let none = format!(
+            "no whole swing within {end} s; those below a thousandth of the first are left out"
+        );
+        return labelled_row(called, &none);
     }
     let unit = ["m", "m", "rad"][freedom];
     // A swing begins at every turning point; those of one side are printed.
@@ -181,7 +185,7 @@ fn swing_table(called: &str, swings: &[Swing], freedom: usize, comes_back: bool)
         true => format!("the first {MOST_SWINGS} "),
         false => String::new(),
     };
-    let about = match comes_back {
+    let about = match motion.comes_back[freedom] {
         true => "",
         false => " about its final position (no stiffness brings it back to 0)",
     };

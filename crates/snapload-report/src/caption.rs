@@ -17,11 +17,16 @@ pub fn case_as_written(name: &str, parameters: &Parameters, entries: &Entries) -
     let differing: Vec<String> = parameters
         .entries()
         .filter_map(|(key, value)| {
-            let written = written_otherwise(entries, key, value.as_ref());
+            let follows = key == "inertia" && parameters.inertia_follows();
+            // The inertia of the size follows from decimals, and is not the shortest one of its
+            // double.
+            let written = match follows {
+                true => entries.written(key),
+                false => written_otherwise(entries, key, value.as_ref()),
+            };
             if written.is_none() && value == Parameters::STANDARD.get(key) {
                 return None;
             }
-            let follows = key == "inertia" && parameters.inertia_follows();
             let text = match (value?, written) {
                 (_, Some(written)) => written.to_owned(),
                 (Value::Number(number), None) if follows => digits(number),
@@ -121,5 +126,16 @@ mod tests {
             let caption = case_as_written("standard case", &parameters, &entries);
             assert_eq!(caption, format!("standard case with omega = {text}"));
         }
+    }
+
+    /// The inertia of a size of 0.1 is 0.01, whose double is not that of 0.1 * 0.1.
+    #[test]
+    fn a_caption_tells_an_inertia_that_was_written_from_that_of_the_size() {
+        let text = "0.010000000000000002";
+        assert_eq!(text.parse(), Ok(0.1 * 0.1));
+        let mut entries = Entries::new(&CASE);
+        entries.set(&format!("inertia={text}")).expect("a number");
+        let caption = case_as_written("standard case", &Parameters::STANDARD, &entries);
+        assert_eq!(caption, format!("standard case with inertia = {text}"));
     }
 }

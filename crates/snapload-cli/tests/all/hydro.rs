@@ -137,6 +137,28 @@ fn decay_lists_its_swings() {
     assert!((period - 3.802).abs() < 0.02, "{period}");
 }
 
+/// Heave takes 3.25 s for a swing: within 1 s there is none, which does not say that it never swings.
+#[test]
+fn decay_names_the_time_in_which_there_is_no_swing() {
+    let room = room();
+    let output = |duration: &str| {
+        let decay = [
+            "decay",
+            "pontoon.nc",
+            "--pairs",
+            "6",
+            "--duration",
+            duration,
+        ];
+        let done = snapload(room.path()).args(decay).assert().success();
+        String::from_utf8(done.get_output().stdout.clone()).unwrap()
+    };
+    let none = "no whole swing within";
+    let short = output("1");
+    assert!(short.contains(&format!("heave     {none} 1 s")), "{short}");
+    assert!(!output("8").contains(none));
+}
+
 /// Displacements are from where the body floats: a weight of 98.4 t at an arm of 0.3 m turns it by
 /// 98.4 · 9.81 · 0.3/682.7556 rad. Where a swing is larger than the one before,
 /// the output gives the reason.

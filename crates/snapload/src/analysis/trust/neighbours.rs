@@ -93,7 +93,21 @@ pub(super) struct Approach {
     pub(super) delay: [f64; 6],
 }
 
-impl Neighbours<'_> {
+impl<'a> Neighbours<'a> {
+    /// Those of a bounce without uncertain parameters, just before it, at its end at the time of the
+    /// previous event, and at its own.
+    #[inline(always)]
+    pub(super) fn of_bounce([before, along, met]: [Spread<'a>; 3]) -> Self {
+        Self {
+            before,
+            along,
+            met,
+            late: 0.0,
+            opening: TautSet::SLACK,
+            keys: &[],
+        }
+    }
+
     /// The largest time by which neighbours reach the event before or after the run.
     #[inline(always)]
     pub(super) fn reach_in_time(&self, approach: &Approach) -> f64 {

@@ -291,14 +291,7 @@ impl SpreadMonitor {
             memory: Vec::new(),
         });
         let at_start = self.covariance.clone();
-        let neighbours = Neighbours {
-            before: Spread::of(&at_start),
-            along: Spread::of(&along),
-            met: Spread::of(&met),
-            late: 0.0,
-            opening: TautSet::SLACK,
-            keys: &[],
-        };
+        let neighbours = Neighbours::of_bounce([&at_start, &along, &met].map(Spread::of));
         let approach = Approach {
             rate: map.rate(),
             delay: map.delay(),
