@@ -3,7 +3,7 @@
 use crate::arrived::Arrived;
 use crate::branch_events::{BranchEvent, Kind, Test, Tested, located};
 use crate::continuation::{BranchStep, Continuation, Goal, SAME, Unknowns};
-use crate::half_branch::{HalfBranch, point};
+use crate::half_branch::{HalfBranch, SAME_VALUE, point};
 use crate::hybrid::Family;
 use crate::newton::{Closed, close};
 use crate::orbit::Orbit;
@@ -33,9 +33,6 @@ const LENGTHEN_TO: usize = 3;
 const RESOLVED: f64 = 1e-3;
 /// The end of an accumulation is located up to this part of the first step.
 const CLOSED_IN: f64 = 1e-5;
-/// Two events whose parameters and states differ by no more than these are one: where a branch
-/// turns back the first is the square of the second.
-pub(crate) const SAME_VALUE: f64 = 1e-6;
 const SAME_STATE: f64 = 1e-2;
 /// The time between two events does not change by more than this in one step.
 const LONGEST_TIME_CHANGE: f64 = 0.3;

@@ -2,10 +2,12 @@
 
 use crate::branch_events::{BranchEvent, Kind};
 use crate::continuation::{Continuation, Goal};
-use crate::follower::SAME_VALUE;
 use crate::hybrid::Family;
 use crate::orbit::Orbit;
 
+/// Two events whose parameters and states differ by no more than these are one: where a branch
+/// turns back the first is the square of the second.
+pub(crate) const SAME_VALUE: f64 = 1e-6;
 const ACCUMULATION: &str =
     "an accumulation of snaps changes here: beyond, they do not come to rest in this way";
 
