@@ -33,6 +33,7 @@ const LENGTHEN_TO: usize = 3;
 const RESOLVED: f64 = 1e-3;
 /// The end of an accumulation is located up to this part of the first step.
 const CLOSED_IN: f64 = 1e-5;
+/// So do two states.
 const SAME_STATE: f64 = 1e-2;
 /// The time between two events does not change by more than this in one step.
 const LONGEST_TIME_CHANGE: f64 = 0.3;

@@ -138,7 +138,8 @@ fn the_page_begins_with_the_requested_case() {
         ),
         (
             vec!["mine.toml", "--set", "e=0.7"],
-            "\"start\":{\"name\":\"mine.toml\",\"values\":{\"a\":0.2,\"e\":0.7,\"f_o\":0.4}}",
+            "\"start\":{\"name\":\"mine.toml: e = 0.7, a = 0.2, inertia = 0.04, f_o = 0.4\",\
+             \"values\":{\"a\":0.2,\"e\":0.7,\"f_o\":0.4}}",
         ),
         (
             vec!["--case", "1920001000-359"],

@@ -40,7 +40,11 @@ fn number(parameters: &Parameters, key: &str) -> f64 {
 }
 
 fn uncertain(key: &'static str, size: f64) -> Uncertainty {
-    let mut uncertainty = Uncertainty::default();
+    // Large errors of the state do not matter here, only other events.
+    let mut uncertainty = Uncertainty {
+        tolerance: 1.0,
+        ..Uncertainty::default()
+    };
     uncertainty.set(key, size).unwrap();
     uncertainty
 }
