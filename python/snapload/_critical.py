@@ -270,9 +270,10 @@ def critical_force(
         points = [tuple(point[name] for name, _ in kinds) for point in data["probability"]]
         probability = np.array(points, dtype=kinds).view(np.recarray)
     f_cr, reason, t, certain = (data[name] for name in ("f_cr", "reason", "t", "certain"))
-    intervals = (data[name] for name in ("exceeding", "uncertain", "cut_short"))
-    lists = (np.array(pairs, dtype=np.float64).reshape(-1, 2) for pairs in intervals)
-    return CriticalForce(f_cr, reason, t, certain, *lists, probability, passes, step, largest)
+    exceeding, uncertain, cut_short = (
+        np.array(data[name], dtype=np.float64).reshape(-1, 2) for name in ("exceeding", "uncertain", "cut_short")
+    )
+    return CriticalForce(f_cr, reason, t, certain, exceeding, uncertain, cut_short, probability, passes, step, largest)
 
 
 def _critical_over_keys(
