@@ -23,6 +23,7 @@
 
 mod arrived;
 mod attraction;
+mod attraction_summary;
 mod attractor;
 mod basin;
 mod bordered;
@@ -67,6 +68,7 @@ mod switch;
 mod window;
 
 pub use attraction::{Attraction, Attractor, CellOutcome};
+pub use attraction_summary::attraction_summary;
 pub use attractor::{ATTRACTOR_PERIODS, Starts, TRANSIENT, attracts, find_orbits, of_attractor};
 pub use basin::Basin;
 pub use branch::Branch;
@@ -102,8 +104,8 @@ pub use scan::scan;
 pub use section::{LONGEST_PERIOD, Section, SectionOptions, period_of, start_of};
 pub use sequence::{Event, EventKind, Sequence, Timed, symbol_text};
 pub use summary::{
-    attraction_summary, basin_summary, diagram_summary, erosion_summary, orbit_summary,
-    section_summary, without_points_summary,
+    basin_summary, diagram_summary, erosion_summary, orbit_summary, section_summary,
+    without_points_summary,
 };
 pub use survey::{Extreme, Survey, survey};
 pub use window::{Cell, Window};

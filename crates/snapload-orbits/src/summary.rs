@@ -1,6 +1,5 @@
 //! The answers as a few lines of text.
 
-use crate::attraction::{Attraction, CellOutcome, LONGEST_SHOWN};
 use crate::basin::Basin;
 use crate::diagram::DiagramPoint;
 use crate::erosion::{Erosion, KNEE, decided_part};
@@ -432,39 +431,4 @@ fn knee_text(erosion: &Erosion) -> String {
         }
         _ => text,
     }
-}
-
-/// Basins of attraction.
-pub fn attraction_summary(found: &Attraction) -> String {
-    let mut text = String::new();
-    let no_orbit = match found.window.are_starts() {
-        true => "orbit not found",
-        false => "orbit not searched for, as the keys change the motion itself",
-    };
-    for (attractor, number) in found.attractors.iter().zip(1..) {
-        let symbol = attractor
-            .orbit
-            .as_ref()
-            .map(|orbit| symbol_text(&orbit.lap.sequence));
-        let _ = writeln!(
-            text,
-            "Attractor {number}: {} cells, {}, {}",
-            attractor.cells,
-            periods(attractor.period),
-            symbol.map_or(no_orbit.to_owned(), |symbol| format!("symbol {symbol}"))
-        );
-    }
-    let count = |is: &dyn Fn(&CellOutcome) -> bool| found.outcomes.iter().filter(|o| is(o)).count();
-    let stopped = count(&|outcome| matches!(outcome, CellOutcome::Stopped(..)));
-    let _ = writeln!(text, "Stopped   {stopped} cells");
-    let open = count(&|outcome| *outcome == CellOutcome::Aperiodic);
-    if open > 0 {
-        let _ = writeln!(
-            text,
-            "Open      {open} cells: no period up to {LONGEST_SHOWN} was found; a longer transient may show one"
-        );
-    }
-    let legal = count(&|outcome| *outcome != CellOutcome::Illegal);
-    let _ = writeln!(text, "Legal     {legal} of {} cells", found.outcomes.len());
-    text
 }
