@@ -5,7 +5,7 @@ use crate::diagram::DiagramPoint;
 use crate::erosion::{Erosion, KNEE, decided_part};
 use crate::orbit::Orbit;
 use crate::section::Section;
-use crate::sequence::{Sequence, symbol_text};
+use crate::sequence::Sequence;
 use crate::window::Window;
 use snapload::TautSet;
 use snapload::analysis::START_KEYS;
