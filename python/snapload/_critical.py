@@ -53,7 +53,8 @@ class CriticalForce(Result):
     probability : numpy.recarray or None
         With an ensemble, at each amplitude: ``f_o``; whether the end is ``certain``, so that no members are run;
         ``count``, the number of members that exceed a limit, NaN where none are run; ``part``, their fraction, which is
-        0 or 1 there; and the 95 % interval of it from ``low`` to ``high``, which are equal to it there.
+        0 or 1 there; and the 95 % interval of it from ``low`` to ``high``, which are equal to it there. Where a run
+        is ``cut_short`` nothing is known, and ``low`` and ``high`` are 0 and 1.
     passes : dict of str to float or None
         With an ensemble, the smallest amplitudes at which at least 5, 50 and 95 % of the neighbours exceed a limit:
         ``p05``, ``p50``, ``p95``. At a larger amplitude the percentage may be lower again.

@@ -92,6 +92,7 @@ struct Passes {
 struct Point {
     f_o: f64,
     certain: bool,
+    cut_short: bool,
     /// None where no neighbour is run.
     count: Option<usize>,
     part: f64,
@@ -102,9 +103,11 @@ struct Point {
 impl Point {
     fn new(point: &Exceeding) -> Self {
         let [low, high] = point.interval();
+        let cut_short = point.end.reason.cuts_short();
         Self {
             f_o: point.f_o,
-            certain: point.share.is_none(),
+            certain: point.share.is_none() && !cut_short,
+            cut_short,
             count: point.share.map(|share| share.count),
             part: point.part,
             low,
@@ -137,7 +140,8 @@ impl Probability {
             None => "none".to_owned(),
         };
         let points = &self.probability;
-        let open = points.iter().filter(|point| !point.certain).count();
+        let open = points.iter().filter(|point| point.count.is_some()).count();
+        let cut_short = points.iter().filter(|point| point.cut_short).count();
         let _ = writeln!(
             text,
             "Ensemble  {} at each f_o that one run does not decide ({open} of {}); \
@@ -148,8 +152,8 @@ impl Probability {
             from(p50),
             from(p95)
         );
-        let split = points.iter().filter(|p| 0.0 < p.part && p.part < 1.0);
-        let split: Vec<&Point> = split.collect();
+        let known = points.iter().filter(|point| !point.cut_short);
+        let split: Vec<&Point> = known.filter(|p| 0.0 < p.part && p.part < 1.0).collect();
         if !split.is_empty() {
             let _ = writeln!(text, "          {:<8} {:>8}  95 %", "f_o", "exceed");
         }
@@ -166,8 +170,14 @@ impl Probability {
         let _ = writeln!(
             text,
             "          all or none exceed at {} of {} f_o",
-            points.len() - split.len(),
+            points.len() - cut_short - split.len(),
             points.len()
         );
+        if cut_short > 0 {
+            let _ = writeln!(
+                text,
+                "          not known at {cut_short} f_o, whose runs are cut short: the first f_o above may be smaller"
+            );
+        }
     }
 }

@@ -1,14 +1,10 @@
 //! Snaps of two cables that accumulate in turn, down to rest where both cables end.
 
+use crate::common::POINT;
 use snapload::Parameters;
 use snapload::analysis::no_progress;
 use snapload_orbits::{Branch, BranchOptions, Kind, Moored, Orbit, OrbitRequest, of_attractor};
 
-const POINT: Parameters = Parameters {
-    inertia: None,
-    a: 0.0,
-    ..Parameters::STANDARD
-};
 /// Each snap of one cable lets the other go, whose snaps accumulate before the next one.
 const NESTED: Parameters = Parameters {
     r: 1.441,

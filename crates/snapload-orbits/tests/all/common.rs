@@ -4,6 +4,13 @@ use serde_json::Value as Json;
 use snapload::{Parameters, Value};
 use snapload_orbits::Point;
 
+/// A point mass.
+pub const POINT: Parameters = Parameters {
+    inertia: None,
+    a: 0.0,
+    ..Parameters::STANDARD
+};
+
 /// The file of reference values.
 pub fn reference() -> Json {
     serde_json::from_str(include_str!("../data/orbits.json")).unwrap()

@@ -1,17 +1,12 @@
 //! Where branches and curves end.
 
-use crate::common::{parameters, reference};
+use crate::common::{POINT, parameters, reference};
 use snapload::Parameters;
 use snapload::analysis::no_progress;
 use snapload_orbits::{
     Branch, BranchEvent, BranchOptions, Curve, CurveOptions, Kind, Moored, Orbit, OrbitRequest,
 };
 
-const POINT: Parameters = Parameters {
-    inertia: None,
-    a: 0.0,
-    ..Parameters::STANDARD
-};
 const STRETCHED: Parameters = Parameters {
     r: 2.053,
     e: 0.691,

@@ -31,9 +31,12 @@ pub struct Exceeding {
 
 impl Exceeding {
     /// The interval that contains the probability with 95 % confidence: `part` itself where no
-    /// neighbour is run.
+    /// neighbour is run, and all from 0 to 1 where the run is cut short, which tells nothing.
     pub fn interval(self) -> [f64; 2] {
-        self.share.map_or([self.part; 2], Share::interval)
+        match self.end.reason.cuts_short() {
+            true => [0.0, 1.0],
+            false => self.share.map_or([self.part; 2], Share::interval),
+        }
     }
 }
 

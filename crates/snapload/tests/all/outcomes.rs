@@ -117,6 +117,16 @@ fn runs_that_are_cut_short_decide_nothing() -> Result<(), Unfinished> {
         }
     }
     assert!(whole.cut_short.is_empty());
+    let few = Parameters {
+        max_impacts: 5,
+        ..Parameters::STANDARD
+    };
+    let uncertainty = Uncertainty::default();
+    let curve = ExceedanceCurve::scan(&few, scan, &uncertainty, 4, 1, &no_progress)?;
+    for point in &curve.points {
+        let cut_short = point.end.reason.cuts_short();
+        assert_eq!(point.interval() == [0.0, 1.0], cut_short, "{}", point.f_o);
+    }
     Ok(())
 }
 
