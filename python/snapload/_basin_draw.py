@@ -22,8 +22,8 @@ _ENDS = {
     "settled": ("#9AD0F3", "settled"),
     "end_time": ("#56B4E9", "continues"),
     "sliding_start": ("#56B4E9", "slides"),
-    "impact_limit": ("#56B4E9", "continues"),
-    "standstill": (GREY, "not computed"),
+    "impact_limit": (GREY, "cut short"),
+    "standstill": (GREY, "cut short"),
     "rotation_limit": (VERMILION, "rotation limit"),
     "upper_bound": ("#7A3B00", "upper bound"),
 }

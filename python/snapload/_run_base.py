@@ -204,13 +204,17 @@ class BaseRun:
 
     @cached_property
     def exponents(self) -> Table:
-        """The spectrum of finite-time Lyapunov exponents, the largest first.
+        """Estimates of the Lyapunov exponents from this run alone, the largest first.
+
+        They are the mean rates of growth of deviations that begin along the coordinates and are kept orthogonal on the
+        way. In a short run each depends on the directions in which the deviations begin.
 
         Columns ``direction``, from 1, and ``exponent`` [1/T], minus infinity in the two directions that are removed by
         a cable that has stayed taut. There are six exponents, or four for a point mass; none without trust.
 
         See Also
         --------
+        snapload.lyapunov_spectrum : Exponents of the long-term motion, with standard errors.
         snapload.sensitivities : Computes how the first impacts change with each key.
 
         Examples
@@ -225,7 +229,7 @@ class BaseRun:
         table = Table._from_columns(
             [
                 ("direction", "", "number of the direction, the one that grows most first", directions),
-                ("exponent", units()["exponent"], "finite-time Lyapunov exponent", values),
+                ("exponent", units()["exponent"], "estimate of the Lyapunov exponent", values),
             ]
         )
         return self._in_its_units(table)

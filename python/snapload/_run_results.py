@@ -119,8 +119,8 @@ class Trust(Result):
         Errors of ``rho1``, ``rho2`` and ``rho3`` [L/T], ``y_max`` [L] and ``theta_max`` [rad]; None if the norm depends
         on the motion past the horizon.
     exponents : tuple of float or None
-        Finite-time Lyapunov exponents, the largest first [1/T]: six, or four for a point mass; None where sticking
-        removes a direction.
+        Estimates of the Lyapunov exponents from this run alone, the largest first [1/T]: six, or four for a point
+        mass; None where sticking removes a direction.
     grazes : tuple of dict
         Impacts that magnify a deviation by more than a hundred: ``impact``, ``v_n``, ``factor``.
     sensitivity : tuple of dict

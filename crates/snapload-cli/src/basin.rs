@@ -1,9 +1,13 @@
 //! `snapload basin` and `snapload erosion`: which starts stay below the limits.
 use crate::bar::Bar;
+use crate::basin_picture::{
+    attraction_layers, basin_layers, erosion_layers, measure_label, numeric,
+};
 use crate::case_input::CaseArgs;
 use crate::failure::Failure;
 use crate::json::JsonArgs;
 use crate::option_values::whole_number;
+use crate::orbit_picture::{PlotArgs, PlotFile};
 use crate::outputs::{Outputs, TABLE};
 use crate::table::{axis, names, numbers};
 use serde::Serialize;
@@ -21,14 +25,15 @@ const EXAMPLES: &str = "\
 A start is safe if its run reaches no limit of the motion, such as the rotation limit or the upper bound, up to
 t_end. A run that settles is safe. Starts beyond the length of a cable or beyond a limit are not legal and are
 left out of the window. A cell is decided if its neighbours at a distance of 1e-8 end alike; where rounding may
-decide its run, nearer neighbours must end alike, too.
+decide its run, nearer neighbours must end alike, too. A picture hatches the cells that are not decided.
 
 Examples:
-  snapload basin --set t_end=60 --vary x=-0.4:0.4:41 --vary y=0.02:0.72:36 --out basin.parquet
-      starts at rest, with the standard body
+  snapload basin --set t_end=60 --vary x=-0.4:0.4:41 --vary y=0.02:0.72:36 --out basin.parquet --plot basin.svg
+      starts at rest, with the standard body, and a map of them
   snapload basin --set t_end=60 --vary f_o=0.02:0.6:30 --vary omega=0.4:2.4:41 --json -
       a window of any two keys
-  snapload erosion --set t_end=60 --vary x=-0.4:0.4:33 --vary y=0.02:0.72:29 --over f_o=0:0.6:21
+  snapload erosion --set t_end=60 --vary x=-0.4:0.4:33 --vary y=0.02:0.72:29 --over f_o=0:0.6:21 \\
+      --plot erosion.svg
       how the safe part shrinks as the force grows";
 
 /// Which case, and which window.
@@ -46,6 +51,9 @@ pub(crate) struct Args {
     /// Write a table with one row per cell, FILE.parquet or FILE.csv
     #[arg(long, value_name = "FILE")]
     out: Option<PathBuf>,
+    /// Draw the window as a map
+    #[arg(long, value_name = "FILE.svg|png")]
+    plot: Option<PathBuf>,
     #[command(flatten)]
     json: JsonArgs,
 }
@@ -62,6 +70,8 @@ pub(crate) struct ErosionArgs {
     /// Write a table with one row per value, FILE.parquet or FILE.csv
     #[arg(long, value_name = "FILE")]
     out: Option<PathBuf>,
+    #[command(flatten)]
+    plot: PlotArgs,
     #[command(flatten)]
     json: JsonArgs,
 }
@@ -115,12 +125,17 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
     let (name, base, window) = args.window.read()?;
     let mut outputs = Outputs::open(&args.json)?;
     let table = outputs.file("--out", args.out.as_deref(), &TABLE)?;
+    let plot = PlotFile::open(&mut outputs, args.plot.as_deref(), window.keys)?;
+    let title = case_in_words(&name, &base);
     let bar = Bar::new();
     let on_progress = |progress: Progress| bar.show(progress);
     if args.kind == "attractor" {
         let found = Attraction::of(window, args.transient, &on_progress)?;
         drop(bar);
         outputs.table(table, &outcome_columns(&found))?;
+        if let Some(plot) = plot {
+            plot.add_to(&mut outputs, &title, attraction_layers(&found))?;
+        }
         let row = Answer {
             case: CaseEcho(&base),
             found: AttractionRow::new(&found),
@@ -130,6 +145,9 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
     let basin = Basin::of(window, !args.window.no_trust, &on_progress)?;
     drop(bar);
     outputs.table(table, &cells(&basin))?;
+    if let Some(plot) = plot {
+        plot.add_to(&mut outputs, &title, basin_layers(&basin))?;
+    }
     let row = Answer {
         case: CaseEcho(&base),
         found: BasinRow::new(&basin),
@@ -143,11 +161,24 @@ pub(crate) fn run_erosion(args: &ErosionArgs) -> Result<(), Failure> {
     let (key, values) = axis("--over", &args.over)?;
     let mut outputs = Outputs::open(&args.json)?;
     let table = outputs.file("--out", args.out.as_deref(), &TABLE)?;
+    let none_yet = Erosion {
+        key,
+        points: Vec::new(),
+    };
+    let known = numeric(&points(&none_yet));
+    let plot = args.plot.open(&mut outputs, [key, "gim"], &known)?;
     let bar = Bar::new();
     let on_progress = |progress: Progress| bar.show(progress);
     let erosion = Erosion::of(&window, key, &values, !args.window.no_trust, &on_progress)?;
     drop(bar);
-    outputs.table(table, &points(&erosion))?;
+    let rows = points(&erosion);
+    outputs.table(table, &rows)?;
+    if let Some(mut plot) = plot {
+        plot.spans(key, &values);
+        plot.upwards = measure_label(&plot.axes[1], window.keys);
+        let layers = erosion_layers(&erosion, &rows, plot.axes());
+        plot.add_to(&mut outputs, &case_in_words(&name, &base), layers)?;
+    }
     let row = Answer {
         case: CaseEcho(&base),
         found: ErosionRow::new(&erosion),

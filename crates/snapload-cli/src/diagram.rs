@@ -1,8 +1,10 @@
 //! `snapload diagram`: the attractor along a key.
 use crate::bar::Bar;
+use crate::basin_picture::{diagram_layers, numeric};
 use crate::case_input::CaseArgs;
 use crate::failure::Failure;
 use crate::json::JsonArgs;
+use crate::orbit_picture::PlotArgs;
 use crate::outputs::{Outputs, TABLE};
 use crate::section::SectionArgs;
 use crate::table::{axis, names, numbers};
@@ -19,7 +21,7 @@ a motion stops at a limit, the next value starts from the start of the case agai
 
 Examples:
   snapload diagram --set body=point --set r=1.976 --set e=0.71 --set nu=0.87 --set omega=4.847 \\
-      --vary f_o=1.5:2.1:61 --out up.parquet
+      --vary f_o=1.5:2.1:61 --out up.parquet --plot up.svg
   snapload diagram --set body=point --set r=1.976 --set e=0.71 --set nu=0.87 --set omega=4.847 \\
       --vary f_o=1.5:2.1:61 --down --out down.parquet
       from the largest value down, which may find another attractor";
@@ -42,6 +44,8 @@ pub(crate) struct Args {
     #[arg(long, value_name = "FILE")]
     out: Option<PathBuf>,
     #[command(flatten)]
+    plot: PlotArgs,
+    #[command(flatten)]
     json: JsonArgs,
 }
 
@@ -63,18 +67,27 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
     let options = args.options.read()?;
     let mut outputs = Outputs::open(&args.json)?;
     let table = outputs.file("--out", args.out.as_deref(), &TABLE)?;
+    let known = numeric(&columns(key, &[]));
+    let plot = args.plot.open(&mut outputs, [key, "x"], &known)?;
     let bar = Bar::new();
     let on_progress = |progress: Progress| bar.show(progress);
     let found = diagram(&parameters, key, &values, &options, &on_progress)?;
     drop(bar);
-    outputs.table(table, &columns(key, &found))?;
+    let rows = columns(key, &found);
+    outputs.table(table, &rows)?;
+    let title = case_in_words(&name, &parameters);
+    if let Some(mut plot) = plot {
+        plot.spans(key, &values);
+        let layers = diagram_layers(&found, &rows, plot.axes());
+        plot.add_to(&mut outputs, &title, layers)?;
+    }
     let row = Answer {
         case: CaseEcho(&parameters),
         vary: key,
         down: args.down,
         rows: found.iter().map(DiagramRow::new).collect(),
     };
-    let mut text = format!("Case      {}\n", case_in_words(&name, &parameters));
+    let mut text = format!("Case      {title}\n");
     text.push_str(&diagram_summary(key, &found));
     outputs.finish(&row, text)
 }

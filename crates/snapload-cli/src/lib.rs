@@ -7,6 +7,7 @@
 mod assess;
 mod bar;
 mod basin;
+mod basin_picture;
 mod branch;
 mod case_input;
 mod cases;

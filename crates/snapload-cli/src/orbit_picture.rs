@@ -1,4 +1,4 @@
-//! `--plot` and `--show` of sections, branches and curves.
+//! `--plot` and `--show` of sections, branches, curves, erosion and diagrams, and `--plot` of basins.
 use crate::failure::Failure;
 use crate::outputs::{OutFile, Outputs};
 use snapload::{key_named, quantity};
@@ -8,7 +8,7 @@ use snapload_figures::{
 };
 use snapload_orbits::{BranchEvent, Kind, Orbit, Stability};
 use snapload_study::{key_label, with_unit};
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 /// Which picture, and where it goes.
 #[derive(clap::Args)]
@@ -28,6 +28,10 @@ pub(crate) struct PlotFile {
     pub(crate) axes: [String; 2],
     /// The phase of the forcing at which the drawn period begins, if one is drawn.
     pub(crate) phase_from: f64,
+    /// The values of the key on the horizontal axis, which it shows also where nothing is drawn.
+    along: Option<[f64; 2]>,
+    /// The label of the vertical axis, if the column's own does not do.
+    pub(crate) upwards: Option<String>,
 }
 
 impl PlotArgs {
@@ -39,7 +43,7 @@ impl PlotArgs {
         usual: [&str; 2],
         known: &[&str],
     ) -> Result<Option<PlotFile>, Failure> {
-        let Some(file) = outputs.file("--plot", self.plot.as_deref(), &["svg", "png"])? else {
+        let Some(plot) = PlotFile::open(outputs, self.plot.as_deref(), usual)? else {
             return Ok(None);
         };
         let shown = self.show.as_deref().unwrap_or_default();
@@ -54,9 +58,8 @@ impl PlotArgs {
             return Err(no_columns(shown, known));
         }
         Ok(Some(PlotFile {
-            file,
             axes: axes.map(str::to_owned),
-            phase_from: 0.0,
+            ..plot
         }))
     }
 }
@@ -69,6 +72,34 @@ fn no_columns(shown: &str, known: &[&str]) -> Failure {
 }
 
 impl PlotFile {
+    /// Opens the place of a picture with these axes; none if no picture is wanted.
+    pub(crate) fn open(
+        outputs: &mut Outputs,
+        path: Option<&Path>,
+        axes: [&str; 2],
+    ) -> Result<Option<Self>, Failure> {
+        let file = outputs.file("--plot", path, &["svg", "png"])?;
+        Ok(file.map(|file| Self {
+            file,
+            axes: axes.map(str::to_owned),
+            phase_from: 0.0,
+            along: None,
+            upwards: None,
+        }))
+    }
+
+    /// The columns on its axes.
+    pub(crate) fn axes(&self) -> [&str; 2] {
+        self.axes.each_ref().map(String::as_str)
+    }
+
+    /// Shows all values of a key if that is on the horizontal axis, also where nothing is drawn.
+    pub(crate) fn spans(&mut self, key: &str, values: &[f64]) {
+        if let ([first, .., last], true) = (values, self.axes[0] == key) {
+            self.along = Some([first.min(*last), first.max(*last)]);
+        }
+    }
+
     /// The position of a column's value: a phase is moved into the drawn period.
     pub(crate) fn placed(&self, column: &str, value: f64) -> f64 {
         match column {
@@ -82,6 +113,7 @@ impl PlotFile {
         const MORE: f64 = 0.015;
         match column {
             "phase" => Range::Fixed(self.phase_from - MORE, self.phase_from + 1.0 + MORE),
+            "gim" => Range::AtLeast(0.0, 1.0),
             _ => Range::Auto,
         }
     }
@@ -98,11 +130,13 @@ impl PlotFile {
         };
         let [x, y] = &self.axes;
         let empty = layers.is_empty();
+        let along = self.along.map(|[first, last]| Range::AtLeast(first, last));
+        let upwards = self.upwards.clone().unwrap_or_else(|| label(y));
         let plot = Plot {
             title: title.to_owned(),
             description: format!("{y} against {x}"),
-            x: Axis::new(label(x), self.range(x)),
-            y: Axis::new(label(y), self.range(y)),
+            x: Axis::new(label(x), along.unwrap_or(self.range(x))),
+            y: Axis::new(upwards, self.range(y)),
             layers,
             note: if empty { "nothing to draw" } else { "" }.to_owned(),
             ..Plot::default()

@@ -29,13 +29,14 @@ const VIRIDIS: [[u8; 3]; 10] = [
     [0xfd, 0xe7, 0x25],
 ];
 /// The colours of classes, in an order in which neighbours also differ in lightness.
-const CLASSES: [Colour; 6] = [
+const CLASSES: [Colour; 7] = [
     Colour::BLUE,
     Colour::ORANGE,
     Colour::GREEN,
     Colour::YELLOW,
     Colour::PURPLE,
     Colour::BLACK,
+    Colour::SKY_BLUE,
 ];
 
 /// The colour of one of the [`LEVELS`].

@@ -204,6 +204,25 @@ impl Axis {
 }
 
 impl Layer {
+    /// A grey background where the flags along an axis are set, each up to halfway to the next
+    /// value, and its text. The values are evenly spaced, and rise or fall.
+    pub fn shades(along: &[(f64, bool)], words: &str) -> Vec<Self> {
+        let half = match along {
+            [(a, _), (b, _), ..] => (b - a).abs() / 2.0,
+            _ => 0.0,
+        };
+        let shade = |run: &[(f64, bool)]| match run {
+            [(from, true), ..] => {
+                let to = run[run.len() - 1].0;
+                let (low, high) = (from.min(to) - half, from.max(to) + half);
+                Some(Self::Shade(low, high, words.to_owned()))
+            }
+            _ => None,
+        };
+        let runs = along.chunk_by(|a, b| a.1 == b.1);
+        runs.filter_map(shade).collect()
+    }
+
     fn points(&self) -> Box<dyn Iterator<Item = Point> + '_> {
         match self {
             Self::Line(pieces, ..) => Box::new(pieces.iter().flatten().copied()),

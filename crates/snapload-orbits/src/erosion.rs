@@ -73,7 +73,7 @@ impl Erosion {
     }
 
     /// The values that have decided cells, each with the safe part of these.
-    pub(crate) fn decided(&self) -> Vec<(f64, f64)> {
+    pub fn decided(&self) -> Vec<(f64, f64)> {
         let part = |(value, basin): &(f64, Basin)| Some((*value, decided_part(&basin.measures)?));
         self.points.iter().filter_map(part).collect()
     }

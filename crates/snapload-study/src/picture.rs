@@ -182,7 +182,6 @@ impl Thinned {
 /// uncertain. The key may be given in any order; a value that is not certain has a grey circle.
 fn line_layers(mut row: Vec<(f64, (Cell, bool))>) -> Vec<Layer> {
     row.sort_by(|a, b| a.0.total_cmp(&b.0));
-    let (at, cells): (Vec<f64>, Vec<Cell>) = row.iter().map(|(x, (cell, _))| (*x, *cell)).unzip();
     let point = |x: f64, cell: &Cell| match cell {
         Cell::Value(value) => [x, *value],
         _ => [x, f64::NAN],
@@ -190,34 +189,16 @@ fn line_layers(mut row: Vec<(f64, (Cell, bool))>) -> Vec<Layer> {
     let points = row.iter().map(|(x, (cell, _))| point(*x, cell)).collect();
     let uncertain = row.iter().filter(|(_, (_, uncertain))| *uncertain);
     let uncertain: Vec<_> = uncertain.map(|(x, (cell, _))| point(*x, cell)).collect();
-    let mut layers = shades(&at, &cells);
+    let illegal: Vec<_> = (row.iter())
+        .map(|(x, (cell, _))| (*x, *cell == Cell::Illegal))
+        .collect();
+    let mut layers = Layer::shades(&illegal, "no legal case");
     layers.push(Layer::Line(vec![points], Stroke::default(), String::new()));
     if uncertain.iter().any(|point| point[1].is_finite()) {
         let text = NOT_CERTAIN.to_owned();
         layers.push(Layer::Markers(uncertain, Shape::Circle, Colour::GREY, text));
     }
     layers
-}
-
-/// Grey where there is no legal case: half the distance to the neighbours.
-fn shades(at: &[f64], cells: &[Cell]) -> Vec<Layer> {
-    let half = match at {
-        [a, b, ..] => (b - a).abs() / 2.0,
-        _ => 0.0,
-    };
-    let along: Vec<(f64, bool)> = (at.iter().zip(cells))
-        .map(|(x, cell)| (*x, *cell == Cell::Illegal))
-        .collect();
-    let runs = along.chunk_by(|a, b| a.1 == b.1);
-    let shade = |run: &[(f64, bool)]| match run {
-        [(from, true), ..] => {
-            let to = run[run.len() - 1].0;
-            let (low, high) = (from.min(to) - half, from.max(to) + half);
-            Some(Layer::Shade(low, high, "no legal case".to_owned()))
-        }
-        _ => None,
-    };
-    runs.filter_map(shade).collect()
 }
 
 /// The symbol of a key with its unit, for an axis; the name itself if there is no such key.

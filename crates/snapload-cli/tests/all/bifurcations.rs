@@ -269,6 +269,47 @@ fn sections_and_branches_are_drawn() {
         .stderr(contains(".svg or .png"));
 }
 
+/// The legend of a basin's map names the ends that its table has, and no others; cells whose runs
+/// are cut short are hatched, and cells beyond the length of a cable are no legal cases.
+#[test]
+fn basins_erosion_and_diagrams_are_drawn() {
+    let d = directory();
+    let run = |args: &str| {
+        let args = args.split_whitespace();
+        snapload(d.path()).args(args).assert().success();
+    };
+    let read = |name: &str| std::fs::read_to_string(d.path().join(name)).unwrap();
+    let window = "--set t_end=60 --vary x=-0.4:0.4:9 --vary y=0.02:0.72:8 --plot b.svg --out b.csv";
+    run(&format!("basin {window}"));
+    let (picture, table) = (read("b.svg"), read("b.csv"));
+    for [word, end] in [
+        ["settled", ",settled,"],
+        ["rotation limit", ",rotation_limit,"],
+        ["upper bound", ",upper_bound,"],
+        ["end time", ",end_time,"],
+        ["no legal case", ",,,,"],
+        ["not certain", ",false,"],
+    ] {
+        let drawn = picture.contains(&format!(">{word}<"));
+        assert_eq!(drawn, table.contains(end), "{word}");
+    }
+    assert!(picture.contains(">settled<") && picture.contains(">no legal case<"));
+    run("basin --set max_impacts=3 --no-trust --vary x=-0.1:0.1:3 --vary y=0.3:0.5:3 --plot c.svg");
+    let picture = read("c.svg");
+    assert!(picture.contains(">impact limit<") && picture.contains(">not certain<"));
+
+    let over = "erosion --set t_end=60 --vary x=-0.4:0.4:9 --vary y=0.02:0.72:8 --over f_o=0:0.6:5";
+    run(&format!("{over} --plot e.svg"));
+    let picture = read("e.svg");
+    for words in ["safe part (GIM)", "its 95 % interval", "knee", "0.6"] {
+        assert!(picture.contains(&format!(">{words}<")), "{words}");
+    }
+    run(&format!("{over} --plot l.svg --show lim"));
+    assert!(read("l.svg").contains("distance of the nearest unsafe start (L)"));
+    run("diagram --vary f_o=0.1:0.9:5 --periods 20 --keep 5 --plot d.svg");
+    assert!(read("d.svg").contains(">the motion stops<"));
+}
+
 /// The points of the first example of a section fill its two closed curves: seen from the middle of
 /// a curve no two neighbours are far apart.
 #[test]

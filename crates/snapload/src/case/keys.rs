@@ -51,7 +51,7 @@ pub const KEYS: &[Key] = &[
     key("start", "y", "L", ANY, Number(S.y),
         "start: vertical position, towards the anchors; 0 with both cables taut").usual(0.0, 1.0),
     key("start", "theta", "rad", ANY, Number(S.theta), "start: rotation")
-        .symbol("θ").also("0 for a point mass").usual(-1.5, 1.5),
+        .symbol("θ").also("and |theta| <= pi/2; 0 for a point mass").usual(-1.5, 1.5),
     key("start", "vx", "L/T", ANY, Number(S.vx), "start: horizontal velocity").symbol("ẋ").usual(-1.0, 1.0),
     key("start", "vy", "L/T", ANY, Number(S.vy), "start: vertical velocity").symbol("ẏ").usual(-1.0, 1.0),
     key("start", "vtheta", "rad/T", ANY, Number(S.vtheta), "start: angular velocity")

@@ -40,7 +40,7 @@ impl<T: Real> Rules<T> {
 }
 
 /// Why a run stopped.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum Stop {
     /// A cable stuck, or two are taut, below the settling height.
     Settled,

@@ -257,8 +257,9 @@ pub struct Trust {
     pub edge_errors: [f64; 2],
     /// Impacts that magnify deviations.
     pub grazes: Vec<Graze>,
-    /// Finite-time Lyapunov exponents, the largest first \[1/T\]; −∞ in directions that cables close
-    /// which have stayed taut. Six, or four of a point mass.
+    /// Estimates of the Lyapunov exponents from this run alone, the largest first \[1/T\]: mean
+    /// rates of growth of deviations that begin along the coordinates and are kept orthogonal; −∞
+    /// in directions that cables close which have stayed taut. Six, or four of a point mass.
     pub exponents: Vec<f64>,
 }
 
