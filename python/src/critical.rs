@@ -77,7 +77,8 @@ fn of_scan(error: CaseError) -> PyErr {
     })
 }
 
-/// The critical force by its neighbours, and the probability of exceeding at every amplitude, as JSON.
+/// The critical force by its neighbours, and the probability of
+/// exceeding at every amplitude, as JSON.
 #[pyfunction]
 #[expect(
     clippy::too_many_arguments,

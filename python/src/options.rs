@@ -1,4 +1,5 @@
-//! Whole numbers that options take. Those that the command has, too, are imported from where it has them.
+//! Whole numbers that options take. Those that the command has, too, are
+//! imported from where it has them.
 
 use crate::errors::{error_of_case, internal_error};
 use pyo3::prelude::*;
@@ -9,8 +10,8 @@ use snapload_orbits::{BASIN_TRANSIENT, KEEP, ORBIT_PERIODS, PERIODS, POINTS, STA
 use snapload_structure::{NEIGHBOURS, PAIRS, SEEDS, SEGMENTS};
 use snapload_study::{RANDOM, THREADS};
 
-/// The row of an option. Where several functions have one of the same name, it is distinguished by what
-/// stands before a dot.
+/// The row of an option. Where several functions have one of the same name, it is
+/// distinguished by what stands before a dot.
 fn row(option: &str) -> Option<Key> {
     Some(match option {
         "members" => MEMBERS,

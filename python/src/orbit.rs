@@ -275,8 +275,8 @@ pub(crate) struct Branch {
 }
 
 impl Branch {
-    /// The case with another value of the key. Where its own start is beyond reach then, that of the
-    /// orbit stands in its place.
+    /// The case with another value of the key. Where its own start is beyond reach then, that of
+    /// the orbit stands in its place.
     fn case_of(&self, orbit: &snapload_orbits::Orbit) -> Result<Case, CaseError> {
         let case = &self.case;
         let moved = (self.key, Value::Number(orbit.at[0]));
@@ -318,8 +318,8 @@ impl Branch {
         self.orbit_of(&event.orbit)
     }
 
-    /// The branch of twice the length that is born at a period doubling: the nearest one, or the one
-    /// of a number from 1. Instead of it why there is none.
+    /// The branch of twice the length that is born at a period doubling: the nearest one, or the
+    /// one of a number from 1. Instead of it why there is none.
     fn doubled(
         &self,
         py: Python<'_>,

@@ -48,8 +48,8 @@ impl Study {
         Self::of(case, plan, trust)
     }
 
-    /// Of a case and a file with a row a case, which has to stay as long as the study does; `called` is what errors
-    /// call it.
+    /// Of a case and a file with a row a case, which has to stay as long as the study does;
+    /// `called` is what errors call it.
     #[staticmethod]
     fn listed(
         py: Python<'_>,
@@ -231,7 +231,8 @@ pub(crate) fn on_threads<T: Send>(
     pool.install(work)
 }
 
-/// Of which study some rows are: its text, version of the program, cases, first row, number of rows.
+/// Of which study some rows are: its text, version of the program,
+/// cases, first row, number of rows.
 type Origin = (String, String, u64, u64, u64);
 
 /// Of which study the rows of a file are, once it was compared with its checksum.
@@ -255,9 +256,9 @@ pub(crate) fn identity(py: Python<'_>, path: PathBuf) -> PyResult<Option<Origin>
 
 /// Some rows of one column of a file, as its type and bytes.
 ///
-/// The type depends on the column alone, whatever its rows contain. Numbers and counts are doubles, NaN
-/// where there are none; flags are not set then. Words are places in a list of words, which comes
-/// with them and begins with the empty one, that of rows without.
+/// The type depends on the column alone, whatever its rows contain. Numbers and counts are doubles,
+/// NaN where there are none; flags are not set then. Words are places in a list of words, which
+/// comes with them and begins with the empty one, that of rows without.
 #[pyfunction]
 pub(crate) fn read_column<'py>(
     py: Python<'py>,

@@ -299,7 +299,8 @@ fn shown(trust: bool) -> impl Iterator<Item = &'static Column> {
     all.filter(move |column| trust || !of_trust.contains(&column.name))
 }
 
-/// What one run comes to, and, if that is asked for, how far rounding alone leaves it to be trusted.
+/// What one run comes to, and, if that is asked for, how far rounding
+/// alone leaves it to be trusted.
 fn run_of(simulation: &Simulation, trust: bool) -> snapload_study::Run {
     let certainty = trust.then(|| {
         let mut simulation = simulation.clone();

@@ -70,8 +70,8 @@ pub fn check(text: &str) -> Verdict {
     check_with(text, &mut |_, _| ControlFlow::Continue(()))
 }
 
-/// The same; `on_progress` receives the time that the proof has reached and `t_end`, and may end the
-/// work, after which the verdict is undecided.
+/// The same; `on_progress` receives the time that the proof has reached and `t_end`, and may end
+/// the work, after which the verdict is undecided.
 pub fn check_with(text: &str, on_progress: OnProgress<'_>) -> Verdict {
     let certificate = match CertificateText::read(text) {
         Ok(certificate) => certificate,

@@ -27,7 +27,8 @@ pub(crate) struct Args {
     out: Option<PathBuf>,
     #[command(flatten)]
     json: JsonArgs,
-    /// Number of neighbours of the run, 1e-6 of the wave height away, that show how far it can be trusted
+    /// Number of neighbours of the run, 1e-6 of the wave height away, that
+    /// show how far it can be trusted
     #[arg(long, value_name = "NUMBER", default_value_t = DEFAULT_NEIGHBOURS, value_parser = whole_number::<u32>(NEIGHBOURS))]
     neighbours: u32,
     /// Omit the scan over wave heights and periods from the page

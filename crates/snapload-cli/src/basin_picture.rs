@@ -17,8 +17,8 @@ pub(crate) fn basin_layers(basin: &Basin) -> Vec<Layer> {
     )
 }
 
-/// The map of the attractors that the cells reach, or of how their runs end, hatched where these are
-/// cut short.
+/// The map of the attractors that the cells reach, or of how their runs end,
+/// hatched where these are cut short.
 pub(crate) fn attraction_layers(found: &Attraction) -> Vec<Layer> {
     let reached = |outcome: &CellOutcome| match outcome {
         CellOutcome::Illegal => None,

@@ -48,8 +48,8 @@ pub(crate) struct Args {
     /// Key to vary and the ends of its range
     #[arg(long, value_name = "KEY=low:high", allow_hyphen_values = true)]
     along: String,
-    /// Switch to the period-doubled branch at the nearest period doubling along the branch, or at the N-th of
-    /// those reported without this option; may be repeated
+    /// Switch to the period-doubled branch at the nearest period doubling along the branch, or at
+    /// the N-th of those reported without this option; may be repeated
     #[arg(long, value_name = "period_doubling[:N]")]
     switch: Vec<String>,
     /// Length of the first step, in the space of the state, the event times and the key

@@ -54,7 +54,8 @@ pub(crate) struct Args {
     out: Option<PathBuf>,
     #[command(flatten)]
     json: JsonArgs,
-    /// Continue the proof where a cable stays taut; each unit of time of such motion takes some tenths of a second
+    /// Continue the proof where a cable stays taut; each unit of time of such
+    /// motion takes some tenths of a second
     #[arg(long, conflicts_with = "check")]
     taut: bool,
     /// Write the certificate also if the proof did not reach the end

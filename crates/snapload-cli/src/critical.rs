@@ -49,8 +49,8 @@ pub(crate) struct Args {
     /// Largest force amplitude
     #[arg(long, default_value_t = 1.0)]
     max: f64,
-    /// Run N neighbours at each amplitude where one run can not decide, and report the probability of
-    /// exceeding a limit
+    /// Run N neighbours at each amplitude where one run can not decide, and report the
+    /// probability of exceeding a limit
     #[arg(long, value_name = "N", conflicts_with = "over", value_parser = whole_number::<u32>(NONZERO_MEMBERS.called("ensemble")))]
     ensemble: Option<u32>,
     #[command(flatten)]

@@ -49,7 +49,8 @@ pub(crate) struct Args {
     case: CaseArgs,
     #[command(flatten)]
     near: NearArgs,
-    /// Kind of point to follow: the nearest one along the first key, or the N-th that snapload branch lists
+    /// Kind of point to follow: the nearest one along the first key, or the
+    /// N-th that snapload branch lists
     #[arg(long, value_name = "fold|pd|ns|graze[:N]")]
     follow: String,
     /// The two keys to vary and their ranges; by default from half to twice the values of the case

@@ -134,8 +134,8 @@ fn released(args: &Args, body: &Body, fit: &Fit) -> Result<Decay, HydroError> {
     decay(body, memory, inf, args.from, times, &on_progress)
 }
 
-/// A body that is released where it rests does not swing, and one that is turned over does not swing
-/// back.
+/// A body that is released where it rests does not swing, and one that is
+/// turned over does not swing back.
 fn check_release(from: [f64; 3]) -> Result<(), Failure> {
     let [surge, heave, pitch] = from;
     if from != [0.0; 3] && from.iter().all(|q| q.is_finite()) && pitch.abs() < FRAC_PI_2 {
@@ -151,8 +151,8 @@ fn check_release(from: [f64; 3]) -> Result<(), Failure> {
 const NEGATIVE_DAMPING_NOTE: &str = "a damping below zero occurs in a freedom in which motions of several periods are \
                                      added; snapload hydro gives the damping of each motion";
 
-/// From where displacements are measured, if not from the position of the file: the motion is linear
-/// about the position in which the body floats without lines.
+/// From where displacements are measured, if not from the position of the file: the motion is
+/// linear about the position in which the body floats without lines.
 fn measured_from(body: &Body, hydro: &Hydrodynamics) -> Option<String> {
     let at = rest_without_tension(hydro, body, &[], 0.0).map(|(q, _)| q);
     match at {

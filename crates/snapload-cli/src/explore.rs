@@ -40,7 +40,8 @@ Press Ctrl-C to stop the program.";
 pub(crate) struct Args {
     #[command(flatten)]
     case: CaseArgs,
-    /// Port to serve the page on; 0 means any free port [default: 7627, or any free port if that is taken]
+    /// Port to serve the page on; 0 means any free port [default: 7627, or
+    /// any free port if that is taken]
     #[arg(long, value_name = "N", value_parser = whole_number::<u16>(PORT))]
     port: Option<u16>,
     /// Print the address without opening a browser

@@ -141,8 +141,8 @@ impl Args {
     }
 }
 
-/// The highest of a thousand Rayleigh-distributed amplitudes, about those of three hours, is near this
-/// many root mean squares: sqrt(2 ln 1000).
+/// The highest of a thousand Rayleigh-distributed amplitudes, about those of three hours, is near
+/// this many root mean squares: sqrt(2 ln 1000).
 const HIGHEST: f64 = 3.72;
 
 /// The warnings that the highest motion of three hours is not small, in the direction of the sea in

@@ -13,8 +13,8 @@ use std::path::{Path, PathBuf};
 /// The file of a panel code, the body's weight, and the memory.
 #[derive(clap::Args)]
 pub(crate) struct HydroArgs {
-    /// Capytaine file (.nc), WAMIT file (.1, .3 or .hst) with the others in the same folder, or Nemoh
-    /// folder of results (for its memory alone, as it has no hydrostatic stiffness)
+    /// Capytaine file (.nc), WAMIT file (.1, .3 or .hst) with the others in the same folder, or
+    /// Nemoh folder of results (for its memory alone, as it has no hydrostatic stiffness)
     #[arg(value_name = "FILE")]
     file: PathBuf,
     /// Density of the water in kg/m³, if the file does not give it
@@ -33,8 +33,9 @@ pub(crate) struct HydroArgs {
     /// Length unit ULEN of WAMIT in m
     #[arg(long, value_name = "NUMBER", help_heading = "The file")]
     unit_length: Option<f64>,
-    /// Quantity in the first column of the WAMIT files, as IPEROUT has it: period (1), frequency (2),
-    /// infinite-depth-wavenumber ω² ULEN/g (3), or wavenumber k ULEN at the depth (4); by default period
+    /// Quantity in the first column of the WAMIT files, as IPEROUT has it: period (1),
+    /// frequency (2), infinite-depth-wavenumber ω² ULEN/g (3), or wavenumber k ULEN at
+    /// the depth (4); by default period
     #[arg(long, value_name = "WHAT", value_parser = FirstColumn::WORDS, help_heading = "The file")]
     first_column: Option<String>,
     /// Mass of the displaced water in kg, if the file does not give it
@@ -56,7 +57,8 @@ pub(crate) struct HydroArgs {
     /// warning if --mass differs from the mass of the file
     #[arg(long, value_name = "NUMBER", help_heading = "The body")]
     inertia: Option<f64>,
-    /// Linear damping of surge, heave and pitch in addition to wave radiation, in N s/m, N s/m, N m s
+    /// Linear damping of surge, heave and pitch in addition to wave
+    /// radiation, in N s/m, N s/m, N m s
     #[arg(long, value_name = "B1,B3,B5", value_parser = triple, help_heading = "The body")]
     damping: Option<[f64; 3]>,
     /// Number of pole pairs in the fit of the memory; by default as many as 1 % accuracy needs

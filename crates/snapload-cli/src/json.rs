@@ -11,7 +11,8 @@ use std::path::{Path, PathBuf};
 /// Where the answer goes as JSON.
 #[derive(clap::Args)]
 pub(crate) struct JsonArgs {
-    /// Write the results as JSON to a file; - means standard output, which then has nothing but JSON
+    /// Write the results as JSON to a file; - means standard output,
+    /// which then has nothing but JSON
     #[arg(long, value_name = "FILE|-")]
     pub(crate) json: Option<PathBuf>,
 }

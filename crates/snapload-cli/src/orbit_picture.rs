@@ -1,4 +1,5 @@
-//! `--plot` and `--show` of sections, branches, curves, erosion and diagrams, and `--plot` of basins.
+//! `--plot` and `--show` of sections, branches, curves, erosion and
+//! diagrams, and `--plot` of basins.
 use crate::failure::Failure;
 use crate::outputs::{OutFile, Outputs};
 use snapload::{key_named, quantity};
@@ -16,7 +17,8 @@ pub(crate) struct PlotArgs {
     /// Draw a picture, FILE.svg or FILE.png
     #[arg(long, value_name = "FILE.svg|png")]
     plot: Option<PathBuf>,
-    /// Numeric columns of the table to draw: the vertical axis, or the horizontal and the vertical axis
+    /// Numeric columns of the table to draw: the vertical axis, or the
+    /// horizontal and the vertical axis
     #[arg(long, value_name = "COLUMN[,COLUMN]", requires = "plot")]
     show: Option<String>,
 }

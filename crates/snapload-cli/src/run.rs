@@ -47,12 +47,12 @@ pub(crate) struct Args {
     out: Option<PathBuf>,
     #[command(flatten)]
     uncertainty: UncertaintyArgs,
-    /// Number of neighbours to run if the end is past the horizon of trust; 0 for none. If left out,
-    /// 1000, or 200 if those end alike
+    /// Number of neighbours to run if the end is past the horizon of trust; 0 for none. If left
+    /// out, 1000, or 200 if those end alike
     #[arg(long, value_name = "N", value_parser = whole_number::<u32>(MEMBERS.called("ensemble")))]
     ensemble: Option<u32>,
-    /// Prove the run as snapload certify does, with the decimals of the case taken as exact; with --out,
-    /// the certificate is written as run.cert
+    /// Prove the run as snapload certify does, with the decimals of the case taken as exact; with
+    /// --out, the certificate is written as run.cert
     #[arg(long)]
     certify: bool,
     /// Time step at which --json and --out write the motion

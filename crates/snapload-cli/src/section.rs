@@ -66,8 +66,8 @@ pub(crate) struct SectionArgs {
     /// Number of forcing periods to keep, at the end of the motion
     #[arg(long, value_name = "N", default_value_t = 100, value_parser = whole_number::<u64>(KEEP))]
     keep: u64,
-    /// Time of the section, in forcing periods; the start is the state at that time, so another phase
-    /// gives another motion
+    /// Time of the section, in forcing periods; the start is the state at that time, so
+    /// another phase gives another motion
     #[arg(long, value_name = "P", default_value_t = 0.0)]
     phase: f64,
 }

@@ -8,7 +8,8 @@ use snapload_report::TOLERANCE;
 /// What counts as known, as given on the command line.
 #[derive(clap::Args)]
 pub(crate) struct ToleranceArgs {
-    /// Error of state and time, relative to values above 1, above which a result counts as not known
+    /// Error of state and time, relative to values above 1, above
+    /// which a result counts as not known
     #[arg(long, value_name = "SIZE", default_value_t = 1e-3)]
     tolerance: f64,
 }

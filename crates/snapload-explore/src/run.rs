@@ -141,8 +141,8 @@ struct Answer<'a> {
     horizon: HorizonWithText,
     modes: Modes,
     impacts: Impacts<'a>,
-    /// The number of impacts of the whole run: the rows without those of impulses that passed into a
-    /// taut cable.
+    /// The number of impacts of the whole run: the rows without those of impulses
+    /// that passed into a taut cable.
     snaps: usize,
     cut: Option<Cut>,
     motion: Columns,

@@ -109,8 +109,8 @@ impl Hydrodynamics {
         MatrixCurve::new(&self.omega_rad_s, |i, j| self.damping_entry(i, j))
     }
 
-    /// The wave force X(ω) of a direction between the frequencies: of a section its closed form, of a
-    /// file real and imaginary part by cubic splines; none outside them.
+    /// The wave force X(ω) of a direction between the frequencies: of a section its closed form, of
+    /// a file real and imaginary part by cubic splines; none outside them.
     ///
     /// # Errors
     /// [`HydroError::Missing`] if the file does not have the direction.

@@ -20,8 +20,8 @@ pub fn decimals(value: &f64, digits: usize) -> String {
     }
 }
 
-/// The number of decimals with which a number is written: `least` if they show two digits of it, and
-/// otherwise as many as show three, so that a small number is not written as zero.
+/// The number of decimals with which a number is written: `least` if they show two digits of it,
+/// and otherwise as many as show three, so that a small number is not written as zero.
 pub fn decimals_for(value: f64, least: usize) -> usize {
     if value.abs() < ZERO || !value.is_finite() {
         return least;

@@ -1,7 +1,7 @@
 //! A floating body of one section along its length, and the force of waves on it in closed form.
 //!
-//! The incident waves are not disturbed by it. Their force is that of long waves, about the middle O
-//! of the waterplane with the displaced volume V at the depth z_B:
+//! The incident waves are not disturbed by it. Their force is that of long waves, about the middle
+//! O of the waterplane with the displaced volume V at the depth z_B:
 //!
 //! ```text
 //! F1 = (ρV + A11) u̇,    F3 = ρg S η + (ρV + A33) ẇ,    F5 = (ρV z_B + A15) u̇ − ρg I ∂η/∂x

@@ -10,8 +10,8 @@
 //!
 //! g is smooth and zero where A is singular, and v is then its null vector. The whole matrix is
 //! regular although A is not, so that v is known to rounding. The vectors of nalgebra's singular
-//! value decomposition are not: in version 0.35 the left ones are wrong by a rounding over the least
-//! value, by which `compute_2x2_uptrig_svd` divides a difference.
+//! value decomposition are not: in version 0.35 the left ones are wrong by a rounding over the
+//! least value, by which `compute_2x2_uptrig_svd` divides a difference.
 
 use nalgebra::{DMatrix, DVector, RowDVector};
 

@@ -217,8 +217,8 @@ impl Tested {
         }
     }
 
-    /// The same, reached from another point: a test function that vanishes just here counts as still
-    /// on the side of that point, so that the next step has the change of sign.
+    /// The same, reached from another point: a test function that vanishes just here counts as
+    /// still on the side of that point, so that the next step has the change of sign.
     pub(crate) fn reached_from(mut self, before: &Self) -> Self {
         for ((test, here), (_, there)) in self.tests.iter_mut().zip(&before.tests) {
             if test.is_of_multipliers() && here.is_nan() && there.abs() > CROSSING {

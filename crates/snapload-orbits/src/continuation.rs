@@ -246,9 +246,9 @@ impl<F: Family> Continuation<'_, F> {
         Some((moved, here, shift))
     }
 
-    /// The same orbit with the snaps of its accumulations counted anew, as a simulated lap has them,
-    /// and the direction there; none if their number is the same. How many there are before one is
-    /// slow enough to stick changes along a branch, and means nothing.
+    /// The same orbit with the snaps of its accumulations counted anew, as a simulated lap has
+    /// them, and the direction there; none if their number is the same. How many there are before
+    /// one is slow enough to stick changes along a branch, and means nothing.
     pub(crate) fn recounted(
         &self,
         u: &Unknowns,

@@ -38,9 +38,10 @@ pub struct CurvePoint {
     pub others: Stability,
     /// The length along the curve from its first point.
     pub arclength: f64,
-    /// The coefficient of the normal form: that of the square at a fold, and that of the cube at a
-    /// period doubling, where a positive one says that the orbits of twice the length are stable if
-    /// all other multipliers are. That of a fold is of eigenvectors that point alike along the curve.
+    /// The coefficient of the normal form: that of the square at a fold, and that of the
+    /// cube at a period doubling, where a positive one says that the orbits of twice the
+    /// length are stable if all other multipliers are. That of a fold is of eigenvectors
+    /// that point alike along the curve.
     pub coefficient: Option<f64>,
     eigenvector: Option<DVector<f64>>,
     /// a = −g̈/2r at a graze.
@@ -77,8 +78,8 @@ const SHORTEST_STEP: f64 = 1e-6;
 const SHORTEN_FROM: usize = 7;
 const LENGTHEN_TO: usize = 4;
 /// The least part of phase space that a lap on a curve of Neimark-Sacker points loses. Without any
-/// loss the multipliers of every orbit come in pairs with the product 1: the condition holds for all
-/// orbits, so that it determines no curve, and close to that it determines one badly.
+/// loss the multipliers of every orbit come in pairs with the product 1: the condition holds for
+/// all orbits, so that it determines no curve, and close to that it determines one badly.
 const LEAST_LOSS: f64 = 1e-4;
 
 impl Curve {

@@ -29,7 +29,8 @@ const SHORTEST_STEP: f64 = 1e-7;
 /// second, longer.
 const SHORTEN_FROM: usize = 5;
 const LENGTHEN_TO: usize = 3;
-/// An event that is not located lies between two points of no more than this part of the first step.
+/// An event that is not located lies between two points of no more
+/// than this part of the first step.
 const RESOLVED: f64 = 1e-3;
 /// The end of an accumulation is located up to this part of the first step.
 const CLOSED_IN: f64 = 1e-5;
@@ -41,8 +42,8 @@ const LONGEST_TIME_CHANGE: f64 = 0.3;
 const LARGEST_GAP: f64 = 0.02;
 pub(crate) const TOO_LONG: &str = "a cable would have to be longer by 0.02";
 pub(crate) const END_OF_RANGE: &str = "the end of the range";
-/// A direction whose part along the parameter is larger than this certainly leads beyond a border on
-/// which it begins.
+/// A direction whose part along the parameter is larger than this certainly leads
+/// beyond a border on which it begins.
 const LEAVES: f64 = 1e-6;
 /// A value this close to the border of the range is set to the border.
 const ON_BORDER: f64 = 1e-13;
@@ -337,8 +338,8 @@ impl<'a> Follower<'a> {
     }
 }
 
-/// A point that is on a border up to rounding, just there; none if it is not. Where the unknowns are
-/// known worse, as those of an accumulation are, the orbit is found for the border's value.
+/// A point that is on a border up to rounding, just there; none if it is not. Where the unknowns
+/// are known worse, as those of an accumulation are, the orbit is found for the border's value.
 fn on_border<F: Family>(
     continuation: &Continuation<F>,
     near: Unknowns,

@@ -27,7 +27,8 @@ pub trait Hybrid<T: Real> {
     /// All surfaces.
     fn surfaces(&self) -> TautSet;
 
-    /// The state a time `s`, of either sign, after `z` at time `t`, with the surfaces of `taut` taut.
+    /// The state a time `s`, of either sign, after `z` at time `t`,
+    /// with the surfaces of `taut` taut.
     fn flow(&self, taut: TautSet, t: T, z: &Point<T>, s: T) -> Point<T>;
 
     /// The same motion at any time from 0 to `s`, for many evaluations: equal to [`Hybrid::flow`]

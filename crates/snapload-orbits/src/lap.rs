@@ -279,10 +279,10 @@ impl Linearised {
     /// The largest residual of F, and Newton's step of the state's `variables` and the durations;
     /// none if the equations are singular.
     ///
-    /// Up to `SOLVED_TOGETHER` events all unknowns are solved for together, so that a snap of zero velocity
-    /// does no harm. Longer sequences are those in which snaps accumulate; there the durations are
-    /// eliminated one after the other, each by the event that ends it, as the cost of solving all
-    /// together grows with the cube of their number.
+    /// Up to `SOLVED_TOGETHER` events all unknowns are solved for together, so that a snap of zero
+    /// velocity does no harm. Longer sequences are those in which snaps accumulate; there the
+    /// durations are eliminated one after the other, each by the event that ends it, as the cost of
+    /// solving all together grows with the cube of their number.
     pub fn step(&self, z: &Point, variables: &[usize]) -> (f64, Option<DVector<f64>>) {
         if self.events() > SOLVED_TOGETHER {
             return self.step_in_turn(z, variables);

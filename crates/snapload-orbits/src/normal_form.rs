@@ -38,8 +38,8 @@ pub(crate) struct Coefficient {
 }
 
 impl Coefficient {
-    /// With the eigenvector in the direction of that of a neighbour on a curve of folds; of the first
-    /// one its largest component is positive.
+    /// With the eigenvector in the direction of that of a neighbour on a curve of folds; of the
+    /// first one its largest component is positive.
     pub(crate) fn oriented(&mut self, neighbour: Option<&DVector<f64>>) {
         let along = match neighbour {
             Some(neighbour) => neighbour.dot(&self.eigenvector),
@@ -87,7 +87,8 @@ pub(crate) fn coefficient<F: Family>(
     })
 }
 
-/// q and p of an eigenvalue, q of unit length and ⟨p, q⟩ = 1; none if they are not known to rounding.
+/// q and p of an eigenvalue, q of unit length and ⟨p, q⟩ = 1; none if
+/// they are not known to rounding.
 fn eigenvectors(whole: &DMatrix<f64>, eigenvalue: f64) -> Option<[DVector<f64>; 2]> {
     let n = whole.nrows();
     let less = whole - DMatrix::identity(n, n) * eigenvalue;

@@ -210,8 +210,8 @@ fn check_range(key: &str, value: f64, [low, high]: [f64; 2]) -> Result<(), CaseE
     Ok(())
 }
 
-/// Refuses to follow an orbit to b = 0 where the inertia is the natural one of the size, which jumps
-/// there: an orbit on one side is none on the other.
+/// Refuses to follow an orbit to b = 0 where the inertia is the natural one of the size, which
+/// jumps there: an orbit on one side is none on the other.
 fn check_inertia(
     parameters: &Parameters,
     key: &str,

@@ -12,8 +12,8 @@ const STEPS: usize = 400;
 /// The most snaps in a lap.
 const MOST_SNAPS: usize = 200;
 
-/// The motion from `z` at time `t` over `length`, with the surfaces of `taut` held throughout, and every
-/// other one struck where it closes. None if there are too many snaps.
+/// The motion from `z` at time `t` over `length`, with the surfaces of `taut` held throughout, and
+/// every other one struck where it closes. None if there are too many snaps.
 pub fn scan<F: Family>(
     family: &F,
     at: [f64; 2],

@@ -210,8 +210,8 @@ impl Section {
         }
     }
 
-    /// Whether the time at which it stopped is known in spite of rounding, as far as deviations grow
-    /// smoothly; none if it did not stop, or their growth was not followed.
+    /// Whether the time at which it stopped is known in spite of rounding, as far as deviations
+    /// grow smoothly; none if it did not stop, or their growth was not followed.
     pub fn stop_is_certain(&self) -> Option<bool> {
         self.stop?;
         self.growth.map(|growth| growth < KNOWN.ln())

@@ -125,9 +125,9 @@ impl Window {
         self.keys.iter().all(|key| STARTS.contains(key))
     }
 
-    /// What else than the two keys keeps every start of a plane of starts away from the equilibrium,
-    /// where all start values are 0: keys that are not 0. Distances from it are not those of the plane
-    /// then.
+    /// What else than the two keys keeps every start of a plane of starts away from the
+    /// equilibrium, where all start values are 0: keys that are not 0. Distances from it
+    /// are not those of the plane then.
     pub(crate) fn keys_off_equilibrium(&self) -> Vec<(&'static str, f64)> {
         let others = STARTS.iter().filter(|key| !self.keys.contains(key));
         let values = others.filter_map(|key| Some((*key, self.base.get(key)?.number()?)));

@@ -32,9 +32,10 @@ impl Question {
         Table::new(self.name, Heading::None, self.asks, self.options).key(name, name)
     }
 
-    /// Asks it about a case. Where the answer depends on them, all digits count in which numbers were
-    /// written, if `entries` have them; without, a number is the shortest decimal of its double. An
-    /// option that is left out has its default; for one given twice the last value counts.
+    /// Asks it about a case. Where the answer depends on them, all digits count in
+    /// which numbers were written, if `entries` have them; without, a number is the
+    /// shortest decimal of its double. An option that is left out has its default; for
+    /// one given twice the last value counts.
     ///
     /// # Errors
     /// A [`CaseError`] if an option or the case does not allow an answer, and

@@ -63,8 +63,8 @@ impl RunWithTrust {
         })
     }
 
-    /// The result of [`RunWithTrust::run`], completed with the derivatives and the neighbours if the
-    /// end is not certain.
+    /// The result of [`RunWithTrust::run`], completed with the derivatives and the
+    /// neighbours if the end is not certain.
     ///
     /// # Errors
     /// As for [`RunWithTrust::run`].

@@ -197,8 +197,8 @@ pub fn end_in_words(trajectory: &Trajectory, parameters: &Parameters) -> String 
     }
 }
 
-/// The number of impacts, and the number of certain ones if not all are: snaps of each cable. Beside
-/// them the impulses passed into a taut cable, with v_n = 0, which do not count as impacts.
+/// The number of impacts, and the number of certain ones if not all are: snaps of each cable.
+/// Beside them the impulses passed into a taut cable, with v_n = 0, which do not count as impacts.
 fn impacts(trusted: &RunWithTrust) -> String {
     let impacts = trusted.run.impacts();
     if impacts.is_empty() {

@@ -58,8 +58,8 @@ impl Serialize for ImpactRow {
     }
 }
 
-/// A number of a table in as few digits as give it back: with an exponent below 1e-5 and from 1e16 on,
-/// as the writer of CSV has it, where all the rest would be zeros.
+/// A number of a table in as few digits as give it back: with an exponent below 1e-5 and from 1e16
+/// on, as the writer of CSV has it, where all the rest would be zeros.
 pub fn in_digits(number: f64) -> String {
     match number == 0.0 || !number.is_finite() || (1e-5..1e16).contains(&number.abs()) {
         true => number.to_string(),

@@ -31,8 +31,8 @@ pub fn checked_every(duration_s: f64, every_s: f64) -> Result<f64, CaseError> {
     Ok(every_s)
 }
 
-/// The times at which the states of a motion are kept, every [`EVERY`] of the time that a run takes; none
-/// for an infinite one.
+/// The times at which the states of a motion are kept, every [`EVERY`] of the time that a run
+/// takes; none for an infinite one.
 ///
 /// # Errors
 /// As for [`checked_every`].

@@ -379,7 +379,8 @@ impl Structure {
         (!parts.is_empty()).then(|| parts.join("; "))
     }
 
-    /// The time that is judged: what follows the transient, which is shorter than the duration \[s\].
+    /// The time that is judged: what follows the transient, which is
+    /// shorter than the duration \[s\].
     pub(crate) fn judged_s(&self) -> f64 {
         self.duration_s - self.transient_s
     }

@@ -230,8 +230,8 @@ pub fn with_unit(symbol: &str, unit: &str) -> String {
 mod tests {
     use super::{Cell, Layer, line_layers};
 
-    /// Values that are not certain have a circle each and the words of maps; of cells without a value
-    /// there is none. Values in another order than that of the axis make the same line.
+    /// Values that are not certain have a circle each and the words of maps; of cells without a
+    /// value there is none. Values in another order than that of the axis make the same line.
     #[test]
     fn a_line_marks_what_is_not_certain() {
         let value = |x: f64, doubt: bool| (x, (Cell::Value(10.0 * x), doubt));

@@ -69,8 +69,8 @@ pub fn verify(
     verify_as_written(case, &Entries::new(&CASE), digits, tolerance, on_progress)
 }
 
-/// The same for a case whose keys were given as text: `entries` keep the digits in which its numbers
-/// were written, and all of these count.
+/// The same for a case whose keys were given as text: `entries` keep the digits in which its
+/// numbers were written, and all of these count.
 ///
 /// # Errors
 /// As for [`verify`]; also a [`CaseError`] for a number of more than 399 characters or with a power

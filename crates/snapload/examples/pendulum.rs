@@ -1,8 +1,8 @@
 //! A pendulum that goes slack: a point mass on one cable, thrown from its lowest place.
 //!
 //! With the speed v₀ at the bottom the tension is v²/l + g cos φ, and energy gives v² = v₀² − 2 g l
-//! (1 − cos φ): it is lost where cos φ = (2 g l − v₀²)/(3 g l), φ being measured from the bottom. From
-//! there the mass flies along a parabola until the cable snaps taut.
+//! (1 − cos φ): it is lost where cos φ = (2 g l − v₀²)/(3 g l), φ being measured from the bottom.
+//! From there the mass flies along a parabola until the cable snaps taut.
 
 use snapload::{Body, Cable, Forcing, Mode, Rules, Simulation, StartError, State, System};
 

@@ -51,9 +51,9 @@ impl<const N: usize> Set<N> {
     /// r' = (B'⁻¹ J B) r + B'⁻¹ δ
     /// ```
     ///
-    /// Let B'ᵀB' = 1 + E and ε < 1 bound the sums of |E| along rows. Then B'⁻¹ y = (1 + E)⁻¹ B'ᵀ y,
-    /// and by Neumann's series (1 + E)⁻¹ z differs from z by no more than ε/(1 − ε) max |z|, at most
-    /// 2 ε max |z| for ε ≤ 1/2.
+    /// Let B'ᵀB' = 1 + E and ε < 1 bound the sums of |E| along rows. Then B'⁻¹ y = (1 + E)⁻¹ B'ᵀ
+    /// y, and by Neumann's series (1 + E)⁻¹ z differs from z by no more than ε/(1 − ε) max |z|,
+    /// at most 2 ε max |z| for ε ≤ 1/2.
     pub(crate) fn mapped<const M: usize>(
         &self,
         image: &[Ball; M],

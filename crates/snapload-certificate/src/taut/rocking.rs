@@ -16,8 +16,8 @@ use crate::verdict::ProofFailure;
 /// D < r² these are the two points m = ± S d⟂, S = √(r²/D − 1) > 0, d⟂ = (−a sin θ, a cos θ − 1). A
 /// motion keeps its sign, as S is never zero.
 ///
-/// Where D = 0, for a = 1 and θ = 0, d⟂ has no direction. The cables are parallel there, and as long
-/// as both stay taut the body moves without turning. Such a motion is not proved.
+/// Where D = 0, for a = 1 and θ = 0, d⟂ has no direction. The cables are parallel there, and as
+/// long as both stay taut the body moves without turning. Such a motion is not proved.
 pub(crate) struct Rocking {
     sign: i64,
 }
@@ -165,7 +165,8 @@ impl Chart<2> for Rocking {
     ///
     /// (|c′|² + I) θ̈ = f·c′ − c′·c″ θ̇²,
     ///
-    /// and the tensions from R = f − c′ θ̈ − c″ θ̇² = T₁ n₁ + T₂ n₂, with r n₁ = m + d, r n₂ = m − d:
+    /// and the tensions from R = f − c′ θ̈ − c″ θ̇² = T₁ n₁ + T₂ n₂,
+    /// with r n₁ = m + d, r n₂ = m − d:
     ///
     /// T₁ + T₂ = r R·m/|m|²,   T₁ − T₂ = r R·d/D.
     fn terms(&self, model: &Model) -> Terms {

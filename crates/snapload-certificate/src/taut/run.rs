@@ -185,7 +185,8 @@ fn event(function: EventFunction) -> Event {
     }
 }
 
-/// The times at which an event function crosses zero, for the centre and for every state of the set.
+/// The times at which an event function crosses zero, for the centre
+/// and for every state of the set.
 fn roots<const N: usize>(
     step: &Step<'_, N>,
     crossing: &Crossing,

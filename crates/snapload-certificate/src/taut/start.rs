@@ -36,8 +36,9 @@ pub(crate) struct Started<const N: usize> {
 
 /// The beginning of a motion after the laws of an event.
 ///
-/// Let y be the coordinates after the event, at the instant t*, and T the required time. The state
-/// at T is z = Φ(y), the flow of the new equations q̇ = F over T − t*, and as a function of y and t*
+/// Let y be the coordinates after the event, at the instant t*, and T the required
+/// time. The state at T is z = Φ(y), the flow of the new equations q̇ = F over
+/// T − t*, and as a function of y and t*
 ///
 /// dz = DΦ (dy − F(y) dt*).
 ///

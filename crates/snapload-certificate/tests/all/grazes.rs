@@ -56,9 +56,9 @@ fn two_at_one_instant_are_undecided() {
     assert_eq!(both.impacts, 0);
 }
 
-/// Where the body rests within 1e-9 of a gap of zero it is moved by an iteration about which nothing
-/// is proved; at x = y = θ = 0 both gaps are zero for every size, and two taut cables so low are
-/// settled.
+/// Where the body rests within 1e-9 of a gap of zero it is moved by an iteration about
+/// which nothing is proved; at x = y = θ = 0 both gaps are zero for every size, and two
+/// taut cables so low are settled.
 #[test]
 fn a_start_next_to_a_cable_is_undecided() {
     let next_to_it = proof(&case_of("y=1e-12 f_o=0.1"));

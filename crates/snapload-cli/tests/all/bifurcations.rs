@@ -375,8 +375,8 @@ fn a_section_without_points_is_none() {
         .stdout(contains("Stopped   at t = 10.0247"));
 }
 
-/// Where no orbit is near the start, branches and curves tell how far the one is that they follow, as
-/// the orbit by itself does.
+/// Where no orbit is near the start, branches and curves tell how far the one is that they
+/// follow, as the orbit by itself does.
 #[test]
 fn what_is_followed_from_far_is_told_of() {
     for (start, is_far) in [("x=-0.26,y=0.38,vx=0.81,vy=-0.42", false), ("y=0.4", true)] {

@@ -137,7 +137,8 @@ fn decay_lists_its_swings() {
     assert!((period - 3.802).abs() < 0.02, "{period}");
 }
 
-/// Heave takes 3.25 s for a swing: within 1 s there is none, which does not say that it never swings.
+/// Heave takes 3.25 s for a swing: within 1 s there is none, which
+/// does not say that it never swings.
 #[test]
 fn decay_names_the_time_in_which_there_is_no_swing() {
     let room = room();
@@ -185,8 +186,8 @@ fn decay_reports_where_displacements_are_measured_from() {
     );
 }
 
-/// A motion of more than half the draft of 1.2 m or more than 15 degrees is warned of, the highest of a
-/// sea, too, and a smaller one is not; a body that is turned over is refused.
+/// A motion of more than half the draft of 1.2 m or more than 15 degrees is warned of, the highest
+/// of a sea, too, and a smaller one is not; a body that is turned over is refused.
 #[test]
 fn motions_that_are_not_small_are_warned_of() {
     let room = room();

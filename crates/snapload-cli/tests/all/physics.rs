@@ -151,8 +151,8 @@ fn the_critical_force_is_found_and_so_is_all_that_exceeds() {
     assert_eq!(over["points"][1]["f_cr"], 0.1);
 }
 
-/// Certificates prove that at 0.68 the body turns over at t = 41.927, and at 0.78 and 0.85 begins to
-/// slide, at 44.601 and 60.059; double precision finds the contrary, and has to say so.
+/// Certificates prove that at 0.68 the body turns over at t = 41.927, and at 0.78 and 0.85 begins
+/// to slide, at 44.601 and 60.059; double precision finds the contrary, and has to say so.
 #[test]
 fn amplitudes_whose_runs_are_not_certain_are_named() {
     let d = directory();

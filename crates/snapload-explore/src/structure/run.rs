@@ -129,8 +129,8 @@ fn beginning(structure: &Structure) -> Structure {
     }
 }
 
-/// The refusal of work that failed or did not end within its time; `verb` names the command that has
-/// no limit.
+/// The refusal of work that failed or did not end within its time; `verb` names
+/// the command that has no limit.
 pub(super) fn too_long(case: &Case, verb: &str, time: Duration, unfinished: Unfinished) -> Refusal {
     match unfinished {
         Unfinished::Case(error) => error.into(),

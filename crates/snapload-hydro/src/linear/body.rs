@@ -92,15 +92,17 @@ impl Body {
         self.mass[(2, 2)] - (mz * mz + mx * mx) / self.mass_kg
     }
 
-    /// The body about where it floats without lines. Free of lines a lift F raises it by F/C33, which
-    /// moves its weight and what is left of its buoyancy up. With vertical sides at the waterline,
+    /// The body about where it floats without lines. Free of lines a lift F raises it
+    /// by F/C33, which moves its weight and what is left of its buoyancy up. With
+    /// vertical sides at the waterline,
     ///
     /// ```text
     /// C55 + z_O F + F²/(2 C33)
     /// ```
     ///
-    /// with z_O the reference point's height above the still water, on which the sum does not depend:
-    /// weight and buoyancy are equal there. C itself is that of a body held at the reference point.
+    /// with z_O the reference point's height above the still water, on which the sum
+    /// does not depend: weight and buoyancy are equal there. C itself is that of a
+    /// body held at the reference point.
     pub fn afloat(&self) -> Self {
         let mut body = self.clone();
         let (lift, heave) = (self.constant_force[1], self.stiffness[(1, 1)]);
@@ -110,8 +112,8 @@ impl Body {
         body
     }
 
-    /// Heave and pitch that balance its constant forces by C \[m, rad\]; none if water does not hold
-    /// it up and upright.
+    /// Heave and pitch that balance its constant forces by C \[m, rad\]; none if water
+    /// does not hold it up and upright.
     pub(crate) fn balance(&self) -> Option<Vector2<f64>> {
         let stiffness = self.stiffness.fixed_view::<2, 2>(1, 1).into_owned();
         let force = self.constant_force.fixed_rows::<2>(1).into_owned();

@@ -24,8 +24,8 @@ pub struct Natural {
     pub freedom: usize,
     /// Surge, heave and pitch of the motion, of any size.
     pub shape: Vector3<f64>,
-    /// Whether ω lies outside the file's frequencies, where A is that at the nearest; not if A is the
-    /// same at all of them, as it is in textbooks.
+    /// Whether ω lies outside the file's frequencies, where A is that at the nearest; not if A is
+    /// the same at all of them, as it is in textbooks.
     pub outside: bool,
 }
 

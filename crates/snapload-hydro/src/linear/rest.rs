@@ -150,9 +150,9 @@ pub fn rest(hydro: &Hydrodynamics, body: &Body, lines: &[Line]) -> Result<Rest, 
 }
 
 /// Where a body floats that no line holds in surge, at a surge that is given: without tension, in
-/// balance of heave and pitch by its stiffness. None if a force pushes it away in surge, if water does
-/// not hold it up and upright, or if a line would be too short there. With it comes how far the ends of
-/// each line are apart there \[m\].
+/// balance of heave and pitch by its stiffness. None if a force pushes it away in surge, if water
+/// does not hold it up and upright, or if a line would be too short there. With it comes how far
+/// the ends of each line are apart there \[m\].
 pub fn rest_without_tension(
     hydro: &Hydrodynamics,
     body: &Body,

@@ -19,8 +19,8 @@ pub(crate) fn draft_m(hydro: &Hydrodynamics, body: &Body) -> Option<f64> {
     (draft_m > 0.0 && draft_m.is_finite()).then_some(draft_m)
 }
 
-/// The warnings about a motion that is not small, given its amplitudes of heave and pitch and what it
-/// is.
+/// The warnings about a motion that is not small, given its amplitudes of
+/// heave and pitch and what it is.
 pub fn large_motion(
     hydro: &Hydrodynamics,
     body: &Body,
@@ -50,8 +50,8 @@ pub fn large_motion(
     warnings
 }
 
-/// The warning that a body rests clear of the water, where it no longer weighs more, or that its sides
-/// have to be higher than a file says.
+/// The warning that a body rests clear of the water, where it no longer weighs more, or that its
+/// sides have to be higher than a file says.
 pub(crate) fn beyond_hydrostatics(
     hydro: &Hydrodynamics,
     body: &Body,

@@ -302,8 +302,8 @@ fn symmetric(name: &str, rows: [[f64; 3]; 3]) -> Result<Matrix3<f64>, HydroError
     }
 }
 
-/// A given memory with the A∞ and the added damping that belong to it, and its quality relative to a
-/// file's coefficients.
+/// A given memory with the A∞ and the added damping that belong to it, and its quality
+/// relative to a file's coefficients.
 ///
 /// # Errors
 /// A [`HydroError`] as [`Memory::check`] gives it, or if one of the matrices is not possible.

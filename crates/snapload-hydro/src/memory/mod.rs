@@ -42,8 +42,9 @@ pub struct Term {
 pub struct Memory {
     /// The exponentials.
     pub terms: Vec<Term>,
-    /// Damping that was added, the same at all frequencies, where the exponentials could not be made
-    /// passive; otherwise zero. In K it is an impulse at t = 0, which [`Memory::kernel`] leaves out.
+    /// Damping that was added, the same at all frequencies, where the exponentials could not
+    /// be made passive; otherwise zero. In K it is an impulse at t = 0, which
+    /// [`Memory::kernel`] leaves out.
     pub damping: Matrix3<f64>,
 }
 
@@ -86,10 +87,10 @@ impl Memory {
         self.terms.iter().map(of).sum()
     }
 
-    /// The least eigenvalue of Re K̂(iω), as a part of the largest magnitude over ω, over frequencies
-    /// from 1e-4 to 1000 times the given one. If it is not negative the memory is passive and can not
-    /// feed energy into the motion. Each entry is relative to the damping of its own degrees of
-    /// freedom.
+    /// The least eigenvalue of Re K̂(iω), as a part of the largest magnitude over ω, over
+    /// frequencies from 1e-4 to 1000 times the given one. If it is not negative the memory is
+    /// passive and can not feed energy into the motion. Each entry is relative to the damping
+    /// of its own degrees of freedom.
     pub fn least_eigenvalue(&self, omega_max_rad_s: f64) -> f64 {
         passivity::least(self, omega_max_rad_s)
     }

@@ -27,8 +27,8 @@ fn grid(poles: impl Iterator<Item = Complex<f64>>, omega_max: f64) -> Vec<f64> {
     grid
 }
 
-/// The least eigenvalue of Re K̂ over the largest magnitude of one, each degree of freedom in units of
-/// the root of its own largest damping.
+/// The least eigenvalue of Re K̂ over the largest magnitude of one, each degree of freedom in units
+/// of the root of its own largest damping.
 pub(super) fn least(memory: &Memory, omega_max: f64) -> f64 {
     let poles = memory.terms.iter().map(|term| term.pole);
     let real: Vec<Matrix3<f64>> = grid(poles, omega_max)

@@ -5,8 +5,8 @@ use crate::coefficients::{Excitation, FREEDOMS, Hydrodynamics, UPPER};
 use crate::error::{HydroError, Warning};
 use crate::waves::wave_number;
 
-/// Asymmetry of A and of B above which the file is doubtful. That of B is larger on the same mesh: 2 %
-/// where that of A is 0.6 %.
+/// Asymmetry of A and of B above which the file is doubtful. That of B is larger on the same
+/// mesh: 2 % where that of A is 0.6 %.
 const DOUBTFUL: [f64; 2] = [0.01, 0.05];
 /// Asymmetry above which rows and columns are mixed up.
 const MIXED_UP: f64 = 0.2;

@@ -6,9 +6,9 @@
 //! ExcitationForce.tec          a zone for each β in degrees; its rows are ω, and |F| and arg F of each force
 //! ```
 //!
-//! arg F is in radians. The phase is that of e^{−iωt}: at low frequency arg F1 → −π/2 for β = 0, and
-//! arg F3 → 0. Source: Nemoh v2, `Solver/Main.f90`, which writes these files, and the files that
-//! come with it.
+//! arg F is in radians. The phase is that of e^{−iωt}: at low frequency arg F1 → −π/2 for
+//! β = 0, and arg F3 → 0. Source: Nemoh v2, `Solver/Main.f90`, which writes these files,
+//! and the files that come with it.
 
 use super::table::{Row, Table};
 use super::{Format, Given, agreed_water};

@@ -34,7 +34,8 @@ const SAME_MASS: f64 = 0.01;
 /// A peak counts as a resonance if it is this close, relatively, to the frequency of a natural
 /// motion.
 const NEAR_RESONANCE: f64 = 0.02;
-/// A peak of a freedom depends on the damping of a resonance that makes up at least this part of it.
+/// A peak of a freedom depends on the damping of a resonance that
+/// makes up at least this part of it.
 const RESONANT_PART: f64 = 0.1;
 /// Damping below this part of critical bounds nothing.
 const ZERO_DAMPING: f64 = 1e-6;
@@ -277,8 +278,8 @@ impl Floating {
             let resonates = |(natural, mode): &(&Natural, &Mode)| {
                 let omega = mode.eigenvalue.norm();
                 let near = (peak.omega_rad_s / omega - 1.0).abs() < NEAR_RESONANCE;
-                // The body resonates in the shape of its natural motion, in whose main freedom all of
-                // the response may be resonance.
+                // The body resonates in the shape of its natural motion, in whose main freedom all
+                // of the response may be resonance.
                 let own = natural.shape[i] / natural.shape[natural.freedom];
                 let part = there.map_or(0.0, |xi| own.abs() * xi[natural.freedom].norm());
                 mode.damping_ratio < WEAK_DAMPING && near && part > RESONANT_PART * peak.amplitude

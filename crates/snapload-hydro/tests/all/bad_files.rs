@@ -271,8 +271,7 @@ fn wamit_may_leave_out_entries_by_symmetry() {
     assert_eq!((hydro.asymmetry, hydro.added_mass.len()), (0.0, 58));
 }
 
-/// The warning that no frequency is low enough asks about WAMIT's first column, which no other file
-/// has.
+/// The warning that no frequency is low enough asks about WAMIT's first column, for its files only.
 #[test]
 fn periods_taken_as_frequencies_are_suspected() {
     let warning = |format, hydro| {

@@ -7,8 +7,8 @@ use snapload_hydro::{
     natural_of_the_file, natural_of_the_memory, page,
 };
 
-/// The pontoon with the same added mass at all frequencies, so that its heave, which is coupled with
-/// nothing, is a textbook's oscillator; with ω and mass of that.
+/// The pontoon with the same added mass at all frequencies, so that its heave, which is coupled
+/// with nothing, is a textbook's oscillator; with ω and mass of that.
 fn oscillator() -> (Hydrodynamics, Body, Matrix3<f64>, [f64; 2]) {
     let mut hydro = hydro("pontoon-deep.nc");
     let inf = hydro.added_mass[0];
@@ -40,8 +40,8 @@ fn faint(omega: f64) -> Memory {
     }
 }
 
-/// Heave has −ζω + iω sqrt(1 − ζ²), whatever waves of pitch oscillate near its frequency; from ζ = 1
-/// on it creeps back with −ω (ζ − sqrt(ζ² − 1)), the slower of two.
+/// Heave has −ζω + iω sqrt(1 − ζ²), whatever waves of pitch oscillate near its frequency; from
+/// ζ = 1 on it creeps back with −ω (ζ − sqrt(ζ² − 1)), the slower of two.
 #[test]
 fn heave_has_the_eigenvalue_of_an_oscillator() {
     let (hydro, mut body, inf, [omega, mass]) = oscillator();
@@ -123,8 +123,8 @@ fn an_overdamped_motion_is_called_so() {
     assert!(row["damped_period_s"].is_null() && row["damping_ratio"] == 1.0);
 }
 
-/// The peak of heave does not depend on the damping of a pitch that resonates at the same frequency,
-/// as the two are not coupled; surge, which is, does.
+/// The peak of heave does not depend on the damping of a pitch that resonates at the same
+/// frequency, as the two are not coupled; surge, which is, does.
 #[test]
 fn peaks_depend_on_resonances_of_their_own() {
     let request = |inertia: f64| Request {

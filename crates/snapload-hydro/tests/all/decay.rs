@@ -6,8 +6,8 @@ use nalgebra::{Complex, Vector3};
 use snapload_hydro::{Decay, Memory, Turn, decay, swings};
 use std::f64::consts::PI;
 
-/// Surge has no stiffness: from wherever the pontoon is let go its swings are the same, and damped as
-/// the eigenvalue of surge and pitch says, that other code made.
+/// Surge has no stiffness: from wherever the pontoon is let go its swings are the same, and damped
+/// as the eigenvalue of surge and pitch says, that other code made.
 #[test]
 fn a_place_that_nothing_holds_does_not_change_the_swings() {
     let entry = &reference("linear.json")["pontoon"];

@@ -133,8 +133,8 @@ fn poor_files_cause_warnings() {
     );
 }
 
-/// A memory that feeds energy into the motion at every frequency is −100 % passive, and one that leaves
-/// all waves out is off the file by all of them.
+/// A memory that feeds energy into the motion at every frequency is −100 % passive, and one that
+/// leaves all waves out is off the file by all of them.
 #[test]
 fn given_memories_that_are_wrong_are_reported() {
     let (sphere, whole) = (hydro("sphere.nc"), fitted("sphere.nc"));
@@ -311,7 +311,8 @@ proptest! {
 proptest! {
     #![proptest_config(ProptestConfig { cases: 24, ..ProptestConfig::default() })]
 
-    /// A passive memory takes energy out of every motion from rest: ∫ q̇ᵀ F_mem dt ≥ 0 at all times.
+    /// A passive memory takes energy out of every motion from rest: ∫
+    /// q̇ᵀ F_mem dt ≥ 0 at all times.
     #[test]
     fn memories_feed_no_energy(
         a in prop::array::uniform3(-1.0..1.0_f64),

@@ -135,7 +135,8 @@ fn wamit_scales_with_its_length() {
     assert!((force[2] - Complex::new(8.0, 0.0)).norm() < 1e-12);
 }
 
-/// A first column of another kind, of the same waves in water of 10 m and with a unit length of 2 m.
+/// A first column of another kind, of the same waves in water of 10 m
+/// and with a unit length of 2 m.
 #[test]
 fn wamit_has_four_first_columns() {
     let [g, depth, length] = [9.81, 10.0, 2.0];

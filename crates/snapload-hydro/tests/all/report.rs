@@ -206,8 +206,8 @@ fn an_inertia_that_is_not_given_with_a_mass_is_reported() {
     assert!((inertia.expect("a number") - 133_000.0).abs() < 1e-6);
 }
 
-/// A centre of gravity beside that of buoyancy turns the body by its weight's arm over the stiffness,
-/// which is told in words and in JSON; one under it does not.
+/// A centre of gravity beside that of buoyancy turns the body by its weight's arm over the
+/// stiffness, which is told in words and in JSON; one under it does not.
 #[test]
 fn a_moment_that_turns_the_body_is_reported() {
     let report = |x: f64| {
@@ -302,8 +302,9 @@ fn stability_does_not_depend_on_the_reference_point() {
     }
 }
 
-/// Where a box floats without lines, and how it rolls there, by the hydrostatics of a box of its own
-/// draft, about whatever point the file is: BM − BG = b²/(12 d) + d/2 − (height of G above the keel).
+/// Where a box floats without lines, and how it rolls there, by the hydrostatics of a box
+/// of its own draft, about whatever point the file is: BM − BG = b²/(12
+/// d) + d/2 − (height of G above the keel).
 #[test]
 fn a_body_without_lines_has_the_hydrostatics_of_where_it_floats() {
     let (length, breadth, draft, gravity, density) = (20.0, 4.0, 1.2, 9.81, 1025.0);

@@ -4,8 +4,8 @@ use crate::common::reading;
 use snapload_hydro::{EntryQuality, FitOptions, GivenMemory, Report, Request};
 
 /// Damping that a memory needs to be passive acts with its exponentials alone: the response by the
-/// file solves (−ω²(M + A) − iωB + C) ξ = X with its own numbers. With the memory it is written to a
-/// file and read again, about another point, too, on which no period depends.
+/// file solves (−ω²(M + A) − iωB + C) ξ = X with its own numbers. With the memory it is written to
+/// a file and read again, about another point, too, on which no period depends.
 #[test]
 fn damping_that_was_added_belongs_to_the_memory() {
     let poor = || reading("pontoon-poor.nc");

@@ -171,9 +171,10 @@ fn no_swing_is_outside_a_textbook() {
     assert!(natural.iter().all(|natural| !natural.outside));
 }
 
-/// One body at two sizes in waves that are as long for it (Froude): lengths four times as large and
-/// ω half as large give 16 times the force per amplitude and 64 times the moment. As all factors are
-/// powers of two, floating-point numbers follow to the last bit wherever ω is, and so does a motion.
+/// One body at two sizes in waves that are as long for it (Froude): lengths four times as
+/// large and ω half as large give 16 times the force per amplitude and 64 times the
+/// moment. As all factors are powers of two, floating-point numbers follow to the last bit
+/// wherever ω is, and so does a motion.
 #[test]
 fn a_larger_twin_has_the_same_force_to_the_bit() {
     let force = |scale: f64, omega: f64| {
@@ -194,9 +195,9 @@ fn a_larger_twin_has_the_same_force_to_the_bit() {
     }
 }
 
-/// On lines that hold a box of 80 t above its draft of 1.2 m, clear of the water, it weighs 784.8 kN and
-/// no more, whatever C33 z is; on lines that hold it below its position the height of its sides is not
-/// known, and named. Where it floats at its position nothing is told.
+/// On lines that hold a box of 80 t above its draft of 1.2 m, clear of the water, it weighs 784.8
+/// kN and no more, whatever C33 z is; on lines that hold it below its position the height of its
+/// sides is not known, and named. Where it floats at its position nothing is told.
 #[test]
 fn a_box_clear_of_the_water_weighs_no_more_than_its_weight() {
     let warning = |anchor: f64, fairlead: f64, length: f64| {

@@ -129,10 +129,10 @@ fn a_window_beyond_the_cables_is_reported() {
     );
 }
 
-/// Distances from the equilibrium are told in planes that hold it, and in no other: there no start is
-/// nearer to it than what the other keys are.
-/// A run that stops at the impact limit is neither safe nor unsafe: what counts as safe, the safe part
-/// and the disc are no more than without that limit, and the nearest unsafe start may be nearer.
+/// Distances from the equilibrium are told in planes that hold it, and in no other: there no start
+/// is nearer to it than what the other keys are. A run that stops at the impact limit is neither
+/// safe nor unsafe: what counts as safe, the safe part and the disc are no more than without that
+/// limit, and the nearest unsafe start may be nearer.
 #[test]
 fn cells_that_are_cut_short_are_not_safe() {
     let window = |max_impacts| Window {
@@ -184,8 +184,8 @@ fn a_plane_without_the_equilibrium_has_no_distances_from_it() {
     );
 }
 
-/// The plane of an erosion moves with a start key, and one that is always beside the equilibrium says
-/// by which key.
+/// The plane of an erosion moves with a start key, and one that is always beside the
+/// equilibrium says by which key.
 #[test]
 fn an_erosion_reports_in_which_planes_there_are_distances() {
     let mut window = window(&reference()["grids"]["circle_xy_f0.3"]);
@@ -206,7 +206,8 @@ fn an_erosion_reports_in_which_planes_there_are_distances() {
     );
 }
 
-/// A window that is written from its largest values down has the measures of the same cells upwards.
+/// A window that is written from its largest values down has the
+/// measures of the same cells upwards.
 #[test]
 fn measures_do_not_hang_on_the_order_of_the_cells() {
     let upwards = window(&reference()["grids"]["circle_xy_f0.3"]);
@@ -238,8 +239,8 @@ fn velocities(first: (&'static str, [i32; 2]), second: (&'static str, [i32; 2]))
     }
 }
 
-/// A disc in a part of a window is one of the whole window, and an unsafe start of a part one of the
-/// whole. What lies beyond the border of a part is not known from it.
+/// A disc in a part of a window is one of the whole window, and an unsafe start of a part one of
+/// the whole. What lies beyond the border of a part is not known from it.
 #[test]
 fn a_part_of_a_window_has_no_larger_disc_than_the_whole() {
     let of = |x: [i32; 2], y: [i32; 2]| {

@@ -49,8 +49,8 @@ pub fn relative(a: f64, b: f64) -> f64 {
     (a - b).abs() / b.abs()
 }
 
-/// A point mass with a closed branch in ω, along which orbits become tori, and the start of an orbit
-/// on it.
+/// A point mass with a closed branch in ω, along which orbits become tori,
+/// and the start of an orbit on it.
 pub(crate) fn tori() -> (Parameters, [f64; 6]) {
     let case = Parameters {
         inertia: None,

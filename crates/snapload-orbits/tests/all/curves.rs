@@ -209,8 +209,8 @@ fn curves_of_the_breakwater_are_those_of_branches() {
     }
 }
 
-/// The special orbits of the point mass of the reference along f_o and another key, the curve of which
-/// ends at a border of the key.
+/// The special orbits of the point mass of the reference along f_o and another key, the curve of
+/// which ends at a border of the key.
 fn of_the_point_mass(kind: Kind, key: &'static str, range: [f64; 2]) -> Curve {
     let base = parameters(&reference()["branches"][0]["base"]);
     let keys = [Some("f_o"), Some(key)];
@@ -256,10 +256,11 @@ fn coefficients_are_those_of_many_digits() {
     }
 }
 
-/// The coefficient of folds belongs to eigenvectors that point alike along the curve: between points
-/// that are near each other it changes little, and its sign only through zero, at a cusp, or through
-/// infinity, where a second multiplier is 1. Computed in 60 digits by other code, with eigenvectors
-/// of positive x, it is 2.76588 and 5.1487 at two points of this curve, and has no cusp between.
+/// The coefficient of folds belongs to eigenvectors that point alike along the curve: between
+/// points that are near each other it changes little, and its sign only through zero, at a
+/// cusp, or through infinity, where a second multiplier is 1. Computed in 60 digits by other
+/// code, with eigenvectors of positive x, it is 2.76588 and 5.1487 at two points of this
+/// curve, and has no cusp between.
 #[test]
 fn coefficients_of_folds_have_a_sign_along_the_curve() {
     let found = of_the_point_mass(Kind::Fold, "omega", [2.5, 3.5]);
@@ -278,8 +279,8 @@ fn coefficients_of_folds_have_a_sign_along_the_curve() {
     assert!(near(2.76588) && near(5.1487), "{known:?}");
 }
 
-/// A Neimark-Sacker curve ends where both multipliers of its pair are 1 or -1. That is a point of the
-/// curve, and the same one whatever its steps.
+/// A Neimark-Sacker curve ends where both multipliers of its pair are 1 or -1. That is a point of
+/// the curve, and the same one whatever its steps.
 #[test]
 fn a_curve_of_tori_ends_at_its_resonance() {
     let (case, start) = tori();

@@ -78,8 +78,8 @@ fn section(parameters: &Parameters) -> Section {
     Section::of(parameters, &KEPT, &no_progress).unwrap()
 }
 
-/// The same start stops at two times if the searches for events take other steps, as they do when the
-/// motion is to last longer: neither time is known. A stop after a short motion is.
+/// The same start stops at two times if the searches for events take other steps, as they do when
+/// the motion is to last longer: neither time is known. A stop after a short motion is.
 #[test]
 fn the_time_of_a_stop_that_rounding_decides_is_not_reported_as_known() {
     let chaotic = Parameters {
@@ -236,8 +236,8 @@ const CHATTERING: Parameters = Parameters {
     ..Parameters::STANDARD
 };
 
-/// A motion that approaches an orbit with a multiplier near -1 returns after two periods long before
-/// it does so after one. It is a motion of one period, however early that is looked at.
+/// A motion that approaches an orbit with a multiplier near -1 returns after two periods long
+/// before it does so after one. It is a motion of one period, however early that is looked at.
 #[test]
 fn a_motion_that_alternates_ever_less_is_no_motion_of_two_periods() {
     let case = Parameters {
@@ -259,8 +259,8 @@ fn a_motion_that_alternates_ever_less_is_no_motion_of_two_periods() {
     }
 }
 
-/// Snaps per period are those of whole periods, and of whole laps: in a lap of n periods their number
-/// is whole. A period that a stop cuts short does not count, as the table of impacts has it.
+/// Snaps per period are those of whole periods, and of whole laps: in a lap of n periods their
+/// number is whole. A period that a stop cuts short does not count, as the table of impacts has it.
 #[test]
 fn snaps_are_those_of_whole_laps() {
     let of = |case: &Parameters, skip: u64, keep: u64| {

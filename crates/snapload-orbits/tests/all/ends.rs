@@ -98,8 +98,8 @@ fn a_curve_ends_where_a_cable_would_have_to_be_too_long() {
 }
 
 /// Without loss of energy, e = 1, the multipliers of every orbit come in pairs with the product 1,
-/// so that no orbit is a Neimark-Sacker point by that: a curve ends before, at a point that does not
-/// depend on its steps. A lap with n snaps in slack flight keeps e²ⁿ of phase space.
+/// so that no orbit is a Neimark-Sacker point by that: a curve ends before, at a point that does
+/// not depend on its steps. A lap with n snaps in slack flight keeps e²ⁿ of phase space.
 #[test]
 fn a_curve_of_tori_ends_before_energy_is_kept() {
     let base = parameters(&reference()["branches"][1]["base"]);

@@ -245,8 +245,8 @@ impl<'a> Sections<'a> {
 /// The number of columns of a type of version 1; one of version 2 has ten or more.
 const COLUMNS_OF_FIRST_VERSION: usize = 9;
 
-/// Refuses a type of version 1, whose columns have another meaning. Their names in the header do not
-/// tell the versions apart: MoorDyn does not read them, and files of version 2 keep old ones.
+/// Refuses a type of version 1, whose columns have another meaning. Their names in the header do
+/// not tell the versions apart: MoorDyn does not read them, and files of version 2 keep old ones.
 fn refuse_first_version(section: Section, row: &Row<'_>) -> Result<(), CaseError> {
     if section != Section::LineTypes || row.words.len() != COLUMNS_OF_FIRST_VERSION {
         return Ok(());

@@ -94,8 +94,8 @@ pub(super) fn model(structure: &Structure, afloat: &Afloat) -> Result<Model, Cas
     })
 }
 
-/// That a body rests nowhere on its lines, or would without the loads of the case; `adrift` is where
-/// it floats without tension, and how far the ends of each line are apart there.
+/// That a body rests nowhere on its lines, or would without the loads of the case; `adrift` is
+/// where it floats without tension, and how far the ends of each line are apart there.
 fn no_equilibrium_error(
     structure: &Structure,
     afloat: &Afloat,
@@ -226,9 +226,9 @@ pub(super) fn loaded(structure: &Structure, afloat: &Afloat) -> snapload_hydro::
     }
 }
 
-/// Where it rests on its lines, and the small motion that they leave it there. Where no line holds it
-/// in surge, one that floats without tension rests at the surge of the case's start; one that would
-/// not has no place of rest that is known.
+/// Where it rests on its lines, and the small motion that they leave it there. Where no line holds
+/// it in surge, one that floats without tension rests at the surge of the case's start; one that
+/// would not has no place of rest that is known.
 pub(super) fn rest_afloat(
     structure: &Structure,
     afloat: &Afloat,

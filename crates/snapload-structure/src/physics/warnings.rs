@@ -22,8 +22,8 @@ const URSELL: f64 = 26.0;
 const KEULEGAN: f64 = 5.0;
 /// A body larger than this part of the wave length scatters the waves.
 const DIFFRACTION: f64 = 0.2;
-/// Lines with more than this part of the moving mass are not massless, and lines whose weight is more
-/// than this part of the net buoyancy are not weightless.
+/// Lines with more than this part of the moving mass are not massless, and lines whose weight is
+/// more than this part of the net buoyancy are not weightless.
 const LIGHT: f64 = 0.1;
 /// The largest plausible ratio of the body's length across the plane and its width, or the reverse.
 const PROPORTION: f64 = 100.0;
@@ -210,8 +210,8 @@ fn warnings_afloat(prepared: &ModelAtRest, afloat: &Afloat) -> Vec<Warning> {
     of_file.chain(found.into_iter().flatten()).collect()
 }
 
-/// The warnings where the motion of a floating body left the range of linear theory; the verdict may
-/// depend on tensions for which linear hydrostatics do not hold.
+/// The warnings where the motion of a floating body left the range of linear theory; the verdict
+/// may depend on tensions for which linear hydrostatics do not hold.
 pub(crate) fn limits_afloat(
     structure: &Structure,
     seen: Option<&Waterline>,
@@ -379,8 +379,7 @@ fn in_waves(
 }
 
 /// The engine's snap takes no time; a line of spring rate k takes half a period, π sqrt(m/k) with
-/// the effective mass m that it stops. Lists the lines for which that is more than a tenth of a
-/// period.
+/// the mass m that it stops. Lists the lines for which that is more than a tenth of a period.
 fn soft_lines(prepared: &ModelAtRest, period_s: f64) -> String {
     let lines = prepared.structure.lines.iter().enumerate();
     let soft = lines.filter_map(|(index, line)| {

@@ -2,8 +2,8 @@
 //! hydrostatics.
 //!
 //! They take the buoyancy of a body as ρgV − C33 z, which grows without end. It is that of vertical
-//! sides that pierce the surface: a body whose whole deck is under water lifts no more than its whole
-//! volume, and one that is clear of the water weighs no more than its weight.
+//! sides that pierce the surface: a body whose whole deck is under water lifts no more than its
+//! whole volume, and one that is clear of the water weighs no more than its weight.
 
 use super::afloat::loaded;
 use super::equilibrium::Equilibrium;
@@ -23,8 +23,8 @@ pub struct Waterline {
     pub deck_m: f64,
     /// The highest position of a lower edge \[m\].
     pub bilge_m: f64,
-    /// How far the whole deck is under the surface of the waves, and the whole body above it, where a
-    /// line pulls more than before; below zero where its sides pierce the surface \[m\].
+    /// How far the whole deck is under the surface of the waves, and the whole body above it, where
+    /// a line pulls more than before; below zero where its sides pierce the surface \[m\].
     #[serde(skip)]
     pub beyond_m: [f64; 2],
 }
@@ -53,9 +53,9 @@ impl Waterline {
         }
     }
 
-    /// The position of a body whose centre is at a level, turned by θ: the deck's edges are at z +
-    /// h/2 cos θ ± b/2 sin θ. Where the level of the waves at the body is given, it is compared with
-    /// that, too.
+    /// The position of a body whose centre is at a level, turned by θ: the deck's edges
+    /// are at z + h/2 cos θ ± b/2 sin θ. Where the level of the waves at the body is
+    /// given, it is compared with that, too.
     pub(crate) fn at(
         structure: &Structure,
         [z_m, theta_rad]: [f64; 2],
@@ -107,8 +107,9 @@ impl Waterline {
     }
 }
 
-/// The same of a body at rest in still water, with the vertical pull of its lines beside the largest
-/// one that is possible: ρV g − mg wholly under water, mg clear of it, and the constant loads.
+/// The same of a body at rest in still water, with the vertical pull of its lines
+/// beside the largest one that is possible: ρV g − mg wholly under water, mg clear
+/// of it, and the constant loads.
 pub(crate) fn rest_beyond_in_words(
     structure: &Structure,
     afloat: &Afloat,

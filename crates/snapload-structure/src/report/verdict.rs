@@ -27,8 +27,8 @@ pub enum VerdictKind {
     /// A tension or a breaking load is not known.
     Unknown,
     /// A rule is violated on which the tensions depend, so that another command has to decide. Or a
-    /// line would break only before the judged time, or only in neighbours of the run. Or records of a
-    /// sea are too short or too few to tell whether one breaks in three hours.
+    /// line would break only before the judged time, or only in neighbours of the run. Or records
+    /// of a sea are too short or too few to tell whether one breaks in three hours.
     Open,
 }
 
@@ -378,8 +378,8 @@ impl Assessment {
         self.with_neighbours_in(alone)
     }
 
-    /// A verdict that no line breaks does not stand if a line breaks in a neighbour, and any verdict
-    /// says with which restitution the answer would be another.
+    /// A verdict that no line breaks does not stand if a line breaks in a neighbour, and any
+    /// verdict says with which restitution the answer would be another.
     fn with_neighbours_in(&self, mut verdict: Verdict) -> Verdict {
         let fails = match verdict.standing {
             VerdictKind::Holds => false,

@@ -62,8 +62,8 @@ pub enum Answer {
     /// It passes up to the end of a run that ended early, after which it might fail.
     #[serde(rename = "unknown")]
     Unfinished,
-    /// A tension, a strength or a force is not known, or there is no judged time, or too little for a
-    /// check to pass.
+    /// A tension, a strength or a force is not known, or there is no judged time, or
+    /// too little for a check to pass.
     Unknown,
     /// A rule of thumb is violated on which the tensions depend.
     Open,

@@ -22,7 +22,8 @@ pub struct LineOutcome {
     /// Snaps and impacts while taut that are too slow to be counted.
     #[serde(skip)]
     pub slower: u64,
-    /// The largest estimate of tension in a snap or an impact while taut, slower ones included \[N\].
+    /// The largest estimate of tension in a snap or an impact while
+    /// taut, slower ones included \[N\].
     #[serde(rename = "peak_tension_n")]
     pub peak_n: Option<f64>,
     /// The largest tension while the line stays taut \[N\].
@@ -152,8 +153,8 @@ impl Outcome {
         })
     }
 
-    /// Whether the largest tension of a line is one for which linear hydrostatics do not hold, and no
-    /// line breaks while they hold.
+    /// Whether the largest tension of a line is one for which linear hydrostatics do not hold, and
+    /// no line breaks while they hold.
     pub(crate) fn depends_on_hydrostatics(&self, structure: &Structure) -> bool {
         let mut lines = self.lines.iter().zip(&structure.lines);
         let breaks = lines.any(|(outcome, line)| {
@@ -170,15 +171,16 @@ impl Outcome {
             .any(|line| line.largest_n() > self.reliable_n(line))
     }
 
-    /// The largest tension of a line while linear hydrostatics hold, as they always do for a submerged
-    /// body; none if that is not known \[N\].
+    /// The largest tension of a line while linear hydrostatics hold, as they always do for a
+    /// submerged body; none if that is not known \[N\].
     pub(crate) fn reliable_n(&self, line: &LineOutcome) -> Option<f64> {
         let largest_n = line.largest_n()?;
         Some(self.waterline.map_or(largest_n, |_| line.reliable_n))
     }
 
-    /// Whether a line breaks in the judged time, the body turns over or touches the floor; none if
-    /// that depends on tensions for which linear hydrostatics do not hold, or is not known as computed.
+    /// Whether a line breaks in the judged time, the body turns over or touches the
+    /// floor; none if that depends on tensions for which linear hydrostatics do not
+    /// hold, or is not known as computed.
     pub(crate) fn fails(&self, structure: &Structure) -> Option<bool> {
         match self.depends_on_hydrostatics(structure) && !self.stop.exceeds() {
             true => None,
@@ -186,8 +188,8 @@ impl Outcome {
         }
     }
 
-    /// The same by all tensions as they are computed; none if no line is known to break, and the run
-    /// ended early or a tension or a breaking load is not known.
+    /// The same by all tensions as they are computed; none if no line is known to break, and the
+    /// run ended early or a tension or a breaking load is not known.
     pub(crate) fn fails_as_computed(&self, structure: &Structure) -> Option<bool> {
         let parts = self.utilisations(structure);
         let breaks = parts.iter().flatten().any(|part| *part >= 1.0);
@@ -333,8 +335,8 @@ impl<'a> OutcomeCounter<'a> {
         }
     }
 
-    /// Takes in the tensions at a position in z and θ if linear hydrostatics hold there, which is asked
-    /// only where a line pulls more than before.
+    /// Takes in the tensions at a position in z and θ if linear hydrostatics hold there, which is
+    /// asked only where a line pulls more than before.
     fn add_reliable(&mut self, place: [f64; 2], t_s: f64, pulls_n: &[f64]) {
         let mut lines = self.lines.iter().zip(pulls_n);
         if lines.all(|(line, pull)| *pull <= line.reliable_n) {

@@ -135,7 +135,8 @@ fn warnings_of_records(reported: &ModelAtRest, records: &[SeaOutcome]) -> Vec<Wa
     let excursion = most(|outcome| outcome.excursion_m);
     let seen = outcomes().filter_map(|outcome| outcome.waterline);
     let seen = seen.reduce(|all, one| all.with(&one));
-    // A record in which a line breaks while linear hydrostatics hold decides, whatever the others do.
+    // A record in which a line breaks while linear hydrostatics hold
+    // decides, whatever the others do.
     let depends = |outcome: &Outcome| outcome.depends_on_hydrostatics(structure);
     let firm = outcomes().any(|one| !depends(one) && one.fails(structure) == Some(true));
     let depends = !firm && outcomes().any(depends);

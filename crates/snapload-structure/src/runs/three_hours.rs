@@ -105,8 +105,8 @@ impl Seas {
     }
 
     /// The distribution of the largest ratio of a tension to the breaking load of its line in three
-    /// hours, if that may reach one: the value that 90 % stay below is not less than one by more than
-    /// two standard errors. Each line is compared with its own breaking load.
+    /// hours, if that may reach one: the value that 90 % stay below is not less than one by more
+    /// than two standard errors. Each line is compared with its own breaking load.
     pub(crate) fn overload_in_three_hours(&self) -> Option<Gumbel> {
         let structure = &self.prepared.structure;
         let of_record = |outcome: &Outcome| {

@@ -5,9 +5,9 @@ use snapload::analysis::no_progress;
 use snapload_hydro::TermRow;
 use snapload_structure::{ModelAtRest, assess, compare_elastic, warnings};
 
-/// On lines that are slack where it floats a body rests as its weight and water have it, at the surge
-/// of its start, whether lines stretch or not: heave by (ρV − m) g / C33, and pitch by the arm of its
-/// weight over C55.
+/// On lines that are slack where it floats a body rests as its weight and water have it, at the
+/// surge of its start, whether lines stretch or not: heave by (ρV − m) g / C33, and pitch by
+/// the arm of its weight over C55.
 #[test]
 fn without_tension_it_rests_as_it_floats() {
     let start = "duration = 20\nstart = [0.3, -0.2]";
@@ -35,8 +35,8 @@ fn without_tension_it_rests_as_it_floats() {
     }
 }
 
-/// How a body floats without lines follows from all constant loads of the case: a centre of gravity to
-/// the left turns it counter-clockwise, and an opposite moment of the case balances it.
+/// How a body floats without lines follows from all constant loads of the case: a centre of gravity
+/// to the left turns it counter-clockwise, and an opposite moment of the case balances it.
 #[test]
 fn the_loads_of_a_case_decide_whether_a_body_floats_upright() {
     let warned = |arm: f64, moment: f64| {
@@ -79,7 +79,8 @@ fn the_loads_of_a_case_decide_whether_a_body_floats_upright() {
     );
 }
 
-/// Where a line is too short for it to float without tension at its start, no place of rest is told.
+/// Where a line is too short for it to float without tension at its
+/// start, no place of rest is told.
 #[test]
 fn a_start_is_not_reported_as_a_place_of_rest() {
     let line = |side: f64| {
@@ -118,8 +119,8 @@ fn a_start_is_not_reported_as_a_place_of_rest() {
     );
 }
 
-/// Without a start such a body is refused in words that say how long the lines would have to be, and
-/// what is too heavy.
+/// Without a start such a body is refused in words that say how long the lines would
+/// have to be, and what is too heavy.
 #[test]
 fn what_nothing_holds_is_refused_with_the_lengths_that_would() {
     let text = case(-0.2, 2.0, 9.8, "", "duration = 5");
@@ -144,8 +145,8 @@ fn what_nothing_holds_is_refused_with_the_lengths_that_would() {
     }
 }
 
-/// Waves of no height are still water: no rule of waves is broken by them, and each that is broken in
-/// still water is.
+/// Waves of no height are still water: no rule of waves is broken by them, and each
+/// that is broken in still water is.
 #[test]
 fn waves_of_no_height_break_no_rule() {
     let wave = "[wave]\nheight = 0\nperiod = 3";

@@ -120,7 +120,8 @@ fn taut_elastic_lines_answer_small_waves_as_the_frequency_domain_does() {
     }
 }
 
-/// Three independent lines leave a floating body no motion while they are taut, which the answers say.
+/// Three independent lines leave a floating body no motion while they
+/// are taut, which the answers say.
 #[test]
 fn three_lines_hold_a_floating_body_fast() {
     let text = case(-0.2, 2.0, 9.666, "", "duration = 5");
@@ -264,8 +265,8 @@ fn a_place_of_rest_below_the_given_one_is_reported_as_below() {
     );
 }
 
-/// An upright line of spring rate k carries k/(k + C33) of its load if it were inextensible, and the
-/// water the rest: 92 % is a warning, and with 88 % the verdict is left to the elastic line.
+/// An upright line of spring rate k carries k/(k + C33) of its load if it were inextensible, and
+/// the water the rest: 92 % is a warning, and with 88 % the verdict is left to the elastic line.
 #[test]
 fn lines_that_leave_much_of_their_load_to_the_water_leave_the_verdict_open() {
     for (share, is_open) in [(0.92, false), (0.88, true)] {

@@ -131,8 +131,8 @@ fn the_cylinder_swings_as_others_found() {
 }
 
 /// Where elastic lines share the load differently, the periods on inextensible lines are still
-/// those of inextensible lines: N^T K N - ω² N^T M N with their tensions and their place of rest, in
-/// NumPy, gives 8.178 s. They do not depend on the stiffness.
+/// those of inextensible lines: N^T K N - ω² N^T M N with their tensions and their place of rest,
+/// in NumPy, gives 8.178 s. They do not depend on the stiffness.
 #[test]
 fn periods_on_inextensible_lines_do_not_depend_on_their_stiffness() {
     let lines = "[[line]]\nanchor = [6, -20]\nfairlead = [1, -7]\nlength = 13.93\nstiffness = 6e6\n\

@@ -11,9 +11,9 @@ fn flat(text: &str) -> String {
     text.split_whitespace().collect::<Vec<_>>().join(" ")
 }
 
-/// Where the body turns over on inextensible lines, and not on elastic ones, or where there are more
-/// snaps than allowed, the end of that run is that of `assess`, in JSON and with its reason in words.
-/// Where it does not end early nothing is said of its end.
+/// Where the body turns over on inextensible lines, and not on elastic ones, or where there are
+/// more snaps than allowed, the end of that run is that of `assess`, in JSON and with its reason in
+/// words. Where it does not end early nothing is said of its end.
 #[test]
 fn the_early_end_of_the_run_beside_it_is_reported() {
     let text = EXAMPLE.replace("[run]", "[run]\nduration = 45");

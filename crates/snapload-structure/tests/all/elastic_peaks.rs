@@ -30,8 +30,8 @@ fn a_strong_damper_pulls_most_at_the_first_instant() {
     }
 }
 
-/// The largest tension of a line is the largest of its judged pulls, in a single run and in records of
-/// a sea, and is the crest of a wave of tension.
+/// The largest tension of a line is the largest of its judged pulls, in a single run and in records
+/// of a sea, and is the crest of a wave of tension.
 #[test]
 fn a_line_pulls_as_much_as_its_hardest_pull() {
     let plastic = |text: &str| {

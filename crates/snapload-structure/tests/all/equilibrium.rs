@@ -98,8 +98,8 @@ fn lines_too_long_to_hold_the_body_down_are_refused_with_a_reason() {
     );
 }
 
-/// A body on four soft lines from fairleads above its centre, which would turn over: upright it is in
-/// balance, but not at rest.
+/// A body on four soft lines from fairleads above its centre, which would turn over: upright it
+/// is in balance, but not at rest.
 const TOP_HEAVY: &str = "[body]\nshape = \"rectangle\"\nwidth = 4\nheight = 2\nmass = 20000\n\
      displaced_volume = 40\nadded_mass = [20000, 40000, 30000]\nmoment_of_inertia = 30000\n\
      position = [0, -5]\n[site]\ndepth = 15\n[run]\nrestitution = 0.5\nduration = 5\n";

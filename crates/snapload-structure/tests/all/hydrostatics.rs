@@ -5,7 +5,8 @@ use snapload_structure::{
     Lines, ModelAtRest, Structure, VerdictKind, assess, compare_elastic, seas,
 };
 
-/// A box of 4 m x 2 m x 20 m and 80 t with a draft of 1.2 m on two vertical lines from z = `anchor`.
+/// A box of 4 m x 2 m x 20 m and 80 t with a draft of 1.2 m on two
+/// vertical lines from z = `anchor`.
 fn moored(anchor: f64, fairlead: f64, length: f64, rest: &str) -> Structure {
     let line = |x: f64| {
         format!(
@@ -24,9 +25,9 @@ fn moored(anchor: f64, fairlead: f64, length: f64, rest: &str) -> Structure {
 
 const STILL: &str = "[run]\nrestitution = 0.3\nduration = 60\n";
 
-/// Wholly under water the box lifts its 160 m³ of water less its 80 t, 823.8 kN, and above the water
-/// it weighs 784.5 kN: what C33 z gives beyond that is told as impossible, and no line is said to
-/// break or to hold, neither an inextensible nor an elastic one.
+/// Wholly under water the box lifts its 160 m³ of water less its 80 t, 823.8 kN, and above the
+/// water it weighs 784.5 kN: what C33 z gives beyond that is told as impossible, and no line is
+/// said to break or to hold, neither an inextensible nor an elastic one.
 #[test]
 fn buoyancy_beyond_the_whole_body_leaves_the_verdict_open() {
     let submerged_kn: f64 = (160.0 * 1025.0 - 80_000.0) * 9.806_65e-3;
@@ -75,8 +76,8 @@ fn a_box_with_its_deck_above_water_has_a_firm_verdict() {
     assert!(answer.warnings.iter().all(|w| w.rule != "hydrostatics"));
 }
 
-/// Held with its deck 0.2 m above the still water, the box is wholly under the crests of a long wave of
-/// 0.6 m, where its lines pull most, and not under those of one of 0.3 m. Where slack lines
+/// Held with its deck 0.2 m above the still water, the box is wholly under the crests of a long
+/// wave of 0.6 m, where its lines pull most, and not under those of one of 0.3 m. Where slack lines
 /// break in snaps at other times, they break.
 #[test]
 fn a_deck_under_the_crests_leaves_the_verdict_open() {
@@ -105,9 +106,10 @@ fn a_deck_under_the_crests_leaves_the_verdict_open() {
     );
 }
 
-/// Of two lines of one run the first one pulls most while the deck is above the waves, the second one
-/// under them. A line is said to break by a reliable tension alone, and by how much: the second one
-/// not at all with a breaking load between its two tensions, and by 1/0.8 with 0.8 of the reliable one.
+/// Of two lines of one run the first one pulls most while the deck is above the waves, the
+/// second one under them. A line is said to break by a reliable tension alone, and by how
+/// much: the second one not at all with a breaking load between its two tensions, and by
+/// 1/0.8 with 0.8 of the reliable one.
 #[test]
 fn a_line_does_not_break_by_a_tension_under_the_waves() {
     let water = "[wave]\nheight = 1.5\nperiod = 9\n[run]\nrestitution = 0.3\nduration = 180\n";
@@ -172,8 +174,8 @@ fn records_fail_as_each_of_them_does_alone() {
     assert!(!words.contains("is not known"), "{words}");
 }
 
-/// The added mass of a textbook is that of deep water: 0.2 m over the floor of 1.4 m, less than half
-/// the height of the box, is warned of, and 8.8 m over one of 10 m is not.
+/// The added mass of a textbook is that of deep water: 0.2 m over the floor of 1.4 m, less than
+/// half the height of the box, is warned of, and 8.8 m over one of 10 m is not.
 #[test]
 fn a_floor_close_under_a_floating_body_is_warned_of() {
     let warned = |depth: f64| {

@@ -383,8 +383,8 @@ fn slack_before_anything_is_judged_is_reported_as_such() {
     );
 }
 
-/// A body on two vertical tendons that the waves press onto the floor: on elastic lines, too, the run
-/// ends where its lower edge reaches the floor, before any sample below it.
+/// A body on two vertical tendons that the waves press onto the floor: on elastic lines, too, the
+/// run ends where its lower edge reaches the floor, before any sample below it.
 #[test]
 fn a_run_on_elastic_lines_ends_where_the_body_touches_the_floor() {
     let line = |x: f64| {

@@ -14,8 +14,8 @@ const ADDED_KG: f64 = 145_000.0;
 const LENGTH_M: f64 = 6.5;
 const ANCHOR_Z_M: f64 = -10.0;
 
-/// A body held down by one line at its centre in still water: a pendulum, let go at an angle from the
-/// vertical, so that
+/// A body held down by one line at its centre in still water: a pendulum, let go at an
+/// angle from the vertical, so that
 ///
 /// ```text
 /// T = W (3 cos θ − 2 cos θ_0),    sin(θ/2) = k sin φ,    k = sin(θ_0/2),
@@ -77,8 +77,8 @@ impl Pendulum {
     }
 }
 
-/// A step of a taut motion lasts for a large part of its period. Of one in which judging begins, the
-/// tensions after that are judged, and those before it are not.
+/// A step of a taut motion lasts for a large part of its period. Of one in which judging begins,
+/// the tensions after that are judged, and those before it are not.
 #[test]
 fn only_the_judged_part_of_a_step_counts() {
     let pendulum = Pendulum { angle_rad: 0.5 };
@@ -99,8 +99,8 @@ fn only_the_judged_part_of_a_step_counts() {
     }
 }
 
-/// What is said of a run that begins with waves is not said in still water, which waves of no height
-/// are, too: they do not begin, and there are no neighbours in them.
+/// What is said of a run that begins with waves is not said in still water, which waves of no
+/// height are, too: they do not begin, and there are no neighbours in them.
 #[test]
 fn still_water_has_no_waves_that_begin() {
     let pendulum = Pendulum { angle_rad: 0.5 };

@@ -32,8 +32,9 @@ fn refusal(text: &str) -> String {
     moordyn::read("lines.txt", text).unwrap_err().to_string()
 }
 
-/// In a row of POINTS of twelve columns MoorDyn takes the eighth to the tenth as a force: such a force
-/// is refused and no drag, whatever its direction. Rows of nine columns have drag in the eighth.
+/// In a row of POINTS of twelve columns MoorDyn takes the eighth to the tenth as a
+/// force: such a force is refused and no drag, whatever its direction. Rows of nine
+/// columns have drag in the eighth.
 #[test]
 fn forces_on_points_are_refused() {
     let file = written(&[]);
@@ -58,8 +59,8 @@ fn forces_on_points_are_refused() {
     assert!(error.contains("point 2, CdA = 3"), "{error}");
 }
 
-/// The header of a table is not read: old names of columns do not make it one of version 1. Its types
-/// have nine columns, with which MoorDyn loads no file.
+/// The header of a table is not read: old names of columns do not make it one of version 1. Its
+/// types have nine columns, with which MoorDyn loads no file.
 #[test]
 fn versions_are_told_by_their_columns() {
     let file = written(&[]);
@@ -103,8 +104,8 @@ fn points_have_the_words_of_moordyn() {
     }
 }
 
-/// What MoorDyn computes and a case has not is noted: the vibration that vortices cause, and an uneven
-/// added mass that turns with the body.
+/// What MoorDyn computes and a case has not is noted: the vibration that vortices cause, and an
+/// uneven added mass that turns with the body.
 #[test]
 fn what_a_case_has_not_is_noted() {
     let file = written(&[]);
@@ -139,8 +140,8 @@ fn what_a_case_has_not_is_noted() {
     assert!(notes.contains(turns), "{notes}");
 }
 
-/// Without the option MoorDyn computes with the standard acceleration of free fall, which is that of
-/// a case, too.
+/// Without the option MoorDyn computes with the standard acceleration of free
+/// fall, which is that of a case, too.
 #[test]
 fn gravity_is_the_standard_one_if_it_is_left_out() {
     let file = written(&[]);
@@ -155,8 +156,8 @@ fn gravity_is_the_standard_one_if_it_is_left_out() {
     assert_eq!(case, read(&file).0);
 }
 
-/// Three hyphens begin a section wherever they stand: no text of a case may contain them, and all of
-/// them come back.
+/// Three hyphens begin a section wherever they stand: no text of a case may contain
+/// them, and all of them come back.
 #[test]
 fn hyphens_in_texts_begin_no_section() {
     let texts = [

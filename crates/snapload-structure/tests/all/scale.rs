@@ -71,8 +71,9 @@ fn cylinder(scale: f64, water: &str) -> Structure {
     Structure::parse("case", &text).unwrap()
 }
 
-/// Of one structure at full size and at 1:64 the same line breaks, at the same ratio to its breaking
-/// load, although at the smaller size all snaps are slower than 1 cm/s and none is counted.
+/// Of one structure at full size and at 1:64 the same line breaks, at the same
+/// ratio to its breaking load, although at the smaller size all snaps are slower
+/// than 1 cm/s and none is counted.
 #[test]
 fn a_model_breaks_where_the_full_size_does() {
     let run = |scale: f64| {

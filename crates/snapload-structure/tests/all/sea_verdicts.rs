@@ -101,8 +101,9 @@ fn records_without_snaps_are_not_extrapolated_to_snaps() {
     assert!(long.records[0].outcome.largest_n() > 1.1e6);
 }
 
-/// The first records of a sea never tell more than all of them: where all leave the verdict open, so
-/// does one, unless a line breaks in it. Nor do records tell more if tensions of snaps are not known.
+/// The first records of a sea never tell more than all of them: where all leave the
+/// verdict open, so does one, unless a line breaks in it. Nor do records tell more if
+/// tensions of snaps are not known.
 #[test]
 fn fewer_records_do_not_make_a_sea_safe() {
     let mut few = records(0.15, 1260.0, "transient = 60", 4);
@@ -138,9 +139,9 @@ fn fewer_records_do_not_make_a_sea_safe() {
     assert!(!few.words().contains("is open"));
 }
 
-/// Records of 80 minutes in all do not show that a line stays below a load in three hours that is one
-/// per cent above the largest of them: that is exceeded sooner. Each line is compared with its own
-/// breaking load.
+/// Records of 80 minutes in all do not show that a line stays below a load in three hours
+/// that is one per cent above the largest of them: that is exceeded sooner. Each line is
+/// compared with its own breaking load.
 #[test]
 fn a_sea_is_open_in_which_a_tension_above_the_breaking_load_is_expected() {
     let mut seas = records(1.2, 300.0, "", 20);
@@ -373,8 +374,8 @@ fn a_sea_in_which_a_line_breaks_early_is_open() {
     assert!(page.contains("verdict open") && page.contains("so the verdict is open"));
 }
 
-/// What neighbours and other restitutions would change is said of every verdict: of one that is open
-/// because of the beginning, and of one that a line breaks.
+/// What neighbours and other restitutions would change is said of every verdict: of one that is
+/// open because of the beginning, and of one that a line breaks.
 #[test]
 fn neighbours_that_answer_otherwise_are_counted() {
     let mut assessment = assess(structure(EXAMPLE), 12, &no_progress).unwrap();

@@ -20,8 +20,8 @@ fn lasting(duration_s: f64, height_m: f64) -> snapload_structure::Structure {
     structure(&text)
 }
 
-/// Half a second of a wave of 6 s, in which no line goes slack, neither holds nor passes a check; on
-/// elastic lines neither. A minute is warned of, and ten are not.
+/// Half a second of a wave of 6 s, in which no line goes slack, neither holds nor passes a check;
+/// on elastic lines neither. A minute is warned of, and ten are not.
 #[test]
 fn a_part_of_a_wave_is_no_verdict() {
     let rule = |warnings: &[snapload_structure::Warning]| {

@@ -316,8 +316,8 @@ fn the_stretch_of_lines_shares_the_load_at_rest() {
     assert!(even.prepared.rest.by_stiffness.is_none());
 }
 
-/// A verdict that no line breaks does not stand if a line breaks in a neighbour: the breaking load is
-/// put between the largest tension of the run and that of its neighbours.
+/// A verdict that no line breaks does not stand if a line breaks in a neighbour: the breaking load
+/// is put between the largest tension of the run and that of its neighbours.
 #[test]
 fn a_line_that_breaks_in_a_neighbour_leaves_the_verdict_open() {
     let text = SEA.replace("[run]", "[run]\nduration = 1500");
@@ -426,8 +426,8 @@ fn soft_lines_are_soft_in_still_water_too() {
     assert!(!rules(&in_still_water(EXAMPLE)).contains(&"instant snap"));
 }
 
-/// Elastic lines have a restitution of 0.01 or more: a verdict that leaves the answer to them says so
-/// where the case has less.
+/// Elastic lines have a restitution of 0.01 or more: a verdict that leaves the answer to them
+/// says so where the case has less.
 #[test]
 fn a_verdict_names_the_restitution_that_elastic_lines_need() {
     for (restitution, needs) in [("0.0", true), ("0.3", false)] {

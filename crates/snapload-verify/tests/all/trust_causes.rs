@@ -203,9 +203,9 @@ fn digits_that_short_cables_lose_are_not_claimed() {
     }
 }
 
-/// A point mass at rest on two taut cables carries the tensions T = 3/4 (1/h ± f_o sin ωt) or so: they
-/// are positive as long as |f_o| < 1/h = 0.894. Where the uncertainty of the force reaches beyond, or
-/// comes back from there, some neighbours go slack and others do not.
+/// A point mass at rest on two taut cables carries the tensions T = 3/4 (1/h ± f_o sin ωt) or so:
+/// they are positive as long as |f_o| < 1/h = 0.894. Where the uncertainty of the force reaches
+/// beyond, or comes back from there, some neighbours go slack and others do not.
 #[test]
 fn a_tension_that_neighbours_lose_ends_trust() {
     let cause = |f_o: f64, size: f64| {

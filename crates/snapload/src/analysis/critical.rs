@@ -106,17 +106,17 @@ pub struct CriticalForce {
     /// All amplitudes that exceed, as intervals of neighbouring ones `[from, to]`. There may be
     /// several intervals: a run above the critical amplitude may settle.
     pub exceeding: Vec<[f64; 2]>,
-    /// All amplitudes at which neighbours disagree, as such intervals: the run passes its horizon of
-    /// trust, and of [`NEIGHBOURS`] neighbours within rounding, or of those of an
+    /// All amplitudes at which neighbours disagree, as such intervals: the run passes its horizon
+    /// of trust, and of [`NEIGHBOURS`] neighbours within rounding, or of those of an
     /// [`crate::analysis::ExceedanceCurve`], some exceed and others do not.
     pub uncertain: Vec<[f64; 2]>,
-    /// All amplitudes whose run is cut short ([`Stop::cuts_short`]), as such intervals: whether they
-    /// exceed is not known.
+    /// All amplitudes whose run is cut short ([`Stop::cuts_short`]), as such intervals:
+    /// whether they exceed is not known.
     pub cut_short: Vec<[f64; 2]>,
     /// The largest amplitude of the scan.
     pub up_to: f64,
-    /// Whether the run of the first ends before its horizon, and no smaller amplitude is uncertain or
-    /// cut short; if none exceeds, whether none is.
+    /// Whether the run of the first ends before its horizon, and no smaller amplitude is uncertain
+    /// or cut short; if none exceeds, whether none is.
     pub certain: bool,
 }
 
@@ -210,9 +210,10 @@ pub(crate) struct DecidedEnd {
     pub(crate) decided: bool,
 }
 
-/// For each run, whether all its neighbours exceed if it does, and none otherwise; they do not if
-/// some can not be drawn or are cut short. The neighbours of all runs are run side by side: the first few, which
-/// mostly show where they disagree, and then the others of those that agree so far.
+/// For each run, whether all its neighbours exceed if it does, and none otherwise; they
+/// do not if some can not be drawn or are cut short. The neighbours of all runs are run
+/// side by side: the first few, which mostly show where they disagree, and then the
+/// others of those that agree so far.
 fn neighbours_agree(runs: &[(&Case, &Outcome)], counter: &Counter) -> Result<Vec<bool>, Cancelled> {
     let about = |case| Ensemble::about(case, &Uncertainty::default(), NEIGHBOURS, 1);
     let ensembles: Vec<Ensemble> = runs.iter().map(|(case, _)| about(case)).collect();

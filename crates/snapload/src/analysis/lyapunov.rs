@@ -274,9 +274,9 @@ impl Frame {
     }
 }
 
-/// The cables that the snap of a step brings to rest and that open again at once: those that take an
-/// impulse and neither rebound nor stay taut. No deviation of their gaps is left; their rates differ,
-/// as each neighbour has opened for another time.
+/// The cables that the snap of a step brings to rest and that open again at once: those that take
+/// an impulse and neither rebound nor stay taut. No deviation of their gaps is left; their rates
+/// differ, as each neighbour has opened for another time.
 fn stopped(system: &System, step: &Step) -> TautSet {
     let Some(result) = &step.result else {
         return TautSet::SLACK;

@@ -243,8 +243,8 @@ fn explain(error: StartError, p: &Parameters) -> CaseError {
     }
 }
 
-/// How a start above the upper bound is corrected. Lowering the body helps unless the cables are too
-/// short to reach down to it there.
+/// How a start above the upper bound is corrected. Lowering the body helps unless the cables are
+/// too short to reach down to it there.
 fn hint_below_bound(p: &Parameters) -> &'static str {
     let (x, theta) = (0.0, 0.0);
     let centred = Parameters { x, theta, ..*p };

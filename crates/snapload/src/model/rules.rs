@@ -134,8 +134,8 @@ impl Stop {
         self.limit().is_some()
     }
 
-    /// Whether the run ended before the motion did, so that it leaves open whether a limit would have
-    /// been reached later.
+    /// Whether the run ended before the motion did, so that it leaves open whether a limit
+    /// would have been reached later.
     pub fn cuts_short(self) -> bool {
         matches!(self, Self::ImpactLimit | Self::Standstill)
     }

@@ -130,8 +130,8 @@ impl<T: Real> System<T> {
         }
     }
 
-    /// Whether some taut cables of which none depends on the others leave the body no freedom: three,
-    /// or two if no cable has a lever arm, so that the rotation changes no gap.
+    /// Whether some taut cables of which none depends on the others leave the body no freedom:
+    /// three, or two if no cable has a lever arm, so that the rotation changes no gap.
     #[inline(always)]
     pub(crate) fn is_held_by(&self, taut: TautSet) -> bool {
         let centred = |cable: &Cable<T>| cable.fairlead().length() == T::ZERO;

@@ -110,8 +110,8 @@ impl TautCable {
 }
 
 /// The derivatives of the [`acceleration`](crate::motion::active_set::acceleration) by (x, y, θ, ẋ,
-/// ẏ, θ̇) with one or two independent taut cables, for a unit mass without drag and not afloat; none
-/// otherwise. With a = f − p, p = M⁻¹ Gᵀ T and W T = b,
+/// ẏ, θ̇) with one or two independent taut cables, for a unit mass without drag and not afloat;
+/// none otherwise. With a = f − p, p = M⁻¹ Gᵀ T and W T = b,
 ///
 /// ```text
 /// W δT = δb − δG p − G M⁻¹ δGᵀ T        δa = −M⁻¹ (δGᵀ T + Gᵀ δT)

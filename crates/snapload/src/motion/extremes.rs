@@ -70,8 +70,8 @@ pub(crate) fn first_above_zero<T: Real>(f: &impl Fn(T) -> (T, T), s: T, bound: T
     first_above([(T::ZERO, f(T::ZERO)), (s, f(s))], f, bound, least)
 }
 
-/// The same for a function that passes zero in its last rise: the first instant before that rise. On
-/// a stretch as long as the rate at its end over `bound` the rate does not change its sign.
+/// The same for a function that passes zero in its last rise: the first instant before that rise.
+/// On a stretch as long as the rate at its end over `bound` the rate does not change its sign.
 #[inline(always)]
 pub(crate) fn first_above_zero_before_last_rise<T: Real>(
     f: &impl Fn(T) -> (T, T),
@@ -199,9 +199,9 @@ mod tests {
         assert_eq!(highest(&throw, 3.0, -1.0, 1.0, 7.0), 7.0);
     }
 
-    /// Where the waves' force cancels the weight for an instant in which the body is at its top, the
-    /// rate has a triple zero there: the secant's steps, a thousandth of the interval each, would be
-    /// thousands.
+    /// Where the waves' force cancels the weight for an instant in which the body is at its
+    /// top, the rate has a triple zero there: the secant's steps, a thousandth of the
+    /// interval each, would be thousands.
     #[test]
     fn finds_a_top_with_a_flat_rate_in_few_steps() {
         let evaluations = std::cell::Cell::new(0);
@@ -215,8 +215,8 @@ mod tests {
         assert!(evaluations.get() < 600, "{}", evaluations.get());
     }
 
-    /// −½ − cos 3s passes zero at cos 3s = −½, and again in its last rise before s = 2.9; a parabola
-    /// that begins above zero passes it at 1 + √½ alone.
+    /// −½ − cos 3s passes zero at cos 3s = −½, and again in its last rise before s = 2.9; a
+    /// parabola that begins above zero passes it at 1 + √½ alone.
     #[test]
     fn finds_where_a_function_first_passes_zero() {
         let near = |found: Option<f64>, place: f64| {

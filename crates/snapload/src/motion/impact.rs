@@ -38,8 +38,8 @@ pub(crate) struct ImpactResult<T> {
 }
 
 impl<T: Real> ImpactResult<T> {
-    /// The impulse of a closed cable or, where it has none, its normal velocity after the impact, per
-    /// impulse of the cable among `struck` that has the largest one.
+    /// The impulse of a closed cable or, where it has none, its normal velocity after the impact,
+    /// per impulse of the cable among `struck` that has the largest one.
     pub(crate) fn reaction(&self, cable: usize, struck: TautSet) -> T {
         let larger = |p: T, q: T| if q > p { q } else { p };
         let snap = struck.iter().map(|i| self.impulse[i]).fold(T::ZERO, larger);

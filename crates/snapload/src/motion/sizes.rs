@@ -15,8 +15,8 @@ use crate::motion::complementarity::Factored;
 /// [`SHARED`](crate::motion::least_norm::SHARED).
 pub(crate) const NEGLIGIBLE: f64 = 3e-8;
 
-/// Below what the tension of each of some independent cables counts as zero where taut cables depend
-/// on each other, given these tensions.
+/// Below what the tension of each of some independent cables counts as zero where taut cables
+/// depend on each other, given these tensions.
 #[cold]
 #[inline(never)]
 pub(crate) fn negligible_tensions<T: Real>(
@@ -30,8 +30,8 @@ pub(crate) fn negligible_tensions<T: Real>(
     sizes_of_tensions(system, state, memory_force, carrying, tension).map(|size| size * part)
 }
 
-/// The sums of the absolute values of all summands of the tensions of some independent cables, given
-/// these tensions.
+/// The sums of the absolute values of all summands of the tensions of some
+/// independent cables, given these tensions.
 pub(crate) fn sizes_of_tensions<T: Real>(
     system: &System<T>,
     state: &State<T>,

@@ -204,8 +204,8 @@ impl Tangent {
         dispatch(Mapping(self, simulation, step))
     }
 
-    /// The derivatives of the tensions by (x, y, θ, ẋ, ẏ, θ̇) at the start and at the end of a step,
-    /// by cable.
+    /// The derivatives of the tensions by (x, y, θ, ẋ, ẏ, θ̇) at the start and
+    /// at the end of a step, by cable.
     pub(crate) fn slopes_of_tensions(
         &self,
         simulation: &Simulation,

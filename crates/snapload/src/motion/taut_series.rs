@@ -62,8 +62,8 @@ use crate::motion::waves::sinusoids::Expanded;
 mod events;
 mod water;
 
-/// A displacement along a step of less than this, or than a taut cable's length, counts as rest: the
-/// terms need not converge relative to each other, only stay below its rounding \[L\], \[rad\].
+/// A displacement along a step of less than this, or than a taut cable's length, counts as rest:
+/// the terms need not converge relative to each other, only stay below its rounding \[L\], \[rad\].
 pub(crate) const STILL: f64 = 1e-12;
 
 /// The gap of a cable, and its tension where it carries.

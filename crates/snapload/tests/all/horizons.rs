@@ -6,8 +6,8 @@ use snapload::analysis::{
 };
 use snapload::{Case, CaseError, Rules, Simulation, State, Trajectory};
 
-/// A mass that swings from the lowest point at v, with weight and cable length 1, where v may be off
-/// by `doubt`: its horizon, and when it loses its tension T = v² − 2 + 3 cos φ.
+/// A mass that swings from the lowest point at v, with weight and cable length 1, where v may be
+/// off by `doubt`: its horizon, and when it loses its tension T = v² − 2 + 3 cos φ.
 fn swung(v: f64, doubt: f64, t_end: f64) -> (Option<Horizon>, Option<f64>) {
     let start = State {
         y: -1.0,
@@ -73,8 +73,9 @@ fn a_string_that_has_been_released_does_not_nearly_snap() {
     for k in 1..30 {
         let v = (2.0 + 0.1 * f64::from(k)).sqrt();
         let lost = swung(v, 0.0, 9.0).1.unwrap();
-        // At the height h = (v² − 2)/3 above the anchor, on the circle, it leaves at the speed √h, up at an
-        // angle whose cosine is h: on this parabola it meets the circle again after 4 √(h (1 − h²)).
+        // At the height h = (v² − 2)/3 above the anchor, on the circle, it leaves at the
+        // speed √h, up at an angle whose cosine is h: on this parabola it meets the
+        // circle again after 4 √(h (1 − h²)).
         let h = (v * v - 2.0) / 3.0;
         let flight = 4.0 * (h * (1.0 - h * h)).sqrt();
         for doubt in [0.0, 1e-9, 1e-5] {
@@ -183,9 +184,9 @@ fn a_snap_that_hardly_loads_a_taut_cable_ends_trust() -> Result<(), Unfinished> 
     Ok(())
 }
 
-/// Two cables snap in turn, each with 1/23 to 1/36 of the velocity of the one before. Whether a snap
-/// loads or unloads the other cable does not depend on how hard it is, so that no doubt grows as
-/// the snaps become weaker.
+/// Two cables snap in turn, each with 1/23 to 1/36 of the velocity of the one before. Whether a
+/// snap loads or unloads the other cable does not depend on how hard it is, so that no doubt
+/// grows as the snaps become weaker.
 #[test]
 fn a_row_of_snaps_in_turn_ends_no_trust() -> Result<(), Unfinished> {
     let case = |side: f64| {
@@ -240,9 +241,10 @@ fn a_coupling_that_is_always_zero_is_no_doubt() -> Result<(), Unfinished> {
     Ok(())
 }
 
-/// Two cables with h² = r² − 1 hold a mass in the corner under a unit weight and the force (f cos Ωt,
-/// ν f sin Ωt): each tension, a constant ± r/2 (f cos Ωt ± ν/h f sin Ωt), touches zero once in each
-/// turn of the force where f √(h² + ν²) = 1, at no particular instant of the computation's steps.
+/// Two cables with h² = r² − 1 hold a mass in the corner under a unit weight and the force
+/// (f cos Ωt, ν f sin Ωt): each tension, a constant ± r/2 (f cos Ωt ± ν/h f sin Ωt),
+/// touches zero once in each turn of the force where f √(h² + ν²) = 1, at no particular
+/// instant of the computation's steps.
 #[test]
 fn a_tension_that_nearly_touches_zero_at_any_instant_ends_trust() -> Result<(), Unfinished> {
     for k in 1..=12 {
@@ -277,8 +279,9 @@ fn a_tension_that_nearly_touches_zero_at_any_instant_ends_trust() -> Result<(), 
     Ok(())
 }
 
-/// Where e = 0 a cable that snaps beside a taut one stays taut if its tension is positive then. About
-/// one force it is zero: on one side of it both cables are taut for a moment, on the other never.
+/// Where e = 0 a cable that snaps beside a taut one stays taut if its tension is
+/// positive then. About one force it is zero: on one side of it both cables are taut
+/// for a moment, on the other never.
 #[test]
 fn a_snap_after_which_a_tension_is_about_zero_ends_trust() -> Result<(), Unfinished> {
     let case = |f_o: f64| {

@@ -76,9 +76,9 @@ fn neighbours_that_are_thrown_down_slack_snap_a_little_later() {
     }
 }
 
-/// A neighbour is in doubt if it may snap where the run opens, for its velocity or for the direction
-/// of its string; if it may bounce where the run hangs; and if it may be slack beside a cable that
-/// is taut.
+/// A neighbour is in doubt if it may snap where the run opens, for its velocity or for
+/// the direction of its string; if it may bounce where the run hangs; and if it may be
+/// slack beside a cable that is taut.
 #[test]
 fn neighbours_that_may_begin_otherwise_end_trust_at_once() {
     let system = string(1.0, 1.0, 0.5);

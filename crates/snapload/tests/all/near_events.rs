@@ -35,8 +35,9 @@ fn thrown(short: f64) -> State {
     }
 }
 
-/// If y and ẏ are off by up to δ, the standard deviation of the height of the throw is δ for ẏ = √2:
-/// within three of them the string snaps at the top if δ is more than a third of what is missing.
+/// If y and ẏ are off by up to δ, the standard deviation of the height of the throw
+/// is δ for ẏ = √2: within three of them the string snaps at the top if δ is more
+/// than a third of what is missing.
 #[test]
 fn a_string_that_nearly_snaps_before_it_snaps_ends_trust() {
     for short in [1e-6, 1e-4, 1e-3] {
@@ -89,8 +90,8 @@ fn a_limit_that_is_nearly_reached_before_it_is_reached_ends_trust() {
     }
 }
 
-/// A run that ends shortly before a snap is not certain if a neighbour has that snap before its end.
-/// Neighbours reach it the earlier, the earlier they had the snap before.
+/// A run that ends shortly before a snap is not certain if a neighbour has that snap before its
+/// end. Neighbours reach it the earlier, the earlier they had the snap before.
 #[test]
 fn an_end_before_which_a_neighbour_snaps_once_more_is_not_certain() -> Result<(), Unfinished> {
     let case = |y: f64, t_end: f64| {

@@ -131,9 +131,9 @@ fn released(alpha: f64, r: f64, g: f64) -> (System, State) {
     (system, at(r * cosine, r * sine))
 }
 
-/// A pendulum that is released at rest at the height of its anchor has the tension 3 g sin φ once it
-/// has fallen by φ, and is taut at all times: also where it turns, at the same height on the other
-/// side.
+/// A pendulum that is released at rest at the height of its anchor has the tension 3 g
+/// sin φ once it has fallen by φ, and is taut at all times: also where it turns, at the
+/// same height on the other side.
 #[test]
 fn a_pendulum_released_at_the_height_of_its_anchor_is_taut_throughout() {
     for (r, g) in [(1.0, 1.0), (1.0, 1e-6), (0.7, 2.0), (3.0, 0.4)] {
@@ -246,8 +246,8 @@ fn a_cable_whose_tension_falls_from_zero_is_slack() {
 }
 
 /// A mass is thrown so that it is at the height of its anchor, at the end of its cable and at its
-/// highest point at t = 1/2, and does not bounce: it then has no tension yet, but is taut. An impact
-/// after that exists only by rounding, and is not certain.
+/// highest point at t = 1/2, and does not bounce: it then has no tension yet, but is taut. An
+/// impact after that exists only by rounding, and is not certain.
 #[test]
 fn an_impact_that_only_rounding_makes_is_not_certain() {
     let thrown = State {
@@ -292,8 +292,9 @@ fn a_gap_that_opens_is_kept() {
     }
 }
 
-/// A mass thrown towards the end of its string, y = −1 − d, is beyond it by no more than the
-/// tolerance if −1e-9 < 2 d < 1e-9: above it snaps when it arrives, below at once, moved to the end.
+/// A mass thrown towards the end of its string, y = −1 − d, is beyond it by no
+/// more than the tolerance if −1e-9 < 2 d < 1e-9: above it snaps when it arrives,
+/// below at once, moved to the end.
 #[test]
 fn a_gap_that_closes_is_kept_and_one_beyond_the_end_closed() {
     let thrown = |y: f64| {
@@ -312,10 +313,10 @@ fn a_gap_that_closes_is_kept_and_one_beyond_the_end_closed() {
     }
 }
 
-/// A point at (−0.1, h − √(r² − 1.1²) + 4e-10) is within the start's tolerance of the end of the
-/// left cable, with a gap of −8.2e-10, and leaves it at 1e-4. By bisection of the closed form, in
-/// fifty digits, the gap is zero again at 2.0392304843297331e-4; the run with many digits begins with
-/// the same gap.
+/// A point at (−0.1, h − √(r² − 1.1²) + 4e-10) is within the start's tolerance of the end of
+/// the left cable, with a gap of −8.2e-10, and leaves it at 1e-4. By bisection of the closed
+/// form, in fifty digits, the gap is zero again at 2.0392304843297331e-4; the run with many
+/// digits begins with the same gap.
 #[test]
 fn a_run_and_its_run_with_many_digits_keep_the_same_gap() {
     let y = 1.25_f64.sqrt() - (2.25_f64 - 1.21).sqrt() + 4e-10;

@@ -50,8 +50,8 @@ fn a_limit_at_the_instant_of_a_snap_ends_trust() {
     }
 }
 
-/// Thrown up at 1/2 the disc rises by t/2 − t²/2, which is 0.1 at t = 1/2 − √0.05, where its highest
-/// point is at the upper bound and it has turned by t/2.
+/// Thrown up at 1/2 the disc rises by t/2 − t²/2, which is 0.1 at t = 1/2 − √0.05, where its
+/// highest point is at the upper bound and it has turned by t/2.
 #[test]
 fn two_limits_at_one_instant_end_trust() {
     let (system, start) = disc();
@@ -74,8 +74,8 @@ fn two_limits_at_one_instant_end_trust() {
 }
 
 /// A mass swings up on a string, which loses its tension where v² = sin φ, φ above the horizontal.
-/// There a second string closes, longer by `more`, at an angle of 2π/3 to the first if it is to load
-/// it, and of π/3 if it is to unload it. The run ends soon after.
+/// There a second string closes, longer by `more`, at an angle of 2π/3 to the first if it is to
+/// load it, and of π/3 if it is to unload it. The run ends soon after.
 fn swung(loads: bool, more: f64) -> (Trajectory, Option<Horizon>) {
     let (phi, before) = (0.6_f64, 0.5_f64);
     let along = [phi.cos(), phi.sin()];

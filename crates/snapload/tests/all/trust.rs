@@ -171,8 +171,8 @@ fn exponents_are_over_the_time_that_the_run_takes() {
     }
 }
 
-/// A point mass has no rotation, and so four exponents; as those of a rigid body they sum to 2 ln e an
-/// impact over the time, as an impact shrinks volumes by e² and flight keeps them.
+/// A point mass has no rotation, and so four exponents; as those of a rigid body they sum to 2 ln e
+/// an impact over the time, as an impact shrinks volumes by e² and flight keeps them.
 #[test]
 fn a_point_mass_has_four_exponents() {
     for (body, count) in [("point", 4), ("rigid", 6)] {
@@ -296,8 +296,8 @@ fn a_pendulum_has_two_exponents_that_cancel() {
 
 /// A snap without rebound after which the cable opens again closes the direction of its gap: the
 /// rate of the gap afterwards differs, as each neighbour has opened for another time. Where both
-/// cables pull at once a point mass is at rest in the corner, whatever came before, and only when it
-/// was there makes a difference.
+/// cables pull at once a point mass is at rest in the corner, whatever came before, and only when
+/// it was there makes a difference.
 #[test]
 fn a_snap_without_rebound_closes_directions() {
     let closed = |t_end: f64| {

@@ -56,7 +56,8 @@ fn outcome(parameters: &Parameters) -> Option<(usize, Stop)> {
     Some((run.impacts().len(), run.end().reason))
 }
 
-/// The value nearest to a case's own at which it ends otherwise, up to another one at which it does.
+/// The value nearest to a case's own at which it ends otherwise, up
+/// to another one at which it does.
 fn turning_point(parameters: &Parameters, key: &str, other: f64) -> f64 {
     let own = outcome(parameters);
     let ends_alike = |value: f64| outcome(&with(parameters, key, value)) == own;
@@ -75,9 +76,9 @@ fn turning_point(parameters: &Parameters, key: &str, other: f64) -> f64 {
 }
 
 /// Neighbours are taken into account up to three standard deviations of a parameter, of which its
-/// uncertainty is √3: a run is certain if they end like it, and the end of trust lies before the first
-/// event that one of them does not share. A wave whose force is off by a part shifts the body in the
-/// middle of a flight, not at its ends; the length of the cables changes where they end.
+/// uncertainty is √3: a run is certain if they end like it, and the end of trust lies before the
+/// first event that one of them does not share. A wave whose force is off by a part shifts the body
+/// in the middle of a flight, not at its ends; the length of the cables changes where they end.
 #[test]
 fn neighbours_differ_within_a_flight_by_forces_and_cables() -> Result<(), Unfinished> {
     for (key, other) in [("f_o", 3.03), ("r", 1.495), ("omega", 6.2)] {
@@ -106,9 +107,9 @@ fn neighbours_differ_within_a_flight_by_forces_and_cables() -> Result<(), Unfini
     Ok(())
 }
 
-/// The same for the upper bound, which the highest point of a flight nearly reaches; it is at the height
-/// of the anchors, which the length of the cables changes. The largest effect along the flight counts
-/// wherever the run comes near.
+/// The same for the upper bound, which the highest point of a flight nearly reaches; it is at the
+/// height of the anchors, which the length of the cables changes. The largest effect along the
+/// flight counts wherever the run comes near.
 #[test]
 fn neighbours_reach_a_limit_within_a_flight() -> Result<(), Unfinished> {
     let start = Parameters {

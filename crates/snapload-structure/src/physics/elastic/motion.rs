@@ -256,8 +256,8 @@ impl<M: Method<N>, const N: usize> Steps<'_, M, N> {
 }
 
 /// Runs a structure on elastic lines, to the end of its duration or until it is turned by a
-/// quarter or touches the floor. The state is kept at every multiple of `every_s` and at the end, or nowhere if that is
-/// infinite.
+/// quarter or touches the floor. The state is kept at every multiple of `every_s` and at the end,
+/// or nowhere if that is infinite.
 ///
 /// # Errors
 /// A [`CaseError`] if there are not as many springs as lines, or the integrator fails, and

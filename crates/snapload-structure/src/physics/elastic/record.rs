@@ -102,8 +102,8 @@ pub(super) struct PullRecorder<'a> {
 }
 
 impl<'a> PullRecorder<'a> {
-    /// Of a run whose state is kept at every multiple of `every_s` and at its end, or nowhere if that
-    /// is infinite.
+    /// Of a run whose state is kept at every multiple of `every_s` and at its end,
+    /// or nowhere if that is infinite.
     ///
     /// # Errors
     /// A [`CaseError`] if that is no time, or gives too many samples.
@@ -206,8 +206,8 @@ impl<'a> PullRecorder<'a> {
         }
     }
 
-    /// Takes in the tensions at a position in z and θ if linear hydrostatics hold there, which is asked
-    /// only where a line pulls more than before.
+    /// Takes in the tensions at a position in z and θ if linear hydrostatics hold there, which is
+    /// asked only where a line pulls more than before.
     fn add_reliable(&mut self, place: [f64; 2], t_s: f64, tensions_n: &[f64]) {
         let reliable = &mut self.run.reliable_peaks_n;
         if reliable

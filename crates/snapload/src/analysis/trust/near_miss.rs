@@ -9,15 +9,16 @@ use crate::motion::events::Reached;
 use crate::motion::simulation::{Simulation, Step};
 use crate::motion::step_map::join;
 
-/// When a cable that was closed at the start comes near is found by so many trials at most, each with
-/// the neighbours' reach at the instant found by the one before, until it is within this part of the
-/// step.
+/// When a cable that was closed at the start comes near is found by so many trials at
+/// most, each with the neighbours' reach at the instant found by the one before, until it
+/// is within this part of the step.
 const TRIALS: usize = 16;
 const SAME_INSTANT: f64 = 1e-3;
-/// A step in which another cable comes near is searched in so many parts. The neighbours' reach within
-/// a part is what lies on the line between those at its ends: at most that much for deviations that
-/// drift, as their reach along one direction is a convex function of time, and nearly that much by a
-/// force: in a step as long as its wave, (2π/64)²/8 or 0.1 % of the shift is off the line.
+/// A step in which another cable comes near is searched in so many parts. The neighbours'
+/// reach within a part is what lies on the line between those at its ends: at most that
+/// much for deviations that drift, as their reach along one direction is a convex function
+/// of time, and nearly that much by a force: in a step as long as its wave, (2π/64)²/8 or
+/// 0.1 % of the shift is off the line.
 const PARTS_OF_STEP: usize = 64;
 
 /// A slack cable in a step.
@@ -34,8 +35,8 @@ struct Slack<'a> {
 }
 
 /// When a slack cable first comes within the neighbours' reach of being taut, if it does: along the
-/// stretch, unless it has been open since the start, or at the event at its end, which is at another
-/// time for each neighbour, unless it closes there in all of them.
+/// stretch, unless it has been open since the start, or at the event at its end, which is at
+/// another time for each neighbour, unless it closes there in all of them.
 #[inline(always)]
 pub(super) fn may_snap(
     simulation: &Simulation,
@@ -103,8 +104,8 @@ impl Slack<'_> {
         self.step.t_end - self.step.t_start
     }
 
-    /// When the gap of a cable that was open at the start is first within the neighbours' reach: part
-    /// by part, up to the last rise of the gap if the cable closes at the end.
+    /// When the gap of a cable that was open at the start is first within the neighbours' reach:
+    /// part by part, up to the last rise of the gap if the cable closes at the end.
     #[inline(always)]
     fn first_near(&self) -> Option<f64> {
         let (simulation, step, cable) = (self.simulation, self.step, self.cable);
@@ -124,8 +125,8 @@ impl Slack<'_> {
         })
     }
 
-    /// The same for a cable that was closed at the start, for all neighbours, whose gaps spread from
-    /// zero in proportion to time.
+    /// The same for a cable that was closed at the start, for all neighbours, whose gaps spread
+    /// from zero in proportion to time.
     #[inline(always)]
     fn first_near_since_closed(&self, first: f64) -> Option<f64> {
         let duration = self.duration();
@@ -161,10 +162,10 @@ impl Slack<'_> {
         (self.per_place * self.reach_of_parts(s)).hypot(by_keys)
     }
 
-    /// A bound on how far neighbours that drift from `before` to the run reach along the normal of a
-    /// cable within a step, by their start and by rounding: each just after its own event, along the
-    /// normal there. If the cable is closed at the start it is so for all, and their gaps spread from
-    /// zero.
+    /// A bound on how far neighbours that drift from `before` to the run reach along the
+    /// normal of a cable within a step, by their start and by rounding: each just after its
+    /// own event, along the normal there. If the cable is closed at the start it is so for
+    /// all, and their gaps spread from zero.
     #[inline(always)]
     fn reach_from_start(&self, before: &Spread) -> f64 {
         if !self.was_open {
@@ -174,9 +175,9 @@ impl Slack<'_> {
         before.reach_of_parts(&[n.x, n.y, arm, 0.0, 0.0, 0.0, 0.0]) + self.turning(before)
     }
 
-    /// What the turning of the normal adds to that: it turns by at most the way over the cable's length,
-    /// and the lever by the body's rotation, both from zero on, while neighbours come nearer in
-    /// proportion to time. A quarter of that counts at most.
+    /// What the turning of the normal adds to that: it turns by at most the way over the cable's
+    /// length, and the lever by the body's rotation, both from zero on, while neighbours come
+    /// nearer in proportion to time. A quarter of that counts at most.
     #[inline(always)]
     fn turning(&self, before: &Spread) -> f64 {
         let lever = self.tether().fairlead().length();
@@ -192,10 +193,10 @@ impl Slack<'_> {
         &self.simulation.system().cables[self.cable]
     }
 
-    /// How far neighbours reach along the normal of the cable a time `s` into the step, by their start
-    /// and by rounding. In a free flight, in which these deviations only drift, with the normal there;
-    /// if the cable was closed at the start, what they reach at the end if it grows in proportion to
-    /// time. Otherwise at the start and at the end, each with the normal there.
+    /// How far neighbours reach along the normal of the cable a time `s` into the step, by their
+    /// start and by rounding. In a free flight, in which these deviations only drift, with the
+    /// normal there; if the cable was closed at the start, what they reach at the end if it grows
+    /// in proportion to time. Otherwise at the start and at the end, each with the normal there.
     #[inline(always)]
     fn reach_of_parts(&self, s: f64) -> f64 {
         let Neighbours { before, along, .. } = self.neighbours;

@@ -65,10 +65,11 @@ fn bound(slopes: &[f64; 6], sizes: &Deviation) -> f64 {
     SIGMA_REACH * sum
 }
 
-/// The spread of the neighbours of a step. By their start and by rounding they drift away from the run
-/// with constant velocities between its ends if it is a free flight, so that each is furthest from it
-/// at one of them. An uncertain parameter changes the forces, the cables and the limits, too: its effect
-/// on a gap, on a limit or on v_n is that of the run with derivatives by it ([`UncertainKey`]).
+/// The spread of the neighbours of a step. By their start and by rounding they drift away from
+/// the run with constant velocities between its ends if it is a free flight, so that each is
+/// furthest from it at one of them. An uncertain parameter changes the forces, the cables and
+/// the limits, too: its effect on a gap, on a limit or on v_n is that of the run with
+/// derivatives by it ([`UncertainKey`]).
 pub(super) struct Neighbours<'a> {
     /// Just after the previous event, each at the time of its own.
     pub(super) before: Spread<'a>,
@@ -94,8 +95,8 @@ pub(super) struct Approach {
 }
 
 impl<'a> Neighbours<'a> {
-    /// Those of a bounce without uncertain parameters, just before it, at its end at the time of the
-    /// previous event, and at its own.
+    /// Those of a bounce without uncertain parameters, just before it, at its end at the time of
+    /// the previous event, and at its own.
     #[inline(always)]
     pub(super) fn of_bounce([before, along, met]: [Spread<'a>; 3]) -> Self {
         Self {

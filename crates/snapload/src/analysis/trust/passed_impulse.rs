@@ -6,9 +6,9 @@
 //! ```
 //!
 //! Which of the two it is does not depend on how hard the cable snaps. So impulse and velocity are
-//! taken per impulse p of the snap, and compared with what that varies by among the neighbours: with
-//! the place alone. In the run a velocity that is zero up to rounding keeps the cable taut. All
-//! neighbours have the closed cables closed, each at its own impact: where those determine the
+//! taken per impulse p of the snap, and compared with what that varies by among the neighbours:
+//! with the place alone. In the run a velocity that is zero up to rounding keeps the cable taut.
+//! All neighbours have the closed cables closed, each at its own impact: where those determine the
 //! place, as for a point mass, the coupling does not vary, and zero is no doubt.
 
 use crate::analysis::trust::HorizonCause;

@@ -2,9 +2,9 @@
 //!
 //! A cable that has its full length at the start of the run may be slack in neighbours, as far as
 //! they reach; beyond its end none of them starts. If it closes, all neighbours snap, each at −g/ġ,
-//! which is an impact like any other: the run is at the end of their range. If it opens, a neighbour
-//! that is slack opens, too, unless its gap rises again. Of legal neighbours g' ≤ 0 at the start, and
-//! along a flight in which all feel the same force
+//! which is an impact like any other: the run is at the end of their range. If it opens, a
+//! neighbour that is slack opens, too, unless its gap rises again. Of legal neighbours g' ≤ 0 at
+//! the start, and along a flight in which all feel the same force
 //!
 //! ```text
 //! g'(s) = g'(0) + ∫ ġ' ≤ g(s) + ∫ D      D = max |ġ' − ġ| ≤ Σ max |∂ġ/∂z_i| |δz_i|
@@ -138,9 +138,9 @@ impl Loose {
         (!loose.is_empty()).then(|| Box::new(all))
     }
 
-    /// Why and when trust ends if one of them may close again within the step for some neighbours, or
-    /// snaps there otherwise than for these; `along` is their spread at its end, at the time of the
-    /// start.
+    /// Why and when trust ends if one of them may close again within the step for some
+    /// neighbours, or snaps there otherwise than for these; `along` is their spread at its
+    /// end, at the time of the start.
     pub(super) fn cause(
         &mut self,
         simulation: &Simulation,

@@ -4,10 +4,10 @@
 //! δT = ∇T · w(t)    at one common time,    w(t) = w − ż τ
 //! ```
 //!
-//! with ∇T = ∂T/∂(x, y, θ, ẋ, ẏ, θ̇) while the same cables are taut, at the start and at the end of a
-//! step; a step is about half a radian of the motion, within which this hardly changes. An uncertain
-//! parameter also changes T itself, which its own run with derivatives contains. Deviations of a
-//! floating body's memory are left out.
+//! with ∇T = ∂T/∂(x, y, θ, ẋ, ẏ, θ̇) while the same cables are taut, at the start and at the end of
+//! a step; a step is about half a radian of the motion, within which this hardly changes. An
+//! uncertain parameter also changes T itself, which its own run with derivatives contains.
+//! Deviations of a floating body's memory are left out.
 //!
 //! A step may end, as its series does, shortly before a tension is lost that all neighbours lose.
 //! So a tension that is near zero and still falls is decided by a later step: it is lost there, or
@@ -110,8 +110,8 @@ impl TautStep<'_> {
         near
     }
 
-    /// Whether a cable that is taut after a snap leaves at once in some neighbours, each after its own
-    /// snap.
+    /// Whether a cable that is taut after a snap leaves at once in some
+    /// neighbours, each after its own snap.
     fn may_leave_at_once(&self, cable: usize, slopes: &[f64; 6]) -> bool {
         let (simulation, step) = (self.simulation, self.step);
         let pull = simulation.memory_force_within(step, 0.0);

@@ -30,7 +30,8 @@ pub(super) struct UncertainKey {
     step: Option<Box<Step<Dual<f64, 1>>>>,
 }
 
-/// A quantity that depends on time alone within a step is evaluated at the ends of so many equal parts.
+/// A quantity that depends on time alone within a step is evaluated at
+/// the ends of so many equal parts.
 const EVALUATIONS: usize = 32;
 
 /// How far neighbours reach, given the standard deviation by each parameter.
@@ -78,8 +79,8 @@ impl UncertainKey {
         })
     }
 
-    /// The standard deviation of the normal acceleration of a closed cable that carries nothing, as far
-    /// as it depends on the parameter.
+    /// The standard deviation of the normal acceleration of a closed cable that carries nothing, as
+    /// far as it depends on the parameter.
     pub(super) fn of_normal_acceleration(&self, cable: usize) -> f64 {
         let simulation = &self.simulation;
         let (system, state) = (simulation.system(), simulation.state());
@@ -126,9 +127,9 @@ impl UncertainKey {
         self.deviation[6]
     }
 
-    /// That of the gap of a cable a time `s` into the latest step, by each neighbour's own time. This
-    /// includes what the parameter changes of forces and cables, and is zero at the start if the cable
-    /// was closed there.
+    /// That of the gap of a cable a time `s` into the latest step, by each neighbour's own time.
+    /// This includes what the parameter changes of forces and cables, and is zero at the start
+    /// if the cable was closed there.
     pub(super) fn of_gap(&self, cable: usize, s: f64) -> f64 {
         self.of_step(|step| self.simulation.gap_along(step, cable)(Dual::constant(s)))
     }
@@ -193,9 +194,9 @@ impl UncertainKey {
         (0..=EVALUATIONS).map(seen).fold(0.0, f64::max) * self.size
     }
 
-    /// By how much a standard deviation may exceed those at these times in between, given a bound on
-    /// the second derivative of the quantity's derivative by the parameter. In a flight: the steps of
-    /// a series are short.
+    /// By how much a standard deviation may exceed those at these times in between, given a
+    /// bound on the second derivative of the quantity's derivative by the parameter. In a
+    /// flight: the steps of a series are short.
     fn between(&self, step: &Step<Dual<f64, 1>>, second_derivative: f64) -> f64 {
         let width = (step.t_end - step.t_start).value / EVALUATIONS as f64;
         match self.simulation.system().has_closed_form(step.taut) {
@@ -205,8 +206,8 @@ impl UncertainKey {
     }
 }
 
-/// Bounds on what of a flight a parameter changes: for each the quantity itself and its derivative by
-/// the parameter.
+/// Bounds on what of a flight a parameter changes: for each the quantity itself and
+/// its derivative by the parameter.
 struct Change {
     force: [f64; 2],
     speed: [f64; 2],

@@ -191,9 +191,9 @@ fn halfway_cases_are_decided_by_the_last_bit() {
     }
 }
 
-/// Quotients next to a halfway point, by a part of 2^-64 above it or below it: a · 2^k = q d ± 1 with
-/// a q of one bit more than is kept. It is odd, as the left side is even. The dividend's first limb
-/// is at least the divisor, or below it.
+/// Quotients next to a halfway point, by a part of 2^-64 above it or below it: a · 2^k = q d ± 1
+/// with a q of one bit more than is kept. It is odd, as the left side is even. The dividend's first
+/// limb is at least the divisor, or below it.
 #[test]
 fn halfway_quotients_are_decided_by_the_remainder() {
     let (bits, quarter) = (SPARE as usize, UBig::ONE << (BITS - 66));

@@ -201,8 +201,8 @@ impl<T: Real> Simulation<T> {
         taut_next(&self.system, &around, state, memory_force, candidates)
     }
 
-    /// Whether tensions that reach zero at a crossing are positive again before they are negative by
-    /// more than rounding.
+    /// Whether tensions that reach zero at a crossing are positive again before they are
+    /// negative by more than rounding.
     #[cold]
     #[inline(never)]
     pub(super) fn only_touches(&self, crossing: &Crossing<T>) -> bool {

@@ -36,12 +36,12 @@ impl<T: Real> Kernel for GapRateAndAcceleration<'_, T> {
 }
 
 impl<T: Real> Simulation<T> {
-    /// How long after its start a cable that is slack in the latest step first came within `margin` >
-    /// 0 of a gap of zero, if it did, before its end; if the cable closes there, before the last rise of its gap. If a cable was
-    /// closed at the start, its gap is zero there for all neighbours, and the margin grows from
-    /// zero. If it was at rest there, as one that has just lost its tension, it opens like −s³ or
-    /// −s² in all neighbours, each from its own release, and may come near only when it begins to
-    /// close again.
+    /// How long after its start a cable that is slack in the latest step first came within
+    /// `margin` > 0 of a gap of zero, if it did, before its end; if the cable closes there, before
+    /// the last rise of its gap. If a cable was closed at the start, its gap is zero there for all
+    /// neighbours, and the margin grows from zero. If it was at rest there, as one that has just
+    /// lost its tension, it opens like −s³ or −s² in all neighbours, each from its own release, and
+    /// may come near only when it begins to close again.
     #[inline(always)]
     pub(crate) fn comes_near(&self, step: &Step<T>, cable: usize, margin: T) -> Option<T> {
         let s = step.t_end - step.t_start;
@@ -62,10 +62,10 @@ impl<T: Real> Simulation<T> {
         self.first_near(step, cable, [offset, slope], acceleration)
     }
 
-    /// How long after its start the gap of a cable was first above zero in a part of the latest step,
-    /// from one time after its start to another, raised by margins at both and by what lies on the line
-    /// between them within; none if it was not. If it is at the start of the part, and falls, that is
-    /// left out.
+    /// How long after its start the gap of a cable was first above zero in a part of the latest
+    /// step, from one time after its start to another, raised by margins at both and by what
+    /// lies on the line between them within; none if it was not. If it is at the start of the
+    /// part, and falls, that is left out.
     pub(crate) fn comes_near_between(
         &self,
         step: &Step<T>,
@@ -90,9 +90,9 @@ impl<T: Real> Simulation<T> {
         Some(from + first_above_zero(&nearness, length, bound)?)
     }
 
-    /// How long after its start the gap of a cable rises for the last time in the latest step, if the
-    /// cable closes at its end; the length of the step if it does not. On a stretch as long as the rate
-    /// at its end over the bound on the acceleration the rate does not change its sign.
+    /// How long after its start the gap of a cable rises for the last time in the latest step, if
+    /// the cable closes at its end; the length of the step if it does not. On a stretch as long as
+    /// the rate at its end over the bound on the acceleration the rate does not change its sign.
     pub(crate) fn last_rise(&self, step: &Step<T>, cable: usize) -> T {
         let s = step.t_end - step.t_start;
         if !step.event.reached.gaps.contains(cable) {

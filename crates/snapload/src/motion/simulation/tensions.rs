@@ -6,7 +6,8 @@ use crate::model::taut_set::MAX_CABLES;
 use crate::motion::active_set::tensions;
 use crate::motion::simulation::{Simulation, Step};
 
-/// The number of evenly spaced instants along a step, or a part of one, at which tensions are evaluated.
+/// The number of evenly spaced instants along a step, or a part of one,
+/// at which tensions are evaluated.
 const INSTANTS: usize = 17;
 /// The least tension is found in so many rounds of three evaluations about the least parabola
 /// through those before, at distances shorter by `CLOSER` each time.

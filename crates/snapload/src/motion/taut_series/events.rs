@@ -20,8 +20,8 @@ const TAUT_TOLERANCE: f64 = 64.0;
 const ROUNDINGS: f64 = 8.0;
 
 impl<T: Real> Series<T> {
-    /// Whether a taut cable stays taut within the step: it carries, or the body can not move, or its
-    /// gap is zero up to rounding.
+    /// Whether a taut cable stays taut within the step: it carries, or the body can not move, or
+    /// its gap is zero up to rounding.
     #[inline(always)]
     pub(super) fn holds(&self, system: &System<T>, cable: usize) -> bool {
         let gap = &self.lines[cable].gap;
