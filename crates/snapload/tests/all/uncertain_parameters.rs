@@ -107,7 +107,54 @@ fn neighbours_differ_within_a_flight_by_forces_and_cables() -> Result<(), Unfini
     Ok(())
 }
 
-/// The same for the upper bound, which the highest point of a flight nearly reaches; it is at the
+/// A fast wave moves neighbours to and fro 64 times within one flight, and in each of 64 equal
+/// parts of it as far as in all others.
+#[test]
+fn neighbours_differ_between_equal_parts_of_a_flight() -> Result<(), Unfinished> {
+    let own = Parameters {
+        omega: 400.0,
+        f_o: 900.0,
+        x: 0.396849164,
+        t_end: 1.00531,
+        ..carried()
+    };
+    let away = turning_point(&own, "f_o", 909.0) - own.f_o;
+    for part in [1.03, 3.0] {
+        let uncertainty = uncertain("f_o", part * away / 3.0_f64.sqrt(), ANY_ERROR);
+        let (_, trust) = trusted_run(&Case::new(own)?, &uncertainty, &no_progress)?;
+        assert!(!trust.decides_the_end(), "{part} {away}");
+    }
+    Ok(())
+}
+
+/// A cable that closes slowly, after a wave has brought it near once before: all neighbours close
+/// it in the same rise of its gap.
+#[test]
+fn a_slow_last_rise_is_no_near_miss() -> Result<(), Unfinished> {
+    let own = Parameters {
+        omega: 8.865,
+        f_o: 3.835,
+        x: 0.315539821,
+        y: 0.694,
+        vx: 0.0175,
+        vy: 0.525,
+        e: 0.5,
+        t_end: 1.4496,
+        ..carried()
+    };
+    let size = 1e-5;
+    for part in [-1.0, -0.5, 0.5, 1.0] {
+        let neighbour = with(&own, "y", own.y + part * size * 3.0_f64.sqrt());
+        assert_eq!(outcome(&neighbour), outcome(&own), "{part}");
+    }
+    let uncertainty = uncertain("y", size, ANY_ERROR);
+    let (_, trust) = trusted_run(&Case::new(own)?, &uncertainty, &no_progress)?;
+    assert_eq!(trust.horizon, None);
+    Ok(())
+}
+
+/// Neighbours differ likewise at the upper bound, which the highest point of a flight nearly
+/// reaches; it is at the
 /// height of the anchors, which the length of the cables changes. The largest effect along the
 /// flight counts wherever the run comes near.
 #[test]

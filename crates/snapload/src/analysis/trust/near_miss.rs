@@ -14,11 +14,10 @@ use crate::motion::step_map::join;
 /// is within this part of the step.
 const TRIALS: usize = 16;
 const SAME_INSTANT: f64 = 1e-3;
-/// A step in which another cable comes near is searched in so many parts. The neighbours'
-/// reach within a part is what lies on the line between those at its ends: at most that
-/// much for deviations that drift, as their reach along one direction is a convex function
-/// of time, and nearly that much by a force: in a step as long as its wave, (2π/64)²/8 or
-/// 0.1 % of the shift is off the line.
+/// A step in which another cable comes near is searched in so many parts. The neighbours' reach
+/// within a part is what lies on the line between those at its ends: at most that much for
+/// deviations that drift, as their reach along one direction is a convex function of time, and by
+/// an uncertain parameter at most what `UncertainKey::of_gap_between` adds.
 const PARTS_OF_STEP: usize = 64;
 
 /// A slack cable in a step.
@@ -109,17 +108,18 @@ impl Slack<'_> {
     #[inline(always)]
     fn first_near(&self) -> Option<f64> {
         let (simulation, step, cable) = (self.simulation, self.step, self.cable);
-        let last = simulation.last_rise(step, cable);
+        let last = simulation.last_rise(step, cable, |s| self.margin(s));
         if self.neighbours.keys.is_empty() {
             // A bound first: the whole step as one part, in which the normal turns.
             let turning = self.per_place * self.turning(&self.neighbours.before);
             let margins = [0.0, last].map(|s| self.margin(s) + turning);
             simulation.comes_near_between(step, cable, margins, [0.0, last])?;
         }
+        let between = self.between();
         let end = |k: usize| last * (k as f64 / PARTS_OF_STEP as f64);
-        let mut before = self.margin(0.0);
+        let mut before = self.margin(0.0) + between;
         (1..=PARTS_OF_STEP).find_map(|k| {
-            let margins = [before, self.margin(end(k))];
+            let margins = [before, self.margin(end(k)) + between];
             before = margins[1];
             simulation.comes_near_between(step, cable, margins, [end(k - 1), end(k)])
         })
@@ -137,7 +137,12 @@ impl Slack<'_> {
         };
         let by_keys = match self.neighbours.keys {
             [] => 0.0,
-            _ => (1..=PARTS_OF_STEP).map(in_proportion).fold(0.0, f64::max),
+            // By the bound M w²/8 on what a part of length w adds, most is added per time in the
+            // first part, where it begins from zero: M w/2.
+            _ => {
+                let largest = (1..=PARTS_OF_STEP).map(in_proportion).fold(0.0, f64::max);
+                largest + 4.0 * PARTS_OF_STEP as f64 * self.between()
+            }
         };
         let mut near = Some(first);
         for _ in 0..TRIALS {
@@ -153,6 +158,13 @@ impl Slack<'_> {
             }
         }
         near
+    }
+
+    /// By how much the uncertain parameters may move a gap further within a part of the step than
+    /// at its ends.
+    fn between(&self) -> f64 {
+        let keys = self.neighbours.keys;
+        reach_by(keys, |key| key.of_gap_between(self.cable, PARTS_OF_STEP))
     }
 
     /// How far the gaps of neighbours exceed that of the run a time `s` into the step.

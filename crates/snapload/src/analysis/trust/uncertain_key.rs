@@ -136,11 +136,18 @@ impl UncertainKey {
 
     /// A bound on it along the step.
     pub(super) fn of_gap_within(&self, cable: usize) -> f64 {
+        self.step.as_deref().map_or(0.0, |step| {
+            let most = self.largest(step, self.simulation.gap_along(step, cable));
+            most + self.of_gap_between(cable, EVALUATIONS)
+        })
+    }
+
+    /// By how much it may exceed those at the ends of equal parts of the step within them.
+    pub(super) fn of_gap_between(&self, cable: usize, parts: usize) -> f64 {
         let tether = &self.simulation.system().cables[cable];
         self.step.as_deref().map_or(0.0, |step| {
             let change = Change::along(&self.simulation, step);
-            let most = self.largest(step, self.simulation.gap_along(step, cable));
-            most + self.between(step, change.of_gap(tether))
+            self.between(step, change.of_gap(tether), parts)
         })
     }
 
@@ -167,7 +174,8 @@ impl UncertainKey {
             let change = Change::along(&self.simulation, step);
             let reach = self.simulation.system().body.reach();
             let most = self.largest(step, |s| self.over_limit(limit, &state(s)));
-            most + self.between(step, change.of_acceleration([reach.value, reach.slope[0]]))
+            let bound = change.of_acceleration([reach.value, reach.slope[0]]);
+            most + self.between(step, bound, EVALUATIONS)
         })
     }
 
@@ -194,11 +202,11 @@ impl UncertainKey {
         (0..=EVALUATIONS).map(seen).fold(0.0, f64::max) * self.size
     }
 
-    /// By how much a standard deviation may exceed those at these times in between, given a
-    /// bound on the second derivative of the quantity's derivative by the parameter. In a
-    /// flight: the steps of a series are short.
-    fn between(&self, step: &Step<Dual<f64, 1>>, second_derivative: f64) -> f64 {
-        let width = (step.t_end - step.t_start).value / EVALUATIONS as f64;
+    /// By how much a standard deviation may exceed those at the ends of equal parts of a step
+    /// within them, given a bound on the second derivative of the quantity's derivative by the
+    /// parameter. In a flight: the steps of a series are short.
+    fn between(&self, step: &Step<Dual<f64, 1>>, second_derivative: f64, parts: usize) -> f64 {
+        let width = (step.t_end - step.t_start).value / parts as f64;
         match self.simulation.system().has_closed_form(step.taut) {
             true => second_derivative * width * width * 0.125 * self.size,
             false => 0.0,

@@ -10,8 +10,10 @@ use crate::motion::simulation::within::{LatestStep, SegmentMotion};
 use crate::motion::simulation::{Simulation, Step};
 use crate::motion::taut_series::STILL;
 
-/// The beginning of the last rise of a gap is found to this part of the step.
+/// The beginning of the last rise of a gap is found to this part of the step, and to the other one
+/// where neighbours may be taut there.
 const RISE: f64 = 1e-2;
+const SAME_RISE: f64 = 1e-12;
 
 /// A gap to be evaluated, by the best instructions for it.
 struct GapAndRate<'a, T: Real>(&'a SegmentMotion<'a, T>, usize, T);
@@ -93,7 +95,8 @@ impl<T: Real> Simulation<T> {
     /// How long after its start the gap of a cable rises for the last time in the latest step, if
     /// the cable closes at its end; the length of the step if it does not. On a stretch as long as
     /// the rate at its end over the bound on the acceleration the rate does not change its sign.
-    pub(crate) fn last_rise(&self, step: &Step<T>, cable: usize) -> T {
+    /// Unless that is where the rise begins, the gap is below zero by more than the margin.
+    pub(crate) fn last_rise(&self, step: &Step<T>, cable: usize, margin: impl Fn(T) -> T) -> T {
         let s = step.t_end - step.t_start;
         if !step.event.reached.gaps.contains(cable) {
             return s;
@@ -105,16 +108,16 @@ impl<T: Real> Simulation<T> {
         let mut place = s;
         loop {
             let at = GapAndRate(&motion, cable, place);
-            let (_, rate) = dispatch_over::<T, _>(at);
+            let (gap, rate) = dispatch_over::<T, _>(at);
             let back = rate / bound;
             if back >= place {
                 return T::ZERO;
             }
-            if back > s * RISE {
-                place -= back;
-            } else {
+            let is_near = back > s * SAME_RISE && gap + margin(place) >= T::ZERO;
+            if back <= s * RISE && !is_near {
                 return place;
             }
+            place -= back;
         }
     }
 
