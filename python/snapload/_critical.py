@@ -46,15 +46,17 @@ class CriticalForce(Result):
         intervals, because a run with an amplitude above the critical one may settle.
     uncertain : numpy.ndarray, shape (n, 2)
         All amplitudes at which neighbours disagree, as such intervals [F]: the run passes its horizon of trust, and of
-        20 neighbours within rounding, or of the `members`, some exceed a limit and others do not.
+        20 neighbours within rounding, or of the `members`, some exceed a limit and others do not or are
+        cut short.
     cut_short : numpy.ndarray, shape (n, 2)
         All amplitudes whose run stopped at the impact limit or a standstill, as such intervals [F]: whether they exceed
         a limit is not known.
     probability : numpy.recarray or None
         With an ensemble, at each amplitude: ``f_o``; whether the end is ``certain``, so that no members are run;
         ``count``, the number of members that exceed a limit, NaN where none are run; ``part``, their fraction, which is
-        0 or 1 there; and the 95 % interval of it from ``low`` to ``high``, which are equal to it there. Where a run
-        is ``cut_short`` nothing is known, and ``low`` and ``high`` are 0 and 1.
+        0 or 1 there; and the 95 % interval of it from ``low`` to ``high``, which are equal to it there. ``cut_short``
+        says whether the run or members stopped at the impact limit or a standstill: the interval holds whether or not
+        those members exceed, and is from 0 to 1 where the run itself did.
     passes : dict of str to float or None
         With an ensemble, the smallest amplitudes at which at least 5, 50 and 95 % of the neighbours exceed a limit:
         ``p05``, ``p50``, ``p95``. At a larger amplitude the percentage may be lower again.
@@ -252,12 +254,14 @@ def critical_force(
         if not isinstance(over, Mapping):
             allowed = "a dict of keys with their values, such as {'e': [0.5, 0.9]}"
             raise ValueError(f"over = {over!r} is not allowed; allowed: {allowed}")
-        if members or uncertainty is not None:
-            raise ValueError("over runs no neighbours; leave out members and uncertainty, or over")
+        if members or uncertainty is not None or (tolerance, seed) != (1e-3, 1):
+            raise ValueError("over runs no neighbours; leave out members, uncertainty, tolerance and seed, or over")
         return _critical_over_keys(engine, over, step, largest, progress)
     members, seed = whole_number("members", members), whole_number("seed", seed)
-    if uncertainty is not None and members == 0:
-        raise ValueError("uncertainty needs neighbours, but none are run; give members, such as members=200")
+    given = {"uncertainty": uncertainty is not None, "tolerance": tolerance != 1e-3, "seed": seed != 1}
+    if members == 0 and any(given.values()):
+        option = next(name for name, is_given in given.items() if is_given)
+        raise ValueError(f"{option} needs neighbours, but none are run; give members, such as members=200")
     probability, passes = None, {}
     if members == 0:
         data = json.loads(_engine.critical_force(engine, step, largest))
@@ -267,7 +271,8 @@ def critical_force(
             options = (size, tolerance, members, seed, report_progress)
             data = json.loads(_engine.critical_force_of_ensemble(engine, step, largest, *options))
         passes = data["passes"]
-        kinds = [("f_o", "f8"), ("certain", "?"), ("count", "f8"), ("part", "f8"), ("low", "f8"), ("high", "f8")]
+        kinds = [("f_o", "f8"), ("certain", "?"), ("cut_short", "?"), ("count", "f8")]
+        kinds += [("part", "f8"), ("low", "f8"), ("high", "f8")]
         points = [tuple(point[name] for name, _ in kinds) for point in data["probability"]]
         probability = np.array(points, dtype=kinds).view(np.recarray)
     f_cr, reason, t, certain = (data[name] for name in ("f_cr", "reason", "t", "certain"))

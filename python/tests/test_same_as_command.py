@@ -89,7 +89,7 @@ def test_the_critical_force_is_the_same(command_json):
     assert found.uncertain.tolist() == data["uncertain"]
     assert found.certain is data["certain"]
     assert found.passes == data["passes"]
-    for name in ("f_o", "certain", "count", "part", "low", "high"):
+    for name in ("f_o", "certain", "cut_short", "count", "part", "low", "high"):
         values = [np.nan if point[name] is None else point[name] for point in data["probability"]]
         np.testing.assert_array_equal(found.probability[name], values)
     # Where one run decides, no neighbour is run: there is no count, and nothing is left open.

@@ -61,10 +61,10 @@ pub(crate) struct Args {
 
 /// Runs it.
 pub(crate) fn run(args: &Args) -> Result<(), Failure> {
-    if args.uncertainty.is_given() && args.ensemble.is_none() {
-        return Err(Failure::bad_input(
-            "--uncertainty needs neighbours, but none are run; add --ensemble N, such as --ensemble 200",
-        ));
+    if let (Some(option), None) = (args.uncertainty.given(), args.ensemble) {
+        return Err(Failure::BadInput(format!(
+            "{option} needs neighbours, but none are run; add --ensemble N, such as --ensemble 200"
+        )));
     }
     let input = args.case.read()?;
     let uncertainty = args.uncertainty.read(&input.case)?;
@@ -207,7 +207,7 @@ impl Answer {
                 if let Some(uncertain) = row.uncertain() {
                     let _ = writeln!(
                         text,
-                        "Uncertain f_o = {uncertain}: some of {} neighbours exceed, others do not",
+                        "Uncertain f_o = {uncertain}: some of {} neighbours exceed, others do not, or are cut short",
                         args.ensemble.unwrap_or(NEIGHBOURS)
                     );
                     if curve.is_none() {

@@ -5,12 +5,15 @@ use snapload::Case;
 use snapload::analysis::{SEED, UNCERTAINTY, Uncertainty, Unfinished};
 use snapload_report::TOLERANCE;
 
+const DEFAULT_TOLERANCE: f64 = 1e-3;
+const DEFAULT_SEED: u64 = 1;
+
 /// What counts as known, as given on the command line.
 #[derive(clap::Args)]
 pub(crate) struct ToleranceArgs {
     /// Error of state and time, relative to values above 1, above
     /// which a result counts as not known
-    #[arg(long, value_name = "SIZE", default_value_t = 1e-3)]
+    #[arg(long, value_name = "SIZE", default_value_t = DEFAULT_TOLERANCE)]
     tolerance: f64,
 }
 
@@ -31,7 +34,7 @@ pub(crate) struct UncertaintyArgs {
     #[command(flatten)]
     tolerance: ToleranceArgs,
     /// Seed with which an ensemble draws its neighbours
-    #[arg(long, value_name = "NUMBER", default_value_t = 1, value_parser = whole_number::<u64>(SEED))]
+    #[arg(long, value_name = "NUMBER", default_value_t = DEFAULT_SEED, value_parser = whole_number::<u64>(SEED))]
     seed: u64,
 }
 
@@ -51,9 +54,16 @@ impl UncertaintyArgs {
         Ok(uncertainty)
     }
 
-    /// Whether any uncertainty was given.
-    pub(crate) fn is_given(&self) -> bool {
-        !self.uncertainty.is_empty()
+    /// The first of these options that was given, if any: one that repeats its default changes
+    /// nothing.
+    pub(crate) fn given(&self) -> Option<&'static str> {
+        let other = |given: bool, option| given.then_some(option);
+        other(!self.uncertainty.is_empty(), OPTION)
+            .or(other(
+                self.tolerance.tolerance != DEFAULT_TOLERANCE,
+                "--tolerance",
+            ))
+            .or(other(self.seed != DEFAULT_SEED, "--seed"))
     }
 
     pub(crate) fn seed(&self) -> u64 {

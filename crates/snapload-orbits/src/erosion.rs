@@ -2,7 +2,7 @@
 
 use crate::basin::Basin;
 use crate::measures::Measures;
-use crate::window::Window;
+use crate::window::{Window, check_varies};
 use snapload::analysis::{OnProgress, Progress, Unfinished};
 use snapload::{CaseError, Value};
 
@@ -34,6 +34,7 @@ impl Erosion {
             let error = CaseError::value("over", Value::Text(key.to_owned()), "a key not varied");
             return Err(error.into());
         }
+        check_varies("over", &window.base, key)?;
         let mut points = Vec::with_capacity(values.len());
         for (done, value) in values.iter().enumerate() {
             let base = window

@@ -107,10 +107,18 @@ impl Measures {
 enum Start {
     Safe,
     Unsafe,
-    /// Legal, but not run to its end: its run was cut short, or it is beyond the border of the
-    /// window and was not run at all.
-    Unknown,
+    /// Legal, but its run was cut short.
+    CutShort,
+    /// Legal, but beyond the border of the window, so that it was not run.
+    Beyond,
     Illegal,
+}
+
+impl Start {
+    /// Whether it is not known if it is safe.
+    fn is_unknown(self) -> bool {
+        matches!(self, Self::CutShort | Self::Beyond)
+    }
 }
 
 /// The cells of a window with a frame of cells round them, which are unknown where they are legal.
@@ -149,8 +157,8 @@ impl Framed {
             match run {
                 Some(cell) if cell.escapes() => Start::Unsafe,
                 Some(cell) if cell.is_safe() => Start::Safe,
-                Some(cell) if cell.is_cut_short() => Start::Unknown,
-                None if window.case([outer(0, i), outer(1, j)]).is_some() => Start::Unknown,
+                Some(cell) if cell.is_cut_short() => Start::CutShort,
+                None if window.case([outer(0, i), outer(1, j)]).is_some() => Start::Beyond,
                 _ => Start::Illegal,
             }
         };
@@ -175,25 +183,25 @@ impl Framed {
 
     /// The least distance from the equilibrium to an unsafe start, and whether no unknown start is
     /// nearer. Starts without a distance are left out. The cell of the equilibrium itself may be
-    /// one of the frame, as distances are good to one cell.
+    /// one beyond the border, as distances are good to one cell.
     fn nearest_unsafe(&self, distance: impl Fn([f64; 2]) -> Option<f64>) -> Option<(f64, bool)> {
         let own = |at: [f64; 2]| [0, 1].iter().all(|i| self.is_at_equilibrium(*i, at[*i]));
-        let least = |which: Start| {
+        let least = |is_such: &dyn Fn(Start) -> bool| {
             let starts = self.starts.iter().enumerate();
-            let of_kind = starts.filter(|(_, start)| **start == which);
-            let at = of_kind.map(|(k, _)| self.at(k));
-            at.filter(|at| which == Start::Unsafe || !own(*at))
-                .filter_map(&distance)
+            let such = starts.filter(|(_, start)| is_such(**start));
+            let at = such.map(|(k, start)| (self.at(k), *start));
+            at.filter(|(at, start)| *start != Start::Beyond || !own(*at))
+                .filter_map(|(at, _)| distance(at))
                 .min_by(f64::total_cmp)
         };
-        let nearest = least(Start::Unsafe)?;
+        let nearest = least(&|start| start == Start::Unsafe)?;
         let holds = |axis: usize| {
             let values = &self.values[axis];
             values
                 .iter()
                 .any(|value| self.is_at_equilibrium(axis, *value))
         };
-        let known = least(Start::Unknown).is_none_or(|unknown| nearest <= unknown);
+        let known = least(&Start::is_unknown).is_none_or(|unknown| nearest <= unknown);
         Some((nearest, known && holds(0) && holds(1)))
     }
 
@@ -203,7 +211,7 @@ impl Framed {
         if self.cell.contains(&0.0) {
             return None;
         }
-        let limits = |start: &Start| *start == Start::Unsafe || (known && *start == Start::Unknown);
+        let limits = |start: &Start| *start == Start::Unsafe || known && start.is_unknown();
         let marked: Vec<bool> = self.starts.iter().map(limits).collect();
         let squares = squared_distances(&marked, self.values.each_ref().map(Vec::len), self.cell);
         let safe = self.starts.iter().zip(&squares);

@@ -87,14 +87,7 @@ impl Window {
     /// A [`CaseError`] that names the key.
     pub fn check(&self) -> Result<(), CaseError> {
         for key in self.keys {
-            if !matches!(self.base.get(key), Some(Value::Number(_))) {
-                let allowed = "a key that holds a number, of this body";
-                return Err(CaseError::value(
-                    "vary",
-                    Value::Text(key.to_owned()),
-                    allowed,
-                ));
-            }
+            check_varies("vary", &self.base, key)?;
         }
         if self.keys[0] == self.keys[1] {
             let twice = Value::Text(self.keys[0].to_owned());
@@ -133,6 +126,21 @@ impl Window {
         let values = others.filter_map(|key| Some((*key, self.base.get(key)?.number()?)));
         values.filter(|(_, value)| *value != 0.0).collect()
     }
+}
+
+/// Refuses a key that an option can not vary, as it holds no number of this body.
+pub(crate) fn check_varies(
+    option: &'static str,
+    base: &Parameters,
+    key: &str,
+) -> Result<(), CaseError> {
+    let is_number = matches!(base.get(key), Some(Value::Number(_)));
+    if is_number && !(base.is_point() && !base.moves_by(key)) {
+        return Ok(());
+    }
+    let allowed = "a key that holds a number, of this body";
+    let key = Value::Text(key.to_owned());
+    Err(CaseError::value(option, key, allowed))
 }
 
 impl Cell {

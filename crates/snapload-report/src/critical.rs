@@ -103,7 +103,7 @@ struct Point {
 impl Point {
     fn new(point: &Exceeding) -> Self {
         let [low, high] = point.interval();
-        let cut_short = point.end.reason.cuts_short();
+        let cut_short = point.is_cut_short();
         Self {
             f_o: point.f_o,
             certain: point.share.is_none() && !cut_short,
@@ -176,7 +176,7 @@ impl Probability {
         if cut_short > 0 {
             let _ = writeln!(
                 text,
-                "          not known at {cut_short} f_o, whose runs are cut short: the first f_o above may be smaller"
+                "          not known at {cut_short} f_o, where runs are cut short: the first f_o above may be smaller"
             );
         }
     }

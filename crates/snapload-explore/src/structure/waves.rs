@@ -23,6 +23,8 @@ struct Answer {
     heights_m: Vec<f64>,
     /// All heights for the first period, then for the next.
     cells: Vec<Option<f64>>,
+    /// Cells whose result in full may be larger.
+    cut_short: Vec<bool>,
     /// Whether cells are the largest utilisation; otherwise the fastest snap \[m/s\].
     utilisation: bool,
     /// The number of periods of each wave that are run.
@@ -48,6 +50,7 @@ pub(crate) fn answer(
         periods_s: scan.periods_s,
         heights_m: scan.heights_m,
         cells: scan.cells,
+        cut_short: scan.cut_short,
         utilisation: case.structure.tensions_known()
             && lines.iter().all(|line| line.breaking_load_n.is_some()),
         length: note::LENGTH,

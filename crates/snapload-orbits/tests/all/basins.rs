@@ -166,6 +166,65 @@ fn cells_that_are_cut_short_are_not_safe() {
     }
 }
 
+/// The run from the equilibrium itself is cut short, so that a start next to it need not be the
+/// nearest unsafe one: without the limit its own cell is.
+#[test]
+fn the_equilibrium_itself_may_be_cut_short() {
+    let basin = |max_impacts| {
+        let base = Parameters {
+            f_o: 0.6,
+            y: 0.0,
+            t_end: 60.0,
+            stop_when_settled: false,
+            max_impacts,
+            ..Parameters::STANDARD
+        };
+        let values = [
+            vec![-0.2, -0.1, 0.0, 0.1, 0.2],
+            (-4..=4).map(f64::from).collect(),
+        ];
+        let keys = ["x", "vx"];
+        Basin::of(Window { base, keys, values }, false, &no_progress).unwrap()
+    };
+    let whole = basin(100_000);
+    assert_eq!((whole.measures.lim, whole.iim()), (Some(0.0), Some(0.0)));
+    let cut = basin(100);
+    assert_eq!(cut.measures.cut_short, 1);
+    assert_eq!((cut.measures.lim, cut.iim()), (None, None));
+}
+
+/// Keys that an erosion can not vary are refused, as those of the window are.
+#[test]
+fn an_erosion_is_over_a_number_of_the_body() {
+    let window = |base| Window {
+        base,
+        keys: ["x", "y"],
+        values: [vec![-0.1, 0.0, 0.1], vec![0.1, 0.2]],
+    };
+    let over = |base: Parameters, key: &'static str| {
+        let eroded = Erosion::of(&window(base), key, &[1.0, 2.0], false, &no_progress);
+        eroded.map(|eroded| eroded.points.len())
+    };
+    let short = Parameters {
+        t_end: 1.0,
+        ..Parameters::STANDARD
+    };
+    for key in ["max_impacts", "body", "stop_when_settled"] {
+        let error = over(short, key).unwrap_err().to_string();
+        assert!(
+            error.starts_with("over = ") && error.contains(key),
+            "{error}"
+        );
+    }
+    let point = Parameters {
+        a: 0.0,
+        inertia: None,
+        ..short
+    };
+    assert!(over(point, "inertia").is_err());
+    assert_eq!(over(short, "t_end").unwrap(), 2);
+}
+
 #[test]
 fn a_plane_without_the_equilibrium_has_no_distances_from_it() {
     let mut window = window(&reference()["grids"]["circle_xy_f0.3"]);

@@ -291,7 +291,7 @@ pub(super) fn of_scan(scan: &Scan, structure: &Structure) -> Result<Picture, Fig
             .collect(),
         value_label: value_label.to_owned(),
         classes: vec!["turned over or touched the floor".to_owned()],
-        ..Map::default()
+        uncertain: scan.cut_short.clone(),
     };
     let axes = [("*T* (s)", Range::Auto), ("*H* (m)", Range::Auto)];
     let description = "Result for other waves, by period and height";

@@ -9,7 +9,7 @@ use crate::physics::periods::{NaturalPeriods, periods_text};
 use crate::physics::snap::{SLOWEST_M_S, Snap};
 use crate::physics::warnings::Warning;
 use crate::physics::wave::LinearWave;
-use crate::runs::assess::Assessment;
+use crate::runs::assess::{Assessment, ByRestitution};
 use crate::runs::design::Check;
 use crate::runs::elastic_comparison::{ElasticComparison, Inextensible};
 use crate::runs::outcome::Outcome;
@@ -102,23 +102,26 @@ impl Assessment {
     /// The numbers behind the verdict with less and with more restitution, in words.
     pub fn rebound_text(&self) -> String {
         let rows = self.by_restitution();
-        let utilisations: Vec<_> = rows.iter().map(|row| row.largest_utilisation).collect();
-        let speeds = rows.iter().map(|row| row.fastest_snap_m_s).collect();
-        let (what, values) = match utilisations.iter().any(Option::is_some) {
-            true => ("largest utilisation", utilisations),
-            false => ("fastest snap (m/s)", speeds),
+        let by_tension = rows.iter().any(|row| row.largest_utilisation.is_some());
+        let what = match by_tension {
+            true => "largest utilisation",
+            false => "fastest snap (m/s)",
         };
-        if values.iter().all(Option::is_none) {
+        let value = |row: &ByRestitution| match by_tension {
+            true => row.largest_utilisation,
+            false => row.fastest_snap_m_s,
+        };
+        if rows.iter().all(|row| value(row).is_none()) {
             return "nothing is judged with a lower or higher restitution either".to_owned();
         }
-        let restitutions = rows.iter().map(|row| Some(row.restitution)).collect();
-        let [values, restitutions] = [values, restitutions].map(|numbers: Vec<Option<f64>>| {
-            let one = |number: Option<f64>| {
-                number.map_or("not judged".to_owned(), |number| ratio(&number))
-            };
-            let all = numbers.into_iter().map(one);
-            all.collect::<Vec<_>>().join(", ")
-        });
+        let in_words = |row: &ByRestitution| match value(row) {
+            Some(value) if row.cut_short => format!("at least {}", ratio(&value)),
+            Some(value) => ratio(&value),
+            None => "not judged".to_owned(),
+        };
+        let values: Vec<_> = rows.iter().map(in_words).collect();
+        let restitutions: Vec<_> = rows.iter().map(|row| ratio(&row.restitution)).collect();
+        let [values, restitutions] = [values, restitutions].map(|all| all.join(", "));
         format!("{what} {values} with a restitution of {restitutions}")
     }
 }

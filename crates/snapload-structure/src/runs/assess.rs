@@ -63,6 +63,8 @@ pub struct ByRestitution {
     pub largest_utilisation: Option<f64>,
     /// The fastest snap of any line; none without judged time \[m/s\].
     pub fastest_snap_m_s: Option<f64>,
+    /// Whether the run is cut short, so that both may be larger in full.
+    pub cut_short: bool,
 }
 
 /// The number of neighbours unless given.
@@ -289,6 +291,7 @@ impl Assessment {
                 restitution,
                 largest_utilisation: all.map(|all| all.into_iter().fold(0.0, f64::max)),
                 fastest_snap_m_s: (!outcome.is_unjudged()).then(|| outcome.speed_m_s()),
+                cut_short: outcome.stop.cuts_short(),
             }
         };
         let mut rows = vec![of(structure.restitution, &self.outcome)];

@@ -23,6 +23,8 @@ pub struct Scan {
     /// All heights for the first period, then for the next: the largest utilisation, or the fastest
     /// snap \[m/s\] if that is not known; none if the body turned over or touched the floor.
     pub cells: Vec<Option<f64>>,
+    /// Which of these runs are cut short, so that the result in full may be larger.
+    pub cut_short: Vec<bool>,
 }
 
 /// Scans heights and periods; none unless the case has a regular wave.
@@ -52,8 +54,10 @@ pub fn scan(structure: &Structure, on_progress: OnProgress) -> Result<Option<Sca
         counter.add(1)?;
         Ok::<_, Cancelled>(cell)
     })?;
+    let (cells, cut_short) = cells.into_iter().unzip();
     Ok(Some(Scan {
         cells,
+        cut_short,
         periods_s,
         heights_m,
     }))
@@ -64,21 +68,23 @@ fn shown(value: f64) -> f64 {
     format!("{value:.2e}").parse().unwrap_or(value)
 }
 
-fn one(structure: &Structure, wave: Wave) -> Option<f64> {
+/// The result in one wave, and whether its run is cut short.
+fn one(structure: &Structure, wave: Wave) -> (Option<f64>, bool) {
     let changed = Structure {
         water: Water::Wave(wave),
         duration_s: LENGTH * wave.period_s,
         transient_s: structure.transient_s.min(LENGTH / 2.0 * wave.period_s),
         ..structure.clone()
     };
-    let prepared = ModelAtRest::new(changed).ok()?;
-    let outcome = Outcome::of(&prepared, 1.0).ok()?;
-    if outcome.stop.exceeds() {
-        return None;
-    }
+    let prepared = ModelAtRest::new(changed).ok();
+    let outcome = prepared.and_then(|prepared| Outcome::of(&prepared, 1.0).ok());
+    let Some(outcome) = outcome.filter(|outcome| !outcome.stop.exceeds()) else {
+        return (None, false);
+    };
     let known: Option<Vec<f64>> = outcome.utilisations(structure).into_iter().collect();
-    Some(match known {
+    let found = match known {
         Some(all) => all.into_iter().fold(0.0, f64::max),
         None => outcome.speed_m_s(),
-    })
+    };
+    (Some(found), outcome.stop.cuts_short())
 }

@@ -108,7 +108,7 @@ pub struct CriticalForce {
     pub exceeding: Vec<[f64; 2]>,
     /// All amplitudes at which neighbours disagree, as such intervals: the run passes its horizon
     /// of trust, and of [`NEIGHBOURS`] neighbours within rounding, or of those of an
-    /// [`crate::analysis::ExceedanceCurve`], some exceed and others do not.
+    /// [`crate::analysis::ExceedanceCurve`], some exceed and others do not or are cut short.
     pub uncertain: Vec<[f64; 2]>,
     /// All amplitudes whose run is cut short ([`Stop::cuts_short`]), as such intervals:
     /// whether they exceed is not known.

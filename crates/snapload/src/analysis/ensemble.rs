@@ -226,6 +226,11 @@ impl EnsembleEnds {
         self.share(Stop::exceeds)
     }
 
+    /// The share that is cut short, of which it is not known whether it would exceed.
+    pub fn cut_short(&self) -> Share {
+        self.share(Stop::cuts_short)
+    }
+
     fn share(&self, holds: impl Fn(Stop) -> bool) -> Share {
         let count = self.ends.iter().filter(|end| holds(**end)).count();
         Share {

@@ -27,16 +27,31 @@ pub struct Exceeding {
     /// How many of those that were run exceed; none where the run ends before its horizon of trust,
     /// as its end then holds for all neighbours and none is run.
     pub share: Option<Share>,
+    /// How many of those that were run are cut short, so that they might exceed, too.
+    pub members_cut_short: usize,
 }
 
 impl Exceeding {
-    /// The interval that contains the probability with 95 % confidence: `part` itself where no
-    /// neighbour is run, and all from 0 to 1 where the run is cut short, which tells nothing.
+    /// Whether the run or some of its neighbours are cut short ([`crate::Stop::cuts_short`]).
+    pub fn is_cut_short(self) -> bool {
+        self.end.reason.cuts_short() || self.members_cut_short > 0
+    }
+
+    /// The interval that contains the probability with 95 % confidence, whether or not neighbours
+    /// that are cut short would have exceeded: `part` itself where no neighbour is run, and all from
+    /// 0 to 1 where the run is cut short, which tells nothing.
     pub fn interval(self) -> [f64; 2] {
-        match self.end.reason.cuts_short() {
-            true => [0.0, 1.0],
-            false => self.share.map_or([self.part; 2], Share::interval),
-        }
+        let Some(share) = self.share.filter(|_| !self.end.reason.cuts_short()) else {
+            return match self.is_cut_short() {
+                true => [0.0, 1.0],
+                false => [self.part; 2],
+            };
+        };
+        let at_most = Share {
+            count: share.count + self.members_cut_short,
+            ..share
+        };
+        [share.interval()[0], at_most.interval()[1]]
     }
 }
 
@@ -76,7 +91,7 @@ impl ExceedanceCurve {
             f_o: point.f_o,
             end: point.end,
             certain: point.share.is_none(),
-            decided: point.part == share_of_all(point.end),
+            decided: point.members_cut_short == 0 && point.part == share_of_all(point.end),
         });
         CriticalForce::of(&ends.collect::<Vec<_>>())
     }
@@ -94,9 +109,12 @@ fn exceeding(
     on_progress: OnProgress,
 ) -> Result<Exceeding, Unfinished> {
     let (run, trust) = trusted_run(case, ensemble.uncertainty(), on_progress)?;
-    let share = match trust.decides_the_end() {
-        true => None,
-        false => Some(ensemble.tally(on_progress)?.exceeding()),
+    let (share, members_cut_short) = match trust.decides_the_end() {
+        true => (None, 0),
+        false => {
+            let ends = ensemble.tally(on_progress)?;
+            (Some(ends.exceeding()), ends.cut_short().count)
+        }
     };
     let end = *run.end();
     Ok(Exceeding {
@@ -104,6 +122,7 @@ fn exceeding(
         end,
         part: share.map_or(share_of_all(end), Share::part),
         share,
+        members_cut_short,
     })
 }
 

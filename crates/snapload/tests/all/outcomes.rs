@@ -130,6 +130,36 @@ fn runs_that_are_cut_short_decide_nothing() -> Result<(), Unfinished> {
     Ok(())
 }
 
+/// A run that settles after 300 impacts is not cut short by a limit of 301, but most of its
+/// neighbours are: it is not known how many of them exceed, and nothing is certain.
+#[test]
+fn neighbours_that_are_cut_short_may_exceed() -> Result<(), Unfinished> {
+    let own = Parameters {
+        f_o: 0.3,
+        max_impacts: 301,
+        ..Parameters::STANDARD
+    };
+    let uncertainty = Uncertainty::default();
+    assert_eq!(Case::new(own)?.run().end().reason, Stop::Settled);
+    let scan = ForceScan::new(0.3, 0.3)?;
+    let curve = ExceedanceCurve::scan(&own, scan, &uncertainty, 50, 1, &no_progress)?;
+    let [point] = curve.points[..] else {
+        panic!("{curve:?}");
+    };
+    let members = Ensemble::about(&Case::new(own)?, &uncertainty, 50, 1);
+    let ends = (0..50).map(|k| Ok(members.member(k)?.run().end().reason));
+    let ends: Vec<Stop> = ends.collect::<Result<_, CaseError>>()?;
+    let cut_short = ends.iter().filter(|end| end.cuts_short()).count();
+    assert!(cut_short > 0 && point.members_cut_short == cut_short);
+    let exceed = ends.iter().filter(|end| end.exceeds()).count();
+    let [low, high] = point.interval();
+    assert!(low <= exceed as f64 / 50.0);
+    assert!(high >= (exceed + cut_short) as f64 / 50.0);
+    let found = curve.critical_force();
+    assert!(!found.certain && found.uncertain == [[0.3, 0.3]]);
+    Ok(())
+}
+
 /// Only 200 members are run if they end in the same way, and all members otherwise.
 #[test]
 fn as_many_members_are_run_as_tell() -> Result<(), Unfinished> {
