@@ -228,12 +228,12 @@ def erosion(
     -------
     xarray.Dataset
         Variables over the third key: ``gim`` with its 95 % interval from ``low`` to ``high``; ``lim``, ``if`` and
-        ``iim`` as in :func:`snapload.safe_basin`; the numbers of cells that are ``legal``, ``safe`` and ``undecided``
-        (NaN without trust); and ``decided_fraction``, the safe fraction of the decided cells. The attribute ``knee``
+        ``iim`` as in :func:`snapload.safe_basin`; the numbers of cells that are ``legal``, ``safe``, ``undecided``
+        (NaN without trust) and ``cut_short``; and ``decided_fraction``, the safe fraction of the decided cells. The attribute ``knee``
         is the last value up to which that fraction never falls below nine tenths of its value at the first one; NaN
         if it never does. The attribute ``knee_between`` has the smallest and the largest possible ``knee``, whatever
         the ends of the undecided cells; NaN stands for one beyond the last value. Without trust all cells count as
-        decided, and ``knee_between`` is absent. ``knee_scale`` is the scale of the third key, if it has one.
+        decided that are not cut short, and ``knee_between`` is absent if none is. ``knee_scale`` is the scale of the third key, if it has one.
 
     Raises
     ------
@@ -288,7 +288,10 @@ def erosion(
 with_keys(erosion, defaults=False)
 
 #: The variables of an erosion.
-_EROSION_VARIABLES = ("gim", "low", "high", "lim", "if", "iim", "legal", "safe", "undecided", "decided_fraction")
+_EROSION_VARIABLES = (
+    *("gim", "low", "high", "lim", "if", "iim"),
+    *("legal", "safe", "undecided", "cut_short", "decided_fraction"),
+)
 
 _LONG_NAMES = {
     "outcome": "how the run ended",

@@ -223,9 +223,12 @@ fn points(erosion: &Erosion) -> Vec<(&'static str, Values)> {
     let maybe = |of: fn(&snapload_orbits::Measures) -> Option<f64>| {
         Values::Numbers(basins().map(of).collect())
     };
-    let count = |of: fn(&snapload_orbits::Measures) -> usize| {
-        Values::Counts(basins().map(|measures| Some(of(measures) as i64)).collect())
+    let counts = |of: &dyn Fn(&Basin) -> Option<usize>| {
+        let all = erosion.points.iter().map(|(_, basin)| of(basin));
+        Values::Counts(all.map(|count| count.map(|count| count as i64)).collect())
     };
+    let count =
+        |of: fn(&snapload_orbits::Measures) -> usize| counts(&|basin| Some(of(&basin.measures)));
     vec![
         (
             erosion.key,
@@ -233,10 +236,15 @@ fn points(erosion: &Erosion) -> Vec<(&'static str, Values)> {
         ),
         ("legal", count(|m| m.legal)),
         ("safe", count(|m| m.safe)),
-        ("undecided", count(|m| m.undecided)),
+        (
+            "undecided",
+            counts(&|basin| basin.neighbours_run.then_some(basin.measures.undecided)),
+        ),
+        ("cut_short", count(|m| m.cut_short)),
         ("gim", number(|m| m.gim)),
         ("low", number(|m| m.interval[0])),
         ("high", number(|m| m.interval[1])),
+        ("decided_fraction", maybe(|m| m.decided_part())),
         ("lim", maybe(|m| m.lim)),
         ("if", maybe(|m| m.integrity_factor)),
         (

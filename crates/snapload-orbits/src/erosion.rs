@@ -63,30 +63,36 @@ impl Erosion {
         self.points.iter().all(|(_, basin)| basin.neighbours_run)
     }
 
+    /// Whether any run is cut short, so that its cell is undecided without neighbours, too.
+    pub(crate) fn is_cut_short(&self) -> bool {
+        let cut_short = |(_, basin): &(f64, Basin)| basin.measures.cut_short > 0;
+        self.points.iter().any(cut_short)
+    }
+
     /// The last value up to which the safe part of the decided cells does not fall below nine
     /// tenths of that at the first value; none if it never falls below.
     ///
     /// Undecided cells are left out, as their ends carry no information: for symmetric starts they
     /// are many, and all at one value. A value without decided cells is skipped. If neighbours were
-    /// not computed, all cells count as decided.
+    /// not computed, all cells count as decided whose runs are not cut short.
     pub fn knee(&self) -> Option<f64> {
-        self.knee_of(|m| decided_part(m).map(|part| [part; 2]))
+        self.knee_of(|m| m.decided_part().map(|part| [part; 2]))
     }
 
     /// The values that have decided cells, each with the safe part of these.
     pub fn decided(&self) -> Vec<(f64, f64)> {
-        let part = |(value, basin): &(f64, Basin)| Some((*value, decided_part(&basin.measures)?));
+        let part = |(value, basin): &(f64, Basin)| Some((*value, basin.measures.decided_part()?));
         self.points.iter().filter_map(part).collect()
     }
 
     /// The least and the greatest value that the knee can have, for all possible ends of the
     /// undecided cells; each is none if there is no knee then. None at all if neighbours were not
-    /// computed.
+    /// computed and no run is cut short, so that none are known.
     pub fn knee_between(&self) -> Option<[Option<f64>; 2]> {
         let part = |cells: usize, m: &Measures| cells as f64 / m.legal as f64;
         let low = |m: &Measures| part(m.safe - m.undecided_safe, m);
         let high = |m: &Measures| part(m.safe + m.undecided - m.undecided_safe, m);
-        self.neighbours_run().then(|| {
+        (self.neighbours_run() || self.is_cut_short()).then(|| {
             [
                 self.knee_of(|m| (m.legal > 0).then(|| [high(m), low(m)])),
                 self.knee_of(|m| (m.legal > 0).then(|| [low(m), high(m)])),
@@ -108,12 +114,6 @@ impl Erosion {
         }
         None
     }
-}
-
-/// The safe part of the decided cells, if there are any.
-pub(crate) fn decided_part(m: &Measures) -> Option<f64> {
-    let part = (m.safe - m.undecided_safe) as f64 / (m.legal - m.undecided) as f64;
-    (m.legal > m.undecided).then_some(part)
 }
 
 #[cfg(test)]

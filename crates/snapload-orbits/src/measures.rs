@@ -84,6 +84,12 @@ impl Measures {
         }
     }
 
+    /// The safe part of the decided cells, if there are any.
+    pub fn decided_part(&self) -> Option<f64> {
+        let part = (self.safe - self.undecided_safe) as f64 / (self.legal - self.undecided) as f64;
+        (self.legal > self.undecided).then_some(part)
+    }
+
     /// The same with distances, in a plane of starts.
     fn with_distances(mut self, window: &Window, framed: &Framed) -> Self {
         let [disc, within_unsafe] = [true, false].map(|known| framed.largest_disc(known));

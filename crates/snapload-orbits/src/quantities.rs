@@ -14,7 +14,7 @@ const fn of(name: &'static str, unit: &'static str, meaning: &'static str) -> Qu
 /// All of them except those whose unit depends on the keys that vary: `lim`, `if` and `iim` of a
 /// basin, its cell, and the knee of an erosion.
 #[rustfmt::skip] // one row a quantity
-pub const QUANTITIES: [Quantity; 22] = [
+pub const QUANTITIES: [Quantity; 23] = [
     of("phase", "", "phase of the forcing, in periods"),
     of("period", "", "period of the motion, in periods of the forcing"),
     of("snaps", "", "snaps per period of the forcing"),
@@ -28,6 +28,7 @@ pub const QUANTITIES: [Quantity; 22] = [
     of("legal", "", "legal cells"),
     of("safe", "", "safe cells"),
     of("undecided", "", "undecided cells"),
+    of("cut_short", "", "cells whose run is cut short"),
     of("past_horizon", "", "cells whose horizon of trust comes before their end"),
     of("decided_fraction", "", "safe part of the decided cells"),
     of("fractions", "", "part of the legal cells that reaches each attractor"),

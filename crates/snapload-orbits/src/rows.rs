@@ -3,7 +3,7 @@
 use crate::attraction::{Attraction, CellOutcome};
 use crate::basin::Basin;
 use crate::diagram::DiagramPoint;
-use crate::erosion::{Erosion, decided_part};
+use crate::erosion::Erosion;
 use crate::hybrid::Point;
 use crate::impact_map::ImpactPoint;
 use crate::orbit_row::OrbitRow;
@@ -191,7 +191,7 @@ pub struct ErosionRow {
     over: &'static str,
     knee: Option<f64>,
     /// The range of the knee for all possible ends of the undecided cells; none if neighbours were
-    /// not computed.
+    /// not computed and no run is cut short.
     knee_between: Option<[Option<f64>; 2]>,
     points: Vec<ErosionPoint>,
 }
@@ -210,7 +210,7 @@ impl ErosionRow {
     pub fn new(erosion: &Erosion) -> Self {
         let point = |(value, basin): &(f64, Basin)| ErosionPoint {
             value: *value,
-            decided_fraction: decided_part(&basin.measures),
+            decided_fraction: basin.measures.decided_part(),
             basin: BasinRow::new(basin),
         };
         Self {

@@ -2,7 +2,7 @@
 
 use crate::basin::Basin;
 use crate::diagram::DiagramPoint;
-use crate::erosion::{Erosion, KNEE, decided_part};
+use crate::erosion::{Erosion, KNEE};
 use crate::orbit::Orbit;
 use crate::section::Section;
 use crate::sequence::Sequence;
@@ -332,7 +332,8 @@ pub fn erosion_summary(erosion: &Erosion) -> String {
             true => m.undecided.to_string(),
             false => "-".to_owned(),
         };
-        let decided = maybe(decided_part(m).filter(|_| basin.neighbours_run));
+        let some = basin.neighbours_run || m.cut_short > 0;
+        let decided = maybe(m.decided_part().filter(|_| some));
         let value = six_digits(*value);
         let _ = writeln!(
             text,
@@ -396,9 +397,13 @@ fn knee_text(erosion: &Erosion) -> String {
     {
         return format!("none, as no start is legal at any value: {NO_START}");
     }
-    let (cell, safe) = match erosion.neighbours_run() {
-        true => ("decided cell", "safe part of the decided cells"),
-        false => ("legal cell", "safe part"),
+    let (cell, safe) = match (erosion.neighbours_run(), erosion.is_cut_short()) {
+        (true, _) => ("decided cell", "safe part of the decided cells"),
+        (false, true) => (
+            "cell run to its end",
+            "safe part of the cells run to their end",
+        ),
+        (false, false) => ("legal cell", "safe part"),
     };
     let knee = erosion.knee();
     let text = match (knee, erosion.decided().as_slice()) {

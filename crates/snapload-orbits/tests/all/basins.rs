@@ -193,6 +193,47 @@ fn the_equilibrium_itself_may_be_cut_short() {
     assert_eq!((cut.measures.lim, cut.iim()), (None, None));
 }
 
+/// Without neighbours, too, the knee is that of the runs that are not cut short, and says so; whatever
+/// the others do, it lies in a range that holds the one without that limit.
+#[test]
+fn the_knee_of_runs_that_are_cut_short_has_a_range() {
+    let eroded = |max_impacts| {
+        let window = Window {
+            base: Parameters {
+                max_impacts,
+                ..Parameters::STANDARD
+            },
+            keys: ["x", "y"],
+            values: [
+                (-4..=4).map(|k| f64::from(k) * 0.05).collect(),
+                (1..=8).map(|k| f64::from(k) * 0.05).collect(),
+            ],
+        };
+        let forces: Vec<f64> = (1..=6).map(|k| f64::from(k) * 0.1).collect();
+        Erosion::of(&window, "f_o", &forces, false, &no_progress).unwrap()
+    };
+    let (whole, cut) = (eroded(1_000_000), eroded(200));
+    assert_eq!(whole.knee_between(), None);
+    let knee = whole.knee().unwrap();
+    let [low, high] = cut.knee_between().unwrap();
+    assert!(low.is_some_and(|low| low <= knee), "{low:?}");
+    assert!(high.is_none_or(|high| high >= knee), "{high:?}");
+    let words = erosion_summary(&cut);
+    assert!(
+        words.contains("safe part of the cells run to their end"),
+        "{words}"
+    );
+    assert!(
+        words.contains("depending on how undecided cells end"),
+        "{words}"
+    );
+    let words = erosion_summary(&whole);
+    assert!(
+        words.contains("up to which the safe part is at least"),
+        "{words}"
+    );
+}
+
 /// Keys that an erosion can not vary are refused, as those of the window are.
 #[test]
 fn an_erosion_is_over_a_number_of_the_body() {
