@@ -110,14 +110,14 @@ impl StudyPicture {
             }
         })?;
         let words = self.column.words().into_iter();
-        let map = Map {
+        let map = rising(Map {
             x: of_x.values,
             y: of_y.values,
             cells,
             value_label: self.label(),
             classes: words.map(|word| word.replace('_', " ")).collect(),
             uncertain,
-        };
+        });
         Ok(Plot {
             description: format!("{} over {} and {}", self.column.name, x.key(), y.key()),
             x: PlotAxis::new(key_label(x.key()), Range::Auto),
@@ -178,6 +178,28 @@ impl Thinned {
     }
 }
 
+/// A map with the values of its axes in rising order: the keys may be given in any.
+fn rising(map: Map) -> Map {
+    let order = |along: &[f64]| {
+        let mut order: Vec<usize> = (0..along.len()).collect();
+        order.sort_by(|a, b| along[*a].total_cmp(&along[*b]));
+        order
+    };
+    let [of_x, of_y] = [order(&map.x), order(&map.y)];
+    let rows = map.y.len();
+    let places = || {
+        of_x.iter()
+            .flat_map(|i| of_y.iter().map(move |j| i * rows + j))
+    };
+    Map {
+        x: of_x.iter().map(|i| map.x[*i]).collect(),
+        y: of_y.iter().map(|j| map.y[*j]).collect(),
+        cells: places().map(|k| map.cells[k]).collect(),
+        uncertain: places().map(|k| map.uncertain[k]).collect(),
+        ..map
+    }
+}
+
 /// The layers of a line over one key, from its values, each with its cell and whether that is
 /// uncertain. The key may be given in any order; a value that is not certain has a grey circle.
 fn line_layers(mut row: Vec<(f64, (Cell, bool))>) -> Vec<Layer> {
@@ -228,7 +250,7 @@ pub fn with_unit(symbol: &str, unit: &str) -> String {
 
 #[cfg(test)]
 mod tests {
-    use super::{Cell, Layer, line_layers};
+    use super::{Cell, Layer, Map, line_layers, rising};
 
     /// Values that are not certain have a circle each and the words of maps; of cells without a
     /// value there is none. Values in another order than that of the axis make the same line.
@@ -252,5 +274,32 @@ mod tests {
         assert_eq!(words, "not certain");
         let layers = line_layers(vec![value(0.5, false), value(0.6, false)]);
         assert!(matches!(&layers[..], [Layer::Line(..)]));
+    }
+
+    /// Each cell keeps its two values, its contents and its hatching, in whatever order the keys
+    /// are given.
+    #[test]
+    fn a_map_is_drawn_in_the_order_of_its_axes() {
+        let (x, y) = ([0.3, 0.1, 0.5], [2.0, 1.0]);
+        let pairs: Vec<_> = x.iter().flat_map(|x| y.map(|y| (*x, y))).collect();
+        let content = |(x, y): &(f64, f64)| (Cell::Value(10.0 * x + y), *x > 0.2 && *y > 1.5);
+        let map = rising(Map {
+            x: x.to_vec(),
+            y: y.to_vec(),
+            cells: pairs.iter().map(|pair| content(pair).0).collect(),
+            uncertain: pairs.iter().map(|pair| content(pair).1).collect(),
+            ..Map::default()
+        });
+        assert_eq!(
+            (&map.x[..], &map.y[..]),
+            (&[0.1, 0.3, 0.5][..], &[1.0, 2.0][..])
+        );
+        let mut k = 0;
+        for x in &map.x {
+            for y in &map.y {
+                assert_eq!((map.cells[k], map.uncertain[k]), content(&(*x, *y)));
+                k += 1;
+            }
+        }
     }
 }
