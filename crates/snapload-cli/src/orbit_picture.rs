@@ -198,12 +198,37 @@ const STROKES: [Stroke; 4] = [
 ];
 
 fn sort(drawn: &Drawn) -> usize {
-    match drawn.stability {
-        _ if !drawn.orbit.is_admissible() => 3,
+    sort_of(drawn.stability, drawn.orbit.is_admissible())
+}
+
+fn sort_of(stability: Stability, is_admissible: bool) -> usize {
+    match stability {
+        _ if !is_admissible => 3,
         Stability::Stable | Stability::Superstable => 0,
         Stability::Neutral => 1,
         Stability::Unstable => 2,
     }
+}
+
+/// The sort of the orbits from one point of a branch to the next one, `all[k]` and `all[k + 1]`. A
+/// special point is at the border of two sorts: then the other point has it. Between two special
+/// points an orbit has what changes at neither: whether it is admissible does not change at a
+/// bifurcation, and its stability only there. What changes at both is that of the nearest other
+/// point.
+fn sort_between(all: &[Drawn], k: usize) -> usize {
+    let pair = || [&all[k + 1], &all[k]].into_iter();
+    let is_regular = |drawn: &&Drawn| drawn.event.is_none();
+    if let Some(regular) = pair().find(is_regular) {
+        return sort(regular);
+    }
+    let beyond = all[k + 1..].iter().find(is_regular);
+    let nearest = beyond.or(all[..k].iter().rfind(is_regular));
+    let nearest = nearest.unwrap_or(&all[k]);
+    let bifurcates = |drawn: &&Drawn| drawn.event.is_some_and(BranchEvent::is_bifurcation);
+    let keeps = |drawn: &&Drawn| !bifurcates(drawn) || drawn.stability == Stability::Unstable;
+    let stability = pair().find(keeps).unwrap_or(nearest).stability;
+    let admissible = pair().find(bifurcates).unwrap_or(nearest);
+    sort_of(stability, admissible.orbit.is_admissible())
 }
 
 /// A branch as a line, which is broken where `jumps` and changes with the sort of orbit, and its
@@ -211,11 +236,8 @@ fn sort(drawn: &Drawn) -> usize {
 pub(crate) fn branch_layers(all: &[Drawn], jumps: bool, words: [&str; 4]) -> Vec<Layer> {
     let mut pieces: [Vec<Vec<Point>>; 4] = Default::default();
     let mut last = None;
-    for pair in all.windows(2) {
-        let [from, to] = [&pair[0], &pair[1]];
-        // A special point is at the border of two sorts.
-        let regular = [to, from].into_iter().find(|drawn| drawn.event.is_none());
-        let other = regular.map_or(last.unwrap_or(3), sort);
+    for (k, [from, to]) in all.array_windows().enumerate() {
+        let other = sort_between(all, k);
         let symbols = [from, to].map(|drawn| drawn.orbit.lap.sequence.symbol());
         if jumps && symbols[0] != symbols[1] {
             last = None;

@@ -118,7 +118,7 @@ impl BranchEvent {
     }
 
     /// Whether a multiplier is on the unit circle there.
-    pub(crate) fn is_bifurcation(&self) -> bool {
+    pub fn is_bifurcation(&self) -> bool {
         matches!(
             self.kind,
             Kind::Fold | Kind::PeriodDoubling | Kind::NeimarkSacker | Kind::BranchPoint

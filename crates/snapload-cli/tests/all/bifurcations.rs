@@ -269,6 +269,32 @@ fn sections_and_branches_are_drawn() {
         .stderr(contains(".svg or .png"));
 }
 
+/// Between two special points there may be no point of the branch; the picture has the sorts of
+/// orbits that a branch in short steps has, which all can be motions.
+#[test]
+fn what_is_between_two_special_points_is_drawn_as_it_is() {
+    for (range, step) in [("e=0.1:0.6", "0.01"), ("f_o=0.9:1.9", "0.05")] {
+        let d = directory();
+        let run = |step: &str| {
+            let files = format!("--step {step} --plot {step}.svg --out {step}.csv");
+            let mut command = snapload(d.path());
+            command.arg("branch").args(&VOLLEY[..VOLLEY.len() - 1]);
+            let args = command.args(["--along", range]).args(files.split(' '));
+            args.assert().success();
+            let read = |name| std::fs::read_to_string(d.path().join(name)).unwrap();
+            (read(format!("{step}.svg")), read(format!("{step}.csv")))
+        };
+        let (picture, _) = run(step);
+        let (_, table) = run("0.002");
+        assert!(!table.contains(",false"));
+        for (sort, rows) in [("stable", ",stable,"), ("unstable", ",unstable,")] {
+            let drawn = picture.contains(&format!(">{sort}<"));
+            assert_eq!(drawn, table.contains(rows), "{range} {sort}");
+        }
+        assert!(!picture.contains(">not admissible<"), "{range}");
+    }
+}
+
 /// The legend of a basin's map names the ends that its table has, and no others; cells whose runs
 /// are cut short are hatched, and cells beyond the length of a cable are no legal cases.
 #[test]
