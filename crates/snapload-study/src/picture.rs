@@ -130,10 +130,8 @@ impl StudyPicture {
     /// Visits the cells in their order, each with whether it is uncertain.
     fn read(&self, file: &Path, mut visit: impl FnMut(u64, Cell, bool)) -> Result<(), StudyError> {
         let words = self.column.words();
-        // The end of trust itself is not uncertain beyond the horizon.
-        let of_trust = ["certain", "horizon_t", "horizon_impact"];
-        let of_motion = !of_trust.contains(&self.column.name);
-        read_shown(file, self.column, |row, shown, uncertain| {
+        let column = self.column.name;
+        read_shown(file, self.column, |row, shown, horizon| {
             let cell = match shown {
                 ShownValue::Number(value) => Cell::Value(value),
                 ShownValue::Word(word) => {
@@ -143,12 +141,23 @@ impl StudyPicture {
                 ShownValue::Nothing => Cell::Empty,
                 ShownValue::Fault => Cell::Illegal,
             };
-            visit(row, cell, uncertain && of_motion);
+            visit(row, cell, is_uncertain(column, horizon));
         })
     }
 
     fn label(&self) -> String {
         with_unit(self.column.symbol, self.column.unit)
+    }
+}
+
+/// Whether a column's value of a run is uncertain, given the number of the impact at which trust in
+/// the run ends, if it ends before the run does. The first impact is known if it is before that one,
+/// and the end of trust itself is known.
+fn is_uncertain(column: &str, horizon: Option<i64>) -> bool {
+    match column {
+        "first_t" | "first_cable" | "first_v_n" => horizon.is_some_and(|impact| impact <= 1),
+        "certain" | "horizon_t" | "horizon_impact" => false,
+        _ => horizon.is_some(),
     }
 }
 
@@ -250,7 +259,7 @@ pub fn with_unit(symbol: &str, unit: &str) -> String {
 
 #[cfg(test)]
 mod tests {
-    use super::{Cell, Layer, Map, line_layers, rising};
+    use super::{Cell, Layer, Map, is_uncertain, line_layers, rising};
 
     /// Values that are not certain have a circle each and the words of maps; of cells without a
     /// value there is none. Values in another order than that of the axis make the same line.
@@ -301,5 +310,20 @@ mod tests {
                 k += 1;
             }
         }
+    }
+
+    /// Trust that ends at a later impact leaves the first one known; what is counted or measured to
+    /// the end of the run is not known then.
+    #[test]
+    fn the_first_impact_is_uncertain_only_where_trust_ends_at_it() {
+        for first in ["first_t", "first_cable", "first_v_n"] {
+            assert!(is_uncertain(first, Some(1)), "{first}");
+            assert!(!is_uncertain(first, Some(2)), "{first}");
+        }
+        for column in crate::columns() {
+            assert!(!is_uncertain(column.name, None), "{}", column.name);
+        }
+        assert!(is_uncertain("end", Some(150)) && is_uncertain("rho1", Some(2)));
+        assert!(!is_uncertain("horizon_t", Some(1)));
     }
 }

@@ -299,19 +299,19 @@ pub enum ShownValue<'a> {
 }
 
 /// Passes the values of one column of a file, row by row from its first one, which is number 0, and
-/// whether trust in the run ends before the run does.
+/// the number of the impact at which trust in the run ends, if it ends before the run does.
 ///
 /// # Errors
 /// [`StudyError::Damaged`] if it can not be read.
 pub fn read_shown(
     path: &Path,
     column: &Column,
-    mut visit: impl FnMut(u64, ShownValue, bool),
+    mut visit: impl FnMut(u64, ShownValue, Option<i64>),
 ) -> Result<(), StudyError> {
     let mut row = 0;
-    let columns = Columns::named(path, &[column.name, "error", "certain"])?;
+    let columns = Columns::named(path, &[column.name, "error", "horizon_impact"])?;
     columns.each(|columns| {
-        let [values, Values::Words(errors), Values::Flags(certain)] = &columns[..] else {
+        let [values, Values::Words(errors), Values::Counts(horizons)] = &columns[..] else {
             return;
         };
         for (k, error) in errors.iter().enumerate() {
@@ -324,8 +324,7 @@ pub fn read_shown(
                 }
                 Values::Words(list) => list[k].as_deref().map(ShownValue::Word),
             };
-            let doubtful = certain[k] == Some(false);
-            visit(row, shown.unwrap_or(ShownValue::Nothing), doubtful);
+            visit(row, shown.unwrap_or(ShownValue::Nothing), horizons[k]);
             row += 1;
         }
     })
