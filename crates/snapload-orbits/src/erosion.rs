@@ -11,7 +11,7 @@ use snapload::{CaseError, Value};
 pub struct Erosion {
     /// The key.
     pub key: &'static str,
-    /// Its values, each with its basin.
+    /// Its values from the smallest to the largest, each with its basin.
     pub points: Vec<(f64, Basin)>,
 }
 
@@ -19,7 +19,7 @@ pub struct Erosion {
 pub const KNEE: f64 = 0.9;
 
 impl Erosion {
-    /// Runs the window at each value.
+    /// Runs the window at each value, from the smallest to the largest.
     ///
     /// # Errors
     /// As for [`Basin::of`].
@@ -35,6 +35,9 @@ impl Erosion {
             return Err(error.into());
         }
         check_varies("over", &window.base, key)?;
+        // The knee is where the safe part falls as the key rises, however its values are given.
+        let mut values = values.to_vec();
+        values.sort_by(f64::total_cmp);
         let mut points = Vec::with_capacity(values.len());
         for (done, value) in values.iter().enumerate() {
             let base = window
@@ -120,6 +123,7 @@ impl Erosion {
 mod tests {
     use super::*;
     use snapload::Parameters;
+    use snapload::analysis::no_progress;
 
     /// Basins of a hundred legal cells, given the numbers of safe, of undecided, and of undecided
     /// safe ones.
@@ -152,6 +156,30 @@ mod tests {
         Erosion {
             key: "f_o",
             points: points.collect(),
+        }
+    }
+
+    /// The knee and the rows are those of the values, in whatever order these are given.
+    #[test]
+    fn the_order_of_the_values_does_not_matter() {
+        let window = Window {
+            base: Parameters {
+                t_end: 20.0,
+                ..Parameters::STANDARD
+            },
+            keys: ["x", "y"],
+            values: [vec![-0.2, 0.0, 0.2], vec![0.1, 0.3, 0.5]],
+        };
+        let text = |values: &[f64]| {
+            let over = Erosion::of(&window, "f_o", values, false, &no_progress).unwrap();
+            let given: Vec<f64> = over.points.iter().map(|(value, _)| *value).collect();
+            assert_eq!(given, [0.0, 0.2, 0.4, 0.6, 0.8]);
+            (over.knee(), crate::erosion_summary(&over))
+        };
+        let rising = text(&[0.0, 0.2, 0.4, 0.6, 0.8]);
+        assert!(rising.0.is_some(), "{}", rising.1);
+        for given in [[0.8, 0.6, 0.4, 0.2, 0.0], [0.4, 0.0, 0.8, 0.6, 0.2]] {
+            assert_eq!(text(&given), rising);
         }
     }
 
