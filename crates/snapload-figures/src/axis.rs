@@ -38,6 +38,19 @@ fn narrow((lo, hi): Span) -> bool {
     hi - lo <= 1e-10 * lo.abs().max(hi.abs()) || hi - lo < 1e-100
 }
 
+/// Whether the data are all one value.
+pub(crate) fn is_constant(data: impl Iterator<Item = f64>) -> bool {
+    let seen = data.map(|v| (v, v)).reduce(union);
+    seen.is_none_or(narrow)
+}
+
+/// The interval with the width of another one, on an axis of the same scale.
+pub(crate) fn as_wide((lo, hi): Span, other: Span) -> Span {
+    let (middle, half) = (lo + (hi - lo) / 2.0, (other.1 - other.0) / 2.0);
+    let wide = (middle - half, middle + half);
+    if narrow(wide) { (lo, hi) } else { wide }
+}
+
 /// The interval of the data with a small margin at its ends, which does not extend across zero.
 fn with_air((lo, hi): Span) -> Span {
     if narrow((lo, hi)) {

@@ -1,13 +1,13 @@
 //! The page: panels below each other, with their axes, legends and titles.
 
 use crate::area::Area;
-use crate::axis::{Span, Ticks, resolve, ticks, union};
+use crate::axis::{Span, Ticks, as_wide, is_constant, resolve, ticks, union};
 use crate::error::FigureError;
 use crate::layers::draw_layers;
 use crate::legend::Legend;
 use crate::map::{BAR_GAP, Bar, has_uncertain, range};
 use crate::picture::Picture;
-use crate::plot::{self, Axis, Inset, Layer, Plot, Width, drawable};
+use crate::plot::{self, Axis, Inset, Layer, Plot, Range, Width, drawable};
 use crate::svg::{Anchor, FRAME, SvgCanvas};
 use crate::text::{
     CAP_HEIGHT, LABEL, NAME_GAP, ROW, SMALL, TICK, TICK_GAP, fitted, plain, widest, width,
@@ -120,7 +120,7 @@ fn lay_out(page: Width, panels: &[Plot]) -> Vec<Area> {
 
 /// The ranges of a plot: those of its map, or those of its axes. Without data they include the
 /// boundaries.
-fn ranges(plot: &Plot) -> Area {
+pub(crate) fn ranges(plot: &Plot) -> Area {
     let mut shown: Vec<plot::Point> = plot.data().collect();
     if shown.is_empty() {
         let boundaries = plot.layers.iter().filter_map(|layer| match layer {
@@ -133,7 +133,15 @@ fn ranges(plot: &Plot) -> Area {
         Some(map) => [range(&map.x), range(&map.y)],
         None => [plot.x.range, plot.y.range],
     };
-    let [x, y] = [0, 1].map(|k| resolve(requested[k], shown.iter().map(|point| point[k])));
+    let along = |k: usize| shown.iter().map(move |point| point[k]);
+    let [mut x, mut y] = [0, 1].map(|k| resolve(requested[k], along(k)));
+    if plot.equal_scale {
+        match [0, 1].map(|k| requested[k] == Range::Auto && is_constant(along(k))) {
+            [true, false] => x = as_wide(x, y),
+            [false, true] => y = as_wide(y, x),
+            _ => {}
+        }
+    }
     Area {
         rect: Rect::ZERO,
         x,

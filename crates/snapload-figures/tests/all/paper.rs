@@ -355,6 +355,26 @@ fn a_range_is_never_empty() {
     );
 }
 
+/// On equal scales a line along one axis fills its frame but for the margin of 4 % at each end,
+/// however short it is.
+#[test]
+fn a_line_along_an_axis_is_seen_on_equal_scales() {
+    for length in [0.1, 1e-7] {
+        for (end, across) in [([0.0, length], 1), ([length, 0.0], 0)] {
+            let line = vec![vec![[0.0, 0.0], end]];
+            let layers = vec![Layer::Line(line, Stroke::default(), String::new())];
+            let paper = Paper::of(Plot {
+                layers,
+                equal_scale: true,
+                ..Plot::default()
+            });
+            let ends: Vec<f64> = paper.line[0].iter().map(|point| point[across]).collect();
+            let part = (ends[ends.len() - 1] - ends[0]).abs() / paper.frame[2 + across];
+            assert!(part > 1.0 / 1.08 - 1e-3, "{part} {end:?}");
+        }
+    }
+}
+
 proptest! {
     #![proptest_config(ProptestConfig::with_cases(64))]
     #[test]
