@@ -1,10 +1,12 @@
 //! The plots of a run: which quantities of the motion are in each.
 
-use crate::draw::draw;
+use crate::area::Area;
+use crate::draw::{draw, ranges};
 use crate::error::FigureError;
 use crate::figures::{self, Mode, PathPart};
 use crate::picture::Picture;
-use crate::plot::{Axis, Inset, Mark, Plot, Point, Range, Width};
+use crate::plot::{Inset, Mark, Plot, Point, Range, Width};
+use kurbo::Rect;
 use snapload::{ModeInterval, Motion, Playback, TautSet, Trajectory, Vector2};
 
 /// Longest time step between two drawn points, if a run has at most [`MOST_STEPS`] of them.
@@ -12,6 +14,16 @@ const STEP: f64 = 0.01;
 const MOST_STEPS: f64 = 20_000.0;
 /// Shorter pieces than this are not visible.
 const SHORTEST: f64 = 2e-3;
+
+/// Where the inset of the whole run may be in the picture of snaps, the best place first.
+const INSET_PLACES: [[f64; 4]; 6] = [
+    [0.6, 0.5, 0.99, 0.98],
+    [0.3, 0.5, 0.69, 0.98],
+    [0.01, 0.5, 0.4, 0.98],
+    [0.6, 0.02, 0.99, 0.5],
+    [0.3, 0.02, 0.69, 0.5],
+    [0.01, 0.02, 0.4, 0.5],
+];
 
 /// The plots of a run.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -127,22 +139,24 @@ impl<'a> RunPlots<'a> {
     }
 
     /// Snap velocities over the time with snaps, with the whole run as an inset, if it continues
-    /// without any for more than half of its time.
+    /// without any for more than half of its time and there is a place for the inset.
     fn windowed(&self, whole: Plot) -> Plot {
         let last = self.run.impacts().iter().rfind(|impact| impact.v_n > 0.0);
-        match last.map(|impact| impact.t) {
-            Some(last) if last > 0.0 && last < 0.5 * self.run.end().t => Plot {
-                x: Axis {
-                    range: Range::Fixed(0.0, 1.05 * last),
-                    ..whole.x.clone()
-                },
-                inset: Some(Box::new(Inset {
-                    place: [0.6, 0.5, 0.99, 0.98],
-                    plot: whole.clone(),
-                })),
-                ..whole
+        let last = last.map_or(0.0, |impact| impact.t);
+        if last <= 0.0 || last >= 0.5 * self.run.end().t {
+            return whole;
+        }
+        let mut part = whole.clone();
+        part.x.range = Range::Fixed(0.0, 1.05 * last);
+        match INSET_PLACES
+            .into_iter()
+            .find(|place| is_free(&part, *place))
+        {
+            Some(place) => Plot {
+                inset: Some(Box::new(Inset { place, plot: whole })),
+                ..part
             },
-            _ => whole,
+            None => whole,
         }
     }
 
@@ -218,6 +232,19 @@ impl<'a> RunPlots<'a> {
         let mark = |(letter, t): (&str, Option<f64>)| Some(Mark::new(letter, place(&run.at(t?))));
         letters.into_iter().filter_map(mark).collect()
     }
+}
+
+/// Whether a part of the frame of a plot, as of [`Inset::place`], is free of its data.
+fn is_free(plot: &Plot, [left, bottom, right, top]: [f64; 4]) -> bool {
+    /// The distance that markers have from it.
+    const APART: f64 = 0.02;
+    let rect = Rect::new(0.0, 0.0, 1.0, 1.0);
+    let area = Area {
+        rect,
+        ..ranges(plot)
+    };
+    let place = Rect::new(left, 1.0 - top, right, 1.0 - bottom).inflate(APART, APART);
+    !plot.data().any(|point| place.contains(area.to_page(point)))
 }
 
 /// A point for each time of some segments.

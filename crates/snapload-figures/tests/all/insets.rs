@@ -1,7 +1,7 @@
 //! A plot within a plot: an enlarged part, or the whole of which the plot shows a part.
 
 use crate::pictures::picture;
-use snapload::{Case, CaseError, named_case};
+use snapload::{Case, CaseError, Parameters, named_case};
 use snapload_figures::{Axis, Colour, Inset, Layer, Plot, Range, RunPlot, RunPlots, Shape, Stroke};
 
 /// A line from the origin to a point.
@@ -89,5 +89,47 @@ fn snaps_are_shown_where_they_are() -> Result<(), CaseError> {
     assert!(matches!(quiet.x.range, Range::Fixed(0.0, end) if end < 10.0));
     assert_eq!(inset.plot.x.range, Range::AtLeast(0.0, 100.0));
     assert!(plot("1910001000-359")?.inset.is_none());
+    Ok(())
+}
+
+/// A run with its few snaps in a small part of its time: the inset covers none of them, as every
+/// marker of the part that is shown is outside of its place.
+#[test]
+fn an_inset_covers_no_snap() -> Result<(), CaseError> {
+    for given in [
+        Parameters {
+            vx: 50.0,
+            t_end: 1.0,
+            ..Parameters::STANDARD
+        },
+        Parameters {
+            e: 0.0,
+            f_o: 0.2,
+            t_end: 400.0,
+            stop_when_settled: false,
+            ..Parameters::STANDARD
+        },
+        named_case("rocking-example")?.parameters,
+    ] {
+        let run = Case::new(given)?.run();
+        let plot = RunPlots::new(&run).plot(RunPlot::Snaps);
+        let [left, bottom, right, top] = plot.inset.expect("an inset").place;
+        let Range::Fixed(0.0, end) = plot.x.range else {
+            panic!("{:?}", plot.x.range);
+        };
+        let snaps = run.impacts().iter().filter(|impact| impact.v_n > 0.0);
+        let snaps: Vec<_> = snaps.map(|impact| (impact.t, impact.v_n)).collect();
+        let highest = snaps.iter().map(|snap| snap.1).fold(0.0, f64::max);
+        assert!(!snaps.is_empty());
+        for (t, v_n) in snaps {
+            // The axis ends between the highest snap and a tenth above it.
+            let [along, low, high] = [t / end, v_n / (1.1 * highest), v_n / highest];
+            let beside = along < left || along > right;
+            assert!(
+                beside || high < bottom || low > top,
+                "{t} {v_n} {left} {bottom}"
+            );
+        }
+    }
     Ok(())
 }
