@@ -132,7 +132,7 @@ pub fn tensions(cables: [&[Vec<Point>]; 2], horizon: Option<f64>) -> Plot {
         horizon,
         lines.map(line).collect(),
     );
-    noted_if_empty(plot, "no cable stayed taut")
+    noted_if_empty(plot, "no interval with a taut cable")
 }
 
 /// The energy against time; a snap is two points at one time. For `horizon` see [`rotation`].

@@ -150,7 +150,10 @@ fn every_figure_contains_its_labels() {
 
 #[test]
 fn empty_figures_have_a_note() {
-    assert_contains_texts(tensions([&[], &[]], None), &["no cable stayed taut"]);
+    assert_contains_texts(
+        tensions([&[], &[]], None),
+        &["no interval with a taut cable"],
+    );
     assert_contains_texts(
         snap_velocities([&[], &[]], Some(1.0)),
         &["no cable snapped taut"],
