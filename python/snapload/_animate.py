@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 import json
+import math
 from functools import cached_property
 from importlib import resources
+from io import BytesIO
 from os import PathLike, fspath
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -13,6 +15,7 @@ from uuid import uuid4
 import numpy as np
 from matplotlib import animation, pyplot
 from matplotlib.patches import Polygon
+from PIL import Image
 
 from ._arguments import whole_number
 from ._plot import axis_label, cable_styles, curve_times
@@ -24,6 +27,7 @@ if TYPE_CHECKING:
     from matplotlib.artist import Artist
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
+    from numpy.typing import NDArray
 
     from ._run_base import BaseRun
 
@@ -32,6 +36,15 @@ _MAX_FRAMES = 5000
 
 #: The writer of Matplotlib for each file extension.
 _WRITERS = {".gif": "pillow", ".mp4": "ffmpeg", ".html": "html"}
+
+#: The most pictures per second of a GIF; browsers slow down those with more.
+_MAX_GIF_FPS = 50
+
+#: How long a snap, which has no duration, is shown [s].
+_AFTERGLOW_S = 0.45
+
+#: The colour of a snap, which is that of no cable.
+_SNAP_COLOUR = "#A1121F"
 
 
 class Animation:
@@ -53,6 +66,8 @@ class Animation:
 
     def __init__(self, run: BaseRun, *, start: float, stop: float | None, seconds: float, fps: int) -> None:
         end = run.end.t
+        if end == 0:
+            raise ValueError("this run ends at t = 0, where it starts, so there is nothing to animate")
         stop = end if stop is None else float(stop)
         if not 0 <= start < stop <= end:
             raise ValueError(
@@ -69,12 +84,13 @@ class Animation:
 
     @cached_property
     def _html(self) -> str:
-        scene = _scene_data(self._run, *self._span, self._count)
+        scene = self._scene()
         page = resources.files(__package__).joinpath("animation.html").read_text(encoding="utf-8")
         data = {
             "scene": scene,
             "seconds": self._count / self._fps,
             "colours": scene["colours"],
+            "snapColour": _SNAP_COLOUR,
         }
         return page.replace("{id}", f"snapload-{uuid4().hex}").replace("{data}", json.dumps(data))
 
@@ -97,7 +113,8 @@ class Animation:
         Raises
         ------
         ValueError
-            If the extension is a different one, or ffmpeg is needed and not available.
+            If the extension is a different one, or ffmpeg is needed and not available, or a GIF would have more than
+            50 frames per second.
 
         See Also
         --------
@@ -119,13 +136,14 @@ class Animation:
             return target
         if not animation.writers.is_available(writer):
             raise ValueError(f"{target}: there is no {writer} on this machine; install it, or write a .gif or .html")
+        if writer == "pillow" and self._fps > _MAX_GIF_FPS:
+            raise ValueError(f"fps = {self._fps} is not allowed; allowed: at most {_MAX_GIF_FPS} in a GIF")
         figure, artist = self._animation()
         try:
             with progress_bar(f"writing {target.name}", self._count, visible=True) as report_progress:
                 artist.save(
                     target,
-                    writer=writer,
-                    fps=self._fps,
+                    writer=(_GifWriter if writer == "pillow" else animation.writers[writer])(fps=self._fps),
                     dpi=110,
                     progress_callback=lambda *_: report_progress and report_progress(1),
                 )
@@ -133,45 +151,89 @@ class Animation:
             pyplot.close(figure)
         return target
 
+    def _scene(self) -> dict[str, Any]:
+        return _scene_data(self._run, *self._span, self._count, self._fps)
+
     def _animation(self) -> tuple[Figure, animation.FuncAnimation]:
         figure, ax = pyplot.subplots(figsize=(5.0, 3.6), layout="constrained", dpi=80)
-        update = _draw_scene(ax, _scene_data(self._run, *self._span, self._count))
+        update = _draw_scene(ax, self._scene())
         # The layout is computed once and not for every picture.
         figure.canvas.draw()
         figure.set_layout_engine("none")
         return figure, animation.FuncAnimation(figure, update, frames=self._count, interval=1000 / self._fps)
 
 
-def _scene_data(run: BaseRun, start: float, stop: float, count: int) -> dict[str, Any]:
-    """The data of the scene: its fixed parts, and at each time the position of the body and the taut cables."""
+class _GifWriter(animation.AbstractMovieWriter):
+    """Writes a GIF that lasts as long as it should.
+
+    A GIF counts in hundredths of a second, and Matplotlib's own writer shortens every picture to whole ones.
+    """
+
+    def setup(self, fig: Figure, outfile: str | Path, dpi: float | None = None) -> None:
+        super().setup(fig, outfile, dpi=dpi)
+        self._pictures: list[Image.Image] = []
+
+    def grab_frame(self, **savefig_kwargs: Any) -> None:
+        pixels = BytesIO()
+        self.fig.savefig(pixels, **{**savefig_kwargs, "format": "rgba", "dpi": self.dpi})
+        self._pictures.append(Image.frombytes("RGBA", self.frame_size, pixels.getvalue()).convert("RGB"))
+
+    def finish(self) -> None:
+        ends = np.round(100 / self.fps * np.arange(len(self._pictures) + 1))
+        durations_ms = (10 * np.diff(ends)).astype(int).tolist()
+        first, *others = self._pictures
+        first.save(self.outfile, save_all=True, append_images=others, duration=durations_ms, loop=0)
+
+
+def _scene_data(run: BaseRun, start: float, stop: float, count: int, fps: int) -> dict[str, Any]:
+    """The data of the scene: its fixed parts, and at each time the position of the body and the state of the cables.
+
+    A cable is taut or slack. A snap is its brightness, which begins at 1 and fades.
+    """
     geometry = run._geometry()
     outline, half_extent = geometry.outline(), geometry.half_extent()
     anchors = [list(anchor) for anchor, _, _ in geometry.cables]
     path, times = run.at(curve_times(run, start, stop, 12)), np.linspace(start, stop, count)
     frames = run.at(times)
     t, cables, v_n = (run.impacts[name] for name in ("t", "cable", "v_n"))
-    # A snap has no duration; it is shown long enough to be seen.
-    flash = 0.03 * (stop - start)
-    taut = []
-    for cable in range(1, len(anchors) + 1):
-        snaps = t[(cables == cable) & (v_n > 0)]
-        snapping = np.searchsorted(snaps, times, side="right") > np.searchsorted(snaps, times - flash, side="right")
-        taut.append(((frames[f"T{cable}"] > 0) | snapping).astype(int).tolist())
+    numbers = range(1, len(anchors) + 1)
+    playing_s = (count - 1) / fps / (stop - start) * times
+    snaps_s = [(count - 1) / fps / (stop - start) * t[(cables == cable) & (v_n > 0)] for cable in numbers]
     xs, ys = [x for x, _ in anchors], [y for _, y in anchors]
     left, right = min(*xs, path.x.min() - half_extent), max(*xs, path.x.max() + half_extent)
     low, high = min(*ys, path.y.min() - 1.3 * half_extent), max(*ys, path.y.max() + 1.3 * half_extent)
-    edge = 0.03 * max(right - left, high - low)
+    size = max(right - left, high - low)
+    # Far more digits than a picture shows, and no more, as a page holds thousands of these numbers.
+    decimals, time_decimals = _decimals(size, 5), _decimals(stop - start, 6)
     return {
         "anchors": anchors,
         "names": [axis_label(run, "$x$", "L"), axis_label(run, "$y$", "L")],
         "colours": [colour for colour, _ in cable_styles(run).values()],
         "fairleads": [list(fairlead) for _, fairlead, _ in geometry.cables],
-        "outline": outline.round(6).tolist(),
-        "box": [left - edge, right + edge, low - edge, high + edge],
-        "path": np.column_stack([path.t, path.x, path.y]).round(5).tolist(),
-        "frames": np.column_stack([frames.t, frames.x, frames.y, frames.theta]).round(5).tolist(),
-        "taut": taut,
+        "outline": outline.round(_decimals(half_extent, 5)).tolist(),
+        "box": [left - 0.03 * size, right + 0.03 * size, low - 0.03 * size, high + 0.03 * size],
+        "path": np.column_stack([path.t.round(time_decimals), path.x.round(decimals), path.y.round(decimals)]).tolist(),
+        "frames": np.column_stack(
+            [times.round(time_decimals), *(frames[name].round(decimals) for name in ("x", "y")), frames.theta.round(5)]
+        ).tolist(),
+        "taut": [(frames[f"T{cable}"] > 0).astype(int).tolist() for cable in numbers],
+        "snaps": [_brightness(playing_s, snaps, fps).round(3).tolist() for snaps in snaps_s],
+        "clockDecimals": max(2, _decimals(stop - start, 2)),
     }
+
+
+def _decimals(size: float, digits: int) -> int:
+    """The number of decimals that numbers of this size have, with so many digits after the first one."""
+    return digits - math.floor(math.log10(size))
+
+
+def _brightness(playing_s: NDArray[np.float64], snaps_s: NDArray[np.float64], fps: int) -> NDArray[np.float64]:
+    """How bright the last snap of a cable still is in each picture, from 1 at the snap to 0."""
+    # Every snap is seen in one picture at least.
+    afterglow_s = max(_AFTERGLOW_S, 2 / fps)
+    last = np.concatenate([[-np.inf], snaps_s])[np.searchsorted(snaps_s, playing_s, side="right")]
+    brightness: NDArray[np.float64] = np.maximum(1 - (playing_s - last) / afterglow_s, 0.0)
+    return brightness
 
 
 def _draw_scene(ax: Axes, scene: dict[str, Any]) -> Callable[[int], list[Artist]]:
@@ -188,6 +250,8 @@ def _draw_scene(ax: Axes, scene: dict[str, Any]) -> Callable[[int], list[Artist]
     ax.plot(*anchors.T, "^", color="black", markersize=7)
     ax.plot(*path[:, 1:].T, color="black", linewidth=0.4, alpha=0.35)
     lines = [ax.plot([], [], solid_capstyle="round", color=colour)[0] for colour in scene["colours"]]
+    snap_style: dict[str, Any] = {"fillstyle": "none", "color": _SNAP_COLOUR, "markeredgewidth": 1.6, "zorder": 5}
+    rings = [ax.plot([], [], "o", **snap_style)[0] for _ in lines]
     (trail,) = ax.plot([], [], color="black", linewidth=0.9, zorder=4)
     body = Polygon(outline, facecolor="white", edgecolor="black")
     ax.add_patch(body)
@@ -200,11 +264,14 @@ def _draw_scene(ax: Axes, scene: dict[str, Any]) -> Callable[[int], list[Artist]
         body.set_xy(outline @ turn.T + centre)
         past = path[path[:, 0] <= now]
         trail.set_data(past[:, 1], past[:, 2])
-        for cable, line in enumerate(lines):
-            line.set_data(*np.column_stack([anchors[cable], turn @ fairleads[cable] + centre]))
-            taut = scene["taut"][cable][k]
+        for cable, (line, ring) in enumerate(zip(lines, rings, strict=True)):
+            fairlead = turn @ fairleads[cable] + centre
+            line.set_data(*np.column_stack([anchors[cable], fairlead]))
+            taut, bright = scene["taut"][cable][k], scene["snaps"][cable][k]
             line.set(linewidth=2.4 if taut else 0.9, linestyle="-" if taut else "--")
-        time_text.set_text(f"$t$ = {now:.2f}")
-        return [*lines, trail, body, time_text]
+            ring.set_data(*fairlead[:, None])
+            ring.set(alpha=bright, markersize=16 - 8 * bright)
+        time_text.set_text(f"$t$ = {now:.{scene['clockDecimals']}f}")
+        return [*lines, *rings, trail, body, time_text]
 
     return move

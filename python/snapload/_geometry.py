@@ -13,8 +13,8 @@ if TYPE_CHECKING:
 
 Point: TypeAlias = tuple[float, float]
 
-#: Half the size in which a body without size is shown [L].
-_MIN_HALF_SIZE = 0.012
+#: Half the size in which a body without size is shown, as a part of the longest cable.
+_MIN_HALF_SIZE = 0.008
 
 
 @dataclass(frozen=True)
@@ -46,11 +46,14 @@ class Geometry:
             a, b = self.body
             return np.array([[a, b], [-a, b], [-a, -b], [a, -b]])
         angles = np.linspace(0, 2 * np.pi, 60)
-        return max(self.body, _MIN_HALF_SIZE) * np.column_stack([np.cos(angles), np.sin(angles)])
+        return max(self.body, self._min_half_size()) * np.column_stack([np.cos(angles), np.sin(angles)])
 
     def half_extent(self) -> float:
         """The largest distance of the outline from the centre along either axis."""
-        return max(float(np.abs(self.outline()).max()), _MIN_HALF_SIZE)
+        return max(float(np.abs(self.outline()).max()), self._min_half_size())
+
+    def _min_half_size(self) -> float:
+        return _MIN_HALF_SIZE * max(length for _, _, length in self.cables)
 
     def circle_centres(self) -> list[Point]:
         """The point about which each taut cable guides the centre of a body that stays upright."""

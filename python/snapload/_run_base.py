@@ -382,6 +382,8 @@ class BaseRun:
     ) -> _animate.Animation:
         """Create an animation of the run with body, cables and path.
 
+        A cable is dashed while it is slack and thick while it is taut. A ring marks each snap for half a second.
+
         Parameters
         ----------
         start, stop : float, optional
@@ -389,7 +391,7 @@ class BaseRun:
         seconds : float
             Duration of the animation [s].
         fps : int
-            Frames per second.
+            Frames per second; at most 50 in a GIF.
 
         Returns
         -------
