@@ -21,7 +21,7 @@ if TYPE_CHECKING:
 _ENDS = {
     "settled": ("#9AD0F3", "settled"),
     "end_time": ("#56B4E9", "continues"),
-    "sliding_start": ("#56B4E9", "slides"),
+    "sliding_start": ("#F4EC8B", "slides"),
     "impact_limit": (GREY, "cut short"),
     "standstill": (GREY, "cut short"),
     "rotation_limit": (VERMILION, "rotation limit"),
@@ -135,6 +135,7 @@ def draw_erosion(eroded: xarray.Dataset, ax: Axes | None) -> Axes:
         raise TypeError(f"eroded, a {type(eroded).__name__}, is not allowed; allowed: {allowed}")
     ax = new_axes(ax, 0.8)
     key = str(eroded["gim"].dims[0])
+    eroded = eroded.sortby(key)
     values = eroded[key].values
     ax.fill_between(values, eroded["low"], eroded["high"], color=BLUE, alpha=0.25, linewidth=0)
     ax.plot(values, eroded["gim"], color=BLUE, linewidth=1.4, marker="o", markersize=3, label="part (GIM)")

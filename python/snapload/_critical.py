@@ -111,7 +111,8 @@ class CriticalForce(Result):
         """
         from matplotlib import pyplot
 
-        from ._plot import BLUE, ORANGE, VERMILION, legend
+        from ._orbit_plot import legend_above
+        from ._plot import BLUE, ORANGE, VERMILION
 
         if ax is None:
             _, ax = pyplot.subplots(figsize=(3.5, 2.6), layout="constrained")
@@ -137,8 +138,7 @@ class CriticalForce(Result):
             ax.axvline(self.f_cr, color=VERMILION, linewidth=1.2, linestyle="--", label=f"$f_{{cr}}$ = {self.f_cr:g}")
         ax.set_xlim(0, self._largest)
         ax.set_xlabel("$f_o$ [F]")
-        if ax.get_legend_handles_labels()[0]:
-            legend(ax)
+        legend_above(ax, 2)
         return ax
 
     def _repr_html_(self) -> str:

@@ -53,8 +53,21 @@ def draw(run: BaseRun, what: str, ax: Axes | None, style: dict[str, Any]) -> Axe
         raise ValueError(f"what = {what!r} is not allowed; allowed: {', '.join(map(repr, pictures))}")
     if ax is None:
         _, ax = pyplot.subplots(figsize=(_COLUMN_WIDTH, 0.75 * _COLUMN_WIDTH), layout="constrained")
+    shown = _shown_limits(ax)
     pictures[what](run, ax, style)
+    for name, limits, view in zip("xy", shown, (ax.get_xlim(), ax.get_ylim()), strict=True):
+        if limits is not None:
+            ax.set(**{f"{name}lim": (min(*limits, *view), max(*limits, *view))})
     return ax
+
+
+def _shown_limits(ax: Axes) -> list[tuple[float, float] | None]:
+    """The limits in each direction if something is drawn there, such as another run, in these axes or with them."""
+    directions = (
+        (ax.get_xlim(), [other.dataLim.intervalx for other in ax.get_shared_x_axes().get_siblings(ax)]),
+        (ax.get_ylim(), [other.dataLim.intervaly for other in ax.get_shared_y_axes().get_siblings(ax)]),
+    )
+    return [limits if any(low <= high for low, high in drawn) else None for limits, drawn in directions]
 
 
 def overview(run: BaseRun, figure: Figure | None) -> Figure:
@@ -166,6 +179,7 @@ def _rotation(run: BaseRun, ax: Axes, style: dict[str, Any]) -> None:
 def _velocities(run: BaseRun, ax: Axes, style: dict[str, Any]) -> None:
     t, v, cable = (run.impacts[name] for name in ("t", "v_n", "cable"))
     horizon, given_label = run._horizon, style.pop("label", None)
+    ax.autoscale(axis="y")
     for number, (colour, marker) in cable_styles(run).items():
         of_cable = (cable == number) & (v > 0)
         line_style = {"linestyle": "none", "marker": marker, "markersize": 4, "markerfacecolor": "none", **style}
@@ -181,24 +195,40 @@ def _velocities(run: BaseRun, ax: Axes, style: dict[str, Any]) -> None:
 
 
 def _tensions(run: BaseRun, ax: Axes, style: dict[str, Any]) -> None:
+    alone = not ax.lines
+    ax.autoscale(axis="y")
     for number, (colour, _) in cable_styles(run).items():
         line_style = {"color": colour, "linewidth": 1.2, "linestyle": "-" if number % 2 else "--", **style}
         _over_time(run, ax, f"T{number}", f"cable {number}", line_style)
     ax.set_ylim(bottom=0)
-    if not any(run.modes["mode"] != "slack"):
-        # Impulses are not drawn here, and without them the panel would be empty.
-        text = "no cable stays taut:\nonly impulses"
-        ax.text(0.5, 0.5, text, transform=ax.transAxes, ha="center", fontsize="small")
-    else:
+    if any(run.modes["mode"] != "slack"):
         legend(ax)
+    elif alone:
+        # Impulses are not drawn here, and without them the panel would be empty.
+        ax.text(0.5, 0.5, _without_tensions(run), transform=ax.transAxes, ha="center", fontsize="small")
     _label_time(run, ax, axis_label(run, "tension", "F"))
 
 
+def _without_tensions(run: BaseRun) -> str:
+    """Why no cable has a tension for any time, in words."""
+    if run.end.t == 0:
+        return "the run ends at t = 0"
+    if not (run.impacts["v_n"] > 0).any():
+        return "no cable is taut"
+    last = run.at(run.end.t)
+    until = " before the end" if any(last[f"T{cable}"] > 0 for cable in cable_styles(run)) else ""
+    return f"no cable stays taut{until}:\nonly impulses"
+
+
 def legend(ax: Axes) -> None:
-    """A legend in one row above the curves."""
+    """A legend in one row above the curves, with each label once."""
     low, high = ax.get_ylim()
     ax.set_ylim(low, high + 0.15 * (high - low))
+    handles, labels = ax.get_legend_handles_labels()
+    first = {label: handle for handle, label in zip(handles[::-1], labels[::-1], strict=True)}
     ax.legend(
+        [first[label] for label in dict.fromkeys(labels)],
+        dict.fromkeys(labels),
         fontsize="small",
         framealpha=0.8,
         edgecolor="none",

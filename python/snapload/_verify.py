@@ -103,6 +103,7 @@ class Verification(Result):
         """
         from matplotlib import pyplot
 
+        from ._orbit_plot import legend_above
         from ._plot import BLUE, REFERENCE, VERMILION
 
         if ax is None:
@@ -111,13 +112,12 @@ class Verification(Result):
         shown = np.maximum(self.differences, 1e-18)
         ax.semilogy(impacts, shown, color=BLUE, linewidth=1.0)
         ax.axhline(self.tolerance, **REFERENCE)
-        for impact, name, style in ((self.predicted, "predicted", "--"), (self.first_wrong, "first_wrong", "-")):
+        for impact, name, style in ((self.predicted, "predicted", "--"), (self.first_wrong, "computed", "-")):
             if impact is not None:
-                ax.axvline(impact, color=VERMILION, linewidth=1.0, linestyle=style, label=name)
+                ax.axvline(impact, color=VERMILION, linewidth=1.0, linestyle=style, label=f"first wrong, {name}")
         ax.set_xlabel("impact")
         ax.set_ylabel("difference")
-        if self.first_wrong is not None or self.predicted is not None:
-            ax.legend(frameon=False, fontsize="small", title="wrong from", title_fontsize="small")
+        legend_above(ax, 2)
         return ax
 
     def __str__(self) -> str:

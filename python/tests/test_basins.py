@@ -191,3 +191,24 @@ def test_pictures_show_every_cell_and_hatch_what_is_undecided():
     line = snapload.plot_erosion(eroded).get_lines()[1]
     assert line.get_ydata().tolist() == eroded.decided_fraction.values.tolist()
     assert line.get_label() == "of decided cells"
+
+
+def test_no_two_ends_look_alike_in_a_map():
+    words = [word for column in snapload._engine.columns() if column["name"] == "end" for word in column["words"]]
+    ends = np.array(words)[:, None]
+    basin = xarray.Dataset({"outcome": (("x", "y"), ends)}, {"x": np.arange(len(words)) / 8, "y": [0.1]})
+    handles = snapload.plot_basin(basin).get_legend().legend_handles
+    labels = [handle.get_label() for handle in handles]
+    assert len({handle.get_facecolor() for handle in handles}) == len(set(labels)) == len(labels)
+    # The impact limit and a standstill both mean that the run was cut short.
+    assert len(labels) == len(words) - 1
+
+
+def test_the_curves_of_an_erosion_go_along_its_key():
+    forces = [0.4, 0.0, 0.6, 0.2]
+    case = snapload.Case(t_end=20)
+    eroded = snapload.erosion(case, over={"f_o": forces}, trust=False, progress=False, **WINDOW)
+    line = snapload.plot_erosion(eroded).get_lines()[0]
+    assert line.get_xdata().tolist() == sorted(forces)
+    assert line.get_ydata().tolist() == [float(eroded.gim.sel(f_o=f_o)) for f_o in sorted(forces)]
+    assert eroded.f_o.values.tolist() == forces
