@@ -6,8 +6,9 @@ from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 
+from ._arguments import unmasked
 from ._lazy_import import LazyModule
 
 if TYPE_CHECKING:
@@ -31,6 +32,24 @@ _UNITS = {
     "_j": "J",
 }
 
+_CHECK: dict[str, type] = {"answer": str, "criterion": str, "limit": float, "line": int, "value": float}
+
+#: The columns of rows of which there may be none, with the type of their values.
+COLUMNS: dict[str, dict[str, type]] = {
+    "snaps": {
+        **dict.fromkeys(("effective_mass_kg", "effective_speed_m_s", "energy_lost_j", "energy_peak_n"), float),
+        **{"formula_n": float, "front_n": float, "impulse_n_s": float, "jolt": bool, "line": int},
+        **dict.fromkeys(("peak_n", "speed_m_s", "t_s", "utilisation"), float),
+    },
+    "pulls": {
+        **{"from_s": float, "line": int},
+        **dict.fromkeys(("peak_n", "peak_s", "rebound_m_s", "speed_m_s", "to_s"), float),
+    },
+    "checks": _CHECK | {"answer_in_words": str, "neighbours_agreeing": int, "words": str},
+    "checks of seas": _CHECK | {"median": float, "of": int, "passing": int},
+    "checks of elastic lines": _CHECK,
+}
+
 
 def attributes_of(name: str) -> dict[str, str]:
     """Attributes of a quantity from its name: the name in words, and the unit."""
@@ -47,24 +66,40 @@ def column_values(values: list[Any]) -> NDArray[Any]:
     return np.array(["" if value is None else value for value in values])
 
 
-def rows_dataset(rows: Sequence[Mapping[str, Any]], along: str, index: str | None = None) -> xarray.Dataset:
-    """Rows as a dataset along one dimension, with the column `index`, if given, as its coordinate."""
-    names = list(rows[0]) if rows else []
+def rows_dataset(
+    rows: Sequence[Mapping[str, Any]], along: str, columns: Mapping[str, type] | None = None, index: str | None = None
+) -> xarray.Dataset:
+    """Rows as a dataset along one dimension, with the column `index`, if given, as its coordinate.
+
+    Without rows it has the given columns, which are empty.
+    """
+    if not rows:
+        types = columns or {}
+        return xarray.Dataset({name: (along, np.empty(0, types[name]), attributes_of(name)) for name in types})
     variables = {
         name: (along, column_values([row[name] for row in rows]), attributes_of(name))
-        for name in names
+        for name in rows[0]
         if name != index and not isinstance(rows[0][name], (list, dict))
     }
     coords = {along: [row[index] for row in rows]} if index else {}
     return xarray.Dataset(variables, coords=coords)
 
 
+def finite_row(times: ArrayLike) -> list[float]:
+    """Times that are one row of finite numbers."""
+    values = np.asarray(unmasked("times", times), dtype=np.float64)
+    if values.ndim != 1 or not np.isfinite(values).all():
+        raise ValueError("these times are not allowed; allowed: one row of finite numbers")
+    row: list[float] = values.tolist()
+    return row
+
+
 def motion_dataset(
-    columns: tuple[list[float], list[float], list[float], list[float], list[list[float]]],
+    columns: tuple[list[float], list[float], list[float], list[float], list[list[float]]], line_count: int
 ) -> xarray.Dataset:
     """A motion from its columns: times, x, z, rotation, and the tensions of all lines at each time."""
     t, x, z, theta, tension = columns
-    lines = np.arange(1, len(tension[0]) + 1 if tension else 1)
+    lines = np.arange(1, line_count + 1)
     coordinates = {"x_m": x, "z_m": z, "theta_rad": theta}
     variables: dict[str, Any] = {
         name: ("t_s", np.array(values), attributes_of(name)) for name, values in coordinates.items()

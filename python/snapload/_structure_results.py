@@ -13,7 +13,7 @@ from numpy.typing import ArrayLike
 from . import _engine
 from ._lazy_import import LazyModule
 from ._structure_base import RepeatableResult, StructureResult
-from ._structure_datasets import attributes_of, motion_dataset, rows_dataset
+from ._structure_datasets import COLUMNS, attributes_of, finite_row, motion_dataset, rows_dataset
 
 if TYPE_CHECKING:
     import xarray
@@ -97,7 +97,7 @@ class Assessment(RepeatableResult[_engine.Assessment]):
         >>> lines["held_tension_n"].attrs["units"], lines["line"].values.tolist()
         ('N', [1, 2])
         """
-        return rows_dataset(self.data["lines"], "line", "line")
+        return rows_dataset(self.data["lines"], "line", index="line")
 
     @property
     def snaps(self) -> xarray.Dataset:
@@ -114,7 +114,7 @@ class Assessment(RepeatableResult[_engine.Assessment]):
         >>> snaps["impulse_n_s"].attrs["units"]
         'N s'
         """
-        return rows_dataset(self.data["snaps"], "snap")
+        return rows_dataset(self.data["snaps"], "snap", COLUMNS["snaps"])
 
     @property
     def checks(self) -> xarray.Dataset:
@@ -131,14 +131,14 @@ class Assessment(RepeatableResult[_engine.Assessment]):
         >>> structure.assess(neighbours=0).checks["answer"].values.tolist()
         ['fails', 'fails']
         """
-        return rows_dataset(self.data["checks"], "check")
+        return rows_dataset(self.data["checks"], "check", COLUMNS["checks"])
 
     def motion(self, times: ArrayLike) -> xarray.Dataset:
         """Return position, rotation and tensions at given times.
 
         Parameters
         ----------
-        times : array_like
+        times : array_like, shape (n,)
             Times within the run [s], from 0 to ``data["end"]["t_s"]``.
 
         Returns
@@ -163,10 +163,7 @@ class Assessment(RepeatableResult[_engine.Assessment]):
         >>> dict(motion.sizes)
         {'t_s': 3, 'line': 2}
         """
-        values = np.asarray(times, dtype=np.float64)
-        if values.ndim != 1 or not np.isfinite(values).all():
-            raise ValueError("these times are not allowed; allowed: one row of finite numbers")
-        return motion_dataset(self._engine.motion(values.tolist()))
+        return motion_dataset(self._engine.motion(finite_row(times)), len(self.data["lines"]))
 
     def to_html(self, path: str | PathLike[str]) -> None:
         """Write the results as an HTML page for a design note.
@@ -270,7 +267,7 @@ class Seas(StructureResult):
         >>> seas.checks["passing"].values.tolist()
         [0, 0]
         """
-        return rows_dataset(self.data["checks"], "check")
+        return rows_dataset(self.data["checks"], "check", COLUMNS["checks of seas"])
 
     @property
     def largest_tensions_n(self) -> xarray.DataArray:
@@ -392,7 +389,7 @@ class Elastic(RepeatableResult[_engine.Elastic]):
         >>> structure.elastic().checks["answer"].values.tolist()
         ['fails', 'fails']
         """
-        return rows_dataset(self.data["checks"], "check")
+        return rows_dataset(self.data["checks"], "check", COLUMNS["checks of elastic lines"])
 
     @property
     def lines(self) -> xarray.Dataset:
@@ -409,7 +406,7 @@ class Elastic(RepeatableResult[_engine.Elastic]):
         >>> both.lines["line"].values.tolist()
         [1, 2]
         """
-        return rows_dataset(self.data["lines"], "line", "line")
+        return rows_dataset(self.data["lines"], "line", index="line")
 
     @property
     def pulls(self) -> xarray.Dataset:
@@ -426,7 +423,7 @@ class Elastic(RepeatableResult[_engine.Elastic]):
         >>> both.pulls["peak_n"].dims
         ('pull',)
         """
-        return rows_dataset(self.data["pulls"], "pull")
+        return rows_dataset(self.data["pulls"], "pull", COLUMNS["pulls"])
 
     @property
     def motion(self) -> xarray.Dataset:
@@ -443,7 +440,7 @@ class Elastic(RepeatableResult[_engine.Elastic]):
         >>> sorted(both.motion.data_vars)
         ['tension_n', 'theta_rad', 'x_m', 'z_m']
         """
-        return motion_dataset(self._engine.motion())
+        return motion_dataset(self._engine.motion(), len(self.data["lines"]))
 
     def __repr__(self) -> str:
         return f"<Elastic: {len(self.data['pulls'])} pulls>"

@@ -12,6 +12,7 @@ import numpy as np
 import pytest
 import snapload
 import xarray
+from snapload._structure_datasets import COLUMNS, rows_dataset
 
 ROOT = Path(__file__).parents[2]
 CYLINDER = ROOT / "docs" / "examples" / "cylinder.toml"
@@ -55,6 +56,28 @@ def test_motion_and_snaps_have_units() -> None:
     for data in (motion, snaps, answer.lines):
         for variable in data.variables.values():
             pint.Unit(variable.attrs.get("units", "1"))
+
+
+def test_results_without_rows_have_the_columns_of_those_with_rows() -> None:
+    structure = snapload.Structure.example().replace({"run.duration": 70})
+    sea = {"sea.hs": 2, "sea.tp": 6, "run.transient": 20}
+    checked, still = structure.replace({"design.least_share": 0}), structure.without("wave")
+    assert still.assess(neighbours=0).data["snaps"] == structure.assess(neighbours=0).data["checks"] == []
+    seas = [each.without("wave").replace(sea).seas(seeds=2) for each in (checked, structure)]
+    elastic = [each.elastic() for each in (checked, structure)]
+    pairs = [
+        (checked.assess(neighbours=2).snaps, still.assess(neighbours=0).snaps),
+        (checked.assess(neighbours=2).checks, structure.assess(neighbours=2).checks),
+        (seas[0].checks, seas[1].checks),
+        (elastic[0].checks, elastic[1].checks),
+        (elastic[0].pulls, rows_dataset([], "pull", COLUMNS["pulls"])),
+    ]
+    for some, none in pairs:
+        (along,) = some.dims
+        assert some.sizes[along] > 0 and none.sizes == {along: 0}
+        assert {name: (values.dtype.kind, values.attrs) for name, values in none.items()} == {
+            name: (values.dtype.kind, values.attrs) for name, values in some.items()
+        }
 
 
 def test_what_is_not_judged_has_no_numbers() -> None:
@@ -146,6 +169,10 @@ def test_motion_is_only_that_of_the_run() -> None:
     for outside in (95, 600, -1, np.nextafter(end, 1e9)):
         with pytest.raises(ValueError, match=rf"times = .* is not allowed; allowed: 0 to {end} s, the end of the run"):
             answer.motion([90, outside])
+    nothing = answer.motion([])
+    assert dict(nothing.sizes) == {"t_s": 0, "line": 2} and nothing["line"].values.tolist() == [1, 2]
+    with pytest.raises(ValueError, match="times = an array with 1 masked value is not allowed"):
+        answer.motion(np.ma.array([1.0, 2.0, 3.0], mask=[0, 1, 0]))
     for wrong in ([np.nan], [np.inf], 1.0):
         with pytest.raises(ValueError, match="one row of finite numbers"):
             answer.motion(wrong)
