@@ -178,6 +178,7 @@ mod tests {
                 end,
                 part: share.part(),
                 share: Some(share),
+                members_cut_short: 0,
             }
         };
         let proof = |f_o: f64| Proved {
