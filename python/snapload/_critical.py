@@ -26,6 +26,10 @@ else:
     matplotlib, xarray = LazyModule("matplotlib"), LazyModule("xarray")
 
 
+#: Those of the neighbours, if they are left out.
+_TOLERANCE, _SEED = 1e-3, 1
+
+
 @dataclass(frozen=True, repr=False, eq=False)
 class CriticalForce(Result):
     """The force amplitudes at which a case exceeds the limits of its mooring.
@@ -170,8 +174,8 @@ def critical_force(
     largest: float = 1.0,
     members: int = 0,
     uncertainty: Uncertainty = None,
-    tolerance: float = 1e-3,
-    seed: int = 1,
+    tolerance: float = _TOLERANCE,
+    seed: int = _SEED,
     progress: bool = True,
 ) -> CriticalForce: ...
 @overload
@@ -191,8 +195,8 @@ def critical_force(
     largest: float = 1.0,
     members: int = 0,
     uncertainty: Uncertainty = None,
-    tolerance: float = 1e-3,
-    seed: int = 1,
+    tolerance: float = _TOLERANCE,
+    seed: int = _SEED,
     progress: bool = True,
 ) -> CriticalForce | xarray.Dataset:
     """Run a case at evenly spaced force amplitudes, and find those that exceed the limits.
@@ -213,7 +217,7 @@ def critical_force(
         Uncertainty of the neighbours: one size for every start value, or a size for each key. If left out, only
         rounding is uncertain; neighbours are then drawn from 1e-12 about every start value.
     tolerance : float
-        Error of state and time, relative to values above 1, above which a result counts as not known.
+        Error of state and time of the neighbours, relative to values above 1, above which a result counts as not known.
     seed : int
         Seed of the neighbours.
     progress : bool
@@ -250,18 +254,19 @@ def critical_force(
     [0.4, 0.31]
     """
     engine, step, largest = engine_case(case), number("step", step), number("largest", largest)
+    changed = {"uncertainty": uncertainty is not None, "tolerance": tolerance != _TOLERANCE, "seed": seed != _SEED}
+    of_neighbours = [option for option, is_given in changed.items() if is_given]
     if over is not None:
         if not isinstance(over, Mapping):
             allowed = "a dict of keys with their values, such as {'e': [0.5, 0.9]}"
             raise ValueError(f"over = {over!r} is not allowed; allowed: {allowed}")
-        if members or uncertainty is not None or (tolerance, seed) != (1e-3, 1):
-            raise ValueError("over runs no neighbours; leave out members, uncertainty, tolerance and seed, or over")
+        if members or of_neighbours:
+            given = " and ".join(["members"] * bool(members) + of_neighbours)
+            raise ValueError(f"over runs no neighbours; leave out {given}, or over")
         return _critical_over_keys(engine, over, step, largest, progress)
     members, seed = whole_number("members", members), whole_number("seed", seed)
-    given = {"uncertainty": uncertainty is not None, "tolerance": tolerance != 1e-3, "seed": seed != 1}
-    if members == 0 and any(given.values()):
-        option = next(name for name, is_given in given.items() if is_given)
-        raise ValueError(f"{option} needs neighbours, but none are run; give members, such as members=200")
+    if of_neighbours and members == 0:
+        raise ValueError(f"{of_neighbours[0]} needs neighbours, but none are run; give members, such as members=200")
     probability, passes = None, {}
     if members == 0:
         data = json.loads(_engine.critical_force(engine, step, largest))

@@ -182,9 +182,5 @@ def test_other_options_are_checked():
         snapload.critical_force(snapload.Case(), step=0)
     with pytest.raises(ValueError, match="give members"):
         snapload.critical_force(snapload.Case(), uncertainty=1e-3)
-    with pytest.raises(ValueError, match="tolerance needs neighbours"):
-        snapload.critical_force(snapload.Case(), tolerance=1e-6)
-    with pytest.raises(ValueError, match="leave out members, uncertainty, tolerance and seed"):
-        snapload.critical_force(snapload.Case(), over={"e": [0.5]}, seed=2)
     with pytest.raises(ValueError, match="uncertainty: theta = .*this case has no such quantity"):
         snapload.Case(body="point").run(uncertainty={"theta": 1e-3})

@@ -117,3 +117,15 @@ def test_the_page_reports_a_wrong_option(open_page):
     page.locator("#question-ask").click()
     message = 'digits = "many" is not allowed; allowed: a whole number, 1 <= digits <= 307'
     expect(page.locator("#question-message")).to_have_text(message)
+
+
+@pytest.mark.parametrize(
+    "option", [dict(uncertainty=1e-6), dict(tolerance=1e-13), dict(tolerance=float("nan")), dict(seed=2)]
+)
+def test_what_only_neighbours_have_is_refused_where_none_are_run(option):
+    (name,) = option
+    with pytest.raises(ValueError, match=f"^{name} needs neighbours, but none are run; give members"):
+        snapload.critical_force(snapload.Case(), **option)
+    with pytest.raises(ValueError, match=f"^over runs no neighbours; leave out members and {name}, or over"):
+        snapload.critical_force(snapload.Case(), over={"e": [0.5]}, members=2, **option)
+    assert snapload.critical_force(snapload.Case(), largest=0.1, tolerance=1e-3, seed=1).f_cr is None

@@ -5,9 +5,6 @@ use snapload::Case;
 use snapload::analysis::{SEED, UNCERTAINTY, Uncertainty, Unfinished};
 use snapload_report::TOLERANCE;
 
-const DEFAULT_TOLERANCE: f64 = 1e-3;
-const DEFAULT_SEED: u64 = 1;
-
 /// What counts as known, as given on the command line.
 #[derive(clap::Args)]
 pub(crate) struct ToleranceArgs {
@@ -16,6 +13,8 @@ pub(crate) struct ToleranceArgs {
     #[arg(long, value_name = "SIZE", default_value_t = DEFAULT_TOLERANCE)]
     tolerance: f64,
 }
+
+const DEFAULT_TOLERANCE: f64 = 1e-3;
 
 impl ToleranceArgs {
     /// Reads it.
@@ -38,6 +37,8 @@ pub(crate) struct UncertaintyArgs {
     seed: u64,
 }
 
+const DEFAULT_SEED: u64 = 1;
+
 impl UncertaintyArgs {
     /// Reads them and checks them against a case.
     pub(crate) fn read(&self, case: &Case) -> Result<Uncertainty, Failure> {
@@ -54,16 +55,16 @@ impl UncertaintyArgs {
         Ok(uncertainty)
     }
 
-    /// The first of these options that was given, if any: one that repeats its default changes
-    /// nothing.
+    /// An option that changes something, if there is one.
     pub(crate) fn given(&self) -> Option<&'static str> {
-        let other = |given: bool, option| given.then_some(option);
-        other(!self.uncertainty.is_empty(), OPTION)
-            .or(other(
-                self.tolerance.tolerance != DEFAULT_TOLERANCE,
-                "--tolerance",
-            ))
-            .or(other(self.seed != DEFAULT_SEED, "--seed"))
+        let given = [
+            (!self.uncertainty.is_empty(), OPTION),
+            (self.tolerance.tolerance != DEFAULT_TOLERANCE, "--tolerance"),
+            (self.seed != DEFAULT_SEED, "--seed"),
+        ];
+        given
+            .into_iter()
+            .find_map(|(given, name)| given.then_some(name))
     }
 
     pub(crate) fn seed(&self) -> u64 {

@@ -193,7 +193,13 @@ fn what_can_not_be_in_doubt_is_refused_in_words() {
         ];
         refused(&[&scan[..], &["--uncertainty", wide]].concat(), &named);
     }
-    refused(&["critical", "--uncertainty", "1e-3"], "add --ensemble");
+    // What only neighbours have is refused where none are run, instead of having no effect.
+    for option in ["--uncertainty", "--tolerance", "--seed"] {
+        refused(
+            &["critical", option, "13"],
+            "needs neighbours, but none are run",
+        );
+    }
     refused(&["verify", "--digits", "400"], "307");
     refused(&["verify", "--tolerance", "nan"], "above 0");
 }
