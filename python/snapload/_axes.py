@@ -34,8 +34,8 @@ def _flat(key: str, array: NDArray[Any], more: str = "") -> NDArray[Any]:
     return np.ravel(array)
 
 
-def range_ends(key: str, ends: Any) -> str | tuple[float, float]:
-    """The ends of one side of a box."""
+def range_ends(key: str, ends: Any, where: str = "") -> str | tuple[float, float]:
+    """The ends of a range; `where` says in errors where it is one."""
     if isinstance(ends, str):
         return ends
     unmasked(key, ends)
@@ -43,7 +43,7 @@ def range_ends(key: str, ends: Any) -> str | tuple[float, float]:
         low, high = (float(end) for end in ends)
     except (TypeError, ValueError, OverflowError):
         allowed = 'its two ends, such as (0.1, 0.6) or "0.1:0.6"'
-        raise ValueError(f"{key} = {ends!r} is not allowed; allowed with random: {allowed}") from None
+        raise ValueError(f"{key} = {ends!r} is not allowed; allowed{where}: {allowed}") from None
     return low, high
 
 

@@ -87,8 +87,8 @@ def sweep(
     Raises
     ------
     ValueError
-        If a key is unknown or a value is not allowed, if another file exists at `out`, or if `out` can not be
-        created.
+        If a key is unknown or a value is not allowed, if none of the cases can be run, if another file exists at
+        `out`, or if `out` can not be created.
     OSError
         If rows can not be written while the study runs, as on a full disk.
 
@@ -141,10 +141,22 @@ def sweep(
             finally:
                 # A traceback must not keep the file open.
                 store.close()
-        return open_study(path, chunks=chunks)
+        opened = open_study(path, chunks=chunks)
+        if "error" in opened and (reason := _reason_of_no_run(path, len(study))):
+            raise ValueError(f"none of the {len(study)} cases could be run; the first: {reason}")
+        return opened
 
 
 with_keys(sweep, defaults=False)
+
+
+def _reason_of_no_run(path: Path, count: int) -> str:
+    """Why the first case was not run, if no case was run."""
+    _, _, ends = _engine.read_column(path, "end", 0, count)
+    if len(ends) > 1:
+        return ""
+    _, _, reasons = _engine.read_column(path, "error", 0, count)
+    return reasons[1]
 
 
 def open_study(path: str | PathLike[str], *, chunks: Any = None) -> xarray.Dataset:
@@ -242,6 +254,7 @@ def merge(parts: Iterable[str | PathLike[str]], out: str | PathLike[str]) -> xar
     target = Path(fspath(out))
     if target.exists():
         raise ValueError(f"{target} exists already; choose another out, or remove it")
+    _engine.check_place(target)
     with tempfile.TemporaryDirectory(prefix=".snapload-", dir=target.parent, ignore_cleanup_errors=True) as scratch:
         _engine.merge(files, joined := Path(scratch) / target.name)
         joined.replace(target)

@@ -13,7 +13,7 @@ from typing import Any
 from weakref import finalize
 
 from . import _engine
-from ._arguments import engine_case, existing_file, whole_number
+from ._arguments import engine_case, existing_file, flag, whole_number
 from ._axes import axis_values, cases_csv, range_ends
 from ._case import Case
 
@@ -56,6 +56,7 @@ def make_plan(
 ) -> SweepPlan:
     """The plan of a call of ``sweep``, after checks."""
     engine_case(case)
+    trust = flag("trust", trust)
     if cases is not None:
         if axes or random is not None:
             raise ValueError("cases determines what varies; leave out random, seed and the values of keys, or cases")
@@ -68,4 +69,5 @@ def make_plan(
             raise ValueError(f"seed = {seed!r} selects random points, and there are none; add random, or leave it out")
         return SweepPlan(case, trust, [(key, axis_values(key, values)) for key, values in axes.items()])
     points = whole_number("random", random), whole_number("seed", 0 if seed is None else seed)
-    return SweepPlan(case, trust, [(key, range_ends(key, ends)) for key, ends in axes.items()], random=points)
+    sides = [(key, range_ends(key, ends, " with random")) for key, ends in axes.items()]
+    return SweepPlan(case, trust, sides, random=points)

@@ -12,7 +12,7 @@ import xarray
 from numpy.typing import ArrayLike, NDArray
 
 from . import _engine
-from ._arguments import threads_for
+from ._arguments import flag, threads_for, whole_number
 from ._axes import all_values, axis_values
 from ._dataset import COMMON_ATTRIBUTES, flag_attributes
 from ._progress import progress_bar
@@ -31,6 +31,7 @@ def sweep_systems(
 ) -> xarray.Dataset:
     """Runs every combination."""
     check_keys(system, axes)
+    trust = flag("trust", trust)
     values = {key: _axis(key, value) for key, value in axes.items()}
     shape = tuple(len(axis) for axis in values.values())
     count = math.prod(shape)
@@ -71,12 +72,13 @@ def sweep_systems(
 
 
 def _axis(key: str, values: ArrayLike | str) -> NDArray[Any]:
-    """The values of an axis. Those of a range are whole numbers for a count, as in a study of a case."""
-    given = axis_values(key, values)
-    read = all_values(key, given)
-    if key == "max_impacts" and isinstance(given, str) and np.all(read == np.round(read)):
-        return read.astype(np.int64)
-    return read
+    """The values of an axis. Those of a count are whole numbers, as in a study of a case."""
+    read = all_values(key, axis_values(key, values))
+    if key != "max_impacts" or read.dtype.kind != "f":
+        return read
+    for fraction in read[read % 1 != 0].tolist():
+        whole_number(key, fraction)
+    return read.astype(np.int64)
 
 
 def _attributes_of(name: str) -> dict[str, Any]:

@@ -53,7 +53,7 @@ mod _engine {
     use super::structure::{Assessment, Elastic, Structure};
     #[pymodule_export]
     use super::study::{
-        Store, Study, evenly, identity, merge, range_values, read_column, threads_for,
+        Store, Study, check_place, evenly, identity, merge, range_values, read_column, threads_for,
     };
     #[pymodule_export]
     use super::system::{System, run_system, sweep_systems};

@@ -15,7 +15,8 @@ use snapload_certificate::ExactCase;
 use snapload_orbits::{
     BranchEvent, BranchOptions, BranchRow, Family, Jet, Kind, Moored, OrbitRequest, OrbitRow,
     Point, Starts, branch_options, branch_summary, check_start, check_start_of_system,
-    checked_phase, distance, of_attractor, orbit_summary, period_of, prove_all, start_of,
+    checked_phase, distance, followed_key, of_attractor, orbit_summary, period_of, prove_all,
+    start_of,
 };
 use std::sync::Arc;
 
@@ -376,10 +377,11 @@ pub(crate) fn continuation(
     points: usize,
     progress: Option<&Bound<'_, PyAny>>,
 ) -> PyResult<Branch> {
-    let range = side(key, range)?.ends();
     let case = orbit.case.clone();
     let no_case = || crate::errors::internal_error("this orbit does not belong to a case");
     let case = case.ok_or_else(no_case)?;
+    followed_key("key", case.parameters(), key).map_err(error_of_case)?;
+    let range = side(key, range)?.ends();
     let (key, value, options): (_, _, BranchOptions) =
         branch_options(case.parameters(), key, range, step, points).map_err(error_of_case)?;
     let family = Moored::case(*case.parameters(), [Some(key), None]);

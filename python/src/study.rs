@@ -10,7 +10,7 @@ use snapload::Value;
 use snapload::analysis::{Cancelled, Progress};
 use snapload_study::{
     Axis, Grid, Identity, List, Opened, Plan, RandomRange, StudyError, Values, check_name,
-    checked_identity, read_rows, written_grid,
+    checked_identity, folder_of, read_rows, written_grid,
 };
 use std::collections::HashMap;
 use std::path::PathBuf;
@@ -336,10 +336,16 @@ impl Plain {
     }
 }
 
+/// Checks that a file of rows can be written at a place: its ending, and that its folder exists.
+#[pyfunction]
+pub(crate) fn check_place(out: PathBuf) -> PyResult<()> {
+    check_name(&out).map_err(error_of_study)?;
+    folder_of(&out).map(|_| ()).map_err(error_of_study)
+}
+
 /// Joins the parts of a study into one file.
 #[pyfunction]
 pub(crate) fn merge(py: Python<'_>, parts: Vec<PathBuf>, out: PathBuf) -> PyResult<()> {
-    check_name(&out).map_err(error_of_study)?;
     let joined = interruptible(py, None, move |_| snapload_study::merge(&parts, &out))?;
     joined.map_err(error_of_study)
 }

@@ -215,3 +215,61 @@ def test_rows_of_another_study_are_refused(tmp_path: Path):
     store = engine.Store.open(ours, tmp_path / "e.parquet", False)
     with pytest.raises(ValueError, match="came from another study or another version of snapload"):
         store.keep(0, 1, other.chunk(0, 1))
+
+
+def test_a_part_without_rows_is_opened(tmp_path: Path, command: Callable[..., str]):
+    parts = [tmp_path / f"{k}.parquet" for k in range(1, 6)]
+    for k, part in enumerate(parts, 1):
+        vary_options = ["--vary", "e=0.5:0.7:3", "--set", "t_end=2"]
+        command("sweep", *vary_options, "--shard", f"{k}/5", "--out", str(part))
+    sizes = [snapload.open_study(part).sizes["row"] for part in parts]
+    # Of three rows the k-th part ends at the whole number below 3 k / 5.
+    assert sizes == [0, 1, 0, 1, 1]
+    full, empty = snapload.open_study(parts[1]), snapload.open_study(parts[0])
+    assert {name: values.dtype for name, values in empty.items()} == {
+        name: values.dtype for name, values in full.items()
+    }
+    assert snapload.open_study(parts[0], chunks="auto").rho1.compute().size == 0
+    assert snapload.merge(parts, tmp_path / "whole.parquet").e.values.tolist() == [0.5, 0.6, 0.7]
+
+
+def test_a_study_of_which_no_case_can_be_run_is_an_error(tmp_path: Path):
+    message = "none of the 2 cases could be run; the first: .*0,3"
+    with pytest.raises(ValueError, match=message):
+        snapload.sweep(snapload.Case(), cases={"f_o": ["0,3", "0,4"]})
+    with pytest.raises(ValueError, match=message):
+        snapload.sweep(snapload.Case(), out=tmp_path / "f_o.parquet", cases={"f_o": ["0,3", "0,4"]})
+    # The file has the reason of every case, as that of the command.
+    reasons = snapload.open_study(tmp_path / "f_o.parquet").error.values
+    assert ["0,3" in reasons[0], "0,4" in reasons[1]] == [True, True]
+    some = snapload.sweep(snapload.Case(), cases={"f_o": ["0,3", "0.3"]})
+    assert some.end.values.tolist() == ["", "settled"]
+
+
+@pytest.mark.parametrize("values", ["1:4:3", [1, 2.5, 4]])
+def test_a_count_takes_no_fractions(values):
+    cables = [snapload.Cable((side, 1.2), 1.45) for side in (-1, 1)]
+    forcing = snapload.Forcing((0, -1), [])
+    system = snapload.System(snapload.Body(mass=1.0), cables, forcing, 0.5, y=0.6, t_end=3)
+    for sweep in (lambda **axes: snapload.sweep(snapload.Case(t_end=3), **axes), system.sweep):
+        with pytest.raises(ValueError, match=r"max_impacts = 2.5 is not allowed; allowed: a whole number"):
+            sweep(max_impacts=values)
+        assert sweep(max_impacts="1:3:3").max_impacts.values.tolist() == [1, 2, 3]
+
+
+def test_a_place_where_nothing_can_be_merged_is_named(tmp_path: Path):
+    part = tmp_path / "part.parquet"
+    snapload.sweep(snapload.Case(t_end=1), out=part, e=[0.5])
+    missing = tmp_path / "none" / "m.parquet"
+    with pytest.raises(ValueError, match=f"can not write {missing}: there is no folder {missing.parent}; make it"):
+        snapload.merge([part], missing)
+    with pytest.raises(ValueError, match=f"can not write {tmp_path / 'm.csv'}: rows are written as Parquet"):
+        snapload.merge([part], tmp_path / "m.csv")
+
+
+def test_dates_are_no_values_of_a_key(tmp_path: Path):
+    pandas = pytest.importorskip("pandas")
+    dates = pandas.DataFrame({"f_o": pandas.to_datetime(["2026-01-01"])})
+    dates.to_parquet(tmp_path / "dates.parquet")
+    with pytest.raises(ValueError, match=r"column f_o holds Timestamp; allowed: numbers, texts"):
+        snapload.sweep(snapload.Case(), cases=tmp_path / "dates.parquet")

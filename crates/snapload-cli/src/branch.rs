@@ -14,6 +14,7 @@ use snapload::analysis::{OnProgress, Progress};
 use snapload_figures::Layer;
 use snapload_orbits::{
     Branch, BranchEvent, BranchOptions, BranchRow, Kind, Moored, POINTS, branch_summary,
+    followed_key,
 };
 use snapload_report::{CaseEcho, case_in_words};
 use snapload_study::{RandomRange, Values};
@@ -165,6 +166,7 @@ fn branch_options(
             "--along {text:?}: no range; write --along KEY=low:high, such as --along f_o=0.6:1.0"
         )));
     };
+    followed_key("along", parameters, key.trim())?;
     let side = RandomRange::written(key.trim(), range.trim())
         .map_err(|error| Failure::from(error).with_prefix("--along"))?;
     let most = args.points as usize;

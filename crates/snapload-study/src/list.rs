@@ -264,7 +264,10 @@ fn named_columns(called: &str, reader: &ParquetReader) -> Result<Vec<String>, St
 fn shown_type(field: &Type) -> String {
     let about = field.get_basic_info();
     match (about.logical_type_ref(), about.converted_type()) {
-        (Some(kind), _) => format!("{kind:?}"),
+        (Some(kind), _) => {
+            let kind = format!("{kind:?}");
+            kind.split(['(', ' ']).next().unwrap_or(&kind).to_owned()
+        }
         (None, ConvertedType::NONE) if field.is_primitive() => {
             field.get_physical_type().to_string()
         }

@@ -26,10 +26,12 @@ impl Axis {
     /// An axis with evenly spaced values.
     ///
     /// # Errors
-    /// [`StudyError::Case`] if there is no such key, or it can not take the first or the last
-    /// value.
+    /// [`StudyError::Case`] if there is no such key, or it can not take one of the values.
     pub fn even(key: &str, grid: Grid) -> Result<Self, StudyError> {
-        for k in [0, grid.count() - 1] {
+        let last = grid.count() - 1;
+        // All values are between the ends, and all are whole numbers if the first two and the last
+        // are.
+        for k in [0, last.min(1), last] {
             check_entry(key, &Value::Number(grid.value(k)))?;
         }
         let (key, values) = (key_named(key)?.name, Values::Even(grid));

@@ -356,7 +356,8 @@ pub fn checked_identity(path: &Path) -> Result<Option<Identity>, StudyError> {
 }
 
 /// One column of a file, some tens of thousands of rows at a time, limited to these rows; the first
-/// row of the file is number 0.
+/// row of the file is number 0. The type of the column is known from the values even if there are
+/// no rows.
 ///
 /// # Errors
 /// [`StudyError::Damaged`] if it can not be read.
@@ -367,6 +368,8 @@ pub fn read_rows(
     mut visit: impl FnMut(Values),
 ) -> Result<(), StudyError> {
     let columns = Columns::named(path, &[name])?;
+    let (_, kind) = columns.reader.fields().nth(columns.places[0]).unzip();
+    kind.flatten().map(Values::none).map(&mut visit);
     let mut begin = 0;
     for (group, count) in columns.reader.groups().enumerate() {
         let overlap = rows.start.max(begin)..rows.end.min(begin + count);
