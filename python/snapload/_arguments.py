@@ -47,11 +47,18 @@ def threads_for(requested: SupportsIndex, callers: int) -> int:
     return threads
 
 
+def flag(name: str, value: Any) -> bool:
+    """True or false, and nothing that merely counts as one of them, such as a text."""
+    if isinstance(value, (bool, np.bool_)):
+        return bool(value)
+    raise ValueError(f"{name} = {value!r} is not allowed; allowed: True or False")
+
+
 def number(name: str, value: SupportsFloat) -> float:
     """A number; the engine checks whether it is allowed."""
     try:
-        # NumPy's mark of a masked value would give NaN.
-        if not isinstance(value, (str, bytes)) and type(value).__name__ != "MaskedConstant":
+        # NumPy's mark of a masked value would give NaN, and True would be 1.
+        if not isinstance(value, (str, bytes, bool, np.bool_)) and type(value).__name__ != "MaskedConstant":
             return float(value)
     except (TypeError, ValueError, OverflowError):
         pass
@@ -89,6 +96,15 @@ def uncertainty_for_engine(uncertainty: Uncertainty) -> dict[str, float] | float
     except ValueError:
         allowed = "a number, or one for each key, such as {'f_o': 0.01}"
         raise ValueError(f"uncertainty = {uncertainty!r} is not allowed; allowed: {allowed}") from None
+
+
+def utf8_text(name: str, contents: bytes) -> str:
+    """The text of a file of that name."""
+    try:
+        # Some editors of Windows begin a text with a byte-order mark.
+        return contents.decode("utf-8-sig")
+    except UnicodeDecodeError as error:
+        raise ValueError(f"{name}: not a text file in UTF-8 (byte {error.start}); save it as UTF-8") from None
 
 
 def existing_file(path: str) -> str:

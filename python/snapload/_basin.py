@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from . import _engine
-from ._arguments import engine_case, whole_number
+from ._arguments import engine_case, flag, whole_number
 from ._axes import axis_values
 from ._case import Case
 from ._keys import Axes
@@ -51,16 +51,16 @@ def safe_basin(case: Case, *, trust: bool = True, progress: bool = True, **windo
         Variables over the two keys: ``outcome``, how the run ended, in words (empty where the start is beyond a cable
         or a limit and therefore not in the window); ``outcome_code``, the same as numbers for maps; ``t``, the time of
         the end; ``legal``; ``safe``; and with trust ``decided``, whether the neighbours at 1e-8 end alike, and
-        ``trusted``, whether the horizon of trust lies past the end. Attributes: the numbers of ``legal``, ``safe`` and
-        ``undecided`` cells, and of those whose run is ``cut_short`` by the impact limit or a standstill, which count
-        neither as safe nor as unsafe; ``fraction`` and ``gim``, the global integrity measure, with ``interval95``; and
-        ``cell``, the size of a cell. If both keys are start values, there are also ``lim``, the distance of the
-        nearest unsafe start from the equilibrium, ``if``, the radius of the largest disc in the window without unsafe
-        starts, and ``iim``, the smallest unsafe velocity if one of the keys is a velocity. They are NaN where there is
-        no such value; ``lim`` and ``iim`` are also NaN where another start key is not 0, because the equilibrium is
-        then not in the plane of the two keys, and where legal starts that were not run to their end are nearer. The
-        scale of such an attribute is in another one: ``lim_scale`` is ``L``, but ``L and L/T`` for a window of a
-        position and a velocity, where a distance has no single unit.
+        ``trusted``, whether the horizon of trust lies past the end, both false where the start is not legal.
+        Attributes: the numbers of ``legal``, ``safe`` and ``undecided`` cells, and of those whose run is ``cut_short``
+        by the impact limit or a standstill, which count neither as safe nor as unsafe; ``fraction`` and ``gim``, the
+        global integrity measure, with ``interval95``; and ``cell``, the size of a cell. If both keys are start values,
+        there are also ``lim``, the distance of the nearest unsafe start from the equilibrium, ``if``, the radius of
+        the largest disc in the window without unsafe starts, and ``iim``, the smallest unsafe velocity if one of the
+        keys is a velocity. They are NaN where there is no such value; ``lim`` and ``iim`` are also NaN where another
+        start key is not 0, because the equilibrium is then not in the plane of the two keys, and where legal starts
+        that were not run to their end are nearer. The scale of such an attribute is in another one: ``lim_scale`` is
+        ``L``, but ``L and L/T`` for a window of a position and a velocity, where a distance has no single unit.
 
     Raises
     ------
@@ -87,9 +87,9 @@ def safe_basin(case: Case, *, trust: bool = True, progress: bool = True, **windo
     """
     from ._dataset import COMMON_ATTRIBUTES, flag_attributes
 
-    engine, axes = engine_case(case), _window_axes(window)
+    engine, axes, trust = engine_case(case), _window_axes(window), flag("trust", trust)
     with progress_bar("safe basin", _PROGRESS_TOTAL, progress) as report_progress:
-        answer, columns = _engine.safe_basin(engine, axes, bool(trust), report_progress)
+        answer, columns = _engine.safe_basin(engine, axes, trust, report_progress)
     data, coords = json.loads(answer), _axis_coordinates(axes)
     shape = tuple(len(values) for _, values, _ in coords.values())
     variables: dict[str, Any] = {}
@@ -229,11 +229,12 @@ def erosion(
     xarray.Dataset
         Variables over the third key: ``gim`` with its 95 % interval from ``low`` to ``high``; ``lim``, ``if`` and
         ``iim`` as in :func:`snapload.safe_basin`; the numbers of cells that are ``legal``, ``safe``, ``undecided``
-        (NaN without trust) and ``cut_short``; and ``decided_fraction``, the safe fraction of the decided cells. The attribute ``knee``
-        is the last value up to which that fraction never falls below nine tenths of its value at the first one; NaN
-        if it never does. The attribute ``knee_between`` has the smallest and the largest possible ``knee``, whatever
-        the ends of the undecided cells; NaN stands for one beyond the last value. Without trust all cells count as
-        decided that are not cut short, and ``knee_between`` is absent if none is. ``knee_scale`` is the scale of the third key, if it has one.
+        (NaN without trust) and ``cut_short``; and ``decided_fraction``, the safe fraction of the decided cells. The
+        attribute ``knee`` is the last value up to which that fraction never falls below nine tenths of its value at
+        the first one; NaN if it never does. The attribute ``knee_between`` has the smallest and the largest possible
+        ``knee``, whatever the ends of the undecided cells; NaN stands for one beyond the last value. Without trust all
+        cells count as decided that are not cut short, and ``knee_between`` is absent if none is. ``knee_scale`` is the
+        scale of the third key, if it has one.
 
     Raises
     ------
@@ -259,14 +260,14 @@ def erosion(
     """
     from ._dataset import COMMON_ATTRIBUTES
 
-    engine, axes = engine_case(case), _window_axes(window)
+    engine, axes, trust = engine_case(case), _window_axes(window), flag("trust", trust)
     if not isinstance(over, Mapping) or len(over) != 1:
         allowed = "one key with its values, such as {'f_o': '0:0.6:21'}"
         raise ValueError(f"over = {over!r} is not allowed; allowed: {allowed}")
     ((key, values),) = over.items()
     over_axis = key, axis_values(key, values)
     with progress_bar("erosion", _PROGRESS_TOTAL, progress) as report_progress:
-        data = json.loads(_engine.erosion(engine, axes, over_axis, bool(trust), report_progress))
+        data = json.loads(_engine.erosion(engine, axes, over_axis, trust, report_progress))
     points = data["points"]
     variables: dict[str, Any] = {}
     for point in points:

@@ -8,10 +8,10 @@ from collections.abc import Iterator, Mapping
 from functools import cache
 from html import escape
 from os import PathLike
-from typing import Any, Self, Unpack
+from typing import TYPE_CHECKING, Any, Self, Unpack
 
 from . import _engine
-from ._arguments import Uncertainty, number, uncertainty_for_engine, whole_number
+from ._arguments import Uncertainty, flag, number, uncertainty_for_engine, utf8_text, whole_number
 from ._case_mapping import CaseMapping, UnknownKeyError
 from ._keys import OPTIONAL, PARAMETERS, Keys, KeyValues
 from ._orbit import HasOrbits
@@ -74,6 +74,13 @@ class Case(CaseMapping, KeyValues, HasOrbits):
             allowed = "the code of a built-in case as a str; keys are given by name, such as Case(f_o=0.31)"
             raise TypeError(f"code = {code!r} is not allowed; allowed: {allowed}")
 
+    if not TYPE_CHECKING:
+        # A type checker knows the attributes, and would accept any with this method.
+        def __setattr__(self, name: str, value: object) -> None:
+            if not name.startswith("_"):
+                raise AttributeError(f"a case does not change; case.replace({name}=...) gives another one")
+            super().__setattr__(name, value)
+
     @classmethod
     def _from_engine(cls, engine: _engine.Case) -> Self:
         case = cls.__new__(cls)
@@ -121,11 +128,11 @@ class Case(CaseMapping, KeyValues, HasOrbits):
         name = os.fsencode(path).decode("utf-8", "replace")
         with open(path, "rb") as file:
             contents = file.read()
+        text = utf8_text(name, contents)
         try:
-            # Some editors of Windows begin a text with a byte-order mark.
-            return cls._from_engine(_engine.Case(name, tomllib.loads(contents.decode("utf-8-sig"))))
+            return cls._from_engine(_engine.Case(name, tomllib.loads(text)))
         except ValueError as error:
-            # Errors of TOML and UTF-8 are of this kind, too.
+            # Errors of TOML are of this kind, too.
             raise ValueError(f"{name}: {error}") from None
 
     def to_file(self, path: str | PathLike[str]) -> None:
@@ -269,7 +276,7 @@ class Case(CaseMapping, KeyValues, HasOrbits):
         >>> snapload.Case(f_o=0.31).run(trust=False).end.reason
         'rotation_limit'
         """
-        if not trust:
+        if not flag("trust", trust):
             if uncertainty is not None or members:
                 raise ValueError("trust=False runs no neighbours; leave out uncertainty and members, or trust=False")
             return Run(self, None, _engine.run_alone(self._engine))

@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from . import _engine
-from ._arguments import engine_case, number, whole_number
+from ._arguments import engine_case, flag, number, whole_number
 from ._axes import axis_values
 from ._case import Case
 from ._keys import Axes
@@ -293,7 +293,7 @@ def orbit_diagram(
     sampling = whole_number("periods", periods), whole_number("keep", keep), number("phase", phase)
     varied = key, axis_values(key, values)  # type: ignore[arg-type]
     with progress_bar("following the attractor", _count(varied[1]), progress) as report_progress:
-        answer, counts, state_data = _engine.diagram(engine, varied, bool(down), sampling, report_progress)
+        answer, counts, state_data = _engine.diagram(engine, varied, flag("down", down), sampling, report_progress)
     rows, states = json.loads(answer), np.frombuffer(state_data, dtype=np.float64).reshape(-1, len(STATE))
     points = np.full((len(rows), keep + 1, len(STATE)), np.nan)
     filled = 0

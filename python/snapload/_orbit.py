@@ -6,7 +6,7 @@ from collections.abc import Iterable
 from typing import TYPE_CHECKING, Any
 
 from . import _engine
-from ._arguments import engine_case, whole_number
+from ._arguments import engine_case, flag, whole_number
 from ._lazy_import import LazyModule
 from ._orbit_base import STATE, BaseOrbit, Start, orbit_options, orbit_or_error, start_values
 from ._progress import progress_bar
@@ -417,7 +417,7 @@ def find_orbits(
     engine, options = engine_case(case), orbit_options(periods, symbol, phase)
     starts, seed = whole_number("starts", starts), whole_number("seed", seed)
     with progress_bar("random starts", starts, progress) as report_progress:
-        found = _engine.find_orbits(engine, starts, seed, *options, bool(prove), report_progress)
+        found = _engine.find_orbits(engine, starts, seed, *options, flag("prove", prove), report_progress)
     return [Orbit(case, orbit) for orbit in found]
 
 

@@ -143,6 +143,9 @@ class BaseOrbit:
         self.proved: bool = data["proved"]
         self.proof: dict[str, Any] | None = data.get("proof")
         self.modes: tuple[dict[str, Any], ...] = tuple(data["modes"])
+        # An orbit does not change. Who changes values does so in a copy.
+        for values in (self.state, self.multipliers, self.exponents):
+            values.flags.writeable = False
         events = _events(data["events"])
         self.events = events if self._nondimensional else events._in_own_units()
 

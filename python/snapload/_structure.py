@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 
 from . import _engine
-from ._arguments import number, whole_number
+from ._arguments import flag, number, utf8_text, whole_number
 from ._progress import progress_bar
 from ._structure_results import Assessment, Elastic, Seas
 
@@ -92,7 +92,7 @@ class Structure:
         ...     snapload.Structure.from_toml(file).assess(neighbours=0).standing
         'open'
         """
-        text = Path(path).read_text(encoding="utf-8")
+        text = utf8_text(fspath(path), Path(path).read_bytes())
         return cls(_engine.Structure.parse(fspath(path), _folder_of(path), text, _changes(changes)))
 
     @classmethod
@@ -180,7 +180,7 @@ class Structure:
         ...     snapload.Structure.from_moordyn(f"{folder}/lines.txt").assess(neighbours=0).standing
         'open'
         """
-        text = Path(path).read_text(encoding="utf-8")
+        text = utf8_text(fspath(path), Path(path).read_bytes())
         return cls(*_engine.Structure.from_moordyn(fspath(path), _folder_of(path), text, _changes(changes)))
 
     def to_moordyn(self, path: str | PathLike[str], segments: int = 1) -> None:
@@ -341,7 +341,7 @@ class Structure:
         >>> snapload.Structure.example().without("wave").replace(sea).seas(seeds=4)
         <Seas: breaks, 4 records>
         """
-        seeds = whole_number("seeds", seeds)
+        seeds, elastic = whole_number("seeds", seeds), flag("elastic", elastic)
         with progress_bar("seas", seeds, progress) as report_progress:
             return Seas(self._engine.seas(seeds, elastic, report_progress))
 

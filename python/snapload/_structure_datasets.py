@@ -10,6 +10,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from ._arguments import unmasked
 from ._lazy_import import LazyModule
+from ._schema import with_own_names
 
 if TYPE_CHECKING:
     import xarray
@@ -75,14 +76,15 @@ def rows_dataset(
     """
     if not rows:
         types = columns or {}
-        return xarray.Dataset({name: (along, np.empty(0, types[name]), attributes_of(name)) for name in types})
+        empty: dict[str, Any] = {name: (along, np.empty(0, types[name]), attributes_of(name)) for name in types}
+        return with_own_names(xarray.Dataset(empty))
     variables = {
         name: (along, column_values([row[name] for row in rows]), attributes_of(name))
         for name in rows[0]
         if name != index and not isinstance(rows[0][name], (list, dict))
     }
     coords = {along: [row[index] for row in rows]} if index else {}
-    return xarray.Dataset(variables, coords=coords)
+    return with_own_names(xarray.Dataset(variables, coords=coords))
 
 
 def finite_row(times: ArrayLike) -> list[float]:
@@ -106,4 +108,5 @@ def motion_dataset(
     }
     tensions = np.array(tension, dtype=np.float64).reshape(len(t), len(lines))
     variables["tension_n"] = (("t_s", "line"), tensions, attributes_of("tension_n"))
-    return xarray.Dataset(variables, coords={"t_s": ("t_s", np.array(t), attributes_of("t_s")), "line": lines})
+    coords = {"t_s": ("t_s", np.array(t), attributes_of("t_s")), "line": lines}
+    return with_own_names(xarray.Dataset(variables, coords=coords))

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any
 from numpy.typing import ArrayLike
 
 from . import _engine
-from ._arguments import Uncertainty, number, whole_number
+from ._arguments import Uncertainty, flag, number, whole_number
 from ._geometry import Geometry
 from ._keys import LIMIT_PARAMETERS, LIMITS, LimitBounds
 from ._lazy_import import LazyModule
@@ -233,7 +233,7 @@ class System(LimitBounds):
         >>> run.modes["mode"][:2].tolist(), len(run.impacts) > 0
         (['sliding', 'slack'], True)
         """
-        if not trust:
+        if not flag("trust", trust):
             if uncertainty is not None:
                 raise ValueError("trust=False follows no deviations; leave out uncertainty, or trust=False")
             return SystemRun(self, None, _engine.run_system(self._engine_system, None, 0.0))

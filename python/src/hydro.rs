@@ -144,12 +144,12 @@ pub(crate) fn hydro(
     };
     let report = py.detach(|| {
         let reading = match variables {
-            Some(variables) => of_variables(variables, &given)?,
-            None => read(Path::new(name), &given)?,
+            Some(variables) => of_variables(variables, &given).map_err(refused)?,
+            None => read(Path::new(name), &given)
+                .map_err(|error| PyValueError::new_err(format!("{name}: {error}")))?,
         };
-        Report::new(name, reading, &request)
-    });
-    let report = report.map_err(refused)?;
+        Report::new(name, reading, &request).map_err(refused)
+    })?;
     let json = serde_json::to_string(&report.to_json()).map_err(internal_error)?;
     Ok((json, report.summary()))
 }

@@ -178,8 +178,10 @@ pub(crate) fn safe_basin<'py>(
         filled(py, "safe", flags(Cell::is_safe)),
     ];
     if trust {
-        columns.push(filled(py, "decided", flags(|cell| cell.decided)));
-        columns.push(filled(py, "trusted", flags(|cell| cell.trusted)));
+        let decided = flags(|cell| cell.end.is_some() && cell.decided);
+        let trusted = flags(|cell| cell.end.is_some() && cell.trusted);
+        columns.push(filled(py, "decided", decided));
+        columns.push(filled(py, "trusted", trusted));
     }
     Ok((to_json(&BasinRow::new(&basin))?, columns))
 }

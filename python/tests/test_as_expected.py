@@ -103,6 +103,17 @@ def test_arrays_of_results_can_not_be_written_to():
     assert copied.x[0] == 99 != points.x[0]
 
 
+def test_a_case_and_an_orbit_do_not_change():
+    case = snapload.Case()
+    for name in ("t_end", "t_End"):
+        with pytest.raises(AttributeError, match=rf"a case does not change; case.replace\({name}=...\) gives another"):
+            setattr(case, name, 5.0)
+    orbit = snapload.Case(body="point", r=1.7, e=0.35, f_o=1.4, nu=0.8, omega=3.1).orbit()
+    for values in (orbit.state, orbit.multipliers, orbit.exponents, copy.copy(orbit).state):
+        with pytest.raises(ValueError, match="read-only"):
+            values[0] = 9
+
+
 @pytest.mark.parametrize("result", list(results()), ids=lambda result: type(result).__name__)
 def test_results_compare_copy_and_pickle(result):
     for other in (pickle.loads(pickle.dumps(result)), copy.deepcopy(result), copy.copy(result)):

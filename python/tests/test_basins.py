@@ -212,3 +212,24 @@ def test_the_curves_of_an_erosion_go_along_its_key():
     assert line.get_xdata().tolist() == sorted(forces)
     assert line.get_ydata().tolist() == [float(eroded.gim.sel(f_o=f_o)) for f_o in sorted(forces)]
     assert eroded.f_o.values.tolist() == forces
+
+
+def test_only_legal_starts_are_decided_and_trusted():
+    basin = snapload.safe_basin(snapload.Case(t_end=20), x="-0.4:0.4:9", y="-0.3:0.6:7")
+    illegal = ~basin.legal.values
+    assert illegal.any() and basin.legal.any()
+    assert not basin.decided.values[illegal].any() and not basin.trusted.values[illegal].any()
+    assert int(basin.decided.sum()) == basin.attrs["legal"] - basin.attrs["undecided"]
+
+
+def test_the_table_of_an_erosion_has_what_its_knee_is_computed_from(command_json, tmp_path):
+    out = tmp_path / "erosion.csv"
+    vary_options = [f"--vary={key}={values}" for key, values in WINDOW.items()]
+    more = ["--set=t_end=20", "--set=max_impacts=40", "--over=f_o=0:0.6:4", "--out", str(out)]
+    data = command_json("erosion", *vary_options, *more)
+    frame, points = pandas.read_csv(out), data["points"]
+    eroded = snapload.erosion(snapload.Case(t_end=20, max_impacts=40), over={"f_o": "0:0.6:4"}, **WINDOW)
+    for name in ("decided_fraction", "cut_short"):
+        expected = [point[name] for point in points]
+        assert frame[name].tolist() == eroded[name].values.tolist() == expected
+    assert frame.cut_short.any() and frame.decided_fraction.between(0, 1).all()

@@ -169,3 +169,68 @@ def test_a_file_that_is_no_study_is_refused(tmp_path: Path):
         with pytest.raises(ValueError) as error:
             snapload.open_study(path)
         assert str(error.value) == f"{path}: not a file of snapload sweep"
+
+
+@pytest.mark.parametrize("value", ["no", 1, None])
+def test_what_is_true_or_false_is_nothing_else(value):
+    calls = {
+        "trust": [
+            lambda: CASE.run(trust=value),
+            lambda: snapload.sweep(CASE, e=[0.5], trust=value),
+            lambda: snapload.safe_basin(CASE, trust=value, **WINDOW),
+            lambda: snapload.erosion(CASE, over={"f_o": [0.1]}, trust=value, **WINDOW),
+        ],
+        "down": [lambda: snapload.orbit_diagram(CASE, f_o=[0.1, 0.2], down=value)],
+        "prove": [lambda: snapload.find_orbits(POINT, starts=1, prove=value)],
+        "elastic": [lambda: sea().seas(seeds=1, elastic=value)],
+    }
+    for name, each in calls.items():
+        for call in each:
+            with pytest.raises(ValueError, match=f"^{name} = {value!r} is not allowed; allowed: True or False$"):
+                call()
+    assert CASE.run(trust=np.True_).trust is not None
+
+
+@pytest.mark.parametrize("value", [True, np.False_])
+def test_true_is_no_number(value):
+    for name, call in (
+        ("uncertainty", lambda: CASE.run(uncertainty=value)),
+        ("mass", lambda: snapload.Body(mass=value)),
+        ("length", lambda: snapload.Scales(value, 1, 1)),
+        ("first", lambda: snapload.evenly(value, 2, 2)),
+        ("dt", lambda: CASE.run().motion(value)),
+    ):
+        with pytest.raises(ValueError, match=f"^{name} = {value!r} is not allowed; allowed: a number"):
+            call()
+
+
+def test_a_range_of_a_branch_is_no_side_of_a_box(command):
+    orbit = POINT.orbit()
+    message = "body is not allowed; allowed: a key on which orbits depend: one of r, e, a, b, inertia, f_o, nu, omega"
+    with pytest.raises(ValueError, match=f"^key = {message}$"):
+        snapload.continuation(orbit, "body", (0.1, 2))
+    assert f"along = {message}" in command("branch", "--along", "body=0.1:2", fails=True)
+    with pytest.raises(ValueError, match=r"^f_o = \(1.2,\) is not allowed; allowed: its two ends, such as"):
+        snapload.continuation(orbit, "f_o", (1.2,))
+    with pytest.raises(ValueError, match=r"^f_o = \(1.2,\) is not allowed; allowed with random: its two ends"):
+        snapload.sweep(POINT, random=1, f_o=(1.2,))
+
+
+@pytest.mark.parametrize(
+    "read", [snapload.Case.from_file, snapload.Structure.from_toml, snapload.Structure.from_moordyn]
+)
+def test_a_file_that_is_no_text_is_named(read, tmp_path):
+    path = tmp_path / "latin1.toml"
+    path.write_bytes("# Öre\nf_o = 0.31\n".encode("latin-1"))
+    with pytest.raises(ValueError, match=f"^{path}: not a text file in UTF-8 \\(byte 2\\); save it as UTF-8$"):
+        read(path)
+
+
+def test_a_file_without_coefficients_is_named(tmp_path):
+    (tmp_path / "x.toml").write_text("")
+    for path, why in ((tmp_path, "RadiationCoefficients.tec"), (tmp_path / "x.toml", "it is none of these")):
+        with pytest.raises(ValueError, match=f"^{path}: can not be read: {why}"):
+            snapload.Hydro.from_file(path)
+    # What is wrong with an option is not the fault of the file.
+    with pytest.raises(ValueError, match="^the mass in kg = -1"):
+        snapload.Hydro.from_file(PONTOON, mass=-1)

@@ -75,3 +75,13 @@ def test_results_come_back_in_si():
 def test_mistakes_are_reported(call, kind, message):
     with pytest.raises(kind, match=message):
         call()
+
+
+def test_what_is_in_si_units_already_does_not_change():
+    scales = snapload.Scales(5, 800, 1000)
+    structure = snapload.Structure.example().replace({"run.duration": 70, "design.least_share": 0})
+    answer, elastic = structure.assess(neighbours=1), structure.elastic()
+    motion = answer.motion([0, 1])
+    for result in (answer.lines, answer.snaps, answer.checks, elastic.lines, elastic.pulls, elastic.checks, motion):
+        assert scales.si(result).identical(result)
+    assert scales.si(answer.lines["safety_factor"]).identical(answer.lines["safety_factor"])
