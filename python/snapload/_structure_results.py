@@ -52,7 +52,8 @@ class Assessment(RepeatableResult[_engine.Assessment]):
         """The verdict in one word: ``holds``, ``breaks``, ``exceeds``, ``open`` or ``unknown``.
 
         ``exceeds`` means that the body turned over or reached the sea floor. ``open`` means that the tensions are not
-        reliable, or that a line would break before anything is judged.
+        reliable, that a line would break before anything is judged, or that the run is one record of a sea, in which
+        no line breaks.
 
         See Also
         --------
@@ -219,7 +220,8 @@ class Seas(StructureResult):
         """The verdict in one word.
 
         It is ``holds``, ``breaks`` (in at least one record a line does, or the mooring fails), ``unknown``, or ``open``
-        if tensions are not reliable, a line would break before anything is judged, or records are too short or few.
+        if tensions are not reliable, a line would break before anything is judged, or records are too short or few to
+        tell whether one breaks in three hours.
 
         See Also
         --------

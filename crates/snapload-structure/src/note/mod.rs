@@ -13,7 +13,7 @@ use crate::physics::gumbel::{Estimate, Gumbel};
 use crate::physics::model_at_rest::ModelAtRest;
 use crate::physics::periods::periods_text;
 use crate::physics::snap::Snap;
-use crate::physics::warnings::Warning;
+use crate::physics::warning::Warning;
 use crate::report::{Verdict, end_text};
 use crate::runs::assess::Assessment;
 use crate::runs::design::Check;

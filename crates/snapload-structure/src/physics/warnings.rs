@@ -1,15 +1,14 @@
 //! Warnings of conditions outside the range of the theory: rules of thumb, each with its numbers.
-//! The texts are in `templates/warnings.txt`.
 
 use super::afloat::{left_out, loaded};
 use super::equilibrium::Equilibrium;
 use super::model_at_rest::ModelAtRest;
+use super::sea_records::few_components;
+use super::warning::{HYDROSTATICS, Warning, warning_if};
 use super::waterline::{Waterline, rest_beyond_in_words};
 use super::wave::LinearWave;
-use crate::structure::{Afloat, LineSi, Structure, THREE_HOURS_S, Water};
-use crate::text_layout::{decimals, digits, kilo, paragraph, tenths};
-use askama::Template;
-use serde::Serialize;
+use crate::structure::{Afloat, LineSi, Structure, Water};
+use crate::text_layout::{digits, kilo};
 use snapload_hydro::{Format, LARGE_PITCH};
 use std::f64::consts::PI;
 
@@ -32,70 +31,11 @@ const PROPORTION: f64 = 100.0;
 const LONGEST_RATIO: f64 = 3.0;
 /// The rotation of a body beyond this would be resisted by the water \[degrees\].
 const FREE_TURN: f64 = 60.0;
-/// With fewer judged wave periods the start of the waves may still decide the largest tension.
-const FEW_PERIODS: f64 = 10.0;
-/// Records whose judged time is less than three hours divided by this say little about three hours.
-const SHORT: f64 = 12.0;
 /// Where the tensions at rest on elastic lines differ from those on inextensible lines by more than
 /// this part, so may all others, as the water then carries part of what moves the body.
 const STRETCHED: f64 = 0.1;
 /// A change of the wave's phase of this much is no longer small \[rad\].
 const MOST_PHASE: f64 = 0.3;
-
-/// A rule of thumb that a case violates, although it can be computed.
-#[derive(Clone, Debug, PartialEq, Serialize)]
-pub struct Warning {
-    /// The rule's name.
-    pub rule: &'static str,
-    /// The message, with the numbers.
-    pub message: String,
-    /// The command that decides, if the tensions of inextensible lines are not reliable.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub decided_by: Option<&'static str>,
-    /// Whether they are not, so that the verdict is open.
-    #[serde(skip)]
-    pub leaves_open: bool,
-}
-
-impl Warning {
-    /// Whether it applies to elastic lines, too, and not only to the tensions of inextensible ones.
-    pub(crate) fn is_of_all_lines(&self) -> bool {
-        !self.leaves_open || self.rule == HYDROSTATICS
-    }
-}
-
-/// The rule on which the tensions of all lines of a floating body depend.
-const HYDROSTATICS: &str = "hydrostatics";
-
-/// Whether a rule is violated on which tensions depend, and the command that decides, if one does.
-fn decided_by(rule: &str) -> (bool, Option<&'static str>) {
-    match rule {
-        "instant snap" | "shared loads" => (true, Some("snapload elastic")),
-        "rest on elastic lines" | HYDROSTATICS => (true, None),
-        _ => (false, None),
-    }
-}
-
-#[derive(Template)]
-#[template(path = "warnings.txt")]
-struct Message<'a> {
-    rule: &'static str,
-    a: f64,
-    b: f64,
-    words: &'a str,
-}
-
-/// The warning of a rule with its two numbers and its text, if it is violated.
-fn warning_if(is: bool, rule: &'static str, [a, b]: [f64; 2], words: &str) -> Option<Warning> {
-    let message = Message { rule, a, b, words };
-    let (leaves_open, decided_by) = decided_by(rule);
-    is.then(|| Warning {
-        rule,
-        message: paragraph(&message),
-        decided_by,
-        leaves_open,
-    })
-}
 
 /// The warning of a rule that a number has to be below a limit.
 fn warning_if_above(limit: f64, value: f64, rule: &'static str, words: &str) -> Option<Warning> {
@@ -341,7 +281,7 @@ fn in_waves(
     top: f64,
     highest: f64,
     wave: &LinearWave,
-) -> [Option<Warning>; 6] {
+) -> [Option<Warning>; 7] {
     let structure = &prepared.structure;
     let (body, depth, length) = (&structure.body, structure.site.depth_m, wave.length_m());
     let words = match structure.water {
@@ -375,6 +315,7 @@ fn in_waves(
         drag.filter(|_| !drag_given),
         warning_if_above(DIFFRACTION, size / length, "diffraction", ""),
         warning_if(!soft.is_empty(), "instant snap", [period, 0.0], &soft),
+        few_components(structure),
     ]
 }
 
@@ -397,20 +338,6 @@ pub(crate) fn phase_warning(structure: &Structure, z_m: f64, excursion_m: f64) -
     let phase = wave.wave_number_1_m * excursion_m;
     let numbers = [excursion_m, phase.to_degrees()];
     warning_if(phase > MOST_PHASE, "phase", numbers, "")
-}
-
-/// The warning that a distribution in three hours is based on much shorter records.
-pub(crate) fn short_records(structure: &Structure) -> Option<Warning> {
-    let judged_s = structure.judged_s();
-    let times = THREE_HOURS_S / judged_s;
-    warning_if(times > SHORT, "short records", [judged_s, times], "")
-}
-
-/// The warning that only few periods of the waves are judged.
-pub(crate) fn few_periods(structure: &Structure) -> Option<Warning> {
-    let judged = structure.judged_periods()?;
-    let numbers = [structure.judged_s(), judged];
-    warning_if(judged < FEW_PERIODS, "short run", numbers, "")
 }
 
 /// The warning that a body turns so far that a resistance to its rotation matters, and the case has

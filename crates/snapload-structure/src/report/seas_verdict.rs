@@ -6,19 +6,18 @@ use crate::physics::gumbel::Gumbel;
 use crate::runs::outcome::Outcome;
 use crate::runs::quantile::{quantile, sorted};
 use crate::runs::seas::{Failing, Seas};
-use crate::runs::three_hours::NoDistribution;
-use crate::structure::THREE_HOURS_S;
+use crate::runs::three_hours::{NoDistribution, judges_enough};
 use crate::text_layout::{digits, paragraph, tenths};
 use askama::Template;
 use snapload::Stop;
 use snapload::analysis::Share;
 
-/// Why records that are shorter than three hours do not tell whether a line breaks in those.
+/// Why records in which no line breaks do not tell whether one does in three hours.
 enum TooShort {
     /// Less than one period of the waves is judged.
     PartOfAWave,
     /// Lines may snap that do not in the records, or there are too few.
-    Snaps(NoDistribution),
+    NoFit(NoDistribution),
     /// The distribution of the largest ratio of tension to breaking load, which may reach one.
     Overload(Gumbel),
 }
@@ -86,18 +85,17 @@ impl Seas {
         }
     }
 
-    /// Why shorter records do not tell whether a line breaks in three hours. Whether lines may snap
-    /// can be known without their tensions.
+    /// Why records, however long, do not tell whether a line breaks in three hours: what their
+    /// distribution says is never contradicted, and without one only the judged time counts.
+    /// Whether lines may snap can be known without their tensions.
     fn too_short(&self) -> Option<TooShort> {
         let structure = &self.prepared.structure;
         if structure.judges_too_little() {
             return Some(TooShort::PartOfAWave);
         }
-        if structure.duration_s >= THREE_HOURS_S {
-            return None;
-        }
         match self.check_beyond() {
-            Err(reason) => Some(TooShort::Snaps(reason)),
+            Err(_) if judges_enough(structure, self.records.len()) => None,
+            Err(reason) => Some(TooShort::NoFit(reason)),
             Ok(()) => self.overload_in_three_hours().map(TooShort::Overload),
         }
     }

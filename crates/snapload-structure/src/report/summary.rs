@@ -7,7 +7,7 @@ use crate::physics::model::Scales;
 use crate::physics::model_at_rest::ModelAtRest;
 use crate::physics::periods::{NaturalPeriods, periods_text};
 use crate::physics::snap::{SLOWEST_M_S, Snap};
-use crate::physics::warnings::Warning;
+use crate::physics::warning::Warning;
 use crate::physics::wave::LinearWave;
 use crate::runs::assess::{Assessment, ByRestitution};
 use crate::runs::design::Check;

@@ -2,10 +2,11 @@
 
 use crate::physics::elastic::LEAST_RESTITUTION;
 use crate::physics::snap::SLOWEST_M_S;
-use crate::physics::warnings::Warning;
+use crate::physics::warning::Warning;
 use crate::runs::assess::Assessment;
 use crate::runs::elastic_comparison::ElasticComparison;
 use crate::runs::outcome::{LineOutcome, Outcome};
+use crate::runs::three_hours::{NoDistribution, one_run_is_too_little};
 use crate::structure::{LineSi, Structure, Water};
 use crate::text_layout::{digits, kilo, paragraph, ratio, tenths};
 use askama::Template;
@@ -99,8 +100,8 @@ struct VerdictText<'a> {
     open: Option<OpenRules>,
     /// Whether the run ended before the judged time.
     unjudged: bool,
-    /// Whether less than one period of the waves is judged.
-    too_little: bool,
+    /// Why a run in which no line breaks does not tell whether one does.
+    too_little: Option<NoDistribution>,
     /// Whether the restitution is too small for elastic lines.
     too_plastic: bool,
     elastic: bool,
@@ -236,6 +237,7 @@ fn verdict(
     let broken = broken_lines(structure, outcome, elastic);
     let all_known = known.len() == outcome.lines.len();
     let open = undecided_by(warnings);
+    let too_little = one_run_is_too_little(structure);
     let standing = if outcome.stop.exceeds() {
         VerdictKind::Exceeds
     } else if open.is_some() {
@@ -244,7 +246,7 @@ fn verdict(
         VerdictKind::Breaks
     } else if matches!(outcome.stop, Stop::ImpactLimit | Stop::Standstill) || !all_known {
         VerdictKind::Unknown
-    } else if early.as_ref().is_some_and(Early::breaks) || structure.judges_too_little() {
+    } else if early.as_ref().is_some_and(Early::breaks) || too_little.is_some() {
         VerdictKind::Open
     } else {
         VerdictKind::Holds
@@ -265,7 +267,7 @@ fn verdict(
         early,
         open,
         unjudged: outcome.is_unjudged(),
-        too_little: structure.judges_too_little(),
+        too_little,
         too_plastic: structure.restitution < LEAST_RESTITUTION,
         elastic,
         stiffer: stiffer.unwrap_or(1.0),

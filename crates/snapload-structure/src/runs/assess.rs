@@ -7,10 +7,10 @@ use crate::options::{NEIGHBOURS, check};
 use crate::physics::model_at_rest::ModelAtRest;
 use crate::physics::periods::NaturalPeriods;
 use crate::physics::sea::uniform;
+use crate::physics::sea_records::short_run;
 use crate::physics::snap::Snap;
-use crate::physics::warnings::{
-    Warning, few_periods, limits_afloat, phase_warning, turning_warning, warnings,
-};
+use crate::physics::warning::Warning;
+use crate::physics::warnings::{limits_afloat, phase_warning, turning_warning, warnings};
 use crate::structure::Structure;
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::SeedableRng;
@@ -252,7 +252,7 @@ impl Assessment {
         let turning = turning_warning(structure, turned);
         let depends = self.outcome.depends_on_hydrostatics(structure);
         let limits = limits_afloat(structure, self.outcome.waterline.as_ref(), turned, depends);
-        let short = few_periods(structure).into_iter();
+        let short = short_run(structure).into_iter();
         short.chain(phase).chain(turning).chain(limits).collect()
     }
 

@@ -5,10 +5,10 @@ use super::outcome::{Outcome, add_slack};
 use crate::options::{STIFFER, check};
 use crate::physics::elastic::{ElasticLine, ElasticRun, elastic_lines, run_elastic};
 use crate::physics::model_at_rest::ModelAtRest;
+use crate::physics::sea_records::short_run;
 use crate::physics::snap::{Snap, snaps_of_step};
-use crate::physics::warnings::{
-    Warning, few_periods, limits_afloat, phase_warning, turning_warning, warnings,
-};
+use crate::physics::warning::Warning;
+use crate::physics::warnings::{limits_afloat, phase_warning, turning_warning, warnings};
 use snapload::analysis::{OnProgress, Unfinished};
 use snapload::{CaseError, Stop};
 use std::time::Instant;
@@ -96,7 +96,7 @@ impl ElasticComparison {
         let (structure, run) = (&self.elastic_case.structure, &self.elastic);
         warnings(&self.elastic_case)
             .into_iter()
-            .chain(few_periods(structure))
+            .chain(short_run(structure))
             .chain(phase_warning(
                 structure,
                 self.elastic_case.rest.place_m[1],

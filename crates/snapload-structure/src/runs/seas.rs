@@ -6,9 +6,9 @@ use super::quantile::sorted;
 use crate::options::{SEEDS, check};
 use crate::physics::elastic::elastic_lines;
 use crate::physics::model_at_rest::ModelAtRest;
-use crate::physics::warnings::{
-    Warning, limits_afloat, phase_warning, short_records, turning_warning, warnings,
-};
+use crate::physics::sea_records::short_records;
+use crate::physics::warning::Warning;
+use crate::physics::warnings::{limits_afloat, phase_warning, turning_warning, warnings};
 use crate::structure::{IrregularSea, Structure, THREE_HOURS_S, Water};
 use serde::Serialize;
 use snapload::analysis::{Counter, OnProgress, Progress, Share, Unfinished, in_parallel};

@@ -196,7 +196,8 @@ fn records_report_what_breaks_before_they_are_judged() {
         }
         assert!(early_alone > 0, "{lines:?}");
         assert_eq!(late.breaking_only_early(), early_alone);
-        let words = format!("In {early_alone} more a line would break in the first 80 s");
+        let words =
+            format!("In {early_alone} of the other records a line would break in the first 80 s");
         assert!(flat(&late.words()).contains(&words), "{}", late.words());
         assert_eq!(
             late.to_json("case")["breaking_only_before_judged"],

@@ -13,6 +13,7 @@ mod elastic;
 mod elastic_comparison;
 mod elastic_peaks;
 mod equilibrium;
+mod firm_verdicts;
 mod hydrostatics;
 mod judged;
 mod judged_step;

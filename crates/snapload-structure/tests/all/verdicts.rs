@@ -59,8 +59,9 @@ fn a_sea_has_the_warnings_of_a_wave() {
     let text = soft(SEA).replace("[run]", "[run]\nduration = 300");
     let result = seas(structure(&text), 3, Lines::Inextensible, &no_progress).unwrap();
     let assessment = assess(structure(&text), 0, &no_progress).unwrap();
-    // The rule of the phase needs a single motion.
-    let assessed = assessment.warnings.iter().filter(|w| w.rule != "phase");
+    // The rule of the phase needs a single motion, and a short one has its own rule.
+    let assessed = assessment.warnings.iter();
+    let assessed = assessed.filter(|w| w.rule != "phase" && w.rule != "short run");
     // The rule of short records needs many records.
     let of_sea = result.warnings.iter().filter(|w| w.rule != "short records");
     assert!(assessed.eq(of_sea) && result.is_open());
@@ -357,7 +358,7 @@ fn a_line_that_breaks_in_a_neighbour_leaves_the_verdict_open() {
         assess(structure(&text), 12, &no_progress).unwrap()
     };
     let strong = assess(1e9);
-    assert_eq!(strong.verdict().standing, VerdictKind::Holds);
+    assert!(!strong.verdict().words.contains("neighbours"));
     let largest = |outcome: &snapload_structure::Outcome| outcome.largest_n();
     let ours = largest(&strong.outcome);
     let others: Vec<f64> = strong.neighbours.iter().map(largest).collect();
