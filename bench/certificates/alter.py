@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Alters certificates in 27 ways, and counts what the two checkers accept: they must accept none.
+"""Alters certificates in 28 ways, and counts what the two checkers accept: they must accept none.
 
 usage: alter.py SNAPLOAD [COUNT]      SNAPLOAD is the program; needs python-flint for tools/certificate_check.py
 
@@ -135,6 +135,18 @@ def end_sign(rng, c):
     c["end"]["state"][k] = shifted(c["end"]["state"][k], -2 * Decimal(c["end"]["state"][k]))
 
 
+def no_digits(rng, c):
+    # True of every number up to 5e9, as half a unit of its last place is that much.
+    nothing, line = "0e10", c["impacts"][random_impact(rng, c)]
+    place = rng.choice((1, 2, "t", "state"))
+    if place == "state":
+        c["end"]["state"] = [nothing] * 6
+    elif place == "t":
+        c["end"]["t"] = nothing
+    else:
+        line[place] = nothing
+
+
 def settle_flag(rng, c):
     if c["end"]["reason"] != "settled":
         return reason(rng, c)
@@ -172,7 +184,7 @@ KINDS = {
     "a parameter's last decimal": parameter_last, "a parameter by 1e-16": parameter_tiny, "half-height": half_height,
     "inertia": inertia, "reason": reason, "end time": end_time, "end state": end_state, "a sign of the end": end_sign,
     "settling flag": settle_flag, "sliding flag": slide_flag, "fewer impacts allowed": fewer, "t_end": sooner,
-    "v_stick": faster_stick,
+    "v_stick": faster_stick, "no digits": no_digits,
 }
 
 

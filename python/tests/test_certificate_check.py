@@ -78,7 +78,8 @@ def test_an_exact_graze_is_undecided_and_its_neighbours_are_not() -> None:
     graze["case"] |= keys | {"body": "point", "t_end": "0.6", "y": "0.515"}
     graze["impacts"] = []
     # x = -0.145 - 0.36 t + t²/2 and y + 0.02 t - t²/2 at t = 0.6.
-    graze["end"] = {"reason": "end_time", "t": "0.6", "state": ["-0.181", "0.347", "0", "0.24", "-0.58", "0"]}
+    state = [f"{text}{'0' * 22}" for text in ("-0.181", "0.347", "0.000", "0.240", "-0.580", "0.000")]
+    graze["end"] = {"reason": "end_time", "t": f"0.6{'0' * 24}", "state": state}
     assert status(graze) == 2
     zeros = "0" * 34
     graze["case"]["y"] = f"0.515{zeros}1"
@@ -95,7 +96,48 @@ def test_other_shapes_are_no_certificates() -> None:
     assert status([]) == 3
     assert certificate_check.check("{")[0] == 3
     twice = json.dumps(TRUE_ONE).replace('"bits"', '"bits": 256, "bits"', 1)
-    assert certificate_check.check(twice)[0] == 3
+    assert certificate_check.check(twice) == (3, "no certificate: a key is given twice")
+
+
+def claim_nothing(certificate: Any, place: str) -> None:
+    """A claim that is true of every number, as half a unit of its last place is 5e9."""
+    lines, end = certificate["impacts"], certificate["end"]
+    if place == "state":
+        end["state"] = ["0e10"] * 6
+    elif place == "end":
+        end["t"] = "0e10"
+    else:
+        for line in lines:
+            line[1 if place == "time" else 2] = "0e10"
+
+
+@pytest.mark.parametrize("place", ["time", "speed", "state", "end"])
+def test_claims_of_no_digits_are_no_certificate(place: str) -> None:
+    altered = copy.deepcopy(TRUE_ONE)
+    claim_nothing(altered, place)
+    assert status(altered) == 3
+
+
+def partial(impacts: int) -> Any:
+    """The true one with so many of its impacts, as `snapload certify --partial` ends what it can not decide."""
+    return TRUE_ONE | {"impacts": copy.deepcopy(TRUE_ONE["impacts"][:impacts]), "end": {"reason": "undecided"}}
+
+
+@pytest.mark.parametrize("impacts", [0, 3, len(TRUE_ONE["impacts"])])
+def test_a_part_of_a_run_is_proved_in_part(impacts: int) -> None:
+    status, words = certificate_check.check(json.dumps(partial(impacts)))
+    assert status == 2
+    assert words.startswith(f"proved in part: {impacts} impacts")
+
+
+def test_a_false_part_is_refused() -> None:
+    wrong = partial(3)
+    wrong["impacts"][2][1] = next_digit(wrong["impacts"][2][1])
+    assert status(wrong) == 1
+    more = partial(len(TRUE_ONE["impacts"]))
+    more["impacts"].append(more["impacts"][-1])
+    assert status(more) == 1
+    assert status(partial(3) | {"end": {"reason": "undecided", "t": TRUE_ONE["end"]["t"]}}) == 3
 
 
 def test_a_file_that_can_not_be_read_is_no_certificate(tmp_path):

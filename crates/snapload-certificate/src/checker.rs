@@ -6,7 +6,8 @@ use crate::arithmetic::ball::Ball;
 use crate::arithmetic::decimal::fixed;
 use crate::case::ExactCase;
 use crate::format::{
-    CertificateText, FORMAT, Line, MODEL, TAUT_FORMAT, UNDECIDED, cut, decimal, quoted,
+    CertificateText, FORMAT, Line, MODEL, TAUT_FORMAT, UNDECIDED, cut, decimal, placed, quoted,
+    velocity,
 };
 use crate::proof::prove;
 use crate::proved::{Proved, ProvedEnd, ProvedImpact, Reason};
@@ -103,12 +104,12 @@ fn shape(certificate: &CertificateText) -> Result<ExactCase, String> {
     for line in &certificate.impacts {
         match line {
             Line::Impact(cable, t, v_n) if (1..=2).contains(cable) => {
-                decimal("the time", t)?;
-                decimal("v_n", v_n)?;
+                placed("the time", t)?;
+                velocity("v_n", v_n)?;
             }
             Line::TautSegment(segment) if certificate.format == TAUT_FORMAT => {
-                decimal("the time", &segment.from)?;
-                decimal("the time", &segment.until)?;
+                placed("the time", &segment.from)?;
+                placed("the time", &segment.until)?;
             }
             _ => return Err("a line that is neither an impact nor a stretch".to_owned()),
         }
@@ -116,10 +117,8 @@ fn shape(certificate: &CertificateText) -> Result<ExactCase, String> {
     let end = &certificate.end;
     match (&end.t, &end.state) {
         (Some(t), Some(state)) if Reason::named(&end.reason).is_some() => {
-            decimal("the time", t)?;
-            state
-                .iter()
-                .try_for_each(|s| decimal("the state", s).map(|_| ()))?;
+            placed("the time", t)?;
+            state.iter().try_for_each(|s| placed("the state", s))?;
         }
         (None, None) if end.reason == UNDECIDED => {}
         _ => {

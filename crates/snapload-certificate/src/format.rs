@@ -16,6 +16,11 @@ pub(crate) const TAUT_FORMAT: &str = "snapload-certificate-2";
 pub(crate) const MODEL: &str = "snapload model 1";
 /// The reason at the end of a certificate that proves only the beginning of a run.
 pub(crate) const UNDECIDED: &str = "undecided";
+/// A claim is that a number is true to half a unit of its last place, which of 0e10 says nothing.
+/// Times and states have at least so many places after the point; a writer has three to five more.
+const LEAST_PLACES: i64 = 20;
+/// Normal velocities have at least so many digits; a writer has one to three more.
+const LEAST_DIGITS: i64 = 14;
 /// How much of a text a message repeats, in characters.
 const LONGEST_ECHO: usize = 60;
 
@@ -205,6 +210,23 @@ pub(crate) fn decimal(what: &str, text: &str) -> Result<Decimal, String> {
         )
     };
     Decimal::parse(text).ok_or_else(refuse)
+}
+
+/// A time or a component of a state, with the places that a statement of it needs.
+pub(crate) fn placed(what: &str, text: &str) -> Result<(), String> {
+    let known = decimal(what, text)?.has_places(LEAST_PLACES);
+    claimed(known, what, text, format!("{LEAST_PLACES} decimals"))
+}
+
+/// A normal velocity, with the digits that a statement of it needs.
+pub(crate) fn velocity(what: &str, text: &str) -> Result<(), String> {
+    let known = decimal(what, text)?.has_digits(LEAST_DIGITS);
+    claimed(known, what, text, format!("{LEAST_DIGITS} digits"))
+}
+
+fn claimed(known: bool, what: &str, text: &str, least: String) -> Result<(), String> {
+    let refuse = || format!("{what} {} has fewer than {least}", quoted(text));
+    known.then_some(()).ok_or_else(refuse)
 }
 
 /// A text of a certificate as a message repeats it: in quotation marks, and cut where it is long.

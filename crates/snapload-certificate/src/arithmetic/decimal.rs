@@ -92,6 +92,16 @@ impl Decimal {
         &self.text
     }
 
+    /// Whether it has so many places after the point or more; a power of ten moves the point.
+    pub(crate) fn has_places(&self, places: i64) -> bool {
+        self.places >= places
+    }
+
+    /// Whether it has so many significant digits or more.
+    pub(crate) fn has_digits(&self, digits: i64) -> bool {
+        self.digits.clone().into_parts().1 >= power_of_ten(digits - 1)
+    }
+
     pub(crate) fn integer(integer: i64) -> Self {
         Self {
             digits: IBig::from(integer),

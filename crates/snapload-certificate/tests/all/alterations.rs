@@ -295,7 +295,59 @@ fn lists_in_place_of_keys_are_no_certificates() {
     }
 }
 
-/// The impact times of a run in doubles, even with few decimals printed, are not those of the
+/// Numbers that are true to half a unit of their last place, as 0e10 is of all up to 5e9, state
+/// nothing: times and states need 20 decimals, and v_n 14 digits, wherever the point is.
+#[test]
+fn claims_of_few_digits_are_no_certificates() {
+    let true_one = certificate();
+    let cut = |text: &Value, digits: usize| {
+        let text = text.as_str().expect("a decimal");
+        let (number, power) = text.split_once('e').unwrap_or((text, ""));
+        let number: f64 = number.parse().expect("a number");
+        let e = if power.is_empty() { "" } else { "e" };
+        json!(format!("{number:.digits$}{e}{power}"))
+    };
+    let places = [
+        "/impacts/0/1",
+        "/impacts/20/1",
+        "/end/t",
+        "/end/state/0",
+        "/end/state/5",
+    ];
+    for (place, few) in places
+        .map(|place| (place, 15))
+        .into_iter()
+        .chain([("/impacts/3/2", 12)])
+    {
+        let number = true_one.pointer(place).expect("a number");
+        for claim in [
+            json!("0e10"),
+            json!("1e2"),
+            json!("0"),
+            cut(number, 3),
+            cut(number, few),
+        ] {
+            let mut altered = true_one.clone();
+            *altered.pointer_mut(place).expect("a number") = claim.clone();
+            let verdict = check(&altered.to_string());
+            assert!(
+                matches!(verdict, Verdict::Malformed(_)),
+                "{place} {claim}: {verdict:?}"
+            );
+        }
+    }
+    // A power of ten moves the point of a true number, and nothing else.
+    let mut same = true_one.clone();
+    let t = same["end"]["t"].as_str().expect("a decimal").to_owned();
+    let digits = t.replace('.', "");
+    same["end"]["t"] = json!(format!(
+        "{digits}e-{}",
+        t.len() - 1 - t.find('.').expect("a point")
+    ));
+    assert!(matches!(check(&same.to_string()), Verdict::Proved { .. }));
+}
+
+/// The impact times of a run in doubles, even with zeros after a few decimals, are not those of the
 /// standard case.
 #[test]
 fn times_of_the_ordinary_run_are_refused() {
@@ -309,7 +361,8 @@ fn times_of_the_ordinary_run_are_refused() {
             .iter_mut()
             .zip(run.impacts())
         {
-            line[1] = json!(format!("{:.places$}", impact.t));
+            let zeros = "0".repeat(25 - places);
+            line[1] = json!(format!("{:.places$}{zeros}", impact.t));
         }
         let Verdict::Refused(why) = check(&altered.to_string()) else {
             panic!("{places} decimals");
