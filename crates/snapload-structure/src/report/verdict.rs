@@ -244,7 +244,7 @@ fn verdict(
         VerdictKind::Open
     } else if !broken.is_empty() {
         VerdictKind::Breaks
-    } else if matches!(outcome.stop, Stop::ImpactLimit | Stop::Standstill) || !all_known {
+    } else if outcome.stop.cuts_short() || !all_known {
         VerdictKind::Unknown
     } else if early.as_ref().is_some_and(Early::breaks) || too_little.is_some() {
         VerdictKind::Open

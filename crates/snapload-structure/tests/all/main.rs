@@ -8,6 +8,7 @@ mod afloat;
 mod afloat_lines;
 mod conversion;
 mod current;
+mod cut_short;
 mod design;
 mod elastic;
 mod elastic_comparison;

@@ -1,11 +1,10 @@
 //! The reports on structures that inextensible lines do not describe, or whose values are probably
 //! mistakes.
 
-use snapload::Stop;
 use snapload::analysis::no_progress;
-use snapload_structure::note::{Source, scan};
+use snapload_structure::note::Source;
 use snapload_structure::{
-    Lines, ModelAtRest, Outcome, Structure, VerdictKind, Water, assess, compare_elastic, seas,
+    Lines, ModelAtRest, Structure, VerdictKind, Water, assess, compare_elastic, seas,
 };
 
 const EXAMPLE: &str = include_str!("../../../../docs/examples/cylinder.toml");
@@ -148,36 +147,6 @@ fn a_run_that_ends_at_once_is_reported() {
         "{}",
         verdict.words
     );
-}
-
-/// Runs that stop at the largest number of snaps had no time for their largest tension: the
-/// comparison of restitutions and that of waves say so.
-#[test]
-fn what_is_cut_short_is_at_least_as_much() {
-    let text = EXAMPLE.replace("[run]", "[run]\nmax_snaps = 150\ntransient = 1");
-    let own = structure(&text);
-    let assessment = assess(own.clone(), 0, &no_progress).unwrap();
-    let rows = assessment.by_restitution();
-    for row in &rows {
-        let changed = Structure {
-            restitution: row.restitution,
-            ..own.clone()
-        };
-        let outcome = Outcome::of(&ModelAtRest::new(changed).unwrap(), 1.0).unwrap();
-        let cut_short = outcome.stop == Stop::ImpactLimit;
-        assert_eq!(row.cut_short, cut_short, "{}", row.restitution);
-    }
-    let cut_short = rows.iter().filter(|row| row.cut_short).count();
-    assert!(cut_short > 0);
-    assert_eq!(
-        assessment.rebound_text().matches("at least").count(),
-        cut_short
-    );
-    let scan = scan(&own, &no_progress).unwrap().unwrap();
-    assert_eq!(scan.cells.len(), scan.cut_short.len());
-    let known = |(cell, cut): (&Option<f64>, &bool)| cell.is_some() || !cut;
-    assert!(scan.cells.iter().zip(&scan.cut_short).all(known));
-    assert!(scan.cut_short.contains(&true));
 }
 
 /// Lines as springs decide a verdict that inextensible ones leave open; the records are the same

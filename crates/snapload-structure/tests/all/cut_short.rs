@@ -1,0 +1,39 @@
+//! What is reported of runs that stop before their motion does.
+
+use crate::verdicts::structure;
+use snapload::Stop;
+use snapload::analysis::no_progress;
+use snapload_structure::note::scan;
+use snapload_structure::{ModelAtRest, Outcome, Structure, assess};
+
+const EXAMPLE: &str = include_str!("../../../../docs/examples/cylinder.toml");
+
+/// Runs that stop at the largest number of snaps had no time for their largest tension: the
+/// comparison of restitutions and that of waves say so.
+#[test]
+fn what_is_cut_short_is_at_least_as_much() {
+    let text = EXAMPLE.replace("[run]", "[run]\nmax_snaps = 150\ntransient = 1");
+    let own = structure(&text);
+    let assessment = assess(own.clone(), 0, &no_progress).unwrap();
+    let rows = assessment.by_restitution();
+    for row in &rows {
+        let changed = Structure {
+            restitution: row.restitution,
+            ..own.clone()
+        };
+        let outcome = Outcome::of(&ModelAtRest::new(changed).unwrap(), 1.0).unwrap();
+        let cut_short = outcome.stop == Stop::ImpactLimit;
+        assert_eq!(row.cut_short, cut_short, "{}", row.restitution);
+    }
+    let cut_short = rows.iter().filter(|row| row.cut_short).count();
+    assert!(cut_short > 0);
+    assert_eq!(
+        assessment.rebound_text().matches("at least").count(),
+        cut_short
+    );
+    let scan = scan(&own, &no_progress).unwrap().unwrap();
+    assert_eq!(scan.cells.len(), scan.cut_short.len());
+    let known = |(cell, cut): (&Option<f64>, &bool)| cell.is_some() || !cut;
+    assert!(scan.cells.iter().zip(&scan.cut_short).all(known));
+    assert!(scan.cut_short.contains(&true));
+}
