@@ -176,6 +176,21 @@ def test_the_theme_can_be_chosen(open_page):
     assert page.locator("#theme").inner_text() == "Theme: dark" and page.evaluate(paper) != light
 
 
+def without_dates(pdf: bytes) -> bytes:
+    return re.sub(rb"\(D:[^)]*\)", b"", pdf)
+
+
+def test_on_paper_it_is_light(open_page):
+    page = open_page("t=3&map=f_o,0,1,5,e,0.5,1,4,reason")
+    expect(page.locator("#map-progress")).to_have_text("20 runs")
+    on_screen, on_paper = drawn(page), without_dates(page.pdf())
+    page.emulate_media(color_scheme="dark")
+    in_the_dark = drawn(page)
+    assert in_the_dark != on_screen
+    assert without_dates(page.pdf()) == on_paper
+    assert drawn(page) == in_the_dark, "the screen keeps its colours"
+
+
 def test_those_who_want_no_motion_get_none(open_page):
     at_a_snap = "t=0.4721795499019612"
     moving, still = open_page(at_a_snap), open_page(at_a_snap, reduced_motion="reduce")

@@ -8,7 +8,7 @@ import { $, setProperties } from "./dom.js";
 import { drawErosion } from "./erosion.js";
 import { lines } from "./long-run.js";
 import { rangeText, studyLine } from "./map-files.js";
-import { prepare } from "./plot.js";
+import { FramedPicture, prepare } from "./plot.js";
 import { same } from "./state.js";
 import { copy } from "./export.js";
 import { number, reasonText } from "./formatting.js";
@@ -31,6 +31,7 @@ export class SafeBasin {
     this.state = state;
     this.colours = colours;
     this.own = own;
+    this.picture = new FramedPicture(() => this.#paintAll());
     this.onPick = onPick;
     this.answer = null;
     this.eroded = null;
@@ -202,14 +203,14 @@ export class SafeBasin {
 
   /** Draws the cells, and the erosion if it has changed. */
   #repaint() {
-    if (!this.box.open || this.framed) return;
-    this.framed = requestAnimationFrame(() => {
-      this.framed = null;
-      if (this.answer) this.#paint();
-      if (!this.eroded || this.erosionDrawn) return;
-      this.erosionDrawn = true;
-      drawErosion($("erosion"), this.eroded, this.colours(), axisWords(this.numeric, this.eroded.over));
-    });
+    if (this.box.open) this.picture.request();
+  }
+
+  #paintAll() {
+    if (this.answer) this.#paint();
+    if (!this.eroded || this.erosionDrawn) return;
+    this.erosionDrawn = true;
+    drawErosion($("erosion"), this.eroded, this.colours(), axisWords(this.numeric, this.eroded.over));
   }
 
   #paint() {

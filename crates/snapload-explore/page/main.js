@@ -14,7 +14,7 @@ import { Link } from "./link.js";
 import { LongRun } from "./long-run.js";
 import { acceptCaseFiles, note, openStructure, reportPaintTime, purposeAndSkip, themeButton } from "./page.js";
 import { Outcome } from "./outcome.js";
-import { onResize } from "./plot.js";
+import { FramedPicture, onResize } from "./plot.js";
 import { Playback } from "./playback.js";
 import { PinnedRuns } from "./pinned-runs.js";
 import { Proof } from "./proof.js";
@@ -46,6 +46,7 @@ class Page {
   constructor(schema) {
     this.state = new State(schema);
     this.run = null;
+    this.moment = new FramedPicture(() => this.#paintMoment());
     /** The requests of the run that is shown, of the run of the descriptions, and of that in the table of events. */
     this.shown = this.described = this.tabled = null;
     this.hover = null;
@@ -176,7 +177,7 @@ class Page {
     this.#keepTime();
     if (this.state.window?.[0] >= this.run.tEnd) this.state.set({ window: null });
     this.drawAll();
-    this.#drawNow();
+    this.moment.paintNow();
     this.#markStale();
     if (this.playsAtOnce) this.playback.play();
     this.playsAtOnce = false;
@@ -328,15 +329,10 @@ class Page {
   }
 
   drawMoment() {
-    if (!this.run || this.framed) return;
-    // A picture is painted once a frame, however many events request it.
-    this.framed = requestAnimationFrame(() => this.#drawNow());
+    if (this.run) this.moment.request();
   }
 
-  /** Draws an answer at once, so that the next frame shows it. */
-  #drawNow() {
-    cancelAnimationFrame(this.framed);
-    this.framed = null;
+  #paintMoment() {
     this.sceneView.draw();
     this.charts.cursor(this.state.t, this.hover);
     this.trajectory.cursor(this.state.t, this.hover);

@@ -18,7 +18,7 @@ import {
 import { $, setProperties } from "./dom.js";
 import { mapCsv, sweepLine } from "./map-files.js";
 import { mapPicture } from "./map-picture.js";
-import { prepare } from "./plot.js";
+import { FramedPicture, prepare } from "./plot.js";
 import { copy, save } from "./export.js";
 import { endColour } from "./theme.js";
 import { number, unitText, withSymbols, reasonText } from "./formatting.js";
@@ -33,6 +33,7 @@ export class SweepMap {
     this.state = state;
     this.colours = colours;
     this.own = own;
+    this.picture = new FramedPicture(() => this.#paint());
     this.onPick = onPick;
     this.cells = null;
     this.controller = null;
@@ -288,15 +289,12 @@ export class SweepMap {
   }
 
   draw() {
-    if (!this.box.open || this.framed) return;
-    this.framed = requestAnimationFrame(() => {
-      this.framed = null;
-      if (this.cells && this.state.map) this.#paint();
-    });
+    if (this.box.open) this.picture.request();
   }
 
   #paint() {
     const { cells, state } = this;
+    if (!cells || !state.map) return;
     const colours = this.colours();
     const { context, width, height } = prepare(this.canvas);
     const { x, y } = cells;

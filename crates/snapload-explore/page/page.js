@@ -2,7 +2,7 @@
 
 import { fetchStructureFile } from "./api.js";
 import { $ } from "./dom.js";
-import { chooseTheme, chosenTheme, store, stored, onSystemScheme, THEMES } from "./theme.js";
+import { chooseTheme, chosenTheme, store, stored, onPrint, onSystemScheme, THEMES } from "./theme.js";
 
 /** Shows a note about the page as a whole; hides it if the text is empty. */
 export function note(text) {
@@ -27,7 +27,7 @@ export function reportPaintTime(since, then = () => {}) {
   });
 }
 
-/** The button of the theme; `redraw` follows a change of it. */
+/** The button of the theme; `redraw` follows a change of it, and of the colours on paper. */
 export function themeButton(redraw) {
   const show = () => ($("theme").textContent = `Theme: ${chosenTheme()}`);
   $("theme").addEventListener("click", () => {
@@ -37,6 +37,7 @@ export function themeButton(redraw) {
   });
   show();
   onSystemScheme(redraw);
+  onPrint(redraw);
 }
 
 /** The line about the page's purpose, which stays closed under a name once it is closed; and the link to the scene. */

@@ -2,6 +2,7 @@
 
 import { SimplifiedLine } from "./simplified-line.js";
 import { fixed, number } from "./formatting.js";
+import { isPrinting } from "./theme.js";
 
 /** Round values across a range: about a given number, at least two. */
 export function ticks(low, high, about) {
@@ -222,6 +223,26 @@ const watcher = new ResizeObserver((entries) => {
 
 /** Calls back when a canvas has changed its size. */
 export const onResize = (listener) => resized.add(listener);
+
+/** A picture that is painted once a frame, however often it is requested. */
+export class FramedPicture {
+  constructor(paint) {
+    this.paint = paint;
+    this.framed = null;
+  }
+
+  request() {
+    // Before the page is printed there is no other frame.
+    if (isPrinting()) this.paintNow();
+    else this.framed ??= requestAnimationFrame(() => this.paintNow());
+  }
+
+  paintNow() {
+    cancelAnimationFrame(this.framed);
+    this.framed = null;
+    this.paint();
+  }
+}
 
 /** A canvas at the resolution of the screen, cleared, with its context in CSS pixels. */
 export function prepare(canvas) {

@@ -14,7 +14,7 @@ import {
   purposeAndSkip,
   themeButton,
 } from "./page.js";
-import { onResize } from "./plot.js";
+import { FramedPicture, onResize } from "./plot.js";
 import { Playback } from "./playback.js";
 import { chooseTheme, chosenTheme, colours, lineColour, reducedMotion } from "./theme.js";
 import { StructureCharts, breakingLoads } from "./structure-charts.js";
@@ -44,6 +44,7 @@ class Page {
   constructor(schema, opened, file) {
     this.state = new StructureState(schema, opened, file);
     this.run = null;
+    this.moment = new FramedPicture(() => this.#paintMoment());
     this.hover = null;
     this.background = null;
     this.link = new Link(this.state, {
@@ -337,14 +338,13 @@ class Page {
   }
 
   drawMoment() {
-    if (!this.run || this.framed) return;
-    // A picture is painted once a frame, however many events request it.
-    this.framed = requestAnimationFrame(() => {
-      this.framed = null;
-      this.sceneView.draw();
-      this.charts.cursor(this.state.t, this.hover);
-      this.playbackControls.show();
-    });
+    if (this.run) this.moment.request();
+  }
+
+  #paintMoment() {
+    this.sceneView.draw();
+    this.charts.cursor(this.state.t, this.hover);
+    this.playbackControls.show();
   }
 
   /** Opens the case file of a structure; one of the thesis's model opens the other page. */

@@ -10,8 +10,12 @@ function names() {
 
 const caches = new Map();
 
-/** All colours of the current scheme, or of the named one. */
-export function colours(scheme = "") {
+/** Whether the page is being printed: on white paper, as no browser prints a dark background unasked. */
+let printing = false;
+export const isPrinting = () => printing;
+
+/** All colours of the current scheme, which is light on paper, or of the named one. */
+export function colours(scheme = printing ? "light" : "") {
   const known = caches.get(scheme);
   if (known) return known;
   const probe = document.createElement("span");
@@ -87,6 +91,16 @@ export function onSystemScheme(listener) {
     caches.clear();
     listener();
   });
+}
+
+/** Calls back before the page is printed, and after. */
+export function onPrint(listener) {
+  const change = (now) => {
+    printing = now;
+    listener();
+  };
+  addEventListener("beforeprint", () => change(true));
+  addEventListener("afterprint", () => change(false));
 }
 
 export const reducedMotion = matchMedia("(prefers-reduced-motion: reduce)");
