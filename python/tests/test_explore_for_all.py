@@ -191,6 +191,29 @@ def test_on_paper_it_is_light(open_page):
     assert drawn(page) == in_the_dark, "the screen keeps its colours"
 
 
+def test_the_focus_is_never_lost(open_page):
+    page = open_page("t=0")
+    focused = "() => document.activeElement.id || document.activeElement.className"
+    page.locator("#events-next").focus()
+    # The last page disables the button: the focus goes to its neighbour, and there is no way past the ends.
+    for _ in range(6):
+        page.keyboard.press("Enter")
+    assert page.evaluate(focused) == "events-previous"
+    for value in ("0.2", "0.25"):
+        before = count(page)
+        page.locator("#pin").click()
+        page.locator("#field-f_o").fill(value)
+        settled(page, before)
+    for left, place in [(1, "unpin"), (0, "pin")]:
+        page.locator("#pins .unpin").first.focus()
+        page.keyboard.press("Enter")
+        expect(page.locator("#pins li")).to_have_count(left)
+        assert page.evaluate(focused) == place
+    page.locator("#purpose-close").focus()
+    page.keyboard.press("Enter")
+    assert page.evaluate(focused) == "scene"
+
+
 def test_those_who_want_no_motion_get_none(open_page):
     at_a_snap = "t=0.4721795499019612"
     moving, still = open_page(at_a_snap), open_page(at_a_snap, reduced_motion="reduce")

@@ -27,3 +27,19 @@ export function setAttributes(element, attributes) {
     else if (element.getAttribute(name) !== value) element.setAttribute(name, value);
   }
 }
+
+/**
+ * Replaces the content of a list of buttons. If one of them has the focus, that goes to the button of the same kind in
+ * the same place, or to another one if there is none.
+ * @param {HTMLElement} list
+ * @param {string} html
+ * @param {HTMLElement} other
+ */
+export function replaceButtons(list, html, other) {
+  if (list.innerHTML === html) return;
+  const kind = list.contains(document.activeElement) ? document.activeElement.className : "";
+  const alike = () => /** @type {any[]} */ ([...list.getElementsByClassName(kind)]);
+  const at = alike().indexOf(document.activeElement);
+  list.innerHTML = html;
+  if (kind) (alike()[at] ?? other).focus();
+}

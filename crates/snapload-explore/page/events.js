@@ -45,6 +45,10 @@ export class EventTable {
     this.page = Math.min(Math.max(this.page + by, 0), this.#pages - 1);
     this.#fill();
     this.#mark();
+    // The focus stays here at the first and the last page, where the button that was pressed is disabled.
+    const [earlier, later] = ["events-previous", "events-next"].map($);
+    if (earlier.disabled) later.focus();
+    if (later.disabled) earlier.focus();
   }
 
   /** One row is in the tab order; the arrow keys move from row to row. */

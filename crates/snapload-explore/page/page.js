@@ -45,6 +45,7 @@ export function purposeAndSkip(name) {
   $("purpose").hidden = stored(name) === "yes";
   $("purpose-close").addEventListener("click", () => {
     $("purpose").hidden = true;
+    $("scene").focus({ preventScroll: true });
     store(name, "yes");
   });
   // The address holds the state: a link within the page must not change it.

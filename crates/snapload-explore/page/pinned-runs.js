@@ -1,7 +1,7 @@
 // Pinned runs for comparison: drawn beneath the current run, with their differences as text.
 
 import { fetchRun } from "./api.js";
-import { $ } from "./dom.js";
+import { $, replaceButtons } from "./dom.js";
 import { Run } from "./run.js";
 import { MOST_PINS } from "./state.js";
 import { number, fieldText, reasonText } from "./formatting.js";
@@ -61,7 +61,7 @@ export class PinnedRuns {
     const shown = this.current();
     $("pin").disabled = this.all.length >= MOST_PINS;
     const html = this.all.map((pin, i) => this.#line(pin, i, shown)).join("");
-    if ($("pins").innerHTML !== html) $("pins").innerHTML = html;
+    replaceButtons($("pins"), html, $("pin"));
   }
 
   #line({ values, run, colour }, i, shown) {

@@ -1,6 +1,6 @@
 // Pinned answers for comparison: the differences and outcomes of each, as text.
 
-import { $ } from "./dom.js";
+import { $, replaceButtons } from "./dom.js";
 import { changesText } from "./structure-key-groups.js";
 import { escape, fixed, number, ratio } from "./formatting.js";
 
@@ -47,7 +47,7 @@ export class PinnedAnswers {
     $("pin").disabled = this.kept.length >= MOST_PINS;
     const run = this.currentRun();
     const html = run ? this.kept.map((pin, i) => line(pin, i, outcome(run))).join("") : "";
-    if ($("pins").innerHTML !== html) $("pins").innerHTML = html;
+    replaceButtons($("pins"), html, $("pin"));
   }
 }
 
