@@ -214,6 +214,16 @@ def test_the_focus_is_never_lost(open_page):
     assert page.evaluate(focused) == "scene"
 
 
+@pytest.mark.parametrize("viewport", [DESKTOP, PHONE], ids=["desktop", "phone"])
+def test_a_rule_that_stops_a_run_has_its_condition(open_page, viewport):
+    page = open_page("t=0", viewport=viewport)
+    page.locator("details.group").evaluate_all("groups => groups.forEach(group => (group.open = true))")
+    for name, condition in [("settled", "below y = 0.05"), ("sliding", "at y = 0.05 or above")]:
+        words = page.locator(f"#meaning-stop_when_{name}")
+        expect(words).to_contain_text(condition)
+        assert words.bounding_box()["width"] > 100, "one word is on each line"
+
+
 def test_those_who_want_no_motion_get_none(open_page):
     at_a_snap = "t=0.4721795499019612"
     moving, still = open_page(at_a_snap), open_page(at_a_snap, reduced_motion="reduce")

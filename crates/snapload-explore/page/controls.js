@@ -95,7 +95,7 @@ export class Controls {
     if (wordy) name.textContent = key.symbol.replaceAll("_", " ");
     else name.innerHTML = symbolHtml(key.symbol);
     const meaning = element("span", { className: "meaning", id: `meaning-${key.name}` });
-    meaning.textContent = withSymbols(["choice", ...ROOMY].includes(key.kind.type) ? key.meaning : key.title);
+    meaning.textContent = withSymbols(["choice", "flag", ...ROOMY].includes(key.kind.type) ? key.meaning : key.title);
     label.title = withSymbols(key.meaning) + (key.default_in_words ? `. Default: ${withSymbols(key.default_in_words)}` : "");
     label.append(name, meaning);
     if (unit) meaning.append(element("span", { className: "unit", textContent: ` [${unit}]` }));
