@@ -64,7 +64,7 @@ function drawSnaps(context, frame, run, { colours, pins }) {
 function drawTensions(context, frame, run, { colours }) {
   if (!(run.timeTaut > 0)) {
     const [x, y] = [frame.left + frame.width / 2, frame.top + frame.height / 2];
-    label(context, colours, "no cable stays taut in this run", x, y);
+    label(context, colours, "no interval with a taut cable", x, y);
   }
   const { t } = run.motion;
   const [from, to] = rows(t, [frame.x0, frame.x1]);
@@ -109,7 +109,7 @@ const CHARTS = [
       above(span(all(run, pins).flatMap(({ motion }) => [seen(motion, motion.T1), seen(motion, motion.T2)]))),
     draw: drawTensions,
     read: (run, moment) => moment.tensions.map((T, i) => `T${"₁₂"[i]} ${number(T, 3)}`).join("  ") + " F",
-    words: (run) => (run.timeTaut > 0 ? `up to about ${number(run.mostTension, 2)} F` : "no cable stays taut"),
+    words: (run) => (run.timeTaut > 0 ? `up to about ${number(run.mostTension, 2)} F` : "no interval with a taut cable"),
   },
   {
     id: "energy",
