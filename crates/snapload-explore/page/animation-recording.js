@@ -140,6 +140,8 @@ export class AnimationRecording {
       at: [14, this.options.picture === "thesis" ? height - 14 : 26],
       size: 15,
       fill: paints.ink,
+      // The water's surface may pass behind it.
+      halo: paints.paper,
     };
     paint(context, [...this.picture.shapes(this.run, t, this.options), caption]);
   }
