@@ -8,6 +8,7 @@ from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any, SupportsFloat, SupportsIndex, TypeAlias
 
 import numpy as np
+from numpy.typing import ArrayLike, NDArray
 
 from . import _engine
 
@@ -83,6 +84,15 @@ def unmasked(name: str, values: Any) -> Any:
         allowed = "values without a mask; the array's method compressed() leaves out the masked ones"
         raise ValueError(f"{name} = an array with {masked} is not allowed; allowed: {allowed}")
     return values
+
+
+def doubles(name: str, values: ArrayLike) -> NDArray[np.float64]:
+    """An array of doubles."""
+    try:
+        array: NDArray[np.float64] = np.asarray(unmasked(name, values), dtype=np.float64)
+    except OverflowError:
+        raise ValueError(f"{name} has a number that is too large; allowed: numbers below 1e308") from None
+    return array
 
 
 def uncertainty_for_engine(uncertainty: Uncertainty) -> dict[str, float] | float | None:

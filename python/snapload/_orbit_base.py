@@ -299,6 +299,8 @@ def orbit_options(
         return periods, None, number("phase", phase)
     snapping = []
     entries = symbol.split(",") if isinstance(symbol, str) else symbol
+    if not isinstance(entries, Iterable):
+        raise TypeError(f"symbol = {symbol!r} is not allowed; allowed: the cables of the snaps, such as [2, 1]")
     for entry in entries:
         # In the form of an orbit's own symbol: which cables stick and release follows from the snaps.
         if isinstance(entry, str) and entry.strip().split(" ")[0] in ("stick", "release", "none", ""):

@@ -20,7 +20,8 @@ def powers(scale: str) -> list[tuple[str, float]]:
     numerator, *denominator = re.split(r"/(?![^(]*\))", scale, maxsplit=1)
     found: list[tuple[str, float]] = []
     for factors, sign in ((numerator, 1), *((factors, -1) for factors in denominator)):
-        for factor in factors.split():
+        # A fraction has something above and below its line.
+        for factor in factors.split() or [""] * len(denominator):
             match = _POWER.fullmatch(factor)
             if match is None:
                 raise ValueError(f"scale = {scale!r} is not allowed; allowed: a product such as 'L/T' or 'm L^2'")

@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from . import _engine
-from ._arguments import number, unmasked
+from ._arguments import doubles, number
 from ._lazy_import import LazyModule
 from ._motion import Motion
 from ._neighbours import Ensemble, Share
@@ -298,7 +298,7 @@ class BaseRun:
         >>> float(run.at(0.0).y), run.at([0.1, 0.2]).shape
         (0.1, (2,))
         """
-        times = np.asarray(unmasked("t", t), dtype=np.float64)
+        times = doubles("t", t)
         if np.isnan(times).any():
             raise ValueError("t = nan is not allowed; allowed: numbers; those outside the run are clipped to it")
         flat = self._records(self._engine.motion_at(np.ascontiguousarray(times.ravel())))

@@ -127,8 +127,11 @@ class Scales:
         """
         sizes = {"L": self.length, "m": self.mass, "F": self.force, "T": self.time}
         value = 1.0
-        for name, power in powers(scale):
-            value *= sizes.get(name, 1.0) ** power
+        try:
+            for name, power in powers(scale):
+                value *= sizes.get(name, 1.0) ** power
+        except OverflowError:
+            raise ValueError(f"scale = {scale!r} is not allowed; allowed: a product below 1e308 in SI units") from None
         return float(value)
 
     def case(self, base: Case | None = None, /, **keys: Unpack[Keys]) -> Case:

@@ -33,6 +33,8 @@ def _toml_value(value: object) -> str:
 
 
 def _changes(changes: Mapping[str, object] | None) -> list[str]:
+    if not isinstance(changes or {}, Mapping):
+        raise TypeError(f"changes = {changes!r} is not allowed; allowed: a dict such as {{'wave.height': 2}}")
     return [f"{key}={_toml_value(value)}" for key, value in (changes or {}).items()]
 
 

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from ._arguments import unmasked
+from ._arguments import doubles
 from ._lazy_import import LazyModule
 from ._schema import with_own_names
 
@@ -89,7 +89,7 @@ def rows_dataset(
 
 def finite_row(times: ArrayLike) -> list[float]:
     """Times that are one row of finite numbers."""
-    values = np.asarray(unmasked("times", times), dtype=np.float64)
+    values = doubles("times", times)
     if values.ndim != 1 or not np.isfinite(values).all():
         raise ValueError("these times are not allowed; allowed: one row of finite numbers")
     row: list[float] = values.tolist()

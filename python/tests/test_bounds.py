@@ -234,3 +234,16 @@ def test_a_file_without_coefficients_is_named(tmp_path):
     # What is wrong with an option is not the fault of the file.
     with pytest.raises(ValueError, match="^the mass in kg = -1"):
         snapload.Hydro.from_file(PONTOON, mass=-1)
+
+
+def test_arguments_of_another_kind_are_refused_in_words():
+    with pytest.raises(ValueError, match="^t has a number that is too large; allowed: numbers below 1e308$"):
+        CASE.run().at(10**400)
+    with pytest.raises(ValueError, match="^times has a number that is too large"):
+        cylinder().replace({"run.duration": 70}).assess(neighbours=0).motion([10**400])
+    with pytest.raises(TypeError, match=r"^changes = \[\('wave.height', 1\)\] is not allowed; allowed: a dict such as"):
+        cylinder().replace([("wave.height", 1)])
+    with pytest.raises(
+        TypeError, match=r"^symbol = 1 is not allowed; allowed: the cables of the snaps, such as \[2, 1\]$"
+    ):
+        POINT.orbit(symbol=1)
