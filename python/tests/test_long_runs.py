@@ -9,6 +9,7 @@ import re
 
 import numpy as np
 import pandas
+import pyarrow.parquet as parquet
 import pytest
 import snapload
 import xarray
@@ -179,3 +180,13 @@ def test_other_invalid_arguments_are_refused():
         snapload.orbit_diagram(snapload.Case(), e=[2.0])
     with pytest.raises(TypeError, match=r"allowed: what snapload\.orbit_diagram gives"):
         snapload.plot_diagram(xarray.Dataset())
+
+
+def test_a_parquet_table_has_its_case_and_version(command, tmp_path):
+    out = tmp_path / "section.parquet"
+    data = json.loads(
+        command("section", "--set", "e=0.7", "--periods", "20", "--keep", "5", "--out", str(out), "--json", "-")
+    )
+    metadata = parquet.read_schema(out).metadata
+    assert json.loads(metadata[b"snapload.case"]) == data["case"] and data["case"]["e"] == 0.7
+    assert metadata[b"snapload.version"].decode() == snapload.__version__

@@ -132,7 +132,7 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
     if args.kind == "attractor" {
         let found = Attraction::of(window, args.transient, &on_progress)?;
         drop(bar);
-        outputs.table(table, &outcome_columns(&found))?;
+        outputs.table(table, &base, &outcome_columns(&found))?;
         if let Some(plot) = plot {
             plot.add_to(&mut outputs, &title, attraction_layers(&found))?;
         }
@@ -144,7 +144,7 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
     }
     let basin = Basin::of(window, !args.window.no_trust, &on_progress)?;
     drop(bar);
-    outputs.table(table, &cells(&basin))?;
+    outputs.table(table, &base, &cells(&basin))?;
     if let Some(plot) = plot {
         plot.add_to(&mut outputs, &title, basin_layers(&basin))?;
     }
@@ -172,7 +172,7 @@ pub(crate) fn run_erosion(args: &ErosionArgs) -> Result<(), Failure> {
     let erosion = Erosion::of(&window, key, &values, !args.window.no_trust, &on_progress)?;
     drop(bar);
     let rows = points(&erosion);
-    outputs.table(table, &rows)?;
+    outputs.table(table, &base, &rows)?;
     if let Some(mut plot) = plot {
         plot.spans(key, &values);
         plot.upwards = measure_label(&plot.axes[1], window.keys);

@@ -107,7 +107,7 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
     branch
         .events
         .retain(|event| kinds.is_empty() || kinds.contains(&event.kind.name()));
-    outputs.table(table, &columns(key, &branch))?;
+    outputs.table(table, &parameters, &columns(key, &branch))?;
     if let Some(plot) = plot {
         let layers = layers(key, &branch, &plot);
         plot.add_to(&mut outputs, &case_in_words(&name, &parameters), layers)?;

@@ -99,7 +99,7 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
     let along = (keys, &options);
     let (from_start, event, curve) = found(args, &parameters, along, what, &on_progress)?;
     drop(bar);
-    outputs.table(table, &columns(keys, &curve))?;
+    outputs.table(table, &parameters, &columns(keys, &curve))?;
     if let Some(plot) = plot {
         let layers = layers(keys, &curve, &plot);
         plot.add_to(&mut outputs, &case_in_words(&name, &parameters), layers)?;

@@ -74,7 +74,7 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
     let found = diagram(&parameters, key, &values, &options, &on_progress)?;
     drop(bar);
     let rows = columns(key, &found);
-    outputs.table(table, &rows)?;
+    outputs.table(table, &parameters, &rows)?;
     let title = case_in_words(&name, &parameters);
     if let Some(mut plot) = plot {
         plot.spans(key, &values);

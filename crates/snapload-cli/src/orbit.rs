@@ -193,7 +193,7 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
         Some(starts) => search.many(&cases, (starts, args.seed))?,
         None => search.one(&cases[0], start)?,
     };
-    outputs.table(table, &columns(&found))?;
+    outputs.table(table, &parameters, &columns(&found))?;
     let case = CaseEcho(&parameters);
     let text = format!(
         "Case      {}\n{}",

@@ -4,6 +4,8 @@ use crate::json::{Json, JsonArgs, folder_for, refuse_directory};
 use crate::pending_outputs::{PendingOutputs, TargetFolder, is_same};
 use crate::table::write_csv;
 use serde::Serialize;
+use snapload::Parameters;
+use snapload_report::CaseEcho;
 use snapload_study::{Values, write_table};
 use std::io;
 use std::path::{Path, PathBuf};
@@ -84,10 +86,11 @@ impl Outputs {
         self.pending.write(file.folder, file.path, fill)
     }
 
-    /// Adds a table, if one is wanted.
+    /// Adds a table of results of a case, if one is wanted.
     pub(crate) fn table(
         &mut self,
         file: Option<OutFile>,
+        case: &Parameters,
         columns: &[(&'static str, Values)],
     ) -> Result<(), Failure> {
         let Some(file) = file else {
@@ -96,7 +99,10 @@ impl Outputs {
         let plain = file.ending == "csv";
         self.write(file, |out| match plain {
             true => write_csv(columns, out),
-            false => write_table(columns, out),
+            false => {
+                let case = serde_json::to_string(&CaseEcho(case))?;
+                write_table(columns, case, out)
+            }
         })
     }
 

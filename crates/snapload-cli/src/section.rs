@@ -113,8 +113,8 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
     }
     let impacts = kept_impacts(&section)?;
     match impacts {
-        Some(impacts) => outputs.table(table, &impact_columns(impacts))?,
-        None => outputs.table(table, &columns(&section))?,
+        Some(impacts) => outputs.table(table, parameters, &impact_columns(impacts))?,
+        None => outputs.table(table, parameters, &columns(&section))?,
     }
     if let Some(mut plot) = plot {
         let layers = match impacts {

@@ -14,6 +14,9 @@ const CASES: &str = "snapload.cases";
 /// The first row and the one after the last; only if a file does not contain all rows.
 const ROWS: &str = "snapload.rows";
 
+/// The case of a table that is no study, as JSON.
+const CASE: &str = "snapload.case";
+
 /// Which part of how many; only if a file is a part.
 const SHARD: &str = "snapload.shard";
 
@@ -134,6 +137,15 @@ impl Identity {
             },
         })
     }
+}
+
+/// The metadata of a table of results of a case, which is given as JSON.
+pub(crate) fn of_table(case: String) -> Vec<KeyValue> {
+    let version = env!("CARGO_PKG_VERSION").to_owned();
+    vec![
+        KeyValue::new(CASE.to_owned(), case),
+        KeyValue::new(VERSION.to_owned(), version),
+    ]
 }
 
 #[cfg(test)]

@@ -1,5 +1,6 @@
 //! Writes a table as a Parquet file, for answers that are not studies.
 
+use crate::metadata::of_table;
 use crate::parquet_file::{ColumnType, Values};
 use crate::parquet_writer::{Field, Writer};
 use crate::study_file::to_io;
@@ -16,11 +17,15 @@ fn column_type(values: &Values) -> ColumnType {
     }
 }
 
-/// Writes columns of equal lengths, each with its name.
+/// Writes columns of equal lengths, each with its name, which are results of a case, given as JSON.
 ///
 /// # Errors
 /// Those of `out`.
-pub fn write_table(columns: &[(&'static str, Values)], out: &mut dyn Write) -> io::Result<()> {
+pub fn write_table(
+    columns: &[(&'static str, Values)],
+    case: String,
+    out: &mut dyn Write,
+) -> io::Result<()> {
     let fields: Vec<Field> = columns
         .iter()
         .map(|(name, values)| Field {
@@ -33,6 +38,7 @@ pub fn write_table(columns: &[(&'static str, Values)], out: &mut dyn Write) -> i
         let properties = WriterProperties::builder()
             .set_compression(Compression::ZSTD(ZstdLevel::try_new(1)?))
             .set_created_by("snapload".to_owned())
+            .set_key_value_metadata(Some(of_table(case)))
             .build();
         let mut writer = Writer::new(Vec::new(), &fields, properties)?;
         let values: Vec<Values> = columns.iter().map(|(_, values)| values.clone()).collect();
@@ -45,6 +51,7 @@ pub fn write_table(columns: &[(&'static str, Values)], out: &mut dyn Write) -> i
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::metadata::of_table;
     use crate::parquet_file::Reader;
 
     #[test]
@@ -52,9 +59,19 @@ mod tests {
         let numbers = Values::Numbers(vec![Some(1.5), None]);
         let words = Values::Words(vec![Some("a".into()), Some("b".into())]);
         let mut file = tempfile::tempfile()?;
-        write_table(&[("x", numbers), ("why", words)], &mut file)?;
+        write_table(
+            &[("x", numbers), ("why", words)],
+            "{\"e\":0.5}".to_owned(),
+            &mut file,
+        )?;
         let reader = Reader::open(file)?;
         assert_eq!(reader.about().num_rows(), 2);
+        let metadata = reader.about().key_value_metadata().cloned();
+        let case = metadata.and_then(|entries| {
+            let mut entries = entries.into_iter();
+            entries.find(|entry| entry.key == "snapload.case")?.value
+        });
+        assert_eq!(case.as_deref(), Some("{\"e\":0.5}"));
         let schema = reader.about().schema_descr();
         assert_eq!(
             (schema.column(0).name(), schema.column(1).name()),
