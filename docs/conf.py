@@ -6,6 +6,8 @@ from pathlib import Path
 from typing import Any
 
 import snapload
+from docutils import nodes
+from sphinx.util import logging
 from sphinx.util.fileutil import copy_asset
 
 project = "snapload"
@@ -72,8 +74,17 @@ html_theme_options = {
 
 
 def setup(app: Any) -> None:
-    """Registers the step that copies MathJax."""
+    """Registers the steps of our own."""
+    app.connect("doctree-read", _check_descriptions)
     app.connect("build-finished", _copy_mathjax)
+
+
+def _check_descriptions(app: Any, doctree: nodes.document) -> None:
+    """Checks that every picture has a description, for those who do not see it."""
+    for picture in doctree.findall(nodes.image):
+        # The name of a file, which notebooks have by default, is none.
+        if picture.get("alt", "") in picture["uri"]:
+            logging.getLogger(__name__).warning("a picture has no description (alt)", location=picture)
 
 
 def _copy_mathjax(app: Any, error: Exception | None) -> None:
