@@ -38,7 +38,7 @@ pub(crate) fn keys(py: Python<'_>) -> PyResult<Vec<Bound<'_, PyDict>>> {
             Kind::Count { .. } => ("int", &[]),
             Kind::Flag => ("bool", &[]),
             Kind::Choice(words) => ("str", words),
-            Kind::Pair(_) | Kind::PerFreedom(_) | Kind::Text => ("str", &[]),
+            Kind::Pair(_) | Kind::PerFreedom(_) | Kind::Triple(_) | Kind::Text => ("str", &[]),
         };
         entry.set_item("kind", kind)?;
         entry.set_item("words", words.to_vec())?;

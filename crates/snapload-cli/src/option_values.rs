@@ -43,7 +43,9 @@ pub(crate) fn key_value(key: &'static Key) -> ValueParser {
             Kind::Number(_) => number.parse().ok().map(Value::Number),
             Kind::Count(..) => number.parse().ok().map(Value::Integer),
             Kind::Choice(_) | Kind::Text => Some(Value::from(text)),
-            Kind::Flag | Kind::Pair(_) | Kind::PerFreedom(_) => parse_value(text).ok(),
+            Kind::Flag | Kind::Pair(_) | Kind::PerFreedom(_) | Kind::Triple(_) => {
+                parse_value(text).ok()
+            }
         };
         let checked = match value {
             Some(value) => key.check(key.name, &value).map(|()| value),

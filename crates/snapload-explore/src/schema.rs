@@ -96,7 +96,7 @@ pub(crate) fn kind(key: &Key) -> JsonValue {
         Kind::Flag => json!({ "type": "flag" }),
         Kind::Choice(words) => json!({ "type": "choice", "options": words }),
         Kind::PerFreedom(high) => json!({ "type": "per_freedom", "low": 0.0, "high": high }),
-        Kind::Pair(_) | Kind::Text => json!({ "type": "text" }),
+        Kind::Pair(_) | Kind::Triple(_) | Kind::Text => json!({ "type": "text" }),
     }
 }
 

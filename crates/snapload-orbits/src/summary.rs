@@ -54,7 +54,7 @@ pub fn orbit_summary(orbit: &Orbit) -> String {
     let _ = match &orbit.proof {
         Some(Ok(proved)) => writeln!(
             text,
-            "Proved    to exist within {:.1e} of the section, with no other orbit within {:.1e}{}",
+            "Proved    to exist within {:.1e} of the section, with no other orbit of as many periods within {:.1e}{}",
             proved.error_of(&orbit.z),
             proved.unique_within,
             match proved.is_prime() {

@@ -69,7 +69,7 @@ const FLOAT: &[Key] = &[
         "coefficients of a panel code, beside this file: Capytaine's .nc or WAMIT's .1"),
     Key::new("deep_water", "", Kind::Flag, Flag(false), "accept coefficients of deep water although the site is not deep"),
     Key::new("centre_of_gravity", "m", PLACE, Derived("the file's"), "[x, z] of the centre of gravity; body.moment_of_inertia is about it"),
-    Key::new("damping", "N s/m", Kind::PerFreedom(1e18), Derived("none"),
+    Key::new("damping", "N s/m", Kind::Triple(1e18), Derived("none"),
         "[surge, heave, pitch], pitch in N m s: linear damping in addition to that of waves"),
     Key::new("constant_moment", "N m", Kind::number(-1e18, 1e18), Number(0.0),
         "a constant moment, counter-clockwise: of wind on the deck, or of an eccentric load"),
@@ -91,13 +91,16 @@ const WAVE: &[Key] = &[
     Key::new("direction", "", DIRECTION, Word("+x"), "direction of travel"),
 ];
 
+/// The last seed of a sea.
+pub(crate) const LAST_SEED: u64 = u32::MAX as u64;
+
 #[rustfmt::skip] // one row a key
 const SEA: &[Key] = &[
     Key::new("spectrum", "", Kind::Choice(&["jonswap", "pierson-moskowitz"]), Word("jonswap"), "shape of the spectrum"),
     Key::new("hs", "m", Kind::number(0.0, 30.0), Required, "significant wave height, 4 sqrt(m0)").symbol("H_s").usual(0.0, 6.0),
     Key::new("tp", "s", Kind::number(1.0, 40.0), Required, "peak period").symbol("T_p").usual(2.0, 16.0),
     Key::new("gamma", "1", Kind::number(1.0, 10.0), Number(3.3), "peak enhancement of a JONSWAP spectrum").symbol("γ").usual(1.0, 7.0),
-    Key::new("seed", "1", Kind::Count(0, u32::MAX as u64), Count(1), "of the random frequencies and phases; the same seed gives the same sea"),
+    Key::new("seed", "1", Kind::Count(0, LAST_SEED), Count(1), "of the random frequencies and phases; the same seed gives the same sea"),
     Key::new("components", "1", Kind::Count(10, 1000), Count(200), "number of sinusoids in the sea"),
     Key::new("direction", "", DIRECTION, Word("+x"), "direction of travel"),
 ];

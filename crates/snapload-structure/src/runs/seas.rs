@@ -9,6 +9,7 @@ use crate::physics::model_at_rest::ModelAtRest;
 use crate::physics::sea_records::short_records;
 use crate::physics::warning::Warning;
 use crate::physics::warnings::{limits_afloat, phase_warning, turning_warning, warnings};
+use crate::schema::LAST_SEED;
 use crate::structure::{IrregularSea, Structure, THREE_HOURS_S, Water};
 use serde::Serialize;
 use snapload::analysis::{Counter, OnProgress, Progress, Share, Unfinished, in_parallel};
@@ -64,8 +65,9 @@ pub enum Lines {
 /// ones.
 ///
 /// # Errors
-/// A [`CaseError`] unless the count is of [`SEEDS`], if the case has no sea, the structure rests
-/// nowhere, or elastic lines have no stiffness, and [`Unfinished::Cancelled`].
+/// A [`CaseError`] unless the count is of [`SEEDS`], if the case has no sea or too few seeds follow
+/// its own, the structure rests nowhere, or elastic lines have no stiffness, and
+/// [`Unfinished::Cancelled`].
 pub fn seas(
     structure: Structure,
     count: u32,
@@ -80,6 +82,11 @@ pub fn seas(
         );
         return Err(error.into());
     };
+    let further = u64::from(count) - 1;
+    if sea.seed + further > LAST_SEED {
+        let allowed = format!("at most {} for {count} records", LAST_SEED - further);
+        return Err(CaseError::value("sea.seed", sea.seed, allowed).into());
+    }
     let prepared = match lines {
         Lines::Inextensible => ModelAtRest::new(structure)?,
         Lines::Elastic => ModelAtRest::for_elastic_lines(structure)?,

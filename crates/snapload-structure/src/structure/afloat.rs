@@ -76,7 +76,7 @@ impl Afloat {
                 centre_m: fields.get("centre_of_gravity")?,
                 inertia_kg_m2: inertia.or(uniform),
             },
-            damping: per_freedom(fields, "damping")?.unwrap_or_default(),
+            damping: fields.get("damping")?.unwrap_or_default(),
             fit: FitOptions {
                 pairs: fields.get::<u64>("pairs")?.and_then(|n| n.try_into().ok()),
             },
@@ -236,17 +236,6 @@ fn same_volume(
     let volume = file / site.water_density_kg_m3;
     let allowed = format!("the {volume:.3} m^3 that the body of the file displaces, to 1 %");
     Err(own.refuse("displaced_volume", body.displaced_volume_m3, allowed))
-}
-
-/// Three numbers; a single number is refused, as its degree of freedom would be unclear.
-fn per_freedom(fields: Fields<'_>, key: &str) -> Result<Option<[f64; 3]>, CaseError> {
-    match fields.given(key) {
-        None => Ok(None),
-        Some(value) => {
-            let three = <[f64; 3]>::from_value(value).map(Some);
-            three.ok_or_else(|| fields.refuse(key, value, "[surge, heave, pitch]"))
-        }
-    }
 }
 
 /// The memory that a file of JSON holds, if there is one.

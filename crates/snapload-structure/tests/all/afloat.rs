@@ -327,7 +327,7 @@ fn what_a_floating_body_can_not_be_is_refused() {
         (
             "pairs = 6",
             "pairs = 6\ndamping = 3",
-            "[surge, heave, pitch]",
+            "three numbers in N s/m, [surge, heave, pitch], each from 0 to 1e18",
         ),
         ("pairs = 6", "pairs = 6\nname = \"raft\"", "raft"),
         (

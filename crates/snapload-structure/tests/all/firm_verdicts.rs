@@ -161,3 +161,23 @@ fn a_sea_of_few_sinusoids_decides_nothing() {
         );
     }
 }
+
+/// The record of every seed can be looked at alone, so none follows the last seed that a case may
+/// have, 2^32 - 1.
+#[test]
+fn no_record_has_a_seed_that_a_case_may_not_have() {
+    let last = |count: u32| {
+        let text = sea_text("hs = 1.2\nseed = 4294967295\n", "duration = 0.5\n", 1e9);
+        seas(structure(&text), count, Lines::Inextensible, &no_progress)
+    };
+    let words = last(1).unwrap().words();
+    assert!(
+        words.contains("In 0 of 1 record of 0.5 s a line"),
+        "{words}"
+    );
+    let error = last(2).unwrap_err().to_string();
+    assert!(
+        error.contains("sea.seed") && error.contains("at most 4294967294"),
+        "{error}"
+    );
+}

@@ -76,6 +76,7 @@ pub fn values(kind: Kind) -> Vec<String> {
             vec![part(0.13), part(0.37)]
         }
         Kind::Pair(_) => vec!["[0.25, -3.25]".to_owned()],
+        Kind::Triple(_) => vec!["[5e4, 9e4, 2e5]".to_owned()],
         Kind::PerFreedom(_) => vec!["7e4".to_owned(), "[5e4, 9e4, 2e5]".to_owned()],
         Kind::Count(low, high) => vec![(low + (high - low) / 3).to_string()],
         Kind::Flag => vec!["true".to_owned(), "false".to_owned()],

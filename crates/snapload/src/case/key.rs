@@ -15,6 +15,8 @@ pub enum Kind {
     Pair(f64),
     /// A number from 0 to this, or three, `[surge, heave, pitch]`.
     PerFreedom(f64),
+    /// Three numbers `[surge, heave, pitch]`, each from 0 to this.
+    Triple(f64),
     /// A whole number from the first to the second, both allowed.
     Count(u64, u64),
     /// `true` or `false`.
@@ -193,6 +195,9 @@ impl Key {
                 let limit = short(limit);
                 format!("0 <= {name} <= {limit}, or [surge, heave, pitch], each from 0 to {limit}")
             }
+            Kind::Triple(limit) => {
+                format!("[surge, heave, pitch], each from 0 to {}", short(limit))
+            }
             Kind::Count(low, u64::MAX) => format!("a whole number, {low} <= {name} < 2^64"),
             Kind::Count(low, high) => {
                 let (low, high) = (short(low as f64), short(high as f64));
@@ -228,6 +233,14 @@ impl Key {
         matches!(self.kind, Kind::Count(low, high) if (low..=high).contains(&number))
     }
 
+    /// Whether some lists are values of this key.
+    fn takes_lists(&self) -> bool {
+        matches!(
+            self.kind,
+            Kind::Pair(_) | Kind::PerFreedom(_) | Kind::Triple(_)
+        )
+    }
+
     /// Whether this key can take the value.
     pub(crate) fn takes(&self, value: &Value) -> bool {
         match self.kind {
@@ -244,10 +257,12 @@ impl Key {
                 let pair = value.pair();
                 pair.is_some_and(|pair| pair.iter().all(|n| n.abs() <= limit))
             }
-            Kind::PerFreedom(limit) => {
+            Kind::PerFreedom(limit) | Kind::Triple(limit) => {
                 let within = |n: &f64| (0.0..=limit).contains(n);
-                let one = value.number().as_ref().is_some_and(within);
-                one || value.triple().is_some_and(|three| three.iter().all(within))
+                let may_be_one = matches!(self.kind, Kind::PerFreedom(_));
+                let one = value.number().filter(|_| may_be_one);
+                one.as_ref().is_some_and(within)
+                    || value.triple().is_some_and(|three| three.iter().all(within))
             }
             Kind::Count(..) => value.count().is_some_and(|n| self.takes_count(n)),
             Kind::Flag => matches!(value, Value::Bool(_)),
@@ -263,9 +278,7 @@ impl Key {
     pub fn check(&self, path: &str, value: &Value) -> Result<(), CaseError> {
         match value {
             value if self.takes(value) => Ok(()),
-            Value::List(_) if !matches!(self.kind, Kind::Pair(_) | Kind::PerFreedom(_)) => {
-                Err(self.refuse(path, "(a list)"))
-            }
+            Value::List(_) if !self.takes_lists() => Err(self.refuse(path, "(a list)")),
             value => {
                 let meant = value.text().and_then(|text| self.unquoted(text.trim()));
                 let mut error = self.refuse(path, value);
@@ -282,6 +295,7 @@ impl Key {
             Kind::Number(Bounds { high, .. }) if high < f64::MAX => "a number",
             Kind::Pair(_) => "two numbers",
             Kind::PerFreedom(_) => "one number or three",
+            Kind::Triple(_) => "three numbers",
             _ => return CaseError::value(path, shown, self.allowed()),
         };
         // The keys of a case without tables are nondimensional, and errors do not name their unit.
@@ -307,7 +321,7 @@ impl Key {
                 let meant = words.iter().find(|word| word.eq_ignore_ascii_case(text))?;
                 Some(format!("\"{meant}\""))
             }
-            Kind::Pair(_) | Kind::PerFreedom(_) | Kind::Text => None,
+            Kind::Pair(_) | Kind::PerFreedom(_) | Kind::Triple(_) | Kind::Text => None,
         }
     }
 }
