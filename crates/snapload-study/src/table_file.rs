@@ -51,7 +51,6 @@ pub fn write_table(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::metadata::of_table;
     use crate::parquet_file::Reader;
 
     #[test]
