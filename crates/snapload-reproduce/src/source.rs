@@ -95,8 +95,8 @@ pub(crate) fn scan(row: &CriticalRow, reading: Reading) -> String {
     )
 }
 
-/// The command that makes claims, tables and figures.
-pub(crate) const REPORT: &str = "snapload reproduce --out reproduction";
+/// The command that makes claims, tables and figures, in whatever directory.
+pub(crate) const REPORT: &str = "snapload reproduce";
 
 /// A number with `places` decimals and a true minus sign.
 pub(crate) fn decimals(value: f64, places: usize) -> String {
