@@ -17,7 +17,7 @@ use snapload_orbits::{
     Attraction, AttractionRow, BASIN_TRANSIENT, Basin, BasinRow, CellOutcome, Erosion, ErosionRow,
     Window, attraction_summary, basin_summary, erosion_summary,
 };
-use snapload_report::{CaseEcho, case_in_words};
+use snapload_report::{CaseEcho, case_in_words, case_without};
 use snapload_study::Values;
 use std::path::PathBuf;
 
@@ -126,7 +126,7 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
     let mut outputs = Outputs::open(&args.json)?;
     let table = outputs.file("--out", args.out.as_deref(), &TABLE)?;
     let plot = PlotFile::open(&mut outputs, args.plot.as_deref(), window.keys)?;
-    let title = case_in_words(&name, &base);
+    let title = case_without(&window.keys, &name, &base);
     let bar = Bar::new();
     let on_progress = |progress: Progress| bar.show(progress);
     if args.kind == "attractor" {
@@ -177,7 +177,9 @@ pub(crate) fn run_erosion(args: &ErosionArgs) -> Result<(), Failure> {
         plot.spans(key, &values);
         plot.upwards = measure_label(&plot.axes[1], window.keys);
         let layers = erosion_layers(&erosion, &rows, plot.axes());
-        plot.add_to(&mut outputs, &case_in_words(&name, &base), layers)?;
+        let [x, y] = window.keys;
+        let title = case_without(&[x, y, key], &name, &base);
+        plot.add_to(&mut outputs, &title, layers)?;
     }
     let row = Answer {
         case: CaseEcho(&base),

@@ -16,7 +16,7 @@ use snapload_orbits::{
     Branch, BranchEvent, BranchOptions, BranchRow, Kind, Moored, POINTS, branch_summary,
     followed_key,
 };
-use snapload_report::{CaseEcho, case_in_words};
+use snapload_report::{CaseEcho, case_in_words, case_without};
 use snapload_study::{RandomRange, Values};
 use std::fmt::Write;
 use std::path::PathBuf;
@@ -110,7 +110,8 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
     outputs.table(table, &parameters, &columns(key, &branch))?;
     if let Some(plot) = plot {
         let layers = layers(key, &branch, &plot);
-        plot.add_to(&mut outputs, &case_in_words(&name, &parameters), layers)?;
+        let title = case_without(&[key], &name, &parameters);
+        plot.add_to(&mut outputs, &title, layers)?;
     }
     let far = from_start.in_words();
     let row = Answer {

@@ -17,7 +17,7 @@ use snapload_orbits::{
     BranchEvent, BranchOptions, Curve, CurveOptions, CurvePoint, CurveRow, Kind, Moored, POINTS,
     curve_summary,
 };
-use snapload_report::{CaseEcho, case_in_words};
+use snapload_report::{CaseEcho, case_in_words, case_without};
 use snapload_study::{RandomRange, Values};
 use std::path::PathBuf;
 
@@ -102,7 +102,8 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
     outputs.table(table, &parameters, &columns(keys, &curve))?;
     if let Some(plot) = plot {
         let layers = layers(keys, &curve, &plot);
-        plot.add_to(&mut outputs, &case_in_words(&name, &parameters), layers)?;
+        let title = case_without(&keys, &name, &parameters);
+        plot.add_to(&mut outputs, &title, layers)?;
     }
     let far = from_start.in_words();
     let row = Answer {

@@ -11,7 +11,7 @@ use crate::table::{axis, names, numbers};
 use serde::Serialize;
 use snapload::analysis::{Progress, START_KEYS};
 use snapload_orbits::{DiagramPoint, DiagramRow, diagram, diagram_summary};
-use snapload_report::{CaseEcho, case_in_words};
+use snapload_report::{CaseEcho, case_in_words, case_without};
 use snapload_study::Values;
 use std::path::PathBuf;
 
@@ -75,10 +75,10 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
     drop(bar);
     let rows = columns(key, &found);
     outputs.table(table, &parameters, &rows)?;
-    let title = case_in_words(&name, &parameters);
     if let Some(mut plot) = plot {
         plot.spans(key, &values);
         let layers = diagram_layers(&found, &rows, plot.axes());
+        let title = case_without(&[key], &name, &parameters);
         plot.add_to(&mut outputs, &title, layers)?;
     }
     let row = Answer {
@@ -87,7 +87,7 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
         down: args.down,
         rows: found.iter().map(DiagramRow::new).collect(),
     };
-    let mut text = format!("Case      {title}\n");
+    let mut text = format!("Case      {}\n", case_in_words(&name, &parameters));
     text.push_str(&diagram_summary(key, &found));
     outputs.finish(&row, text)
 }

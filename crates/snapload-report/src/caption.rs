@@ -11,11 +11,27 @@ pub fn case_in_words(name: &str, parameters: &Parameters) -> String {
     case_as_written(name, parameters, &Entries::new(&CASE))
 }
 
+/// The same without some keys, which have other values in what it is the title of.
+pub fn case_without(varied: &[&str], name: &str, parameters: &Parameters) -> String {
+    let entries = Entries::new(&CASE);
+    caption(name, parameters, &entries, |key| varied.contains(&key))
+}
+
 /// The same for an answer about the numbers as they were written, in `entries`: one that is not the
 /// shortest decimal of its double is repeated with all its digits.
 pub fn case_as_written(name: &str, parameters: &Parameters, entries: &Entries) -> String {
+    caption(name, parameters, entries, |_| false)
+}
+
+fn caption(
+    name: &str,
+    parameters: &Parameters,
+    entries: &Entries,
+    is_varied: impl Fn(&str) -> bool,
+) -> String {
     let differing: Vec<String> = parameters
         .entries()
+        .filter(|(key, _)| !is_varied(key))
         .filter_map(|(key, value)| {
             let follows = key == "inertia" && parameters.inertia_follows();
             // The inertia of the size follows from decimals, and is not the shortest one of its
@@ -84,6 +100,23 @@ mod tests {
         entries.set("f_o=0.30000000000000002").expect("a number");
         let caption = case_as_written("standard case", &parameters, &entries);
         assert!(caption.ends_with("f_o = 0.30000000000000002"), "{caption}");
+    }
+
+    /// The title of a picture has no value of a key that is on one of its axes.
+    #[test]
+    fn a_caption_leaves_out_what_is_varied() {
+        let parameters = Parameters {
+            f_o: 0.6,
+            omega: 3.1,
+            ..Parameters::STANDARD
+        };
+        for (varied, caption) in [
+            (&["f_o"][..], "standard case with omega = 3.1"),
+            (&["e"], "standard case with f_o = 0.6, omega = 3.1"),
+            (&["f_o", "omega"], "the standard case (1910001000-359)"),
+        ] {
+            assert_eq!(case_without(varied, "standard case", &parameters), caption);
+        }
     }
 
     /// A number that is the standard one as a double, but not as it was written, is no standard

@@ -18,7 +18,7 @@ pub mod tables;
 mod trust;
 mod verified;
 
-pub use caption::{case_as_written, case_in_words};
+pub use caption::{case_as_written, case_in_words, case_without};
 pub use case_file::{case_file, python_lines, shell_line};
 pub use certified::{
     CertificateRow, Certified, Departure, Differs, nearest, prove, proved_in_words,
