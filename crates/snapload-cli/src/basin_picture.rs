@@ -72,9 +72,9 @@ fn map(
         x,
         y,
         cells: cells.map(cell).collect(),
-        value_label: String::new(),
         classes: classes.iter().map(|class| class.words()).collect(),
         uncertain,
+        ..Map::default()
     })]
 }
 

@@ -165,7 +165,11 @@ pub const NOT_CERTAIN: &str = "not certain";
 pub(crate) fn samples(map: &Map) -> Vec<(Fill, String)> {
     let classes = map.classes.iter().enumerate();
     let classes = classes.map(|(index, name)| (Cell::Class(index), name.as_str()));
-    let others = [(Cell::Empty, "no value"), (Cell::Illegal, "no legal case")];
+    let empty = match map.empty.as_str() {
+        "" => "no value",
+        words => words,
+    };
+    let others = [(Cell::Empty, empty), (Cell::Illegal, "no legal case")];
     let occurring = classes
         .chain(others)
         .filter(|(cell, _)| map.cells.contains(cell));

@@ -124,6 +124,8 @@ pub struct Map {
     pub value_label: String,
     /// The names of the classes.
     pub classes: Vec<String>,
+    /// The meaning of empty cells; "no value" if it is empty.
+    pub empty: String,
     /// Which cells are uncertain, in the order of the cells; these are hatched. Cells for which the
     /// list has no entry are not.
     pub uncertain: Vec<bool>,

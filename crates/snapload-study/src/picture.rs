@@ -1,8 +1,9 @@
 //! A quick picture of a study: a line over one key, or a map over two.
 
 use crate::error::StudyError;
+use crate::parquet_file::ColumnType;
 use crate::plan::Axis;
-use crate::study_file::{ShownValue, read_shown};
+use crate::study_file::{ShownValue, ends, read_shown};
 use crate::table::{Column, columns};
 use snapload::key_named;
 use snapload_figures::{
@@ -105,17 +106,24 @@ impl StudyPicture {
         self.read(file, |row, cell, doubt| {
             let (i, j) = (row / y.count(), row % y.count());
             if i.is_multiple_of(of_x.step) && j.is_multiple_of(of_y.step) {
-                cells.push(cell);
+                cells.push(match cell {
+                    Cell::Value(number) if self.column.name == CABLE => {
+                        Cell::Class(number as usize - 1)
+                    }
+                    cell => cell,
+                });
                 uncertain.push(doubt);
             }
         })?;
-        let words = self.column.words().into_iter();
+        let is_of_trust = ["horizon_t", "horizon_impact"].contains(&self.column.name);
+        let is_trusted = is_of_trust && ends(file)?.judged > 0;
         let map = rising(Map {
             x: of_x.values,
             y: of_y.values,
             cells,
             value_label: self.label(),
-            classes: words.map(|word| word.replace('_', " ")).collect(),
+            classes: classes(self.column),
+            empty: if is_trusted { "trusted to the end" } else { "" }.to_owned(),
             uncertain,
         });
         Ok(Plot {
@@ -147,6 +155,27 @@ impl StudyPicture {
 
     fn label(&self) -> String {
         with_unit(self.column.symbol, self.column.unit)
+    }
+}
+
+/// The column with the number of a cable, which is a name and no quantity.
+const CABLE: &str = "first_cable";
+
+/// The names of the classes in a map of a column.
+fn classes(column: &Column) -> Vec<String> {
+    match (column.name, column.column_type()) {
+        (CABLE, _) => [1, 2].map(|cable| format!("cable {cable} first")).to_vec(),
+        (_, ColumnType::Flags) => {
+            let words = column.words().into_iter();
+            words
+                .map(|word| format!("{}: {word}", column.symbol))
+                .collect()
+        }
+        _ => column
+            .words()
+            .iter()
+            .map(|word| word.replace('_', " "))
+            .collect(),
     }
 }
 

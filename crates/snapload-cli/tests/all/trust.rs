@@ -261,3 +261,31 @@ fn an_uncertainty_beyond_all_bounds_is_not_certain() {
     assert_eq!(run["trust"]["because"], "tolerance");
     assert_eq!(run["impacts"][0]["digits"], 0.0);
 }
+
+/// A map says what its colours mean: of what `true` is, which cable snaps first, and that a run
+/// without a horizon is trusted to its end. At f_o = 0 both cables snap at once, so that trust ends.
+#[test]
+fn a_map_of_trust_says_what_it_shows() {
+    let d = directory();
+    let map = |name: &str, options: &[&str]| {
+        let [picture, out] = [format!("{name}.svg"), format!("{name}.parquet")];
+        let grid = "--set t_end=2 --vary f_o=0:0.3:3 --vary e=0.5:0.9:3";
+        let mut command = snapload(d.path());
+        command.arg("sweep").args(grid.split(' ')).args(options);
+        command.args(["--out", &out, "--plot", &picture]);
+        command.assert().success();
+        std::fs::read_to_string(d.path().join(picture)).unwrap()
+    };
+    let of = |column| ["--show", column];
+    let certain = map("certain", &of("certain"));
+    assert!(certain.contains(">end certain: true<") && certain.contains(">end certain: false<"));
+    let horizon = map("horizon", &of("horizon_t"));
+    assert!(horizon.contains(">trusted to the end<") && !horizon.contains(">no value<"));
+    let unknown = map("unknown", &["--show", "horizon_t", "--no-trust"]);
+    assert!(unknown.contains(">no value<") && !unknown.contains(">trusted to the end<"));
+    let cable = map("cable", &of("first_cable"));
+    assert!(
+        cable.contains(">cable 1 first<") && !cable.contains(">1.8<"),
+        "{cable}"
+    );
+}
