@@ -249,7 +249,8 @@ PARAMETERS = """
         Start: vertical position, towards the anchors; 0 with both cables taut [L]; allowed: ``-1000 <= y <=
         1000``; default 0.1.
     theta : float, optional
-        Start: rotation [rad]; allowed: ``-1000 <= theta <= 1000; and |theta| <= pi/2; 0 for a point mass``; default 0.
+        Start: rotation [rad]; allowed: ``-1000 <= theta <= 1000; and |theta| <= pi/2; 0 for a point mass``;
+        default 0.
     vx : float, optional
         Start: horizontal velocity [L/T]; allowed: ``-1000 <= vx <= 1000``; default 0.
     vy : float, optional
