@@ -208,10 +208,9 @@ def test_the_curves_of_an_erosion_go_along_its_key():
     forces = [0.4, 0.0, 0.6, 0.2]
     case = snapload.Case(t_end=20)
     eroded = snapload.erosion(case, over={"f_o": forces}, trust=False, progress=False, **WINDOW)
-    line = snapload.plot_erosion(eroded).get_lines()[0]
+    line = snapload.plot_erosion(eroded.sel(f_o=forces)).get_lines()[0]
     assert line.get_xdata().tolist() == sorted(forces)
     assert line.get_ydata().tolist() == [float(eroded.gim.sel(f_o=f_o)) for f_o in sorted(forces)]
-    assert eroded.f_o.values.tolist() == forces
 
 
 def test_only_legal_starts_are_decided_and_trusted():

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import os
+import re
 import subprocess
 import sys
 from dataclasses import asdict
@@ -240,7 +241,7 @@ def test_errors_have_the_same_messages(command, keys):
     assert str(again.value) == message
 
 
-def test_a_file_is_read_as_the_command_reads_it(command_json, tmp_path: Path):
+def test_a_file_is_read_as_the_command_reads_it(command, command_json, tmp_path: Path):
     path = tmp_path / "mooring.toml"
     path.write_text("a = 0.2\nb = 0.1\nf_o = 0.25\nt_end = 5\n")
     case = snapload.Case.from_file(path)
@@ -252,8 +253,10 @@ def test_a_file_is_read_as_the_command_reads_it(command_json, tmp_path: Path):
     with pytest.raises(ValueError, match="mooring.toml"):
         snapload.Case.from_file(path)
     path.write_bytes(b"f_o = 0.2 # \xff")
-    with pytest.raises(ValueError, match=r"mooring.toml: .*utf-8"):
+    message = r"mooring.toml: not a text file in UTF-8 \(byte 12\); save it as UTF-8"
+    with pytest.raises(ValueError, match=message):
         snapload.Case.from_file(path)
+    assert re.search(message, command("run", str(path), fails=True))
 
 
 def test_a_file_with_a_byte_order_mark_is_read_as_the_command_reads_it(command_json, tmp_path: Path):
