@@ -28,7 +28,8 @@ left out of the window. A cell is decided if its neighbours at a distance of 1e-
 decide its run, nearer neighbours must end alike, too. A picture hatches the cells that are not decided.
 
 Examples:
-  snapload basin --set t_end=60 --vary x=-0.4:0.4:41 --vary y=0.02:0.72:36 --out basin.parquet --plot basin.svg
+  snapload basin --set t_end=60 --vary x=-0.4:0.4:41 --vary y=0.02:0.72:36 --out basin.parquet \\
+      --plot basin.svg
       starts at rest, with the standard body, and a map of them
   snapload basin --set t_end=60 --vary f_o=0.02:0.6:30 --vary omega=0.4:2.4:41 --json -
       a window of any two keys
