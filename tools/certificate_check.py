@@ -296,7 +296,7 @@ def check(source):
         text = source.read_text(encoding="utf-8") if isinstance(source, Path) else source
         certificate = json.loads(text, object_pairs_hook=keyed)
         if not well_formed(certificate):
-            raise CheckFailure(3, "the shape of format 1, or too few digits (format 2, of taut motion, is not supported)")
+            raise CheckFailure(3, "not the shape of format 1, or too few digits (format 2, of taut motion, is not supported)")
         bits = ctx.prec = certificate["bits"]
         while True:
             try:

@@ -194,6 +194,10 @@ fn two_laps_are_not_reported_as_an_orbit_that_takes_no_fewer_periods() {
         orbit.proof = Some(orbit.prove(&exact));
         let text = orbit_summary(&orbit);
         assert!(text.contains("Proved    to exist"), "{text}");
+        assert!(
+            text.contains("no other orbit of as many periods within"),
+            "{text}"
+        );
         assert_eq!(
             !text.contains("fewer periods are not ruled out"),
             is_prime,
