@@ -238,9 +238,12 @@ fn tension(assessment: &Assessment, window: [f64; 2]) -> Plot {
 }
 
 fn rotation(assessment: &Assessment, window: [f64; 2]) -> Plot {
+    /// A rotation below it \[degrees\] is that of rounding, and drawn as none.
+    const LEAST: f64 = 1e-9;
     let mut points = Vec::new();
     sample_motion(assessment, window, |t, motion| {
-        points.push([t, -motion.state.theta.to_degrees()]);
+        let turned = -motion.state.theta.to_degrees();
+        points.push([t, if turned.abs() < LEAST { 0.0 } else { turned }]);
     });
     let t = Range::Fixed(window[0], window[1]);
     let axes = [("*t* (s)", t), ("rotation (degrees)", Range::Auto)];

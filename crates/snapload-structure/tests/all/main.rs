@@ -27,5 +27,6 @@ mod physics;
 mod scale;
 mod sea_verdicts;
 mod short_run;
+mod still_water;
 mod verdicts;
 mod waves;
