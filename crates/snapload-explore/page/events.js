@@ -42,6 +42,7 @@ export class EventTable {
   }
 
   #turn(by) {
+    if (!this.run) return;
     this.page = Math.min(Math.max(this.page + by, 0), this.#pages - 1);
     this.#fill();
     this.#mark();
