@@ -340,12 +340,15 @@ def test_the_hardest_snaps_and_the_record_lead_to_their_time(open_structure):
 
 def test_other_waves_are_a_table_whose_cells_are_run(open_structure):
     page = open_structure(f"{SHORT}&t=0&elastic=false")
-    waves = {"periods_s": [5, 6], "heights_m": [1.5, 2, 2.5], "cells": [0.4, 0.6, None, 0.3, 0.7, 1.2]}
+    kinds = ["known", "at least", "fails", "not judged", "known", "known"]
+    values = [0.4, 0.6, None, None, 0.7, 1.2]
+    cells = [{"value": value, "kind": kind} for value, kind in zip(values, kinds, strict=True)]
+    waves = {"periods_s": [5, 6], "heights_m": [1.5, 2, 2.5], "cells": cells}
     answer = {**waves, "utilisation": True, "length": 60}
     page.route("**/api/structure/waves", lambda route: route.fulfill(json=answer))
     page.locator("#waves-run").click()
     cells = page.locator("#waves td")
-    expect(cells).to_have_text(["×", "1.20", "0.60", "0.70", "0.40", "0.30"])
+    expect(cells).to_have_text(["×", "1.20", "≥ 0.60", "0.70", "0.40", "–"])
     expect(page.locator("#waves td[aria-current]")).to_have_text("0.70")
     page.locator('#waves td[tabindex="0"]').focus()
     page.keyboard.press("ArrowRight")

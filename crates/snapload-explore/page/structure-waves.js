@@ -57,19 +57,21 @@ export class StructureWaves {
     this.follow();
   }
 
-  #show({ periods_s, heights_m, cells, cut_short, utilisation, length }) {
+  #show({ periods_s, heights_m, cells, utilisation, length }) {
     const what = utilisation ? "Largest utilisation" : "Fastest snap [m/s]";
+    const marks = { fails: "×", "not judged": "–", "at least": "≥ ", known: "" };
+    const meaning = { "not judged": "–: nothing is judged", "at least": "≥: the run stopped at the largest number of snaps" };
+    const occurring = Object.keys(meaning).filter((kind) => cells.some((cell) => cell.kind === kind));
+    const legend = ["×: the body turns over or touches the floor", ...occurring.map((kind) => meaning[kind])];
     $("waves-message").textContent =
-      `${what} in waves run for ${length} periods each; ×: the run fails, or the wave can not be run` +
-      `${cut_short.includes(true) ? "; ≥: the run stopped at the largest number of snaps" : ""}. ` +
+      `${what} in waves run for ${length} periods each; ${legend.join("; ")}. ` +
       "Motions are chaotic, so that single cells may differ from those beside them. Click a cell to run its wave for the duration of the case.";
     const cell = (i, j) => {
-      const place = i * heights_m.length + j;
-      const value = cells[place];
+      const { value, kind } = cells[i * heights_m.length + j];
       const wave = `data-height="${heights_m[j]}" data-period="${periods_s[i]}"`;
-      const kind = value === null ? "fails" : !utilisation ? "" : value >= 1 ? "breaks" : value >= 0.5 ? "near" : "";
-      const text = value === null ? "×" : utilisation ? ratio(value) : fixed(value, 2);
-      return `<td tabindex="-1" class="${kind}" ${wave}>${cut_short[place] ? "≥ " : ""}${text}</td>`;
+      const colour = kind === "fails" ? "fails" : !utilisation ? "" : value >= 1 ? "breaks" : value >= 0.5 ? "near" : "";
+      const text = value === null ? "" : utilisation ? ratio(value) : fixed(value, 2);
+      return `<td tabindex="-1" class="${colour}" ${wave}>${marks[kind]}${text}</td>`;
     };
     const rows = heights_m.map((height, j) => {
       const row = periods_s.map((_, i) => cell(i, j)).join("");

@@ -95,10 +95,12 @@ impl Erosion {
         let part = |cells: usize, m: &Measures| cells as f64 / m.legal as f64;
         let low = |m: &Measures| part(m.safe - m.undecided_safe, m);
         let high = |m: &Measures| part(m.safe + m.undecided - m.undecided_safe, m);
+        // Without a safe start at the first value there is no knee; one of them gives the greatest.
+        let least_safe = |m: &Measures| low(m).max(part(1, m)).min(high(m));
         (self.neighbours_run() || self.is_cut_short()).then(|| {
             [
                 self.knee_of(|m| (m.legal > 0).then(|| [high(m), low(m)])),
-                self.knee_of(|m| (m.legal > 0).then(|| [low(m), high(m)])),
+                self.knee_of(|m| (m.legal > 0).then(|| [least_safe(m), high(m)])),
             ]
         })
     }

@@ -324,6 +324,7 @@ pub fn erosion_summary(erosion: &Erosion) -> String {
         erosion.key
     );
     let maybe = |value: Option<f64>| value.map_or("-".to_owned(), |value| format!("{value:.4}"));
+    let some_undecided = erosion.neighbours_run() || erosion.is_cut_short();
     for (value, basin) in &erosion.points {
         let m = &basin.measures;
         let (lim, disc) = (maybe(m.lim), maybe(m.integrity_factor));
@@ -332,8 +333,7 @@ pub fn erosion_summary(erosion: &Erosion) -> String {
             true => m.undecided.to_string(),
             false => "-".to_owned(),
         };
-        let some = basin.neighbours_run || m.cut_short > 0;
-        let decided = maybe(m.decided_part().filter(|_| some));
+        let decided = maybe(m.decided_part().filter(|_| some_undecided));
         let value = six_digits(*value);
         let _ = writeln!(
             text,

@@ -1,6 +1,6 @@
 //! A window of two keys, cell by cell.
 
-use snapload::{Case, CaseError, Parameters, Stop, Value};
+use snapload::{Case, CaseError, KEYS, Key, Kind, Parameters, Stop, Value};
 
 /// Two keys and the values that they take: a grid of cells.
 #[derive(Clone, Debug)]
@@ -140,7 +140,12 @@ pub(crate) fn check_varies(
     if is_number && is_of_body {
         return Ok(());
     }
-    let allowed = "a key that holds a number, of this body";
+    let varies = |key: &&Key| {
+        let is_number = matches!(key.kind, Kind::Number(_));
+        is_number && (!base.is_point() || base.moves_by(key.name))
+    };
+    let known: Vec<_> = KEYS.iter().filter(varies).map(|key| key.name).collect();
+    let allowed = format!("one of {}", known.join(", "));
     let key = Value::Text(key.to_owned());
     Err(CaseError::value(option, key, allowed))
 }

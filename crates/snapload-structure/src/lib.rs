@@ -8,6 +8,7 @@
 //! engine's y points down; see [`Scales`].
 
 mod catalogue;
+mod judged_time;
 pub mod moordyn;
 pub mod note;
 mod options;

@@ -379,29 +379,6 @@ impl Structure {
         (!parts.is_empty()).then(|| parts.join("; "))
     }
 
-    /// The time that is judged: what follows the transient, which is
-    /// shorter than the duration \[s\].
-    pub(crate) fn judged_s(&self) -> f64 {
-        self.duration_s - self.transient_s
-    }
-
-    /// The judged time in periods of the waves, the peak period for a sea; none in still water.
-    pub(crate) fn judged_periods(&self) -> Option<f64> {
-        let period_s = match self.water {
-            Water::Still => None,
-            Water::Wave(wave) => Some(wave.period_s),
-            Water::Sea(sea) => Some(sea.peak_period_s),
-        };
-        let period_s = period_s.filter(|_| self.has_waves())?;
-        Some(self.judged_s() / period_s)
-    }
-
-    /// Whether less than one period of the waves is judged, which is too little for a verdict that
-    /// nothing fails.
-    pub(crate) fn judges_too_little(&self) -> bool {
-        self.judged_periods().is_some_and(|periods| periods < 1.0)
-    }
-
     /// Whether there are waves; those of no height are still water.
     pub(crate) fn has_waves(&self) -> bool {
         match self.water {

@@ -5,7 +5,7 @@ use crate::refusal::Refusal;
 use crate::work::Allowance;
 use serde::{Deserialize, Serialize};
 use snapload::analysis::{Progress, Unfinished};
-use snapload_structure::note;
+use snapload_structure::note::{self, ScanCell};
 use std::time::Duration;
 
 /// The time budget for all runs together.
@@ -22,13 +22,30 @@ struct Answer {
     periods_s: Vec<f64>,
     heights_m: Vec<f64>,
     /// All heights for the first period, then for the next.
-    cells: Vec<Option<f64>>,
-    /// Cells whose result in full may be larger.
-    cut_short: Vec<bool>,
+    cells: Vec<Answered>,
     /// Whether cells are the largest utilisation; otherwise the fastest snap \[m/s\].
     utilisation: bool,
     /// The number of periods of each wave that are run.
     length: f64,
+}
+
+/// A cell, and whether its value is a lower bound, or why it has none.
+#[derive(Serialize)]
+struct Answered {
+    value: Option<f64>,
+    kind: &'static str,
+}
+
+impl From<ScanCell> for Answered {
+    fn from(cell: ScanCell) -> Self {
+        let (value, kind) = match cell {
+            ScanCell::Known(value) => (Some(value), "known"),
+            ScanCell::AtLeast(value) => (Some(value), "at least"),
+            ScanCell::NotJudged => (None, "not judged"),
+            ScanCell::Fails => (None, "fails"),
+        };
+        Self { value, kind }
+    }
 }
 
 /// The answer, as JSON.
@@ -49,8 +66,7 @@ pub(crate) fn answer(
     let answer = Answer {
         periods_s: scan.periods_s,
         heights_m: scan.heights_m,
-        cells: scan.cells,
-        cut_short: scan.cut_short,
+        cells: scan.cells.into_iter().map(Answered::from).collect(),
         utilisation: case.structure.tensions_known()
             && lines.iter().all(|line| line.breaking_load_n.is_some()),
         length: note::LENGTH,

@@ -5,7 +5,7 @@ mod inputs;
 mod layout;
 mod plots;
 
-pub use crate::runs::scan::{LENGTH, Scan, scan};
+pub use crate::runs::scan::{LENGTH, Scan, ScanCell, scan};
 pub use inputs::inputs;
 pub use plots::window;
 

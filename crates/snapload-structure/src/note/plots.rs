@@ -5,7 +5,7 @@ use crate::physics::snap::Snap;
 use crate::physics::wave::LinearWave;
 use crate::runs::assess::Assessment;
 use crate::runs::quantile::sorted;
-use crate::runs::scan::Scan;
+use crate::runs::scan::{Scan, ScanCell};
 use crate::runs::seas::Seas;
 use crate::structure::{Structure, THREE_HOURS_S, Water};
 use snapload::{Motion, Playback};
@@ -285,16 +285,20 @@ pub(super) fn of_scan(scan: &Scan, structure: &Structure) -> Result<Picture, Fig
         true => "utilisation",
         false => "fastest snap (m/s)",
     };
-    let cells = scan.cells.iter();
+    let cell = |cell: &ScanCell| match *cell {
+        ScanCell::Known(value) | ScanCell::AtLeast(value) => Cell::Value(value),
+        ScanCell::NotJudged => Cell::Empty,
+        ScanCell::Fails => Cell::Class(0),
+    };
+    let at_least = |cell: &ScanCell| matches!(cell, ScanCell::AtLeast(_));
     let map = Map {
         x: scan.periods_s.clone(),
         y: scan.heights_m.clone(),
-        cells: cells
-            .map(|cell| cell.map_or(Cell::Class(0), Cell::Value))
-            .collect(),
+        cells: scan.cells.iter().map(cell).collect(),
         value_label: value_label.to_owned(),
         classes: vec!["turned over or touched the floor".to_owned()],
-        uncertain: scan.cut_short.clone(),
+        uncertain: scan.cells.iter().map(at_least).collect(),
+        empty: "nothing is judged".to_owned(),
     };
     let axes = [("*T* (s)", Range::Auto), ("*H* (m)", Range::Auto)];
     let description = "Result for other waves, by period and height";

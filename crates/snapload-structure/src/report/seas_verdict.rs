@@ -6,7 +6,7 @@ use crate::physics::gumbel::Gumbel;
 use crate::runs::outcome::Outcome;
 use crate::runs::quantile::{quantile, sorted};
 use crate::runs::seas::{Failing, Seas};
-use crate::runs::three_hours::{NoDistribution, judges_enough};
+use crate::runs::three_hours::NoDistribution;
 use crate::text_layout::{digits, paragraph, tenths};
 use askama::Template;
 use snapload::Stop;
@@ -94,7 +94,7 @@ impl Seas {
             return Some(TooShort::PartOfAWave);
         }
         match self.check_beyond() {
-            Err(_) if judges_enough(structure, self.records.len()) => None,
+            Err(_) if structure.judges_enough(self.records.len()) => None,
             Err(reason) => Some(TooShort::NoFit(reason)),
             Ok(()) => self.overload_in_three_hours().map(TooShort::Overload),
         }

@@ -145,9 +145,26 @@ impl Check {
     }
 }
 
-/// The checks of the lines and of the waves' force, from the outcome of a run.
+/// The checks of the lines and of the waves' force, from the outcome of a run that stands alone: one
+/// record of a sea passes none.
 pub(crate) fn checks(prepared: &ModelAtRest, outcome: &Outcome, open: bool) -> Vec<Check> {
-    let lines = line_checks(prepared, outcome, open).into_iter();
+    let too_little = prepared.structure.one_run_is_too_little();
+    all_checks(prepared, outcome, open, too_little)
+}
+
+/// The same of one record of several.
+pub(crate) fn record_checks(prepared: &ModelAtRest, outcome: &Outcome, open: bool) -> Vec<Check> {
+    let too_little = prepared.structure.judges_too_little();
+    all_checks(prepared, outcome, open, too_little)
+}
+
+fn all_checks(
+    prepared: &ModelAtRest,
+    outcome: &Outcome,
+    open: bool,
+    too_little: bool,
+) -> Vec<Check> {
+    let lines = line_checks(prepared, outcome, open, too_little).into_iter();
     lines.chain(force_check(prepared)).collect()
 }
 
@@ -220,8 +237,13 @@ impl RecordsCheck {
 }
 
 /// The checks of the lines from the outcome of a run; `open` says that its tensions are not
-/// reliable.
-pub(crate) fn line_checks(prepared: &ModelAtRest, outcome: &Outcome, open: bool) -> Vec<Check> {
+/// reliable, and `too_little` that no check passes by them.
+fn line_checks(
+    prepared: &ModelAtRest,
+    outcome: &Outcome,
+    open: bool,
+    too_little: bool,
+) -> Vec<Check> {
     let structure = &prepared.structure;
     let rule = structure.design;
     let of_line = |line: usize| {
@@ -229,7 +251,7 @@ pub(crate) fn line_checks(prepared: &ModelAtRest, outcome: &Outcome, open: bool)
         let load_n = structure.lines[line].breaking_load_n;
         let check = |criterion, value, limit| {
             let check = Check::new(criterion, Some(line + 1), value, limit, open);
-            check.within(outcome.stop, structure.judges_too_little())
+            check.within(outcome.stop, too_little)
         };
         let least = tensions.least_part();
         let strength = rule.strength.map(|factors| {

@@ -20,11 +20,22 @@ pub struct Scan {
     pub periods_s: Vec<f64>,
     /// Heights \[m\].
     pub heights_m: Vec<f64>,
-    /// All heights for the first period, then for the next: the largest utilisation, or the fastest
-    /// snap \[m/s\] if that is not known; none if the body turned over or touched the floor.
-    pub cells: Vec<Option<f64>>,
-    /// Which of these runs are cut short, so that the result in full may be larger.
-    pub cut_short: Vec<bool>,
+    /// All heights for the first period, then for the next.
+    pub cells: Vec<ScanCell>,
+}
+
+/// The result in one wave: the largest utilisation, or the fastest snap \[m/s\] where the case has
+/// no stiffness or breaking loads.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum ScanCell {
+    /// It is known.
+    Known(f64),
+    /// It is at least that: the run is cut short.
+    AtLeast(f64),
+    /// Nothing is judged: the run ended before the judged time, or the wave can not be run.
+    NotJudged,
+    /// The body turned over or touched the floor.
+    Fails,
 }
 
 /// Scans heights and periods; none unless the case has a regular wave.
@@ -54,10 +65,8 @@ pub fn scan(structure: &Structure, on_progress: OnProgress) -> Result<Option<Sca
         counter.add(1)?;
         Ok::<_, Cancelled>(cell)
     })?;
-    let (cells, cut_short) = cells.into_iter().unzip();
     Ok(Some(Scan {
         cells,
-        cut_short,
         periods_s,
         heights_m,
     }))
@@ -68,8 +77,7 @@ fn shown(value: f64) -> f64 {
     format!("{value:.2e}").parse().unwrap_or(value)
 }
 
-/// The result in one wave, and whether its run is cut short.
-fn one(structure: &Structure, wave: Wave) -> (Option<f64>, bool) {
+fn one(structure: &Structure, wave: Wave) -> ScanCell {
     let changed = Structure {
         water: Water::Wave(wave),
         duration_s: LENGTH * wave.period_s,
@@ -77,14 +85,22 @@ fn one(structure: &Structure, wave: Wave) -> (Option<f64>, bool) {
         ..structure.clone()
     };
     let prepared = ModelAtRest::new(changed).ok();
-    let outcome = prepared.and_then(|prepared| Outcome::of(&prepared, 1.0).ok());
-    let Some(outcome) = outcome.filter(|outcome| !outcome.stop.exceeds()) else {
-        return (None, false);
+    let Some(outcome) = prepared.and_then(|prepared| Outcome::of(&prepared, 1.0).ok()) else {
+        return ScanCell::NotJudged;
     };
+    if outcome.stop.exceeds() {
+        return ScanCell::Fails;
+    }
+    if outcome.is_unjudged() {
+        return ScanCell::NotJudged;
+    }
     let known: Option<Vec<f64>> = outcome.utilisations(structure).into_iter().collect();
     let found = match known {
         Some(all) => all.into_iter().fold(0.0, f64::max),
         None => outcome.speed_m_s(),
     };
-    (Some(found), outcome.stop.cuts_short())
+    match outcome.stop.cuts_short() {
+        true => ScanCell::AtLeast(found),
+        false => ScanCell::Known(found),
+    }
 }

@@ -1,6 +1,6 @@
 //! Many records of one sea: the distribution of the lines' loads in it.
 
-use super::design::{Check, RecordsCheck, checks};
+use super::design::{Check, RecordsCheck, record_checks};
 use super::outcome::Outcome;
 use super::quantile::sorted;
 use crate::options::{SEEDS, check};
@@ -119,7 +119,7 @@ pub fn seas(
         counter.add(1)?;
         let open = open || outcome.depends_on_hydrostatics(&record.structure);
         Ok::<_, Unfinished>(SeaOutcome {
-            checks: checks(&record, &outcome, open),
+            checks: record_checks(&record, &outcome, open),
             seed,
             outcome,
         })

@@ -3,29 +3,15 @@
 use super::outcome::{LineOutcome, Outcome};
 use super::seas::Seas;
 use crate::physics::gumbel::Gumbel;
-use crate::structure::{Structure, THREE_HOURS_S, Water};
+use crate::structure::{Structure, THREE_HOURS_S};
 use snapload::Stop;
 use std::fmt;
 
-/// If no line breaks in so many times three hours, one breaks in three hours with a probability
-/// below a tenth, whatever the distribution, with 97.5 % confidence: 0.9^36 = 0.0225.
-const ENOUGH: f64 = 36.0;
-
-/// Whether so many records judge enough of a sea to tell without a distribution that no line breaks
-/// in nine of ten three-hour seas. In still water all records are equal.
-pub(crate) fn judges_enough(structure: &Structure, records: usize) -> bool {
-    let judged_s = records as f64 * structure.judged_s();
-    !structure.has_waves() || judged_s >= ENOUGH * THREE_HOURS_S
-}
-
-/// Why a single run in which no line breaks does not tell whether one does: less than one period
-/// of the waves is judged, or it is one record of a sea, of which others have higher loads.
+/// Why a single run in which no line breaks does not tell whether one does.
 pub(crate) fn one_run_is_too_little(structure: &Structure) -> Option<NoDistribution> {
-    let is_sea = matches!(structure.water, Water::Sea(_));
     match structure.judges_too_little() {
         true => Some(NoDistribution::PartOfAWave),
-        false if is_sea && !judges_enough(structure, 1) => Some(NoDistribution::TooFew(1)),
-        false => None,
+        false => (structure.one_run_is_too_little()).then_some(NoDistribution::TooFew(1)),
     }
 }
 
