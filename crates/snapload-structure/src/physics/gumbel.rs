@@ -83,6 +83,19 @@ impl Gumbel {
         self.at(reduced_variate(p))
     }
 
+    /// What the p-quantile exceeds in 2.3 % of all samples at most, the upper tail beyond two standard
+    /// errors of a normal distribution. In a small sample the scale is often too small, and its
+    /// standard error with it, so that more errors are needed. How many depends on the size n of the
+    /// sample, and hardly on p and k where these are large: no fewer than in simulations of 20,000
+    /// to 400,000 samples of each n from 3 to 200, a few percent more for larger n, and a fifth more
+    /// for n = 3 and k = 1.
+    pub fn at_most(&self, p: f64) -> f64 {
+        let n = self.count as f64;
+        let errors = 2.0 + 2.4 / n.sqrt() + 5.7 / (n - 2.16);
+        let quantile = self.quantile(p);
+        quantile.value + errors * quantile.error
+    }
+
     /// The value at a reduced variate, which is increased by ln k.
     fn at(&self, y: f64) -> Estimate {
         let y = y + self.log_times;
@@ -112,4 +125,35 @@ impl Gumbel {
 /// The reduced variate y = −ln(−ln p).
 pub fn reduced_variate(p: f64) -> f64 {
     -(-p.ln()).ln()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Of many samples of the distribution with location 0 and scale 1, the bound lies below the true
+    /// quantile of the largest of k values in 2.3 % or a little less; the rate is known to 0.15 %.
+    #[test]
+    fn a_bound_is_exceeded_as_rarely_as_it_says() {
+        const SAMPLES: usize = 10_000;
+        let mut state = 88_172_645_463_325_252_u64;
+        // Marsaglia's xorshift, as a number between 0 and 1.
+        let mut uniform = || {
+            state ^= state << 13;
+            state ^= state >> 7;
+            state ^= state << 17;
+            ((state >> 11) as f64 + 0.5) / (1_u64 << 53) as f64
+        };
+        for (count, times) in [(3, 18.0), (4, 1.0), (10, 18.0), (30, 1.0), (30, 18.0)] {
+            let truth = reduced_variate(0.9) + f64::ln(times);
+            let mut exceeded = 0;
+            for _ in 0..SAMPLES {
+                let sample: Vec<f64> = (0..count).map(|_| reduced_variate(uniform())).collect();
+                let bound = Gumbel::fit(&sample).map(|fit| fit.over_times(times).at_most(0.9));
+                exceeded += usize::from(bound.is_none_or(|bound| bound < truth));
+            }
+            let rate = exceeded as f64 / SAMPLES as f64;
+            assert!((0.012..0.0265).contains(&rate), "{count} {times}: {rate}");
+        }
+    }
 }

@@ -113,8 +113,8 @@ impl Seas {
     }
 
     /// The distribution of the largest ratio of a tension to the breaking load of its line in three
-    /// hours, if that may reach one: the value that 90 % stay below is not less than one by more
-    /// than two standard errors. Each line is compared with its own breaking load.
+    /// hours, if that may reach one: the value that 90 % stay below is not less than one with
+    /// 97.7 % confidence ([`Gumbel::at_most`]). Each line is compared with its own breaking load.
     pub(crate) fn overload_in_three_hours(&self) -> Option<Gumbel> {
         let structure = &self.prepared.structure;
         let of_record = |outcome: &Outcome| {
@@ -208,11 +208,9 @@ impl Seas {
     }
 }
 
-/// Whether the value that a part of all stay below is not less than one by more than two standard
-/// errors.
+/// Whether the value that a part of all stay below is not less than one with 97.7 % confidence.
 fn may_reach_one(fit: &Gumbel, part: f64) -> bool {
-    let quantile = fit.quantile(part);
-    quantile.value + 2.0 * quantile.error >= 1.0
+    fit.at_most(part) >= 1.0
 }
 
 /// The values of the judged records.
