@@ -52,7 +52,7 @@ def markdown(results: dict) -> str:
     source = (
         f"Measured {results['date']} on {results['machine']} (load {results['load']}); "
         f"of the {reference['impacts']} true impacts the first {compared} are compared, "
-        "those that double precision can decide."
+        "those that double precision can decide to 1e-6."
     )
     return "\n".join([*lines, "", " ".join([source, *notes])])
 

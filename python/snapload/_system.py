@@ -314,7 +314,7 @@ class System(LimitBounds):
         Parameters
         ----------
         trust : bool
-            Whether to compute how far each run can be trusted, which about doubles the time.
+            Whether to compute how far each run can be trusted, which takes two to three times as long.
         threads : int, optional
             Number of threads; as many as the machine has if left out.
         progress : bool

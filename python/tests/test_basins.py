@@ -146,7 +146,7 @@ def test_a_map_of_attractors_does_not_say_that_a_motion_has_no_period():
         (dict(x="0:1:3"), "keys = x is not allowed; allowed: two keys with their values"),
         (dict(x="0:1", y="0:1:3"), "three numbers"),
         (dict(x="0:1:3", e="0:2:3"), "e = 2 is not allowed"),
-        (dict(x="0:1:3", body=["rigid", "point"]), 'axis = "body" is not allowed; allowed: a key that holds a number'),
+        (dict(x="0:1:3", body=["rigid", "point"]), 'axis = "body" is not allowed; allowed: one of r, e, a, b'),
         (dict(x=[0, 0.1, 0.3], y="0:1:3"), r"x = \[0\.0, 0\.1, 0\.3\] is not allowed; allowed: evenly spaced"),
         (dict(x="0:1:100000", y="0:1:100000"), "at most 100000000 cells"),
         (dict(x="0:1:2000000", y="0:1:3"), "x: at most 1000000 values"),

@@ -59,7 +59,8 @@ pub(crate) struct StudyArgs {
     /// Read the cases from a CSV or Parquet file, with one row per case and one column per key
     #[arg(long, value_name = "FILE", conflicts_with_all = ["vary", "random", "seed"])]
     list: Option<PathBuf>,
-    /// Leave out how far each run can be trusted; computing it about doubles the time
+    /// Leave out how far each run can be trusted; computing it makes a study
+    /// take two to three times as long
     #[arg(long)]
     no_trust: bool,
 }
