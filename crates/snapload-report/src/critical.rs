@@ -132,7 +132,8 @@ impl Probability {
         }
     }
 
-    /// A line for every amplitude at which the share is neither none nor all.
+    /// A line for every amplitude at which the share is neither none nor all, or not known for some
+    /// of the neighbours.
     pub fn in_words(&self, text: &mut String) {
         let Passes { p05, p50, p95 } = self.passes;
         let from = |f_o: Option<f64>| match f_o {
@@ -152,8 +153,14 @@ impl Probability {
             from(p50),
             from(p95)
         );
-        let known = points.iter().filter(|point| !point.cut_short);
-        let split: Vec<&Point> = known.filter(|p| 0.0 < p.part && p.part < 1.0).collect();
+        // Of a run that is cut short itself the interval is from 0 to 1.
+        let is_split = |point: &&Point| match point.cut_short {
+            true => point.low > 0.0 || point.high < 1.0,
+            false => 0.0 < point.part && point.part < 1.0,
+        };
+        let split: Vec<&Point> = points.iter().filter(is_split).collect();
+        let decided = points.iter().filter(|point| !point.cut_short).count()
+            - split.iter().filter(|point| !point.cut_short).count();
         if !split.is_empty() {
             let _ = writeln!(text, "          {:<8} {:>8}  95 %", "f_o", "exceed");
         }
@@ -169,8 +176,7 @@ impl Probability {
         }
         let _ = writeln!(
             text,
-            "          all or none exceed at {} of {} f_o",
-            points.len() - cut_short - split.len(),
+            "          all or none exceed at {decided} of {} f_o",
             points.len()
         );
         if cut_short > 0 {

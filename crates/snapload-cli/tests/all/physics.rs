@@ -193,6 +193,33 @@ fn amplitudes_whose_runs_are_not_certain_are_named() {
     );
 }
 
+/// With a limit of 40 impacts every neighbour at f_o = 0.5 exceeds or is cut short: at least so many
+/// exceed as do before that limit, and all may.
+#[test]
+fn neighbours_that_are_cut_short_are_in_the_interval() {
+    let d = directory();
+    let output = |limit: &str| {
+        let options = "--max 0.5 --step 0.5 --ensemble 50 --uncertainty e=0.2 --set";
+        let mut command = snapload(d.path());
+        command.arg("critical").args(options.split(' ')).arg(limit);
+        let done = command.assert().success();
+        String::from_utf8(done.get_output().stdout.clone()).unwrap()
+    };
+    let cut = output("max_impacts=40");
+    let row = cut.lines().find(|line| line.contains("-100 %"));
+    assert!(
+        row.is_some_and(|row| row.trim_start().starts_with("0.5 ")),
+        "{cut}"
+    );
+    assert!(cut.contains("all or none exceed at 0 of 1"), "{cut}");
+    assert!(cut.contains("not known at 1 f_o"), "{cut}");
+    let whole = output("max_impacts=100000");
+    assert!(
+        !whole.contains("-100 %") && !whole.contains("not known at"),
+        "{whole}"
+    );
+}
+
 #[test]
 fn critical_refuses_in_words() {
     let d = directory();
