@@ -41,7 +41,7 @@ _WRITERS = {".gif": "pillow", ".mp4": "ffmpeg", ".html": "html"}
 _MAX_GIF_FPS = 50
 
 #: How long a snap, which has no duration, is shown [s].
-_AFTERGLOW_S = 0.45
+_SNAP_SHOWN_S = 0.45
 
 #: The colour of a snap, which is that of no cable.
 _SNAP_COLOUR = "#A1121F"
@@ -230,9 +230,9 @@ def _decimals(size: float, digits: int) -> int:
 def _brightness(playing_s: NDArray[np.float64], snaps_s: NDArray[np.float64], fps: int) -> NDArray[np.float64]:
     """How bright the last snap of a cable still is in each picture, from 1 at the snap to 0."""
     # Every snap is seen in one picture at least.
-    afterglow_s = max(_AFTERGLOW_S, 2 / fps)
+    shown_s = max(_SNAP_SHOWN_S, 2 / fps)
     last = np.concatenate([[-np.inf], snaps_s])[np.searchsorted(snaps_s, playing_s, side="right")]
-    brightness: NDArray[np.float64] = np.maximum(1 - (playing_s - last) / afterglow_s, 0.0)
+    brightness: NDArray[np.float64] = np.maximum(1 - (playing_s - last) / shown_s, 0.0)
     return brightness
 
 

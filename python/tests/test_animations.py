@@ -11,7 +11,7 @@ import snapload
 from PIL import Image
 
 #: How long the mark of a snap is shown [s].
-AFTERGLOW_S = 0.45
+SNAP_SHOWN_S = 0.45
 
 
 def scene_of(run, **options) -> dict:
@@ -51,7 +51,7 @@ def test_the_mark_of_a_snap_fades_within_half_a_second_of_playing():
         snaps = impacts["t"][impacts["cable"] == cable] / run.end.t * (seconds * fps - 1) / fps
         for picture, now in enumerate(np.arange(seconds * fps) / fps):
             ages = [now - snap for snap in snaps if snap <= now + 1e-9]
-            expected = max(0, 1 - min(ages, default=1) / AFTERGLOW_S)
+            expected = max(0, 1 - min(ages, default=1) / SNAP_SHOWN_S)
             assert bright[picture] == pytest.approx(expected, abs=1e-3)
     # With one picture a second every snap is still in a picture.
     slow = np.array(scene_of(run, seconds=8, fps=1)["snaps"])

@@ -1,6 +1,6 @@
 //! What `--plot` draws of basins, erosion and diagrams.
 use snapload::{Stop, key_named};
-use snapload_figures::{Cell, Colour, Dash, Layer, Map, Mark, Point, Shape, Stroke};
+use snapload_figures::{Cell, Colour, Dash, Layer, MOST_CLASSES, Map, Mark, Point, Shape, Stroke};
 use snapload_orbits::{Attraction, Basin, CellOutcome, DiagramPoint, Erosion, Window};
 use snapload_study::{Values, with_unit};
 
@@ -31,9 +31,12 @@ pub(crate) fn attraction_layers(found: &Attraction) -> Vec<Layer> {
     let mut classes: Vec<Reached> = outcomes().filter_map(reached).collect();
     classes.sort_unstable();
     classes.dedup();
+    let in_colours = in_colours(&classes);
+    let mut classes: Vec<Reached> = classes.into_iter().map(&in_colours).collect();
+    classes.dedup();
     map(
         &found.window,
-        outcomes().map(reached),
+        outcomes().map(|outcome| reached(outcome).map(&in_colours)),
         classes,
         outcomes().map(cut).collect(),
     )
@@ -43,6 +46,7 @@ pub(crate) fn attraction_layers(found: &Attraction) -> Vec<Layer> {
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 enum Reached {
     Attractor(usize),
+    Others { first: usize, last: usize },
     NoPeriod,
     End(Stop),
 }
@@ -51,9 +55,26 @@ impl Reached {
     fn words(self) -> String {
         match self {
             Self::Attractor(k) => format!("attractor {}", k + 1),
+            Self::Others { first, last } => format!("attractors {} to {}", first + 1, last + 1),
             Self::NoPeriod => "no period found".to_owned(),
             Self::End(stop) => stop.label().to_owned(),
         }
+    }
+}
+
+/// The classes in which those that occur have a colour each: attractors beyond the colours have one
+/// together, as others would be taken for another class.
+fn in_colours(occurring: &[Reached]) -> impl Fn(Reached) -> Reached + use<> {
+    let is_attractor = |class: &&Reached| matches!(class, Reached::Attractor(_));
+    let attractors = occurring.iter().filter(is_attractor).count();
+    let most = MOST_CLASSES.saturating_sub(occurring.len() - attractors);
+    let first = most.saturating_sub(1);
+    move |class| match class {
+        Reached::Attractor(k) if attractors > most && k >= first => Reached::Others {
+            first,
+            last: attractors - 1,
+        },
+        class => class,
     }
 }
 
@@ -87,8 +108,14 @@ pub(crate) fn erosion_layers(
 ) -> Vec<Layer> {
     let [key, column] = axes;
     let line = |column, stroke, words: &str| {
-        let points = points(columns, [key, column]);
-        (!points.is_empty()).then(|| Layer::Line(vec![points], stroke, words.to_owned()))
+        let mut points = points(columns, [key, column]);
+        for (point, (_, basin)) in points.iter_mut().zip(&erosion.points) {
+            if basin.measures.legal == 0 {
+                point[1] = f64::NAN;
+            }
+        }
+        let is_known = points.iter().any(|point| point[1].is_finite());
+        is_known.then(|| Layer::Line(vec![points], stroke, words.to_owned()))
     };
     if [key, column] != [erosion.key, "gim"] {
         return line(column, Stroke::default(), "").into_iter().collect();
@@ -187,4 +214,27 @@ fn points(columns: &[(&'static str, Values)], [x, y]: [&str; 2]) -> Vec<Point> {
         .zip(column(y))
         .map(Point::from)
         .collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{MOST_CLASSES, Reached, in_colours};
+    use snapload::Stop;
+
+    /// No two classes of a map have the same colour, however many attractors there are.
+    #[test]
+    fn attractors_beyond_the_colours_have_one_together() {
+        for attractors in 0..20 {
+            let all = (0..attractors).map(Reached::Attractor);
+            let all = all.chain([Reached::NoPeriod, Reached::End(Stop::UpperBound)]);
+            let occurring: Vec<Reached> = all.collect();
+            let shown = in_colours(&occurring);
+            let mut classes: Vec<Reached> = occurring.iter().map(|class| shown(*class)).collect();
+            classes.dedup();
+            assert_eq!(classes.len(), occurring.len().min(MOST_CLASSES));
+            let words: Vec<String> = classes.iter().map(|class| class.words()).collect();
+            let together = format!("attractors 5 to {attractors}");
+            assert_eq!(words.contains(&together), attractors > 5, "{words:?}");
+        }
+    }
 }

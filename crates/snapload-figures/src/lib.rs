@@ -53,7 +53,7 @@ mod text;
 pub use draw::draw;
 pub use error::FigureError;
 pub use figures::{Mode, PathPart, energy, rotation, snap_velocities, tensions, trajectory};
-pub use map::NOT_CERTAIN;
+pub use map::{MOST_CLASSES, NOT_CERTAIN};
 pub use picture::{PNG_SCALE, Picture};
 pub use plot::{
     Axis, Cell, Colour, Dash, Inset, Layer, Map, Mark, Plot, Point, Range, Shape, Stroke,

@@ -28,8 +28,10 @@ const VIRIDIS: [[u8; 3]; 10] = [
     [0xb5, 0xde, 0x2b],
     [0xfd, 0xe7, 0x25],
 ];
+/// The most classes of a map that have a colour each; the colours of more repeat.
+pub const MOST_CLASSES: usize = 7;
 /// The colours of classes, in an order in which neighbours also differ in lightness.
-const CLASSES: [Colour; 7] = [
+const CLASSES: [Colour; MOST_CLASSES] = [
     Colour::BLUE,
     Colour::ORANGE,
     Colour::GREEN,
