@@ -29,15 +29,54 @@ pub(crate) trait LaneFollowers<L: Lane>: Copy {
 
     /// Followers of no runs yet.
     fn empty() -> Self;
-    /// The followers after a bounce, and in which of the lanes where it is `plain` they can
-    /// continue from there; in the other lanes the bounce is made outside the lanes.
-    fn bounced(&self, plain: L::Mask, bounced: &Bounced<L>) -> (Self, L::Mask);
-    /// One of two, lane by lane.
-    fn select(mask: L::Mask, yes: &Self, no: &Self) -> Self;
+    /// Computes the followers after a bounce; returns in which of the lanes where it is `plain`
+    /// they can continue from there. In the other lanes the bounce is made outside the lanes.
+    fn bounce(&self, next: &mut Self, plain: L::Mask, bounced: &Bounced<L>) -> L::Mask;
+    /// Takes over the lanes of the mask.
+    fn take_lanes(&mut self, mask: L::Mask, from: &Self);
     /// Puts the follower of a run into a lane.
     fn put(&mut self, lane: usize, follower: &Self::RunFollower);
     /// Updates the follower of a run from its lane, `impacts` later.
     fn get(&self, lane: usize, follower: &mut Self::RunFollower, impacts: u64);
+}
+
+/// The followers now, and memory for those after the next bounce: they are large, so that the two
+/// take turns and none is copied.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct InTurn<F> {
+    both: [F; 2],
+    turned: bool,
+}
+
+impl<F: Copy> InTurn<F> {
+    pub(super) fn new(now: F) -> Self {
+        Self {
+            both: [now; 2],
+            turned: false,
+        }
+    }
+
+    /// Those now, and the others.
+    #[inline(always)]
+    pub(super) fn now_and_next(&mut self) -> (&mut F, &mut F) {
+        let [first, second] = &mut self.both;
+        if self.turned {
+            (second, first)
+        } else {
+            (first, second)
+        }
+    }
+
+    /// Those now.
+    pub(super) fn now(&mut self) -> &mut F {
+        self.now_and_next().0
+    }
+
+    /// Lets the others be those now.
+    #[inline(always)]
+    pub(super) fn turn(&mut self) {
+        self.turned = !self.turned;
+    }
 }
 
 /// Runs without a follower.
@@ -69,13 +108,11 @@ impl<L: Lane> LaneFollowers<L> for NoFollower {
         Self
     }
     #[inline(always)]
-    fn bounced(&self, plain: L::Mask, _: &Bounced<L>) -> (Self, L::Mask) {
-        (Self, plain)
+    fn bounce(&self, _: &mut Self, plain: L::Mask, _: &Bounced<L>) -> L::Mask {
+        plain
     }
     #[inline(always)]
-    fn select(_: L::Mask, _: &Self, _: &Self) -> Self {
-        Self
-    }
+    fn take_lanes(&mut self, _: L::Mask, _: &Self) {}
     #[inline(always)]
     fn put(&mut self, _: usize, _: &Self) {}
     #[inline(always)]

@@ -4,7 +4,7 @@
 use crate::arithmetic::elementary::Doubles;
 use crate::arithmetic::lane::{Lane, Mask};
 use crate::arithmetic::processor::Kernel;
-use crate::batch::followers::{Follower, LaneFollowers};
+use crate::batch::followers::{Follower, InTurn, LaneFollowers};
 use crate::model::taut_set::TautSet;
 use crate::motion::bounce::{Bounce, bounce};
 use crate::motion::bounce_map::Bounced;
@@ -80,7 +80,7 @@ pub(super) struct LaneScheduler<'a, L: Doubles, C: Follower> {
     two_cables: TwoCableSystem<L>,
     after_impact: AfterImpact<L>,
     tally: Counts<L>,
-    followers: C::LaneFollowers<L>,
+    followers: InTurn<C::LaneFollowers<L>>,
     usage: Usage,
 }
 
@@ -103,7 +103,7 @@ impl<'a, L: Doubles, C: Follower> LaneScheduler<'a, L, C> {
             two_cables: TwoCableSystem::zip_with(&system, &system, zero),
             after_impact: AfterImpact::zip_with(&motion, &motion, zero),
             tally: Counts::zip_with(&tally, &tally, zero),
-            followers: C::LaneFollowers::empty(),
+            followers: InTurn::new(C::LaneFollowers::empty()),
             usage: Usage {
                 width: L::WIDTH,
                 ..Usage::default()
@@ -124,16 +124,17 @@ impl<'a, L: Doubles, C: Follower> LaneScheduler<'a, L, C> {
             let bounce = bounce(&self.two_cables, &self.after_impact);
             let plain = bounce.plain & self.tally.impacts.below(self.two_cables.max_impacts);
             let bounced = Bounced::of(&self.two_cables, &self.after_impact, &bounce);
-            let (followers, plain) = self.followers.bounced(plain, &bounced);
+            let (now, next) = self.followers.now_and_next();
+            let plain = now.bounce(next, plain, &bounced);
             let (tally, bits) = (self.tally.with(&bounce), plain.bits());
             if bits == all {
                 (self.after_impact, self.tally) = (bounce.next, tally);
-                self.followers = followers;
+                self.followers.turn();
             } else {
+                now.take_lanes(plain, next);
                 let chosen = |next, present| L::select(plain, next, present);
                 self.after_impact = bounce.next.zip_with(&self.after_impact, chosen);
                 self.tally = tally.zip_with(&self.tally, chosen);
-                self.followers = C::LaneFollowers::select(plain, &followers, &self.followers);
             }
             let plain = bits & !empty;
             self.usage.rounds += 1;
@@ -219,11 +220,11 @@ impl<'a, L: Doubles, C: Follower> LaneScheduler<'a, L, C> {
         };
         self.after_impact = self.after_impact.zip_with(after_impact, put(lane));
         self.tally = self.tally.zip_with(&tally, put(lane));
-        self.followers.put(lane, &slot.follower);
+        self.followers.now().put(lane, &slot.follower);
     }
 
     /// Updates a run's simulation with the result of its lane.
-    fn leave(&self, lane: usize, slot: &mut Slot<C>) {
+    fn leave(&mut self, lane: usize, slot: &mut Slot<C>) {
         let get = |all: L, _| all.get(lane);
         let after_impact = self.after_impact.zip_with(&self.after_impact, get);
         let tally = self.tally.zip_with(&self.tally, get);
@@ -243,7 +244,8 @@ impl<'a, L: Doubles, C: Follower> LaneScheduler<'a, L, C> {
         (norms.rho1, norms.rho2, norms.rho3) = (tally.rho1, tally.rho2, tally.rho3);
         slot.simulation.resume(&after_impact, progress);
         let made = progress.impacts - before;
-        self.followers.get(lane, &mut slot.follower, made);
+        let followers = self.followers.now();
+        followers.get(lane, &mut slot.follower, made);
     }
 }
 

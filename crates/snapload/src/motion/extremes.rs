@@ -57,7 +57,7 @@ impl<T: Real> Extremes<T> {
 }
 
 /// A place with value and rate there.
-type Place<T> = (T, (T, T));
+pub(crate) type Place<T> = (T, (T, T));
 
 /// An instant is found to this part of the stretch that is searched.
 const INSTANT: f64 = 1e-6;
@@ -66,8 +66,18 @@ const INSTANT: f64 = 1e-6;
 /// it is not. If it is at the start, and falls, that is left out.
 #[inline(always)]
 pub(crate) fn first_above_zero<T: Real>(f: &impl Fn(T) -> (T, T), s: T, bound: T) -> Option<T> {
-    let least = s * INSTANT;
-    first_above([(T::ZERO, f(T::ZERO)), (s, f(s))], f, bound, least)
+    first_above_zero_between([(T::ZERO, f(T::ZERO)), (s, f(s))], f, bound)
+}
+
+/// The same between two places at which the function is known.
+#[inline(always)]
+pub(crate) fn first_above_zero_between<T: Real>(
+    [left, right]: [Place<T>; 2],
+    f: &impl Fn(T) -> (T, T),
+    bound: T,
+) -> Option<T> {
+    let least = (right.0 - left.0) * INSTANT;
+    first_above([left, right], f, bound, least)
 }
 
 /// The same for a function that passes zero in its last rise: the first instant before that rise.

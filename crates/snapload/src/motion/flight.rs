@@ -145,7 +145,6 @@ impl<T: Real> Flight<T> {
     /// g, ġ, g̈ of a cable, with |g⃛| ≤ 2 (3 |Ṗ||P̈| + r |P⃛|) from there on.
     /// |P − A| ≤ r holds up to the first crossing, and the bound is used only up to there. |Ṗ|
     /// grows by at most |P̈| σ.
-    /// by at most |P̈| σ.
     #[inline(always)]
     fn gap_jet(&self, cable: usize, s: T, jet: &GapJet<T>) -> Jet<T> {
         let attachment = &self.attachments[cable];

@@ -35,6 +35,7 @@ pub(super) mod within;
 pub(crate) use event_laws::zero_velocity;
 pub use kernels::Steps;
 use kernels::begin;
+pub(crate) use nearness::{GapAt, SlackGap};
 use within::StateAt;
 
 /// After this many instants of impact in a row on the same cables, the impacts count as a

@@ -6,6 +6,7 @@ use crate::analysis::trust::near_miss::may_snap;
 use crate::analysis::trust::neighbours::{Approach, Neighbours, Spread};
 use crate::analysis::trust::uncertain_key::reach_by;
 use crate::model::cable::Normal;
+use crate::model::rules::Limit;
 use crate::model::system::System;
 use crate::motion::active_set::normal_acceleration;
 use crate::motion::events::Reached;
@@ -23,15 +24,16 @@ pub(super) fn cause(
     if let Some(cause) = tie(simulation.system(), step) {
         return Some((cause, step.t_end));
     }
-    if let Some(Closing { cable, .. }) = closing.filter(|closing| {
-        may_miss(approach, neighbours, closing) || may_not_have_opened(simulation, step, closing)
-    }) {
-        return Some((HorizonCause::Graze { cable }, step.t_end));
-    }
-    if let Some(Closing { cable, .. }) =
-        closing.filter(|closing| may_or_may_not_stick(simulation, step, neighbours, closing))
-    {
-        return Some((HorizonCause::Sticking { cable }, step.t_end));
+    // Not by `Option::filter`, as its closure would not have the processor's own instructions.
+    if let Some(closing) = &closing {
+        let cable = closing.cable;
+        if may_miss(approach, neighbours, closing) || may_not_have_opened(simulation, step, closing)
+        {
+            return Some((HorizonCause::Graze { cable }, step.t_end));
+        }
+        if may_or_may_not_stick(simulation, step, neighbours, closing) {
+            return Some((HorizonCause::Sticking { cable }, step.t_end));
+        }
     }
     for cable in 0..simulation.system().cables.len() {
         if !step.taut.contains(cable)
@@ -187,29 +189,14 @@ fn may_or_may_not_stick(
 /// When neighbours may meet a stop rule that the run does not meet, or the other way round.
 #[inline(always)]
 fn may_stop(simulation: &Simulation, step: &Step, neighbours: &Neighbours) -> Option<f64> {
-    let (system, rules) = (simulation.system(), simulation.rules());
-    let (before, reached) = (&step.before, step.event.reached);
-    let exceeds = rules.limits.iter().filter_map(|(limit, bound)| {
-        let slopes = limit.slope_bounds(system, bound);
-        let [first, last] = [&neighbours.before, &neighbours.along];
-        let within = reach_by(neighbours.keys, |key| key.of_limit_within(limit));
-        let margin = first
-            .parts_at_most(&slopes)
-            .max(last.parts_at_most(&slopes))
-            + within;
-        let met = reach_by(neighbours.keys, |key| key.of_limit_at_end(limit));
-        let at_end = neighbours.met.parts_at_most(&slopes) + met;
-        let within =
-            |margin: f64| simulation.largest_within(step, limit, bound - margin) + margin >= bound;
-        let near = || simulation.comes_near_limit(step, limit, margin);
-        if reached.limits.contains(limit) {
-            return near();
+    let (rules, before) = (simulation.rules(), &step.before);
+    let mut first: Option<f64> = None;
+    for (limit, bound) in rules.limits.iter() {
+        if let Some(s) = may_exceed(simulation, step, neighbours, (limit, bound)) {
+            first = Some(first.map_or(s, |first| first.min(s)));
         }
-        let may = within(margin.max(at_end))
-            && (limit.quantity(system, before) + at_end >= bound || within(margin));
-        may.then(|| near().unwrap_or(step.t_end - step.t_start))
-    });
-    if let Some(s) = exceeds.reduce(f64::min) {
+    }
+    if let Some(s) = first {
         return Some((step.t_start + s).min(step.t_end));
     }
     // One cable may stick as another leaves.
@@ -223,6 +210,38 @@ fn may_stop(simulation: &Simulation, step: &Step, neighbours: &Neighbours) -> Op
             sticks && (before.y - height).abs() <= SIGMA_REACH * spread
         });
     settles.then_some(step.t_end)
+}
+
+/// How long after the start of the step neighbours may exceed a limit that the run does not, or the
+/// other way round.
+#[inline(always)]
+fn may_exceed(
+    simulation: &Simulation,
+    step: &Step,
+    neighbours: &Neighbours,
+    (limit, bound): (Limit, f64),
+) -> Option<f64> {
+    let system = simulation.system();
+    let slopes = limit.slope_bounds(system, bound);
+    let [first, last] = [&neighbours.before, &neighbours.along];
+    let within = reach_by(neighbours.keys, |key| key.of_limit_within(limit));
+    let margin = first
+        .parts_at_most(&slopes)
+        .max(last.parts_at_most(&slopes))
+        + within;
+    let near = || simulation.comes_near_limit(step, limit, margin);
+    if step.event.reached.limits.contains(limit) {
+        return near();
+    }
+    let met = reach_by(neighbours.keys, |key| key.of_limit_at_end(limit));
+    let at_end = neighbours.met.parts_at_most(&slopes) + met;
+    let largest = margin.max(at_end);
+    if simulation.largest_within(step, limit, bound - largest) + largest < bound {
+        return None;
+    }
+    let may = limit.quantity(system, &step.before) + at_end >= bound
+        || simulation.largest_within(step, limit, bound - margin) + margin >= bound;
+    may.then(|| near().unwrap_or(step.t_end - step.t_start))
 }
 
 /// Whether neighbours may turn round just before a limit that the run still reaches, as in a graze:

@@ -61,17 +61,15 @@ impl<L: Doubles> LaneFollowers<L> for Followed<L> {
     }
 
     #[inline(always)]
-    fn bounced(&self, plain: L::Mask, bounced: &Bounced<L>) -> (Self, L::Mask) {
-        let mut after = *self;
-        let through = after.carry(bounced, &BounceMap::of(bounced));
-        (after, plain & through.within_tolerance)
+    fn bounce(&self, next: &mut Self, plain: L::Mask, bounced: &Bounced<L>) -> L::Mask {
+        *next = *self;
+        let through = next.carry(bounced, &BounceMap::of(bounced));
+        plain & through.within_tolerance
     }
 
     #[inline(always)]
-    fn select(mask: L::Mask, yes: &Self, no: &Self) -> Self {
-        let mut chosen = *no;
-        chosen.pairwise(yes, |chosen, yes| *chosen = L::select(mask, *yes, *chosen));
-        chosen
+    fn take_lanes(&mut self, mask: L::Mask, from: &Self) {
+        self.pairwise(from, |own, other| *own = L::select(mask, *other, *own));
     }
 
     fn put(&mut self, lane: usize, follower: &SpreadMonitor) {

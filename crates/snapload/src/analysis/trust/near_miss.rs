@@ -3,10 +3,11 @@
 use crate::analysis::trust::covariance::SIGMA_REACH;
 use crate::analysis::trust::neighbours::{Approach, Neighbours, Spread};
 use crate::analysis::trust::uncertain_key::reach_by;
+use crate::arithmetic::processor::{Kernel, dispatch};
 use crate::model::cable::{Cable, Normal};
 use crate::model::state::State;
 use crate::motion::events::Reached;
-use crate::motion::simulation::{Simulation, Step};
+use crate::motion::simulation::{GapAt, Simulation, SlackGap, Step};
 use crate::motion::step_map::join;
 
 /// When a cable that was closed at the start comes near is found by so many trials at
@@ -31,6 +32,24 @@ struct Slack<'a> {
     per_place: f64,
     /// Whether it was open at the start of the step.
     was_open: bool,
+}
+
+/// The gap of a slack cable a time into a step, by the best instructions for it.
+struct At<'a>(&'a Slack<'a>, &'a SlackGap<'a, f64>, f64);
+
+impl Kernel for At<'_> {
+    type Output = GapAt<f64>;
+    #[inline(always)]
+    fn run(self) -> GapAt<f64> {
+        let Self(slack, gap, s) = self;
+        let (value, rate) = gap.gap_and_rate(s);
+        GapAt {
+            s,
+            gap: value,
+            rate,
+            margin: slack.margin(gap, s),
+        }
+    }
 }
 
 /// When a slack cable first comes within the neighbours' reach of being taut, if it does: along the
@@ -75,17 +94,14 @@ pub(super) fn may_snap(
     if open && step.event.reached == Reached::default() {
         return None;
     }
-    let first = match open {
+    let near = match open || simulation.stays_away(step, cable, most) {
         true => None,
-        false => simulation.comes_near(step, cable, most),
+        false => slack.near_within(most),
     };
-    if first.is_none() && !near_at_end(most) {
+    if near.is_none() && !near_at_end(most) {
         return None;
     }
-    let near = first.and_then(|first| match slack.was_open {
-        true => slack.first_near(),
-        false => slack.first_near_since_closed(first),
-    });
+    let near = near.flatten();
     let Normal { n, arm } = tether.normal(&step.before);
     let direction = [n.x, n.y, arm, 0.0, 0.0, 0.0, 0.0];
     let by_parts = along
@@ -103,32 +119,51 @@ impl Slack<'_> {
         self.step.t_end - self.step.t_start
     }
 
+    /// Whether the cable comes near by a bound on the neighbours' reach, and if so, when it first
+    /// comes within their reach itself, if it does.
+    #[inline(always)]
+    fn near_within(&self, most: f64) -> Option<Option<f64>> {
+        let gap = self.simulation.slack_gap(self.step, self.cable);
+        let first = gap.comes_near(most)?;
+        Some(match self.was_open {
+            true => self.first_near(&gap),
+            false => self.first_near_since_closed(&gap, first),
+        })
+    }
+
     /// When the gap of a cable that was open at the start is first within the neighbours' reach:
     /// part by part, up to the last rise of the gap if the cable closes at the end.
     #[inline(always)]
-    fn first_near(&self) -> Option<f64> {
-        let (simulation, step, cable) = (self.simulation, self.step, self.cable);
-        let last = simulation.last_rise(step, cable, |s| self.margin(s));
+    fn first_near(&self, gap: &SlackGap<f64>) -> Option<f64> {
+        let at = |s: f64| dispatch(At(self, gap, s));
+        let (start, last) = (at(0.0), gap.last_rise(at));
+        let raised = |at: &GapAt<f64>, more: f64| GapAt {
+            margin: at.margin + more,
+            ..*at
+        };
         if self.neighbours.keys.is_empty() {
             // A bound first: the whole step as one part, in which the normal turns.
             let turning = self.per_place * self.turning(&self.neighbours.before);
-            let margins = [0.0, last].map(|s| self.margin(s) + turning);
-            simulation.comes_near_between(step, cable, margins, [0.0, last])?;
+            gap.comes_near_between([&raised(&start, turning), &raised(&last, turning)])?;
         }
         let between = self.between();
-        let end = |k: usize| last * (k as f64 / PARTS_OF_STEP as f64);
-        let mut before = self.margin(0.0) + between;
-        (1..=PARTS_OF_STEP).find_map(|k| {
-            let margins = [before, self.margin(end(k)) + between];
-            before = margins[1];
-            simulation.comes_near_between(step, cable, margins, [end(k - 1), end(k)])
-        })
+        let mut before = raised(&start, between);
+        // A loop, as a closure of an iterator would not have the processor's own instructions.
+        for k in 1..=PARTS_OF_STEP {
+            let part = k as f64 / PARTS_OF_STEP as f64;
+            let next = raised(&at(last.s * part), between);
+            if let Some(near) = gap.comes_near_between([&before, &next]) {
+                return Some(near);
+            }
+            before = next;
+        }
+        None
     }
 
     /// The same for a cable that was closed at the start, for all neighbours, whose gaps spread
     /// from zero in proportion to time.
     #[inline(always)]
-    fn first_near_since_closed(&self, first: f64) -> Option<f64> {
+    fn first_near_since_closed(&self, gap: &SlackGap<f64>, first: f64) -> Option<f64> {
         let duration = self.duration();
         let in_proportion = |k: usize| {
             let part = k as f64 / PARTS_OF_STEP as f64;
@@ -149,9 +184,8 @@ impl Slack<'_> {
             let Some(s) = near else {
                 break;
             };
-            let by_parts = self.per_place * self.reach_of_parts(s);
-            let margin = by_parts.hypot(by_keys);
-            near = self.simulation.comes_near(self.step, self.cable, margin);
+            let by_parts = self.per_place * self.reach_of_parts(gap, s);
+            near = gap.comes_near(by_parts.hypot(by_keys));
             let moved = near.map_or(0.0, |next| (next - s).abs());
             if moved <= SAME_INSTANT * duration {
                 break;
@@ -169,9 +203,9 @@ impl Slack<'_> {
 
     /// How far the gaps of neighbours exceed that of the run a time `s` into the step.
     #[inline(always)]
-    fn margin(&self, s: f64) -> f64 {
+    fn margin(&self, gap: &SlackGap<f64>, s: f64) -> f64 {
         let by_keys = reach_by(self.neighbours.keys, |key| key.of_gap(self.cable, s));
-        (self.per_place * self.reach_of_parts(s)).hypot(by_keys)
+        (self.per_place * self.reach_of_parts(gap, s)).hypot(by_keys)
     }
 
     /// A bound on how far neighbours that drift from `before` to the run reach along the
@@ -210,7 +244,7 @@ impl Slack<'_> {
     /// normal there; if the cable was closed at the start, what they reach at the end if it grows
     /// in proportion to time. Otherwise at the start and at the end, each with the normal there.
     #[inline(always)]
-    fn reach_of_parts(&self, s: f64) -> f64 {
+    fn reach_of_parts(&self, gap: &SlackGap<f64>, s: f64) -> f64 {
         let Neighbours { before, along, .. } = self.neighbours;
         let (tether, end) = (self.tether(), &self.step.before);
         let reach = |spread: &Spread, at: &State| {
@@ -225,7 +259,7 @@ impl Slack<'_> {
                 false => at_end,
             };
         }
-        let now = self.simulation.within(self.step, s);
+        let now = gap.state(s);
         let (Normal { n, arm }, left) = (tether.normal(&now), self.duration() - s);
         let [.., x, y, _] = self.approach.rate;
         let later = n.x * (now.vx - end.vx + left * x) + n.y * (now.vy - end.vy + left * y);

@@ -173,7 +173,8 @@ impl Loose {
             self.margins[cable] += rate * s;
             !is_flight
                 || simulation
-                    .comes_near_by(step, cable, [margin, rate])
+                    .slack_gap(step, cable)
+                    .first_near([margin, rate])
                     .is_some()
         })
     }

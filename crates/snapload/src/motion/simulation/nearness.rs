@@ -3,8 +3,11 @@
 use crate::arithmetic::processor::{Kernel, dispatch_over};
 use crate::arithmetic::real::Real;
 use crate::model::rules::Limit;
+use crate::model::state::State;
 use crate::motion::events::{EventFunction, HasEvents, Jets};
-use crate::motion::extremes::{first_above_zero, first_above_zero_before_last_rise};
+use crate::motion::extremes::{
+    first_above_zero, first_above_zero_before_last_rise, first_above_zero_between,
+};
 use crate::motion::limits::Along;
 use crate::motion::simulation::within::{LatestStep, SegmentMotion};
 use crate::motion::simulation::{Simulation, Step};
@@ -37,131 +40,164 @@ impl<T: Real> Kernel for GapRateAndAcceleration<'_, T> {
     }
 }
 
-impl<T: Real> Simulation<T> {
-    /// How long after its start a cable that is slack in the latest step first came within
-    /// `margin` > 0 of a gap of zero, if it did, before its end; if the cable closes there, before
-    /// the last rise of its gap. If a cable was closed at the start, its gap is zero there for all
-    /// neighbours, and the margin grows from zero. If it was at rest there, as one that has just
-    /// lost its tension, it opens like −s³ or −s² in all neighbours, each from its own release, and
-    /// may come near only when it begins to close again.
+/// A gap and its rate a time `s` into a step, and how far the gaps of neighbours exceed it there.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct GapAt<T> {
+    pub(crate) s: T,
+    pub(crate) gap: T,
+    pub(crate) rate: T,
+    pub(crate) margin: T,
+}
+
+/// The gap of a slack cable along the latest step. The motion, which may have to be computed again
+/// ([`LatestStep`]), is computed once for many instants.
+pub(crate) struct SlackGap<'a, T: Real> {
+    simulation: &'a Simulation<T>,
+    step: &'a Step<T>,
+    cable: usize,
+    motion: SegmentMotion<'a, T>,
+    /// A bound on |g̈|.
+    acceleration: T,
+}
+
+impl<T: Real> SlackGap<'_, T> {
+    /// The state a time `s` into the step.
     #[inline(always)]
-    pub(crate) fn comes_near(&self, step: &Step<T>, cable: usize, margin: T) -> Option<T> {
-        let s = step.t_end - step.t_start;
-        if s <= T::ZERO {
-            return None;
-        }
-        let acceleration = self.gap_acceleration_bound(step, cable);
-        let first = self.contact_at_start(step, cable).gap;
-        let last = self.contact(cable).gap;
-        if first.max(last) + margin + acceleration * s * s * 0.125 < T::ZERO {
-            return None;
-        }
-        let (offset, slope) = if first < T::ZERO {
-            (margin, T::ZERO)
-        } else {
-            (T::ZERO, margin / s)
-        };
-        self.first_near(step, cable, [offset, slope], acceleration)
+    pub(crate) fn state(&self, s: T) -> State<T> {
+        self.motion.state(s)
     }
 
-    /// How long after its start the gap of a cable was first above zero in a part of the latest
-    /// step, from one time after its start to another, raised by margins at both and by what
-    /// lies on the line between them within; none if it was not. If it is at the start of the
-    /// part, and falls, that is left out.
-    pub(crate) fn comes_near_between(
-        &self,
-        step: &Step<T>,
-        cable: usize,
-        [first, last]: [T; 2],
-        [from, to]: [T; 2],
-    ) -> Option<T> {
-        let length = to - from;
+    /// The gap and its rate then.
+    #[inline(always)]
+    pub(crate) fn gap_and_rate(&self, s: T) -> (T, T) {
+        self.motion.gap_and_rate(self.cable, s)
+    }
+
+    #[inline(always)]
+    fn duration(&self) -> T {
+        self.step.t_end - self.step.t_start
+    }
+
+    #[inline(always)]
+    fn closes(&self) -> bool {
+        self.step.event.reached.gaps.contains(self.cable)
+    }
+
+    /// How long after the start of the step the cable first came within `margin` > 0 of a gap of
+    /// zero, if it did, before its end; if the cable closes there, before the last rise of its gap.
+    /// If a cable was closed at the start, its gap is zero there for all neighbours, and the margin
+    /// grows from zero. If it was at rest there, as one that has just lost its tension, it opens
+    /// like −s³ or −s² in all neighbours, each from its own release, and may come near only when it
+    /// begins to close again.
+    #[inline(always)]
+    pub(crate) fn comes_near(&self, margin: T) -> Option<T> {
+        if self.simulation.stays_away(self.step, self.cable, margin) {
+            return None;
+        }
+        let open = self.simulation.contact_at_start(self.step, self.cable).gap < T::ZERO;
+        self.first_near(match open {
+            true => [margin, T::ZERO],
+            false => [T::ZERO, margin / self.duration()],
+        })
+    }
+
+    /// How long after the start of the step the gap was first above zero between two instants,
+    /// raised by the margins at both and by what lies on the line between them within; none if it
+    /// was not. If it is at the first of them, and falls, that is left out.
+    #[inline(always)]
+    pub(crate) fn comes_near_between(&self, [left, right]: [&GapAt<T>; 2]) -> Option<T> {
+        let length = right.s - left.s;
         if length <= T::ZERO {
             return None;
         }
-        let (bound, motion) = (
-            self.gap_acceleration_bound(step, cable),
-            self.motion(step.taut),
-        );
-        let slope = (last - first) / length;
-        let nearness = |later: T| {
-            let at = GapAndRate(&motion, cable, from + later);
-            let (gap, rate) = dispatch_over::<T, _>(at);
-            (gap + first + slope * later, rate + slope)
+        let slope = (right.margin - left.margin) / length;
+        let raised = |(gap, rate): (T, T), later: T| {
+            let margin = left.margin + slope * later;
+            (gap + margin, rate + slope)
         };
-        Some(from + first_above_zero(&nearness, length, bound)?)
+        let nearness = |later: T| {
+            let at = GapAndRate(&self.motion, self.cable, left.s + later);
+            raised(dispatch_over::<T, _>(at), later)
+        };
+        let ends = [
+            (T::ZERO, raised((left.gap, left.rate), T::ZERO)),
+            (length, raised((right.gap, right.rate), length)),
+        ];
+        let near = first_above_zero_between(ends, &nearness, self.acceleration)?;
+        Some(left.s + near)
     }
 
-    /// How long after its start the gap of a cable rises for the last time in the latest step, if
-    /// the cable closes at its end; the length of the step if it does not. On a stretch as long as
-    /// the rate at its end over the bound on the acceleration the rate does not change its sign.
-    /// Unless that is where the rise begins, the gap is below zero by more than the margin.
-    pub(crate) fn last_rise(&self, step: &Step<T>, cable: usize, margin: impl Fn(T) -> T) -> T {
-        let s = step.t_end - step.t_start;
-        if !step.event.reached.gaps.contains(cable) {
-            return s;
+    /// How long after the start of the step the gap rises for the last time, if the cable closes at
+    /// its end; the length of the step if it does not. On a stretch as long as the rate at its end
+    /// over the bound on the acceleration the rate does not change its sign. Unless that is where
+    /// the rise begins, the gap is below zero by more than the margin.
+    #[inline(always)]
+    pub(crate) fn last_rise(&self, at: impl Fn(T) -> GapAt<T>) -> GapAt<T> {
+        let s = self.duration();
+        let mut place = at(s);
+        if !self.closes() {
+            return place;
         }
-        let (bound, motion) = (
-            self.gap_acceleration_bound(step, cable),
-            self.motion(step.taut),
-        );
-        let mut place = s;
         loop {
-            let at = GapAndRate(&motion, cable, place);
-            let (gap, rate) = dispatch_over::<T, _>(at);
-            let back = rate / bound;
-            if back >= place {
-                return T::ZERO;
+            let back = place.rate / self.acceleration;
+            if back >= place.s {
+                return at(T::ZERO);
             }
-            let is_near = back > s * SAME_RISE && gap + margin(place) >= T::ZERO;
+            let is_near = back > s * SAME_RISE && place.gap + place.margin >= T::ZERO;
             if back <= s * RISE && !is_near {
                 return place;
             }
-            place -= back;
+            place = at(place.s - back);
         }
     }
 
-    /// How long after its start the gap of a cable first came within a margin of zero in the latest
-    /// step that grows at a rate; if the cable closes there, before the last rise of its gap.
-    pub(crate) fn comes_near_by(
-        &self,
-        step: &Step<T>,
-        cable: usize,
-        margin_and_rate: [T; 2],
-    ) -> Option<T> {
-        let acceleration = self.gap_acceleration_bound(step, cable);
-        self.first_near(step, cable, margin_and_rate, acceleration)
-    }
-
-    /// How long after its start the gap of a cable, raised by an offset and at a rate, was first
-    /// above zero in the latest step, given a bound on its acceleration.
+    /// How long after the start of the step the gap, raised by an offset and at a rate, was first
+    /// above zero; if the cable closes at its end, before the last rise.
     #[inline(always)]
-    fn first_near(
-        &self,
-        step: &Step<T>,
-        cable: usize,
-        [offset, slope]: [T; 2],
-        acceleration: T,
-    ) -> Option<T> {
-        let s = step.t_end - step.t_start;
-        let motion = self.motion(step.taut);
-        let begun = if self.rested(step, cable) {
-            begins_to_close(&motion, cable, s)?
+    pub(crate) fn first_near(&self, [offset, slope]: [T; 2]) -> Option<T> {
+        let s = self.duration();
+        let begun = if self.simulation.rested(self.step, self.cable) {
+            begins_to_close(&self.motion, self.cable, s)?
         } else {
             T::ZERO
         };
         let nearness = |later: T| {
             let s = begun + later;
-            let (gap, rate) = dispatch_over::<T, _>(GapAndRate(&motion, cable, s));
+            let (gap, rate) = dispatch_over::<T, _>(GapAndRate(&self.motion, self.cable, s));
             (gap + offset + slope * s, rate + slope)
         };
         let s = s - begun;
-        let near = if step.event.reached.gaps.contains(cable) {
-            first_above_zero_before_last_rise(&nearness, s, acceleration)
+        let near = if self.closes() {
+            first_above_zero_before_last_rise(&nearness, s, self.acceleration)
         } else {
-            first_above_zero(&nearness, s, acceleration)
+            first_above_zero(&nearness, s, self.acceleration)
         };
         Some(begun + near?)
+    }
+}
+
+impl<T: Real> Simulation<T> {
+    /// The gap of a cable that is slack in the latest step.
+    #[inline(always)]
+    pub(crate) fn slack_gap<'a>(&'a self, step: &'a Step<T>, cable: usize) -> SlackGap<'a, T> {
+        SlackGap {
+            simulation: self,
+            step,
+            cable,
+            motion: self.motion(step.taut),
+            acceleration: self.gap_acceleration_bound(step, cable),
+        }
+    }
+
+    /// Whether, by the gap at both ends of the latest step and a bound on its acceleration, a cable
+    /// stays farther than `margin` from a gap of zero.
+    #[inline(always)]
+    pub(crate) fn stays_away(&self, step: &Step<T>, cable: usize, margin: T) -> bool {
+        let s = step.t_end - step.t_start;
+        let acceleration = self.gap_acceleration_bound(step, cable);
+        let first = self.contact_at_start(step, cable).gap;
+        let last = self.contact(cable).gap;
+        s <= T::ZERO || first.max(last) + margin + acceleration * s * s * 0.125 < T::ZERO
     }
 
     /// Bounds on |∂ġ/∂z|, z = (x, y, θ, ẋ, ẏ, θ̇), along the latest step: of ġ = 2 d·Ṗ, |d| ≤ r.
