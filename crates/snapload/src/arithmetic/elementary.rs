@@ -35,6 +35,8 @@ const ODD: [f64; 8] = [
 pub(crate) trait Doubles: Lane {
     /// The number of doubles.
     const WIDTH: usize = <Self::Mask as Mask>::WIDTH;
+    /// As many of them as one register holds.
+    type Register: Doubles;
 
     /// The double in a lane.
     fn get(&self, lane: usize) -> f64;
@@ -54,6 +56,8 @@ pub(crate) trait Doubles: Lane {
 }
 
 impl Doubles for f64 {
+    type Register = Self;
+
     fn get(&self, _: usize) -> f64 {
         *self
     }

@@ -1,5 +1,6 @@
 //! Truncated power series.
 
+use crate::arithmetic::lane::Lane;
 use crate::arithmetic::real::Real;
 use std::ops::{Index, IndexMut};
 
@@ -34,9 +35,9 @@ const ROUNDINGS: f64 = 8.0;
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Polynomial<T>([T; ORDER + 1]);
 
-impl<T: Real> Default for Polynomial<T> {
+impl<L: Lane> Default for Polynomial<L> {
     fn default() -> Self {
-        Self([T::ZERO; ORDER + 1])
+        Self([L::ZERO; ORDER + 1])
     }
 }
 

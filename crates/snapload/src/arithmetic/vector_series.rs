@@ -1,5 +1,6 @@
 //! Truncated power series of several quantities side by side, summed in one pass.
 
+use crate::arithmetic::lane::Lane;
 use crate::arithmetic::polynomial::ORDER;
 use crate::arithmetic::processor::Aligned;
 use crate::arithmetic::real::Real;
@@ -16,9 +17,9 @@ const MARGIN: usize = BLOCK - 1;
 #[repr(align(32))]
 pub(crate) struct VectorSeries<T, const W: usize>([[T; W]; MARGIN + ORDER + 1 + MARGIN]);
 
-impl<T: Real, const W: usize> Default for VectorSeries<T, W> {
+impl<L: Lane, const W: usize> Default for VectorSeries<L, W> {
     fn default() -> Self {
-        Self([[T::ZERO; W]; MARGIN + ORDER + 1 + MARGIN])
+        Self([[L::ZERO; W]; MARGIN + ORDER + 1 + MARGIN])
     }
 }
 
@@ -37,17 +38,29 @@ impl<T, const W: usize> IndexMut<usize> for VectorSeries<T, W> {
     }
 }
 
-impl<T: Real, const W: usize> VectorSeries<T, W> {
+impl<L: Lane, const W: usize> VectorSeries<L, W> {
+    /// Sets all coefficients to zero, in place.
+    #[inline(always)]
+    pub(crate) fn clear(&mut self) {
+        for coefficients in &mut self.0[MARGIN..] {
+            for w in 0..W {
+                coefficients[w] = L::ZERO;
+            }
+        }
+    }
+
     /// Σ a_j b_{k−j}, 0 ≤ j ≤ k: the k-th coefficients of the products. A coefficient that is not
     /// known yet has to be zero, so that its products are left out; all have to be finite, as those
     /// beyond k are multiplied by zeros. If this holds one quantity, it is a factor of each of the
     /// others.
     #[inline(always)]
-    pub(crate) fn convolve<const V: usize>(&self, other: &VectorSeries<T, V>, k: usize) -> [T; V] {
+    pub(crate) fn convolve<const V: usize>(&self, other: &VectorSeries<L, V>, k: usize) -> [L; V] {
         let [sums] = convolve([(self, other)], k);
         sums
     }
+}
 
+impl<T: Real, const W: usize> VectorSeries<T, W> {
     /// Σ |a_i b_j| s^{i+j−p}, i + j ≥ p = [`ORDER`] + 1: a bound on the terms of the products
     /// beyond the last order at `s`, up to the factor s^p.
     #[inline(always)]
@@ -70,11 +83,11 @@ impl<T: Real, const W: usize> VectorSeries<T, W> {
 
 /// The k-th coefficients of several products, in one pass.
 #[inline(always)]
-pub(crate) fn convolve<T: Real, const V: usize, const W: usize, const N: usize>(
-    factors: [(&VectorSeries<T, V>, &VectorSeries<T, W>); N],
+pub(crate) fn convolve<L: Lane, const V: usize, const W: usize, const N: usize>(
+    factors: [(&VectorSeries<L, V>, &VectorSeries<L, W>); N],
     k: usize,
-) -> [[T; W]; N] {
-    let mut sums = [[[T::ZERO; W]; 2]; N];
+) -> [[L; W]; N] {
+    let mut sums = [[[L::ZERO; W]; 2]; N];
     // The newest coefficients, at either end, are added last, so that the processor can add up the
     // others before they are known.
     let mut from = BLOCK;
@@ -84,7 +97,7 @@ pub(crate) fn convolve<T: Real, const V: usize, const W: usize, const N: usize>(
         }
         from += BLOCK;
     }
-    let mut products = [[T::ZERO; W]; N];
+    let mut products = [[L::ZERO; W]; N];
     for n in 0..N {
         add_block(&mut sums[n], factors[n], k, 0);
         let [even, odd] = &sums[n];
@@ -100,9 +113,9 @@ pub(crate) fn convolve<T: Real, const V: usize, const W: usize, const N: usize>(
 /// Adds the block of products of the k-th coefficient that begins there, the other factor's
 /// coefficients in reverse, to two sums that take turns: a processor can do several at once.
 #[inline(always)]
-fn add_block<T: Real, const V: usize, const W: usize>(
-    [even, odd]: &mut [[T; W]; 2],
-    (a, b): (&VectorSeries<T, V>, &VectorSeries<T, W>),
+fn add_block<L: Lane, const V: usize, const W: usize>(
+    [even, odd]: &mut [[L; W]; 2],
+    (a, b): (&VectorSeries<L, V>, &VectorSeries<L, W>),
     k: usize,
     from: usize,
 ) {
@@ -115,10 +128,10 @@ fn add_block<T: Real, const V: usize, const W: usize>(
 }
 
 #[inline(always)]
-fn add_products<T: Real, const V: usize, const W: usize>(
-    sums: &mut [T; W],
-    a: &[T; V],
-    b: &[T; W],
+fn add_products<L: Lane, const V: usize, const W: usize>(
+    sums: &mut [L; W],
+    a: &[L; V],
+    b: &[L; W],
 ) {
     for w in 0..W {
         sums[w] = a[w % V].mul_add(b[w], sums[w]);

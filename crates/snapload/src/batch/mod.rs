@@ -6,5 +6,6 @@
 
 pub(crate) mod followers;
 pub(crate) mod lanes;
+mod rocking;
 mod scheduler;
 pub(crate) mod vector;

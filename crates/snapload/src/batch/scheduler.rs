@@ -5,6 +5,7 @@ use crate::arithmetic::elementary::Doubles;
 use crate::arithmetic::lane::{Lane, Mask};
 use crate::arithmetic::processor::Kernel;
 use crate::batch::followers::{Follower, InTurn, LaneFollowers};
+use crate::batch::rocking::Rocking;
 use crate::model::taut_set::TautSet;
 use crate::motion::bounce::{Bounce, bounce};
 use crate::motion::bounce_map::Bounced;
@@ -81,6 +82,9 @@ pub(super) struct LaneScheduler<'a, L: Doubles, C: Follower> {
     after_impact: AfterImpact<L>,
     tally: Counts<L>,
     followers: InTurn<C::LaneFollowers<L>>,
+    rocking: Rocking<L::Register, C>,
+    /// Runs that have rocked and now continue otherwise.
+    returning: Vec<Box<Slot<C>>>,
     usage: Usage,
 }
 
@@ -104,6 +108,8 @@ impl<'a, L: Doubles, C: Follower> LaneScheduler<'a, L, C> {
             after_impact: AfterImpact::zip_with(&motion, &motion, zero),
             tally: Counts::zip_with(&tally, &tally, zero),
             followers: InTurn::new(C::LaneFollowers::empty()),
+            rocking: Rocking::new(),
+            returning: Vec::new(),
             usage: Usage {
                 width: L::WIDTH,
                 ..Usage::default()
@@ -141,6 +147,10 @@ impl<'a, L: Doubles, C: Follower> LaneScheduler<'a, L, C> {
             self.usage.bounces += u64::from(plain.count_ones());
             if plain != all {
                 empty = self.resume_alone(all & !plain);
+                while self.rocking.is_full() || empty == all && !self.rocking.is_empty() {
+                    self.rock();
+                    empty = self.fill_empty();
+                }
                 if empty == all {
                     return self.usage;
                 }
@@ -172,10 +182,32 @@ impl<'a, L: Doubles, C: Follower> LaneScheduler<'a, L, C> {
         empty
     }
 
+    /// Lets the runs that rock make a step.
+    #[inline(always)]
+    fn rock(&mut self) {
+        let (mut others, made) = self.rocking.step();
+        self.usage.steps_apart += made as u64;
+        self.returning.append(&mut others);
+    }
+
+    /// Gives empty lanes to runs again; returns those that remain empty.
+    fn fill_empty(&mut self) -> u32 {
+        let mut empty = 0;
+        for lane in 0..L::WIDTH {
+            if self.slots[lane].is_none() {
+                self.refill(lane);
+            }
+            if self.slots[lane].is_none() {
+                empty |= 1 << lane;
+            }
+        }
+        empty
+    }
+
     /// Gives a lane to the next run that flies freely at some time; runs before it that never do
-    /// end without a lane.
+    /// end without a lane, and those that rock wait.
     fn refill(&mut self, lane: usize) {
-        while let Some(slot) = self.runs.next() {
+        while let Some(slot) = self.returning.pop().or_else(|| self.runs.next()) {
             if self.fill(lane, slot, LaneEntry::First) {
                 return;
             }
@@ -200,6 +232,10 @@ impl<'a, L: Doubles, C: Follower> LaneScheduler<'a, L, C> {
                 self.enter(lane, &slot, &after_impact);
                 self.slots[lane] = Some(slot);
                 return true;
+            }
+            if self.rocking.takes(&slot) {
+                self.rocking.push(slot);
+                return false;
             }
             slot.step();
             self.usage.steps_apart += 1;
@@ -269,7 +305,7 @@ impl<C: Follower> Slot<C> {
         })
     }
 
-    fn step(&mut self) {
+    pub(super) fn step(&mut self) {
         if let Some(step) = self.simulation.step() {
             self.outcome.take(&step);
             self.follower.take(&self.simulation, &step);

@@ -1,5 +1,6 @@
 //! The mass of a body, and the metric that it gives to the plane.
 
+use crate::arithmetic::lane::Lane;
 use crate::arithmetic::real::Real;
 use crate::model::cable::Normal;
 use crate::model::state::State;
@@ -170,12 +171,12 @@ impl<T: Real> Mass<T> {
 
     /// A load minus the forces and the moment of cables.
     #[inline(always)]
-    pub(crate) fn less_pull(&self, load: [T; 3], [x, y, moment]: [T; 3]) -> [T; 3] {
-        [
-            load[0] - x,
-            load[1] - y,
-            load[2] - self.load_of_moment(moment),
-        ]
+    pub(crate) fn less_pull(&self, load: [T; 3], pull: [T; 3]) -> [T; 3] {
+        let [x, y, moment] = pull;
+        match self {
+            Self::Unit { inverse_inertia } => less_pull_of_unit_mass(load, pull, *inverse_inertia),
+            Self::Full { .. } => [load[0] - x, load[1] - y, load[2] - moment],
+        }
     }
 
     /// (ẍ, ÿ, θ̈) under a load.
@@ -247,6 +248,17 @@ pub(crate) fn dot<T: Real>(a: [T; 3], b: [T; 3]) -> T {
 #[inline(always)]
 fn row<T: Copy>(normal: &Normal<T>) -> [T; 3] {
     [normal.n.x, normal.n.y, normal.arm]
+}
+
+/// A load on a body of unit mass minus the forces and the moment of cables, and likewise an
+/// acceleration minus what they cause, of one run or of several side by side.
+#[inline(always)]
+pub(crate) fn less_pull_of_unit_mass<L: Lane>(
+    load: [L; 3],
+    [x, y, moment]: [L; 3],
+    inverse_inertia: L,
+) -> [L; 3] {
+    [load[0] - x, load[1] - y, load[2] - moment * inverse_inertia]
 }
 
 #[cfg(test)]

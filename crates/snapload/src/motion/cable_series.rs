@@ -1,5 +1,7 @@
 //! Taylor series of the cables' geometry and of their forces, for two cables side by side.
 
+use crate::arithmetic::elementary::Doubles;
+use crate::arithmetic::lane::{Lane, Mask};
 use crate::arithmetic::plane::Vector2;
 use crate::arithmetic::processor::apart;
 use crate::arithmetic::real::Real;
@@ -17,7 +19,7 @@ type Quad<T> = [T; 4];
 /// [`crate::arithmetic::processor`].
 macro_rules! quad {
     (|$place:ident| $number:expr) => {{
-        let mut quad = [T::ZERO; 4];
+        let mut quad = [Lane::ZERO; 4];
         for $place in 0..4 {
             quad[$place] = $number;
         }
@@ -26,26 +28,43 @@ macro_rules! quad {
 }
 
 /// Two cables; if their number is odd, the last is alone.
-#[derive(Clone, Copy, Debug, Default)]
-struct CablePair<T: Real> {
+#[derive(Clone, Copy, Debug)]
+pub(super) struct CablePair<L> {
     /// The fairleads, and the fairleads turned by a quarter.
-    fairleads: [Quad<T>; 2],
+    fairleads: [Quad<L>; 2],
     /// 1/r.
-    per_length: Quad<T>,
+    per_length: Quad<L>,
     /// n at the start, s = ρ × n and 1/2r; zero for a cable that does not carry.
-    normal: Quad<T>,
-    arm: [T; 2],
-    half_per_length: [T; 2],
+    normal: Quad<L>,
+    arm: [L; 2],
+    half_per_length: [L; 2],
     /// ρ.
-    lever: VectorSeries<T, 4>,
+    lever: VectorSeries<L, 4>,
     /// d = P − A.
-    span: VectorSeries<T, 4>,
+    span: VectorSeries<L, 4>,
     /// T twice, once for x and once for y.
-    tension: VectorSeries<T, 4>,
+    tension: VectorSeries<L, 4>,
     /// T n turned back by a quarter, (T n_y, −T n_x): ρ times this adds up to the moment ρ × T n.
-    turned_pull: VectorSeries<T, 4>,
+    turned_pull: VectorSeries<L, 4>,
     /// The part of the gaps' latest coefficients that does not depend on the latest of d.
-    known_gap: [T; 2],
+    known_gap: [L; 2],
+}
+
+impl<L: Lane> Default for CablePair<L> {
+    fn default() -> Self {
+        Self {
+            fairleads: [[L::ZERO; 4]; 2],
+            per_length: [L::ZERO; 4],
+            normal: [L::ZERO; 4],
+            arm: [L::ZERO; 2],
+            half_per_length: [L::ZERO; 2],
+            lever: VectorSeries::default(),
+            span: VectorSeries::default(),
+            tension: VectorSeries::default(),
+            turned_pull: VectorSeries::default(),
+            known_gap: [L::ZERO; 2],
+        }
+    }
 }
 
 /// All cables of a system.
@@ -62,14 +81,7 @@ impl<T: Real> CableSeries<T> {
             let pairs = system.cables.len().div_ceil(2);
             self.pairs.resize_with(pairs, CablePair::default);
             for (pair, cables) in self.pairs.iter_mut().zip(system.cables.chunks(2)) {
-                for series in [
-                    &mut pair.lever,
-                    &mut pair.span,
-                    &mut pair.tension,
-                    &mut pair.turned_pull,
-                ] {
-                    *series = VectorSeries::default();
-                }
+                pair.clear();
                 pair.known_gap = [T::ZERO; 2];
                 for (place, cable) in cables.iter().enumerate() {
                     let fairlead = cable.fairlead();
@@ -83,12 +95,9 @@ impl<T: Real> CableSeries<T> {
 
     /// Extends ρ and d to order k; the constant of d is given separately.
     #[inline(always)]
-    pub(crate) fn extend(&mut self, k: usize, centre: Vector2<T>, sine: T, cosine: T) {
-        let centre = [centre.x, centre.y, centre.x, centre.y];
+    pub(crate) fn extend(&mut self, k: usize, centre: [T; 2], rotation: [T; 2]) {
         for pair in &mut self.pairs {
-            let lever = pair.turned(sine, cosine);
-            pair.lever[k] = lever;
-            pair.span[k] = quad!(|w| centre[w] + lever[w]);
+            pair.extend(k, centre, rotation);
         }
     }
 
@@ -129,23 +138,10 @@ impl<T: Real> CableSeries<T> {
         apart!(T, {
             let mut sums = [T::ZERO; 3];
             for pair in &mut self.pairs {
-                let [stretched, known] = convolve(
-                    [
-                        (&pair.span, &pair.tension),
-                        (&pair.lever, &pair.turned_pull),
-                    ],
-                    k,
-                );
-                let pull = quad!(|w| stretched[w] * pair.per_length[w]);
-                let turned = turned_back(&pull);
-                let lever = pair.lever[0];
-                let moment = quad!(|w| lever[w].mul_add(turned[w], known[w]));
-                pair.turned_pull[k] = turned;
-                add(
-                    &mut sums,
-                    &pull,
-                    (moment[0] + moment[1]) + (moment[2] + moment[3]),
-                );
+                let more = pair.known_forces(k);
+                for (sum, more) in sums.iter_mut().zip(more) {
+                    *sum += more;
+                }
             }
             sums
         })
@@ -188,8 +184,7 @@ impl<T: Real> CableSeries<T> {
     /// Coefficients of order k of the tensions of a pair.
     #[inline(always)]
     pub(crate) fn tensions(&self, pair: usize, k: usize) -> [T; 2] {
-        let tension = &self.pairs[pair].tension[k];
-        [tension[0], tension[2]]
+        self.pairs[pair].tensions(k)
     }
 
     /// Bounds on the terms of the gaps of a pair beyond the last order, up to the factor
@@ -216,13 +211,52 @@ impl<T: Real> CableSeries<T> {
     }
 }
 
-impl<T: Real> CablePair<T> {
+impl<L: Lane> CablePair<L> {
+    /// Removes all coefficients.
+    #[inline(always)]
+    pub(super) fn clear(&mut self) {
+        self.lever.clear();
+        self.span.clear();
+        self.tension.clear();
+        self.turned_pull.clear();
+    }
+
+    /// Extends ρ and d to order k, given the coefficients of the centre and of (cos θ, sin θ).
+    #[inline(always)]
+    pub(super) fn extend(&mut self, k: usize, centre: [L; 2], [cosine, sine]: [L; 2]) {
+        let lever = self.turned(sine, cosine);
+        self.lever[k] = lever;
+        self.span[k] = quad!(|w| centre[w % 2] + lever[w]);
+    }
+
+    /// See [`CableSeries::known_forces`].
+    #[inline(always)]
+    pub(super) fn known_forces(&mut self, k: usize) -> [L; 3] {
+        let stretched = (&self.span, &self.tension);
+        let moments = (&self.lever, &self.turned_pull);
+        // One run waits less with both in one pass; of several, the sums fill the registers.
+        let [stretched, known] = match L::Mask::WIDTH {
+            1 => convolve([stretched, moments], k),
+            _ => [convolve([stretched], k)[0], convolve([moments], k)[0]],
+        };
+        let pull = quad!(|w| stretched[w] * self.per_length[w]);
+        let turned = turned_back(&pull);
+        let lever = self.lever[0];
+        let moment = quad!(|w| lever[w].mul_add(turned[w], known[w]));
+        self.turned_pull[k] = turned;
+        [
+            pull[0] + pull[2],
+            pull[1] + pull[3],
+            (moment[0] + moment[1]) + (moment[2] + moment[3]),
+        ]
+    }
+
     /// The load of each carrying cable: (k+1)(k+2) times the coefficient of order k + 2 of its
     /// constraint, without the tensions of order k.
     #[inline(always)]
-    fn load(&mut self, k: usize, accel: [T; 3], [sine, cosine]: [T; 2]) -> [T; 2] {
-        apart!(T, {
-            let orders = T::from_f64(((k + 1) * (k + 2)) as f64);
+    pub(super) fn load(&mut self, k: usize, accel: [L; 3], [sine, cosine]: [L; 2]) -> [L; 2] {
+        apart!(L, {
+            let orders = L::from_f64(((k + 1) * (k + 2)) as f64);
             let square = self.span.convolve(&self.span, k + 2);
             self.known_gap = [square[0] + square[1], square[2] + square[3]];
             let lever = self.turned(sine, cosine);
@@ -240,7 +274,7 @@ impl<T: Real> CablePair<T> {
 
     /// Stores the k-th coefficients of the tensions; returns their Σ T n and Σ s T.
     #[inline(always)]
-    fn take(&mut self, k: usize, tension: [T; 2]) -> [T; 3] {
+    pub(super) fn take(&mut self, k: usize, tension: [L; 2]) -> [L; 3] {
         let quad = [tension[0], tension[0], tension[1], tension[1]];
         let pull = quad!(|w| quad[w] * self.normal[w]);
         let (known, turned) = (self.turned_pull[k], turned_back(&pull));
@@ -250,26 +284,52 @@ impl<T: Real> CablePair<T> {
         [pull[0] + pull[2], pull[1] + pull[3], moment]
     }
 
+    /// Coefficients of order k of the tensions.
+    #[inline(always)]
+    pub(super) fn tensions(&self, k: usize) -> [L; 2] {
+        let tension = &self.tension[k];
+        [tension[0], tension[2]]
+    }
+
     /// The fairleads, turned.
     #[inline(always)]
-    fn turned(&self, sine: T, cosine: T) -> Quad<T> {
+    fn turned(&self, sine: L, cosine: L) -> Quad<L> {
         let [along, across] = &self.fairleads;
         quad!(|w| along[w].mul_add(cosine, across[w] * sine))
     }
 }
 
+impl<L: Doubles> CablePair<L> {
+    /// Puts the beginning of a run's series into a lane: all up to the first order, and the
+    /// tensions, which are not known yet, as zeros.
+    pub(super) fn put(&mut self, lane: usize, one: &CableSeries<f64>) {
+        let [one] = &one.pairs[..] else {
+            return;
+        };
+        for k in 0..2 {
+            put_lane(&mut self.fairleads[k], lane, &one.fairleads[k]);
+            put_lane(&mut self.lever[k], lane, &one.lever[k]);
+            put_lane(&mut self.span[k], lane, &one.span[k]);
+        }
+        put_lane(&mut self.per_length, lane, &one.per_length);
+        put_lane(&mut self.normal, lane, &one.normal);
+        for place in 0..2 {
+            self.arm[place].set(lane, one.arm[place]);
+            self.half_per_length[place].set(lane, one.half_per_length[place]);
+        }
+    }
+}
+
 /// Turned by a quarter, clockwise.
 #[inline(always)]
-fn turned_back<T: Real>(quad: &Quad<T>) -> Quad<T> {
+fn turned_back<L: Lane>(quad: &Quad<L>) -> Quad<L> {
     [quad[1], -quad[0], quad[3], -quad[2]]
 }
 
-/// Adds forces and a moment.
-#[inline(always)]
-fn add<T: Real>(sums: &mut [T; 3], forces: &Quad<T>, moment: T) {
-    sums[0] += forces[0] + forces[2];
-    sums[1] += forces[1] + forces[3];
-    sums[2] += moment;
+fn put_lane<L: Doubles>(all: &mut Quad<L>, lane: usize, one: &Quad<f64>) {
+    for (all, one) in all.iter_mut().zip(one) {
+        all.set(lane, *one);
+    }
 }
 
 #[inline(always)]

@@ -1,5 +1,7 @@
 //! The solver of both complementarity problems.
 
+use crate::arithmetic::elementary::Doubles;
+use crate::arithmetic::lane::{Lane, Mask, select_each};
 use crate::arithmetic::processor::apart;
 use crate::arithmetic::real::Real;
 use crate::model::taut_set::{MAX_CABLES, PerCable, TautSet};
@@ -113,27 +115,83 @@ impl<T: Real> TwoByTwo<T> {
     #[inline(always)]
     fn solve(&self, q: [T; 2]) -> [T; 2] {
         apart!(T, {
-            let [a, b, c] = self.matrix;
             let Some(inverse) = self.inverse else {
-                return [q[0] / a, T::ZERO];
+                return [q[0] / self.matrix[0], T::ZERO];
             };
-            let cramer = |q: [T; 2]| {
-                [
-                    (c * q[0] - b * q[1]) * inverse,
-                    (a * q[1] - b * q[0]) * inverse,
-                ]
-            };
-            let mut z = cramer(q);
+            let z = cramer(self.matrix, inverse, q);
             if self.slanted {
-                for _ in 0..2 {
-                    let left = [(q[0] - b * z[1]) - a * z[0], (q[1] - b * z[0]) - c * z[1]];
-                    let more = cramer(left);
-                    z = [z[0] + more[0], z[1] + more[1]];
-                }
+                return refined_twice(self.matrix, inverse, q, z);
             }
             z
         })
     }
+}
+
+/// Several of them side by side, none with two constraints that are identical.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct TwoByTwoLanes<L> {
+    matrix: [L; 3],
+    inverse: L,
+    /// Positive where ac − b² is much smaller than ac.
+    slanted: L,
+}
+
+impl<L: Doubles> TwoByTwoLanes<L> {
+    /// Equations with the unit matrix.
+    pub(crate) fn unit() -> Self {
+        Self {
+            matrix: [L::ONE, L::ZERO, L::ONE],
+            inverse: L::ONE,
+            slanted: L::ZERO,
+        }
+    }
+
+    /// Puts the equations of both cables into a lane; returns whether there are such.
+    pub(crate) fn put<W>(&mut self, lane: usize, equations: &Factored<f64, W>) -> bool {
+        let Factors::TwoByTwo([0, 1], two) = &equations.found else {
+            return false;
+        };
+        let Some(inverse) = two.inverse else {
+            return false;
+        };
+        for (all, one) in self.matrix.iter_mut().zip(two.matrix) {
+            all.set(lane, one);
+        }
+        self.inverse.set(lane, inverse);
+        self.slanted.set(lane, f64::from(u8::from(two.slanted)));
+        true
+    }
+
+    /// [`TwoByTwo::solve`], lane by lane.
+    #[inline(always)]
+    pub(crate) fn solve(&self, q: [L; 2]) -> [L; 2] {
+        let z = cramer(self.matrix, self.inverse, q);
+        let slanted = L::ZERO.below(self.slanted);
+        if slanted.any() {
+            let refined = refined_twice(self.matrix, self.inverse, q, z);
+            return select_each(slanted, refined, z);
+        }
+        z
+    }
+}
+
+#[inline(always)]
+fn cramer<L: Lane>([a, b, c]: [L; 3], inverse: L, q: [L; 2]) -> [L; 2] {
+    [
+        (c * q[0] - b * q[1]) * inverse,
+        (a * q[1] - b * q[0]) * inverse,
+    ]
+}
+
+#[inline(always)]
+fn refined_twice<L: Lane>(matrix: [L; 3], inverse: L, q: [L; 2], mut z: [L; 2]) -> [L; 2] {
+    let [a, b, c] = matrix;
+    for _ in 0..2 {
+        let left = [(q[0] - b * z[1]) - a * z[0], (q[1] - b * z[0]) - c * z[1]];
+        let more = cramer(matrix, inverse, left);
+        z = [z[0] + more[0], z[1] + more[1]];
+    }
+    z
 }
 
 /// Whether the two constraints of the matrix \[\[a, b\], \[b, c\]\] are identical up to rounding.

@@ -106,7 +106,7 @@ impl<T: Real> PrescribedTaut<T> {
             };
             waves.cover(t, t);
             let around = waves.expanded(&self.system, t);
-            series.begin(&self.system, &around, &state, &[], &contacts, active);
+            series.expand(&self.system, &around, &state, &[], &contacts, active);
             if let Some(kept) = &mut kept {
                 kept.push(Piece {
                     from: t - begun,

@@ -55,7 +55,7 @@ impl Segment {
         let contacts = [Contact::RESTING; MAX_CABLES];
         waves.cover(self.t, self.t);
         let around = waves.expanded(system, self.t);
-        series.begin(
+        series.expand(
             system,
             &around,
             &self.start,

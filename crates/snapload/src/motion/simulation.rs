@@ -29,6 +29,7 @@ pub(crate) mod comparisons;
 mod event_laws;
 mod kernels;
 mod nearness;
+mod series;
 mod tensions;
 pub(super) mod within;
 
@@ -347,32 +348,28 @@ impl<T: Real> Simulation<T> {
         apart!(T, {
             self.begun = self.t;
             let mut horizon = self.rules.t_end - self.t;
-            let crossing = if self.system.has_closed_form(self.active.taut) {
-                self.flight.begin(
-                    &self.system,
-                    self.t,
-                    &self.state,
-                    &self.before,
-                    &self.contacts,
-                );
-                first_crossing(&self.flight, self.t, horizon)
-            } else {
-                let series = self
-                    .series
-                    .get_or_insert_with(|| Box::new(Series::new(&self.system, &self.rules)));
-                let around = self.waves.expanded(&self.system, self.t);
-                series.begin(
-                    &self.system,
-                    &around,
-                    &self.state,
-                    &self.memory,
-                    &self.contacts,
-                    self.active,
-                );
-                series.set_touching(std::mem::take(&mut self.touching));
-                self.active = series.active();
-                horizon = horizon.min(series.step());
-                first_crossing(&**series, self.t, horizon)
+            let closed_form = self.system.has_closed_form(self.active.taut);
+            if !closed_form {
+                self.extend_series();
+            }
+            let crossing = match &mut self.series {
+                Some(series) if !closed_form => {
+                    series.close(&self.system, &self.state, &self.memory);
+                    series.set_touching(std::mem::take(&mut self.touching));
+                    self.active = series.active();
+                    horizon = horizon.min(series.step());
+                    first_crossing(&**series, self.t, horizon)
+                }
+                _ => {
+                    self.flight.begin(
+                        &self.system,
+                        self.t,
+                        &self.state,
+                        &self.before,
+                        &self.contacts,
+                    );
+                    first_crossing(&self.flight, self.t, horizon)
+                }
             };
             let mut crossing = crossing.unwrap_or(Crossing {
                 s: horizon,

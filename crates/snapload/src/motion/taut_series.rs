@@ -43,7 +43,6 @@
 use crate::arithmetic::polynomial::{ORDER, Polynomial};
 use crate::arithmetic::processor::apart;
 use crate::arithmetic::real::Real;
-use crate::arithmetic::vector_series::VectorSeries;
 use crate::model::drag::DragSeries;
 use crate::model::floating::Complex;
 use crate::model::mass::Mass;
@@ -56,11 +55,16 @@ use crate::motion::cable_series::CableSeries;
 use crate::motion::complementarity::Factored;
 use crate::motion::contact::{Contact, Contacts};
 use crate::motion::limits::{EventSeries, Limits};
+use crate::motion::taut_series::body::BodySeries;
 use crate::motion::water_series::WaterSeries;
 use crate::motion::waves::sinusoids::Expanded;
 
+mod body;
 mod events;
+mod rocking;
 mod water;
+
+pub(crate) use rocking::RockingSeries;
 
 /// A displacement along a step of less than this, or than a taut cable's length, counts as rest:
 /// the terms need not converge relative to each other, only stay below its rounding \[L\], \[rad\].
@@ -77,13 +81,7 @@ struct Line<T: Real> {
 #[derive(Clone, Debug)]
 pub(crate) struct Series<T: Real> {
     active: ActiveSet,
-    x: Polynomial<T>,
-    y: Polynomial<T>,
-    theta: Polynomial<T>,
-    /// cos θ and sin θ.
-    circle: VectorSeries<T, 2>,
-    /// k θ_k.
-    spin: VectorSeries<T, 1>,
+    body: BodySeries<T>,
     /// The forces, including those of the water.
     force: [Polynomial<T>; 2],
     /// The moment of the water on the body, or for a unit mass its θ̈.
@@ -106,6 +104,8 @@ pub(crate) struct Series<T: Real> {
     step: T,
     /// The event functions that may be reached within the step, except the gaps of `lines`.
     event_series: Vec<EventSeries<T>>,
+    /// Whether the coefficients of the next step are known already, from [`RockingSeries`].
+    extended: bool,
 }
 
 impl<T: Real> Series<T> {
@@ -114,11 +114,7 @@ impl<T: Real> Series<T> {
     pub(crate) fn new(system: &System<T>, rules: &Rules<T>) -> Self {
         Self {
             active: ActiveSet::default(),
-            x: Polynomial::default(),
-            y: Polynomial::default(),
-            theta: Polynomial::default(),
-            circle: VectorSeries::default(),
-            spin: VectorSeries::default(),
+            body: BodySeries::default(),
             force: [Polynomial::default(); 2],
             turning: Polynomial::default(),
             drag: DragSeries::default(),
@@ -136,13 +132,30 @@ impl<T: Real> Series<T> {
             limits: Limits::of(system, rules),
             step: T::ZERO,
             event_series: Vec::new(),
+            extended: false,
         }
     }
 
     /// Expands the motion from a start, with the series of the external forces about its time, and
     /// chooses the length on which the expansion is used.
     #[inline(always)]
-    pub(crate) fn begin(
+    pub(crate) fn expand(
+        &mut self,
+        system: &System<T>,
+        around: &Expanded<T>,
+        start: &State<T>,
+        memory: &[Complex<T>],
+        contacts: &Contacts<T>,
+        active: ActiveSet,
+    ) {
+        self.begin(system, around, start, memory, contacts, active);
+        self.extend(system);
+        self.close(system, start, memory);
+    }
+
+    /// Begins an expansion: all coefficients up to the first order.
+    #[inline(always)]
+    pub(super) fn begin(
         &mut self,
         system: &System<T>,
         around: &Expanded<T>,
@@ -166,16 +179,7 @@ impl<T: Real> Series<T> {
             if let Some(series) = &mut self.water {
                 series.begin(&around.excitation, memory);
             }
-            (self.x[0], self.x[1]) = (start.x, start.vx);
-            (self.y[0], self.y[1]) = (start.y, start.vy);
-            self.circle = VectorSeries::default();
-            self.spin = VectorSeries::default();
-            self.turn(0, start.theta);
-            self.turn(1, start.vtheta);
-            let (sine, cosine) = start.theta.sin_cos();
-            self.circle[0] = [cosine, sine];
-            let (sine, cosine) = self.rotation(1);
-            self.circle[1] = [cosine, sine];
+            self.body.begin(start);
             self.pairs.begin(system);
             for k in 0..2 {
                 self.extend_pairs(k);
@@ -183,15 +187,39 @@ impl<T: Real> Series<T> {
             for (cable, tether) in system.cables.iter().enumerate() {
                 self.pairs.set_span(cable, tether.span(start));
             }
-            self.extend_motions(system);
+        })
+    }
+
+    /// Adds the other coefficients, order by order.
+    #[inline(always)]
+    pub(super) fn extend(&mut self, system: &System<T>) {
+        apart!(T, {
+            let mass = &system.body.mass;
+            let normals = self.pairs.set_carrying(self.active.carrying);
+            let coupling = |i: usize, j: usize| mass.coupling(&normals[i], &normals[j]);
+            let ready = Factored::new(self.active.carrying, coupling);
+            self.keep_gaps(1);
+            for k in 0..ORDER - 1 {
+                self.extend_drag(system, k);
+                self.extend_water(system, k);
+                self.extend_motion(k, mass, &ready);
+                self.extend_pairs(k + 2);
+                self.keep_gaps(k + 2);
+                self.keep_tensions(k);
+            }
+            self.close_water(system);
+        })
+    }
+
+    /// Chooses, once all coefficients are known, the length of the step and its event functions.
+    #[inline(always)]
+    pub(super) fn close(&mut self, system: &System<T>, start: &State<T>, memory: &[Complex<T>]) {
+        apart!(T, {
             self.set_known_gaps();
             self.step = self.choose_step(system);
             self.left_out = self.left_out_of_gaps(system, self.step);
-            self.active.taut = active
-                .taut
-                .iter()
-                .filter(|&cable| self.holds(system, cable))
-                .collect();
+            let taut = self.active.taut.iter();
+            self.active.taut = taut.filter(|&cable| self.holds(system, cable)).collect();
             self.choose_event_series(system, start, memory);
         })
     }
@@ -201,58 +229,20 @@ impl<T: Real> Series<T> {
     fn extend_drag(&mut self, system: &System<T>, k: usize) {
         let Some(drag) = &system.drag else { return };
         let order = (k + 1) as f64;
-        let velocity = [self.x[k + 1] * order, self.y[k + 1] * order];
+        let velocity = [self.body.x[k + 1] * order, self.body.y[k + 1] * order];
         let found = self.drag.extend(drag, velocity, k);
         for (force, drag) in self.force.iter_mut().zip(found) {
             force[k] += drag;
         }
-        let turning = -(drag.turning * self.theta[k + 1] * (k + 1) as f64);
+        let turning = -(drag.turning * self.body.theta[k + 1] * (k + 1) as f64);
         self.turning[k] = system.body.mass.load_of_turning(turning);
-    }
-
-    /// Sets the k-th coefficient of θ.
-    #[inline(always)]
-    fn turn(&mut self, k: usize, theta: T) {
-        self.theta[k] = theta;
-        self.spin[k] = [theta * k as f64];
-    }
-
-    /// Coefficients of order k of sin θ and cos θ: k S_k = Σ j θ_j C_{k−j}, k C_k = −Σ j θ_j
-    /// S_{k−j}.
-    #[inline(always)]
-    fn rotation(&self, k: usize) -> (T, T) {
-        apart!(T, {
-            let [sine, cosine] = self.spin.convolve(&self.circle, k);
-            let share = T::ONE / k as f64;
-            (sine * share, -(cosine * share))
-        })
     }
 
     /// Extends ρ and d of every cable to order k; the constant of d is given separately.
     #[inline(always)]
     fn extend_pairs(&mut self, k: usize) {
-        let [cosine, sine] = self.circle[k];
-        let centre = [self.x[k], self.y[k]].into();
-        self.pairs.extend(k, centre, sine, cosine);
-    }
-
-    /// All coefficients, order by order.
-    #[inline(always)]
-    fn extend_motions(&mut self, system: &System<T>) {
-        let mass = &system.body.mass;
-        let normals = self.pairs.set_carrying(self.active.carrying);
-        let coupling = |i: usize, j: usize| mass.coupling(&normals[i], &normals[j]);
-        let ready = Factored::new(self.active.carrying, coupling);
-        self.keep_gaps(1);
-        for k in 0..ORDER - 1 {
-            self.extend_drag(system, k);
-            self.extend_water(system, k);
-            self.extend_motion(k, mass, &ready);
-            self.extend_pairs(k + 2);
-            self.keep_gaps(k + 2);
-            self.keep_tensions(k);
-        }
-        self.close_water(system);
+        let body = &self.body;
+        self.pairs.extend(k, [body.x[k], body.y[k]], body.circle[k]);
     }
 
     /// The k-th coefficients of the tensions, and those of order k + 2 of the motion.
@@ -263,20 +253,12 @@ impl<T: Real> Series<T> {
         mass: &Mass<T>,
         ready: &Factored<T, impl Fn(usize, usize) -> T>,
     ) {
-        // θ_{k+2} is still zero, so that this is the part from the lower orders of θ.
-        self.turn(k + 2, T::ZERO);
-        let (sine, cosine) = self.rotation(k + 2);
-        let share = T::ONE / ((k + 1) * (k + 2)) as f64;
-
+        let turned = self.body.known_rotation(k + 2);
         let load = [self.force[0][k], self.force[1][k], self.turning[k]];
         let pulls = self.pairs.known_forces(k);
         let known = mass.accelerated_by(mass.less_pull(load, pulls));
-        let pulls = self.pairs.find_tensions(k, known, [sine, cosine], ready);
-        let [x, y, theta] = mass.slowed_by(known, pulls).map(|a| a * share);
-        (self.x[k + 2], self.y[k + 2]) = (x, y);
-        self.turn(k + 2, theta);
-        let [cosine_0, sine_0] = self.circle[0];
-        self.circle[k + 2] = [cosine - theta * sine_0, sine + theta * cosine_0];
+        let pulls = self.pairs.find_tensions(k, known, turned, ready);
+        self.body.extend(k, mass.slowed_by(known, pulls), turned);
     }
 
     /// The gap of every cable to order k, once d is known to that order; if all cables carry, no
@@ -329,7 +311,7 @@ impl<T: Real> Series<T> {
             }
             let longest = T::ONE.min((T::from_f64(8.0) / light).sqrt());
             let mut step = longest;
-            for motion in [&self.x, &self.y, &self.theta] {
+            for motion in self.body.place() {
                 step = motion.converged_within(step, ORDER, still);
             }
             for cable in self.active.carrying.iter() {
@@ -339,6 +321,11 @@ impl<T: Real> Series<T> {
             }
             self.shortened(system, step)
         })
+    }
+
+    /// Whether the coefficients of the step that comes next are known already; true only once.
+    pub(super) fn take_extended(&mut self) -> bool {
+        std::mem::take(&mut self.extended)
     }
 
     /// Sets the taut cables whose tension is known to be zero at the start, and to rise.
@@ -364,13 +351,13 @@ impl<T: Real> Series<T> {
     /// The state a time `s` after the start.
     #[inline(always)]
     pub(crate) fn state(&self, s: T) -> State<T> {
-        apart!(T, { state_at([&self.x, &self.y, &self.theta], s) })
+        apart!(T, { state_at(self.body.place(), s) })
     }
 
     /// The expansions of x, y and θ.
     #[inline(always)]
     pub(crate) fn motion(&self) -> [Polynomial<T>; 3] {
-        [self.x, self.y, self.theta]
+        [self.body.x, self.body.y, self.body.theta]
     }
 
     /// The gap of a slack cable a time `s` after the start.
@@ -429,7 +416,7 @@ impl<T: Real> Series<T> {
     /// A bound on the n-th derivative of x, y or θ (0, 1, 2) over the step.
     #[inline(always)]
     pub(crate) fn derivative_bound(&self, n: usize, coordinate: usize) -> T {
-        let place = [&self.x, &self.y, &self.theta][coordinate];
+        let place = self.body.place()[coordinate];
         place.derivative_bound(n, self.step, ORDER)
     }
 }

@@ -287,7 +287,7 @@ impl<T: Real> Tie<'_, T> {
         } = self;
         let mut series = Box::new(Series::new(system, rules));
         let (around, memory) = (waves.expanded(system, *t), system.memory_at_rest());
-        series.begin(system, &around, state, &memory, contacts, held);
+        series.expand(system, &around, state, &memory, contacts, held);
         series
     }
 }

@@ -139,6 +139,8 @@ impl<V: Doubles> Lane for Pair<V> {
 }
 
 impl<V: Doubles> Doubles for Pair<V> {
+    type Register = V;
+
     fn get(&self, lane: usize) -> f64 {
         match lane.checked_sub(V::WIDTH) {
             None => self.0.get(lane),

@@ -86,10 +86,16 @@ macro_rules! vector {
         }
 
         impl Doubles for $vector {
+            type Register = Self;
+
+            #[inline(always)]
             fn get(&self, lane: usize) -> f64 {
-                // SAFETY: a register is as many doubles, and any bits are legal in both.
-                unsafe { transmute::<$register, [f64; $width]>(self.0)[lane] }
+                let register: *const [f64; $width] = (&raw const self.0).cast();
+                // SAFETY: a register is as many doubles, and any bits are legal in both. In place,
+                // so that no more than one double is read.
+                unsafe { (*register)[lane] }
             }
+            #[inline(always)]
             fn set(&mut self, lane: usize, value: f64) {
                 let register: *mut [f64; $width] = (&raw mut self.0).cast();
                 // SAFETY: a register is as many doubles, and any bits are legal in both. In place,

@@ -82,8 +82,8 @@ impl<T: Real> Series<T> {
             }
         }
         let motion = TautMotion {
-            place: [&self.x, &self.y, &self.theta],
-            circle: &self.circle,
+            place: self.body.place(),
+            circle: &self.body.circle,
             step,
             left_out: self.left_out_of_motion(step),
         };

@@ -45,7 +45,7 @@ impl<T: Real> Series<T> {
     /// The k-th coefficients of q.
     #[inline(always)]
     fn place(&self, k: usize) -> [T; 3] {
-        [self.x[k], self.y[k], self.theta[k]]
+        [self.body.x[k], self.body.y[k], self.body.theta[k]]
     }
 
     /// The k-th coefficients of q̇.
@@ -126,7 +126,7 @@ impl<T: Real> Series<T> {
         for _ in 0..ORDER {
             power = power * s;
         }
-        let [cosine, sine] = self.spin.beyond_product(&self.circle, s);
+        let [cosine, sine] = self.body.spin.beyond_product(&self.body.circle, s);
         let of_motion = self.left_out_of_motion(s);
         let turned = (cosine + sine) * power + of_motion;
         for (pair, tethers) in system.cables.chunks(2).enumerate() {
@@ -233,7 +233,7 @@ mod tests {
                 waves.cover(0.0, 0.0);
                 let mut series = Series::new(&system, &rules);
                 let around = waves.expanded(&system, 0.0);
-                series.begin(&system, &around, &state, &[], &contacts, active);
+                series.expand(&system, &around, &state, &[], &contacts, active);
                 let s = series.step();
                 let there = PrescribedTaut::new(free.clone()).carried(slack, 0.0, &state, s);
                 for cable in 0..2 {
