@@ -43,9 +43,7 @@ impl<L: Lane, const W: usize> VectorSeries<L, W> {
     #[inline(always)]
     pub(crate) fn clear(&mut self) {
         for coefficients in &mut self.0[MARGIN..] {
-            for w in 0..W {
-                coefficients[w] = L::ZERO;
-            }
+            *coefficients = [L::ZERO; W];
         }
     }
 

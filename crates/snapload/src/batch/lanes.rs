@@ -9,7 +9,8 @@
 use crate::arithmetic::processor::dispatch;
 use crate::batch::followers::{Follower, NoFollower};
 pub use crate::batch::scheduler::Usage;
-use crate::batch::scheduler::{LaneScheduler, Runs, Slot, TakeResult};
+use crate::batch::scheduler::{LaneScheduler, Runs, TakeResult};
+use crate::batch::slot::Slot;
 use crate::case::Case;
 use crate::motion::outcome::Outcome;
 use crate::motion::simulation::Simulation;

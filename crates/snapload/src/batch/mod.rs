@@ -8,4 +8,5 @@ pub(crate) mod followers;
 pub(crate) mod lanes;
 mod rocking;
 mod scheduler;
+mod slot;
 pub(crate) mod vector;

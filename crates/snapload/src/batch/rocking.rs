@@ -2,7 +2,7 @@
 
 use crate::arithmetic::elementary::Doubles;
 use crate::batch::followers::Follower;
-use crate::batch::scheduler::Slot;
+use crate::batch::slot::Slot;
 use crate::motion::taut_series::RockingSeries;
 
 /// Runs that wait to make a step together.

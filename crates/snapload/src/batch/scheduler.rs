@@ -6,11 +6,12 @@ use crate::arithmetic::lane::{Lane, Mask};
 use crate::arithmetic::processor::Kernel;
 use crate::batch::followers::{Follower, InTurn, LaneFollowers};
 use crate::batch::rocking::Rocking;
+use crate::batch::slot::Slot;
 use crate::model::taut_set::TautSet;
 use crate::motion::bounce::{Bounce, bounce};
 use crate::motion::bounce_map::Bounced;
 use crate::motion::outcome::Outcome;
-use crate::motion::simulation::{LastImpacts, Progress, Simulation};
+use crate::motion::simulation::{LastImpacts, Progress};
 use crate::motion::trajectory::RHO2_UNTIL;
 use crate::motion::two_cables::{AfterImpact, TwoCableSystem};
 
@@ -63,15 +64,6 @@ struct Counts<L> {
 enum LaneEntry {
     First,
     Return,
-}
-
-/// A run that may have a lane.
-pub(super) struct Slot<C> {
-    /// Its index in the order of the runs.
-    pub(super) index: usize,
-    pub(super) simulation: Box<Simulation>,
-    pub(super) outcome: Outcome,
-    pub(super) follower: C,
 }
 
 pub(super) struct LaneScheduler<'a, L: Doubles, C: Follower> {
@@ -294,28 +286,9 @@ fn put<L: Doubles>(lane: usize) -> impl Fn(L, f64) -> L + Copy {
     }
 }
 
-impl<C: Follower> Slot<C> {
-    /// A run about to begin.
-    pub(super) fn new(index: usize, simulation: Box<Simulation>, follower: C) -> Box<Self> {
-        Box::new(Self {
-            index,
-            outcome: Outcome::at_start(&simulation),
-            simulation,
-            follower,
-        })
-    }
-
-    pub(super) fn step(&mut self) {
-        if let Some(step) = self.simulation.step() {
-            self.outcome.take(&step);
-            self.follower.take(&self.simulation, &step);
-        }
-    }
-}
-
 impl<L: Lane> Counts<L> {
-    /// The counts with an impact added in every lane, as [`Outcome::take`] and [`Simulation`] count
-    /// them.
+    /// The counts with an impact added in every lane, as [`Outcome::take`] and
+    /// [`crate::motion::simulation::Simulation`] count them.
     #[inline(always)]
     fn with(
         &self,

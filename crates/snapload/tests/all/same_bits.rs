@@ -165,45 +165,6 @@ fn every_width_of_lanes_has_the_bits_of_one_run_by_itself() {
     assert_eq!(outcomes(&cases, &no_progress), Ok(alone));
 }
 
-/// Runs that rock extend their series together. Tall bodies are among them, whose cables' equations
-/// are nearly the same, runs whose cables snap again in between, and those that end at different
-/// times.
-#[test]
-fn runs_that_rock_together_have_the_bits_of_runs_by_themselves() {
-    let shapes = [(0.25, 0.1), (0.03, 1.0), (0.1, 0.5)];
-    let cases: Vec<Case> = (0..300_u32)
-        .filter_map(|k| {
-            let x = f64::from(k);
-            let (a, b) = shapes[k as usize % 3];
-            Case::new(Parameters {
-                f_o: 0.4 * (x * 1.3).sin().abs(),
-                omega: 0.4 + 2.0 * (x * 0.7).sin().abs(),
-                e: [0.0, 0.3, 0.8][(k / 3) as usize % 3],
-                a,
-                b,
-                t_end: [30.0, 45.0, 60.0][(k / 9) as usize % 3],
-                stop_when_settled: false,
-                ..Parameters::STANDARD
-            })
-            .ok()
-        })
-        .collect();
-    let alone: Vec<Outcome> = cases.iter().map(Outcome::of).collect();
-    let rocked = |shape: (f64, f64)| {
-        let both = cases.iter().zip(&alone);
-        let of_shape = both.filter(|(case, _)| (case.parameters().a, case.parameters().b) == shape);
-        of_shape.filter(|(_, run)| run.rocking > 1.0).count()
-    };
-    let counts = shapes.map(rocked);
-    assert!(counts.iter().all(|&count| count > 10), "{counts:?}");
-    for lanes in Lanes::available() {
-        let (beside, _) = lanes.outcomes(&cases);
-        for (k, (beside, alone)) in beside.iter().zip(&alone).enumerate() {
-            assert_eq!(bits(beside), bits(alone), "{lanes:?}, case {k}");
-        }
-    }
-}
-
 #[test]
 fn threads_do_not_matter() {
     let cases: Vec<Case> = (0..3).flat_map(|_| varied()).collect();

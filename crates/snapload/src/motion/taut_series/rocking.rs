@@ -79,9 +79,10 @@ impl<L: Doubles> RockingSeries<L> {
             inverse_inertia,
             equations,
         } = self;
+        let [along, up] = force;
         for k in 0..ORDER - 1 {
             let turned = body.known_rotation(k + 2);
-            let load = [force[0][k], force[1][k], L::ZERO];
+            let load = [along[k], up[k], L::ZERO];
             let mut pulls = [L::ZERO; 3];
             let known = pair.known_forces(k);
             for i in 0..3 {
