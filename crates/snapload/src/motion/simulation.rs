@@ -33,6 +33,7 @@ mod series;
 mod tensions;
 pub(super) mod within;
 
+use event_laws::SlowRow;
 pub(crate) use event_laws::zero_velocity;
 pub use kernels::Steps;
 use kernels::begin;
@@ -78,9 +79,7 @@ pub struct Simulation<T: Real = f64> {
     impacts: u64,
     /// Steps of zero length since the time last increased or a cable snapped.
     standstill: u64,
-    /// Snaps in a row that were slower than `v_stick`, and their cables.
-    slow_snaps: u32,
-    slow_cables: TautSet,
+    slow_row: SlowRow<T>,
     /// When the latest segment began.
     begun: T,
     last: LastImpacts<T>,
@@ -207,8 +206,7 @@ impl<T: Real> Simulation<T> {
             contacts: start.contacts,
             impacts: 0,
             standstill: 0,
-            slow_snaps: 0,
-            slow_cables: TautSet::SLACK,
+            slow_row: SlowRow::ended(t),
             begun: t,
             last: LastImpacts {
                 cables: TautSet::SLACK,

@@ -12,6 +12,7 @@ mod bounces;
 mod bouncing_ball;
 mod case_parameters;
 mod common;
+mod corners;
 mod drag;
 mod floating;
 mod floating_random;

@@ -15,6 +15,35 @@ use crate::motion::projection::project_velocity;
 use crate::motion::simulation::{CONVERGING, Event, LastImpacts, MOST_IDLE, Simulation};
 use crate::motion::ties::{Instant, first_clear};
 
+/// Slow snaps belong to one row if the flight between them takes no longer than this many times
+/// `v_stick` over the largest force: they follow each other in 2 v/α, and α may be a 50th of it.
+const SLOW_FLIGHT: f64 = 100.0;
+/// The largest velocity, in multiples of `v_stick`, that cables take away which come to rest at
+/// once. For two at a right angle it is √2.
+const MOST_HALTED: f64 = 16.0;
+
+/// Snaps in a row that were slower than `v_stick`.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct SlowRow<T> {
+    /// How many.
+    snaps: u32,
+    /// Their cables.
+    cables: TautSet,
+    /// When the latest of them was.
+    latest: T,
+}
+
+impl<T> SlowRow<T> {
+    /// No snaps in a row; the latest slow one was then, if there was one.
+    pub(super) fn ended(latest: T) -> Self {
+        Self {
+            snaps: 0,
+            cables: TautSet::SLACK,
+            latest,
+        }
+    }
+}
+
 /// Up to what the normal velocity of a cable counts as zero at an impact, from the state after it
 /// and before it.
 #[inline(always)]
@@ -64,16 +93,12 @@ impl<T: Real> Simulation<T> {
                 .iter()
                 .filter(|&cable| self.unmoved(&result, cable, struck))
                 .collect();
-            if slow == struck {
-                self.slow_snaps += 1;
-                self.slow_cables = self.slow_cables.union(struck);
-            } else {
-                self.end_slow_row();
-            }
-            let cables_at_rest_at_once = self.cables_at_rest_at_once(&result, closed);
-            let candidates = slow.union(at_rest).union(cables_at_rest_at_once);
-            let mut halted = result.after;
-            project_velocity(&self.system, &mut halted, candidates);
+            self.count_slow(struck, slow);
+            let others = slow.union(at_rest);
+            let at_once = self.cables_at_rest_at_once(&result, closed, others);
+            let cables_at_rest_at_once = at_once.unwrap_or_default();
+            let candidates = others.union(cables_at_rest_at_once);
+            let halted = self.halted(candidates);
             let memory_force = self.memory_force();
             self.active = self.taut_next(self.t, &halted, memory_force, candidates);
             let at_rest = if cables_at_rest_at_once.is_empty() {
@@ -96,22 +121,61 @@ impl<T: Real> Simulation<T> {
         })
     }
 
+    /// Counts the snaps of an instant to the row of slow ones, if all of them are.
+    #[inline(always)]
+    fn count_slow(&mut self, struck: TautSet, slow: TautSet) {
+        // Snaps that accumulate follow each other at once: a bounce at v takes 2 v/α. One that
+        // comes later begins another row.
+        let force = self.system.forcing.bounds()[0];
+        let late = (self.t - self.slow_row.latest) * force > self.rules.v_stick * SLOW_FLIGHT;
+        if slow != struck || late {
+            self.end_slow_row();
+        }
+        if slow == struck {
+            self.slow_row.snaps += 1;
+            self.slow_row.cables = self.slow_row.cables.union(struck);
+            self.slow_row.latest = self.t;
+        }
+    }
+
+    /// The state without the velocity that cables at rest do not permit.
+    #[inline(always)]
+    fn halted(&self, at_rest: TautSet) -> State<T> {
+        let mut halted = self.state;
+        project_velocity(&self.system, &mut halted, at_rest);
+        halted
+    }
+
     /// If several cables have snapped slowly in turn, each opening the others more slowly than
     /// `v_stick`, the closed cables that open more slowly than that: those snaps accumulate, and
-    /// all of them come to rest at once.
+    /// all of them come to rest at once. Where the cables are nearly parallel, a body that moves
+    /// fast past the corner between them snaps them slowly, too; it moves on, and none is at rest
+    /// unless what that takes away, beside the `others`, is as slow as the snaps.
     #[inline(always)]
-    fn cables_at_rest_at_once(&self, result: &ImpactResult<T>, closed: TautSet) -> TautSet {
-        if self.slow_snaps < CONVERGING || self.slow_cables.len() < 2 {
-            return TautSet::SLACK;
+    fn cables_at_rest_at_once(
+        &self,
+        result: &ImpactResult<T>,
+        closed: TautSet,
+        others: TautSet,
+    ) -> Option<TautSet> {
+        if self.slow_row.snaps < CONVERGING || self.slow_row.cables.len() < 2 {
+            return None;
         }
         let slow = |&cable: &usize| result.v_after[cable].abs() < self.rules.v_stick;
-        closed.iter().filter(slow).collect()
+        let slow: TautSet = closed.iter().filter(slow).collect();
+        let (moving, halted) = (self.halted(others), self.halted(others.union(slow)));
+        let spin = (moving.vtheta - halted.vtheta).abs();
+        let taken = slow.iter().map(|cable| {
+            let reach = self.system.cables[cable].fairlead().length();
+            (moving.velocity() - halted.velocity()).length() + spin * reach
+        });
+        let most = taken.fold(T::ZERO, T::max);
+        (most <= self.rules.v_stick * MOST_HALTED).then_some(slow)
     }
 
     /// Resets the row of slow snaps, because another event has come between.
     pub(super) fn end_slow_row(&mut self) {
-        self.slow_snaps = 0;
-        self.slow_cables = TautSet::SLACK;
+        self.slow_row = SlowRow::ended(self.slow_row.latest);
     }
 
     /// Whether a closed cable has no normal velocity after the result. A struck one was closing; if
@@ -176,12 +240,13 @@ impl<T: Real> Simulation<T> {
     }
 
     /// Where taut cables leave the body no freedom, a gap closes by rounding only: its cable is at
-    /// rest with the body.
+    /// rest with the body. What is found together with it is not reached there, as the instant is
+    /// one of rounding, too; if it is reached at all, the next step finds it.
     #[inline(always)]
     pub(super) fn hold_closed(&mut self, reached: &mut Reached) {
         if !reached.gaps.is_empty() && self.system.is_held_by(self.active.carrying) {
             self.active.taut = self.active.taut.union(reached.gaps);
-            reached.gaps = TautSet::SLACK;
+            *reached = Reached::default();
         }
     }
 
