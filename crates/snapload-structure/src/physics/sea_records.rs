@@ -36,7 +36,7 @@ pub(crate) fn short_run(structure: &Structure) -> Option<Warning> {
 }
 
 /// The warning that a sea has fewer sinusoids than a Gaussian one needs.
-pub(super) fn few_components(structure: &Structure) -> Option<Warning> {
+pub(crate) fn few_components(structure: &Structure) -> Option<Warning> {
     let Water::Sea(sea) = structure.water else {
         return None;
     };

@@ -16,6 +16,7 @@
 use super::outcome::Outcome;
 use super::quantile::{quantile, sorted};
 use crate::physics::model_at_rest::ModelAtRest;
+use crate::physics::sea_records::few_components;
 use crate::structure::{Structure, Water};
 use serde::Serialize;
 use snapload::{Harmonic, Stop};
@@ -165,7 +166,7 @@ fn all_checks(
     too_little: bool,
 ) -> Vec<Check> {
     let lines = line_checks(prepared, outcome, open, too_little).into_iter();
-    lines.chain(force_check(prepared)).collect()
+    lines.chain(force_check(prepared, too_little)).collect()
 }
 
 /// One criterion over many records.
@@ -276,13 +277,19 @@ fn line_checks(
     (0..structure.lines.len()).flat_map(of_line).collect()
 }
 
-/// The check of the waves' force on the body, if a rule asks for it and there are waves.
-pub(crate) fn force_check(prepared: &ModelAtRest) -> Option<Check> {
-    let share = prepared.structure.design.force_share?;
+/// The check of the waves' force on the body, if a rule asks for it and there are waves. In a sea
+/// it does not pass by too little of it; the force of a regular wave is the same in each period.
+fn force_check(prepared: &ModelAtRest, too_little: bool) -> Option<Check> {
+    let structure = &prepared.structure;
+    let share = structure.design.force_share?;
     let value = wave_force_part(prepared);
-    // On lines that stretch considerably the body rests higher, where the waves are larger.
-    let open = prepared.rest.by_stiffness.is_some();
-    Some(Check::new(Criterion::WaveForce, None, value, share, open))
+    // On lines that stretch considerably the body rests higher, where the waves are larger; a sea
+    // of few sinusoids has too few high waves.
+    let open = prepared.rest.by_stiffness.is_some() || few_components(structure).is_some();
+    let check = Check::new(Criterion::WaveForce, None, value, share, open);
+    let is_sea = matches!(structure.water, Water::Sea(_));
+    // The force is that on the body at rest, whatever ended the run.
+    Some(check.within(Stop::EndTime, is_sea && too_little))
 }
 
 /// The tensions of one line.

@@ -3,7 +3,8 @@
 use crate::verdicts::structure;
 use snapload::analysis::no_progress;
 use snapload_structure::{
-    Answer, Lines, ModelAtRest, NoDistribution, VerdictKind, assess, compare_elastic, seas,
+    Answer, Check, Criterion, Lines, ModelAtRest, NoDistribution, VerdictKind, assess,
+    compare_elastic, seas,
 };
 
 const EXAMPLE: &str = include_str!("../../../../docs/examples/cylinder.toml");
@@ -88,4 +89,42 @@ fn parts_of_a_wave_in_many_records_are_no_verdict() {
     );
     assert!(message.contains("36000 times"), "{message}");
     assert_ne!(judged(12.0).peak_in_three_hours(), reason);
+}
+
+/// The check of the waves' force, whose limit no sea here reaches.
+fn of_force(checks: &[Check]) -> Answer {
+    let found = checks
+        .iter()
+        .find(|check| check.criterion == Criterion::WaveForce);
+    let force = found.unwrap();
+    assert!(force.value.unwrap() < force.limit, "{force:?}");
+    force.answer
+}
+
+/// The check of the waves' force passes by as much of a sea as those of the lines: not by the one
+/// record of `assess`, not by a third of a wave, and not by ten sinusoids. A regular wave has the
+/// same force in each period, also in a part of one.
+#[test]
+fn the_waves_force_does_not_pass_by_little_of_a_sea() {
+    let sea = |run: &str| {
+        let rule = format!("[design]\nforce_share = 0.9\n[run]\n{run}");
+        SEA.replace("[run]", &rule)
+    };
+    let records = |text: &str| {
+        let found = seas(structure(text), 2, Lines::Inextensible, &no_progress).unwrap();
+        let each = found.records.iter().map(|record| of_force(&record.checks));
+        each.collect::<Vec<_>>()
+    };
+    let long = sea("duration = 200");
+    let alone = assess(structure(&long), 0, &no_progress).unwrap();
+    assert_eq!(of_force(&[alone.checks()[0].0.clone()]), Answer::Unknown);
+    assert_eq!(records(&long), [Answer::Passes; 2]);
+    let part = sea("transient = 61\nduration = 63");
+    assert_eq!(records(&part), [Answer::Unknown; 2]);
+    let coarse = long.replace("tp = 6", "tp = 6\ncomponents = 10");
+    assert_eq!(records(&coarse), [Answer::Open; 2]);
+
+    let wave = EXAMPLE.replace("[run]", "[design]\nforce_share = 0.9\n[run]\nduration = 1");
+    let wave = assess(structure(&wave), 0, &no_progress).unwrap();
+    assert_eq!(of_force(&[wave.checks()[0].0.clone()]), Answer::Passes);
 }
