@@ -397,6 +397,12 @@ impl Structure {
     pub fn tensions_known(&self) -> bool {
         self.lines.iter().all(|line| line.stiffness_n.is_some())
     }
+
+    /// Whether the tension over the breaking load is known of every line, however it snaps.
+    pub fn utilisations_known(&self) -> bool {
+        let breaks = self.lines.iter().all(|line| line.breaking_load_n.is_some());
+        breaks && self.tensions_known()
+    }
 }
 
 impl SpectrumShape {

@@ -62,13 +62,11 @@ pub(crate) fn answer(
         .ok_or_else(|| {
             Refusal::values("other waves are computed around a regular wave; the case has none")
         })?;
-    let lines = &case.structure.lines;
     let answer = Answer {
         periods_s: scan.periods_s,
         heights_m: scan.heights_m,
         cells: scan.cells.into_iter().map(Answered::from).collect(),
-        utilisation: case.structure.tensions_known()
-            && lines.iter().all(|line| line.breaking_load_n.is_some()),
+        utilisation: case.structure.utilisations_known(),
         length: note::LENGTH,
     };
     serde_json::to_vec(&answer).map_err(Refusal::failed)

@@ -277,11 +277,7 @@ fn surface(assessment: &Assessment, [from, to]: [f64; 2]) -> Plot {
 
 /// The map of a scan.
 pub(super) fn of_scan(scan: &Scan, structure: &Structure) -> Result<Picture, FigureError> {
-    let breaks = structure
-        .lines
-        .iter()
-        .all(|line| line.breaking_load_n.is_some());
-    let value_label = match structure.tensions_known() && breaks {
+    let value_label = match structure.utilisations_known() {
         true => "utilisation",
         false => "fastest snap (m/s)",
     };

@@ -102,7 +102,10 @@ impl Assessment {
     /// The numbers behind the verdict with less and with more restitution, in words.
     pub fn rebound_text(&self) -> String {
         let rows = self.by_restitution();
-        let by_tension = rows.iter().any(|row| row.largest_utilisation.is_some());
+        // Without a stiffness a utilisation is known only where nothing snaps: rows that can be
+        // compared show the speeds, which every judged run has.
+        let mut judged = rows.iter().filter(|row| row.fastest_snap_m_s.is_some());
+        let by_tension = judged.all(|row| row.largest_utilisation.is_some());
         let what = match by_tension {
             true => "largest utilisation",
             false => "fastest snap (m/s)",

@@ -24,8 +24,8 @@ pub struct Scan {
     pub cells: Vec<ScanCell>,
 }
 
-/// The result in one wave: the largest utilisation, or the fastest snap \[m/s\] where the case has
-/// no stiffness or breaking loads.
+/// The result in one wave: the largest utilisation, or the fastest snap \[m/s\] where a line of the
+/// case has no stiffness or no breaking load.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum ScanCell {
     /// It is known.
@@ -94,10 +94,12 @@ fn one(structure: &Structure, wave: Wave) -> ScanCell {
     if outcome.is_unjudged() {
         return ScanCell::NotJudged;
     }
-    let known: Option<Vec<f64>> = outcome.utilisations(structure).into_iter().collect();
-    let found = match known {
-        Some(all) => all.into_iter().fold(0.0, f64::max),
-        None => outcome.speed_m_s(),
+    // All cells show the same quantity: without a stiffness the tensions of a run without snaps are
+    // known, too, but not those of the next one.
+    let parts = outcome.utilisations(structure).into_iter().flatten();
+    let found = match structure.utilisations_known() {
+        true => parts.fold(0.0, f64::max),
+        false => outcome.speed_m_s(),
     };
     match outcome.stop.cuts_short() {
         true => ScanCell::AtLeast(found),

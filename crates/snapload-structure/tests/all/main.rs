@@ -23,6 +23,7 @@ mod moordyn;
 mod moordyn_columns;
 mod moordyn_edits;
 mod moordyn_keys;
+mod other_waves;
 mod physics;
 mod scale;
 mod sea_verdicts;

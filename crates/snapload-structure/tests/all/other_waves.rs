@@ -1,0 +1,54 @@
+//! The map of other waves, and the row of other restitutions: what they compare is one quantity.
+
+use crate::verdicts::structure;
+use snapload::analysis::no_progress;
+use snapload_structure::note::{ScanCell, scan};
+use snapload_structure::{Structure, assess};
+
+const EXAMPLE: &str = include_str!("../../../../docs/examples/cylinder.toml");
+
+/// The example in waves so high and so long, on lines whose breaking load is known and whose
+/// stiffness is not.
+fn without_stiffness(height_m: f64, period_s: f64) -> Structure {
+    let text = EXAMPLE
+        .replace("type = \"studless chain\"\n", "")
+        .replace("diameter = 0.038", "breaking_load = 1319e3")
+        .replace("height = 2\n", &format!("height = {height_m}\n"))
+        .replace("period = 6\n", &format!("period = {period_s}\n"))
+        .replace("[run]", "[run]\nduration = 100");
+    structure(&text)
+}
+
+/// Waves in which no line goes slack have no snap, 0 m/s, in the map of a case whose tensions in
+/// snaps are not known; with a stiffness that map shows the part of the strength that they use.
+#[test]
+fn a_map_of_speeds_has_no_utilisations() {
+    let gentle = scan(&without_stiffness(0.05, 6.0), &no_progress).unwrap();
+    let all = gentle.unwrap().cells;
+    assert_eq!(all, vec![ScanCell::Known(0.0); all.len()]);
+
+    let text = EXAMPLE.replace("height = 2\n", "height = 0.05\n");
+    let known = scan(&structure(&text), &no_progress).unwrap().unwrap();
+    for cell in known.cells {
+        let ScanCell::Known(part) = cell else {
+            panic!("{cell:?}");
+        };
+        // At rest the lines bear 392 kN of 1319; these waves add little.
+        assert!((392.0 / 1319.0..0.5).contains(&part), "{part}");
+    }
+}
+
+/// Two of three restitutions make the lines snap, whose tension is not known; all three runs are
+/// judged, and have a fastest snap.
+#[test]
+fn restitutions_are_compared_by_what_all_runs_have() {
+    let assessment = assess(without_stiffness(0.95, 4.0), 0, &no_progress).unwrap();
+    let rows = assessment.by_restitution();
+    let known = rows.iter().filter(|row| row.largest_utilisation.is_some());
+    assert!((1..rows.len()).contains(&known.count()), "{rows:?}");
+    let speeds = rows.iter().map(|row| row.fastest_snap_m_s.unwrap());
+    let speeds: Vec<String> = speeds.map(|speed| format!("{speed:.2}")).collect();
+    let words = assessment.rebound_text();
+    let told = format!("fastest snap (m/s) {} with", speeds.join(", "));
+    assert!(words.starts_with(&told), "{words} {told}");
+}
