@@ -146,6 +146,16 @@ impl LineSi {
     pub fn spring_rate_n_m(&self) -> Option<f64> {
         self.stiffness_n.map(|stiffness| stiffness / self.length_m)
     }
+
+    /// Whether two lines are strands of one, which always pull together: their ends and lengths are
+    /// the same, to a thousandth of the length.
+    pub(crate) fn is_strand_with(&self, other: &Self) -> bool {
+        let near = 1e-3 * self.length_m.min(other.length_m);
+        let apart = |a: [f64; 2], b: [f64; 2]| (a[0] - b[0]).hypot(a[1] - b[1]);
+        apart(self.anchor_m, other.anchor_m) <= near
+            && apart(self.fairlead_m, other.fairlead_m) <= near
+            && (self.length_m - other.length_m).abs() <= near
+    }
 }
 
 /// The site.

@@ -324,7 +324,7 @@ fn in_waves(
 fn soft_lines(prepared: &ModelAtRest, period_s: f64) -> String {
     let lines = prepared.structure.lines.iter().enumerate();
     let soft = lines.filter_map(|(index, line)| {
-        let stopped_kg = prepared.mass_along(index) * prepared.model.scales.mass_kg;
+        let stopped_kg = prepared.mass_stopped(index) * prepared.model.scales.mass_kg;
         let lasts = PI * (stopped_kg / line.spring_rate_n_m()?).sqrt();
         (lasts > 0.1 * period_s).then(|| format!("{lasts:.2} s in line {}", index + 1))
     });

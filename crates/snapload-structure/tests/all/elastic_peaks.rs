@@ -9,14 +9,14 @@ const EXAMPLE: &str = include_str!("../../../../docs/examples/cylinder.toml");
 const SEA: &str = include_str!("../../../../docs/examples/cylinder-sea.toml");
 
 /// At e = exp(−2) the damping of a line on a mass M is critical, c = 2 sqrt(k M). Let go 1 m below,
-/// the body rises to v = sqrt(2 F h/M) under its buoyancy F, and the pull begins with c v. With two
-/// such dampers the force only falls from there, as c v' = −2 c² v/M exceeds k v.
+/// the body rises to v = sqrt(2 F h/M) under its buoyancy F, and the pull of two lines, of M/2 each,
+/// begins with c v. The force only falls from there, as c v' = −2 c² v/M = −4 k v exceeds k v.
 #[test]
 fn a_strong_damper_pulls_most_at_the_first_instant() {
     let prepared = vertical((-2.0_f64).exp(), -6.0);
-    let (rate, mass) = (3e6 / 15.0, 800.0);
+    let (rate, mass): (f64, f64) = (3e6 / 15.0, 800.0);
     let speed = (2.0 * prepared.structure.net_buoyancy_n() / mass).sqrt();
-    let known = 2.0 * (rate * mass).sqrt() * speed;
+    let known = 2.0 * (rate * mass / 2.0).sqrt() * speed;
     let motion = run(&prepared, &elastic_lines(&prepared, 1.0).unwrap());
     for line in 0..2 {
         for peak in [motion.peaks_n[line], motion.reliable_peaks_n[line]] {

@@ -13,6 +13,7 @@ mod design;
 mod elastic;
 mod elastic_comparison;
 mod elastic_peaks;
+mod elastic_strands;
 mod equilibrium;
 mod firm_verdicts;
 mod hydrostatics;

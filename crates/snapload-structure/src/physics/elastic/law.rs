@@ -69,8 +69,8 @@ pub fn damping_ratio(restitution: f64) -> f64 {
 }
 
 /// The lines of a structure as springs, `stiffer` times as stiff as they are, with dampers that
-/// give its restitution for the effective mass M/w of the body along each line, where the structure
-/// rests on inextensible lines.
+/// give its restitution for the mass that each line stops, where the structure rests on
+/// inextensible lines.
 ///
 /// # Errors
 /// A [`CaseError`] if a line has no stiffness, or the restitution is too small.
@@ -85,7 +85,7 @@ pub fn elastic_lines(prepared: &ModelAtRest, stiffer: f64) -> Result<Vec<Elastic
     }
     let ratio = damping_ratio(restitution);
     let damped = |(line, elastic_line): (usize, ElasticLine)| {
-        let damping = 2.0 * ratio * (elastic_line.rate * prepared.mass_along(line)).sqrt();
+        let damping = 2.0 * ratio * (elastic_line.rate * prepared.mass_stopped(line)).sqrt();
         ElasticLine {
             damping,
             ..elastic_line
@@ -96,8 +96,20 @@ pub fn elastic_lines(prepared: &ModelAtRest, stiffer: f64) -> Result<Vec<Elastic
 }
 
 impl ModelAtRest {
+    /// The mass that a line stops: the effective mass along it, of which strands of one line have
+    /// their parts by stiffness, as each bears that part of the load. In the engine's units.
+    pub(in crate::physics) fn mass_stopped(&self, line: usize) -> f64 {
+        let lines = &self.structure.lines;
+        let own = &lines[line];
+        let others = lines.iter().enumerate().filter(|(other, _)| *other != line);
+        let strands = others.filter(|(_, other)| own.is_strand_with(other));
+        let times_own = strands
+            .filter_map(|(_, other)| Some(other.spring_rate_n_m()? / own.spring_rate_n_m()?));
+        self.mass_along(line) / (1.0 + times_own.sum::<f64>())
+    }
+
     /// The effective mass M/w of the body along a line at rest, in the engine's units.
-    pub(in crate::physics) fn mass_along(&self, line: usize) -> f64 {
+    fn mass_along(&self, line: usize) -> f64 {
         let (rest, system) = (&self.rest, &self.model.system);
         let (at, cable) = (
             self.model.at_rest(rest.place_m, rest.theta_rad),
