@@ -176,7 +176,11 @@ pub(crate) fn samples(map: &Map) -> Vec<(Fill, String)> {
         .chain(others)
         .filter(|(cell, _)| map.cells.contains(cell));
     let sample = |(cell, words): (Cell, &str)| (fill(cell, (0.0, 1.0)), words.to_owned());
-    let uncertain = has_uncertain(map).then(|| (Fill::Uncertain, NOT_CERTAIN.to_owned()));
+    let doubt = match map.uncertain_words.as_str() {
+        "" => NOT_CERTAIN,
+        words => words,
+    };
+    let uncertain = has_uncertain(map).then(|| (Fill::Uncertain, doubt.to_owned()));
     occurring.map(sample).chain(uncertain).collect()
 }
 

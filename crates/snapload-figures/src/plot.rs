@@ -129,6 +129,8 @@ pub struct Map {
     /// Which cells are uncertain, in the order of the cells; these are hatched. Cells for which the
     /// list has no entry are not.
     pub uncertain: Vec<bool>,
+    /// The meaning of those; "not certain" if it is empty.
+    pub uncertain_words: String,
 }
 
 /// The contents of a cell of a [`Map`].

@@ -125,6 +125,7 @@ impl StudyPicture {
             classes: classes(self.column),
             empty: if is_trusted { "trusted to the end" } else { "" }.to_owned(),
             uncertain,
+            ..Map::default()
         });
         Ok(Plot {
             description: format!("{} over {} and {}", self.column.name, x.key(), y.key()),

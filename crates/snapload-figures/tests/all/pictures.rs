@@ -318,6 +318,15 @@ fn uncertain_cells_are_hatched() {
     let nothing = hatched([Empty, Illegal].repeat(3), vec![true; 6]);
     assert!(!nothing.svg().contains("doubt"));
     assert!(!letters(&nothing).iter().any(|text| text == "not certain"));
+
+    let mut plot = map(vec![Class(0); 6]);
+    if let Layer::Map(map) = &mut plot.layers[0] {
+        map.uncertain = vec![true];
+        map.uncertain_words = "at least".to_owned();
+    }
+    let texts = letters(&picture(plot));
+    assert!(texts.iter().any(|text| text == "at least"));
+    assert!(!texts.iter().any(|text| text == "not certain"));
 }
 
 #[test]

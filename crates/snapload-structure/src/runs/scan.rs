@@ -38,13 +38,14 @@ pub enum ScanCell {
     Fails,
 }
 
-/// Scans heights and periods; none unless the case has a regular wave.
+/// Scans heights and periods; none unless the case has a regular wave, of some height.
 ///
 /// # Errors
 /// [`Cancelled`] if the work is cancelled.
 pub fn scan(structure: &Structure, on_progress: OnProgress) -> Result<Option<Scan>, Cancelled> {
-    let Water::Wave(wave) = structure.water else {
-        return Ok(None);
+    let wave = match structure.water {
+        Water::Wave(wave) if structure.has_waves() => wave,
+        _ => return Ok(None),
     };
     let spaced = |[low, high]: [f64; 2], value: f64| -> Vec<f64> {
         let part = |k: u32| low + (high - low) * f64::from(k) / f64::from(STEPS - 1);

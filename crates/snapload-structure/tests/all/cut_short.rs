@@ -1,9 +1,9 @@
 //! What is reported of runs that stop before their motion does.
 
-use crate::verdicts::structure;
+use crate::verdicts::{source, structure};
 use snapload::Stop;
 use snapload::analysis::no_progress;
-use snapload_structure::note::{ScanCell, scan};
+use snapload_structure::note::{ScanCell, page, scan};
 use snapload_structure::{ModelAtRest, Outcome, Structure, assess};
 
 const EXAMPLE: &str = include_str!("../../../../docs/examples/cylinder.toml");
@@ -34,6 +34,8 @@ fn what_is_cut_short_is_at_least_as_much() {
     let found = scan(&own, &no_progress).unwrap().unwrap();
     let at_least = |cell: &ScanCell| matches!(cell, ScanCell::AtLeast(_));
     assert!(found.cells.iter().any(at_least));
+    let page = page(source("case"), &assessment, Some(&found)).unwrap();
+    assert!(page.contains("at least: stopped at the most snaps"));
     // Of runs that stop before the judged time nothing is known.
     let early = structure(&EXAMPLE.replace("[run]", "[run]\nmax_snaps = 1"));
     let found = scan(&early, &no_progress).unwrap().unwrap();

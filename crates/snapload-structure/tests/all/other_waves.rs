@@ -52,3 +52,14 @@ fn restitutions_are_compared_by_what_all_runs_have() {
     let told = format!("fastest snap (m/s) {} with", speeds.join(", "));
     assert!(words.starts_with(&told), "{words} {told}");
 }
+
+/// Waves of no height are still water, which has no other waves about it.
+#[test]
+fn still_water_has_no_map() {
+    for waves in ["height = 2\nperiod = 6", "height = 0\nperiod = 6"] {
+        let text = EXAMPLE.replace("height = 2\nperiod = 6", waves);
+        let text = text.replace("[run]", "[run]\nmax_snaps = 1");
+        let found = scan(&structure(&text), &no_progress).unwrap();
+        assert_eq!(found.is_some(), waves.contains('2'), "{waves}");
+    }
+}
