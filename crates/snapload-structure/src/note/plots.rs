@@ -294,7 +294,7 @@ pub(super) fn of_scan(scan: &Scan, structure: &Structure) -> Result<Picture, Fig
         value_label: value_label.to_owned(),
         classes: vec!["turned over or touched the floor".to_owned()],
         uncertain: scan.cells.iter().map(at_least).collect(),
-        uncertain_words: "at least: stopped at the most snaps".to_owned(),
+        uncertain_words: "at least, as the run was cut short".to_owned(),
         empty: "nothing is judged".to_owned(),
     };
     let axes = [("*T* (s)", Range::Auto), ("*H* (m)", Range::Auto)];

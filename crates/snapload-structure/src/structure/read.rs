@@ -1,6 +1,7 @@
 //! Reads a structure from the keys of a case.
 
 use crate::catalogue::{GRADES, Section, TYPES, is_chain, section};
+use crate::judged_time::usual_transient_s;
 use crate::schema::STRUCTURE;
 use crate::structure::check::check;
 use crate::structure::design::{read_design, read_project};
@@ -14,8 +15,6 @@ use std::sync::Arc;
 
 /// The number of periods of a regular wave that are computed by default.
 const PERIODS: f64 = 100.0;
-/// The number of periods of the transient by default.
-const TRANSIENT: f64 = 10.0;
 /// Time that is computed in still water by default \[s\].
 const STILL_S: f64 = 60.0;
 
@@ -70,10 +69,10 @@ fn read(entries: &Entries, folder: Option<&Path>) -> Result<Structure, CaseError
         .collect::<Result<Vec<_>, _>>()?;
     let (water, heading) = read_water(entries)?;
     let run = entries.table("run", 0);
-    let (duration, transient) = match water {
-        Water::Still => (STILL_S, 0.0),
-        Water::Wave(wave) => (PERIODS * wave.period_s, TRANSIENT * wave.period_s),
-        Water::Sea(sea) => (THREE_HOURS_S, TRANSIENT * sea.peak_period_s),
+    let duration = match water {
+        Water::Still => STILL_S,
+        Water::Wave(wave) => PERIODS * wave.period_s,
+        Water::Sea(_) => THREE_HOURS_S,
     };
     let duration_s = run.get("duration")?.unwrap_or(duration);
     let given: Option<f64> = run.get("transient")?;
@@ -93,7 +92,7 @@ fn read(entries: &Entries, folder: Option<&Path>) -> Result<Structure, CaseError
         heading,
         restitution: run.need("restitution")?,
         duration_s,
-        transient_s: given.unwrap_or(transient.min(duration_s / 2.0)),
+        transient_s: given.unwrap_or_else(|| usual_transient_s(water, duration_s)),
         start_m: run.get("start")?,
         max_snaps: run.need("max_snaps")?,
         design: read_design(entries)?,

@@ -35,7 +35,7 @@ fn what_is_cut_short_is_at_least_as_much() {
     let at_least = |cell: &ScanCell| matches!(cell, ScanCell::AtLeast(_));
     assert!(found.cells.iter().any(at_least));
     let page = page(source("case"), &assessment, Some(&found)).unwrap();
-    assert!(page.contains("at least: stopped at the most snaps"));
+    assert!(page.contains("at least, as the run was cut short"));
     // Of runs that stop before the judged time nothing is known.
     let early = structure(&EXAMPLE.replace("[run]", "[run]\nmax_snaps = 1"));
     let found = scan(&early, &no_progress).unwrap().unwrap();

@@ -3,7 +3,7 @@
 use crate::verdicts::structure;
 use snapload::analysis::no_progress;
 use snapload_structure::note::{ScanCell, scan};
-use snapload_structure::{Structure, assess};
+use snapload_structure::{ModelAtRest, Outcome, Structure, assess};
 
 const EXAMPLE: &str = include_str!("../../../../docs/examples/cylinder.toml");
 
@@ -61,5 +61,37 @@ fn still_water_has_no_map() {
         let text = text.replace("[run]", "[run]\nmax_snaps = 1");
         let found = scan(&structure(&text), &no_progress).unwrap();
         assert_eq!(found.is_some(), waves.contains('2'), "{waves}");
+    }
+}
+
+/// A wave of the map is judged as a case of that wave and of 60 periods is: after ten of its own
+/// periods, or after a transient that is given.
+#[test]
+fn other_waves_are_judged_as_cases_of_those_waves() {
+    for given in ["", "transient = 70"] {
+        let with = |wave: &str, run: &str| {
+            let text = EXAMPLE
+                .replace("type = \"studless chain\"\n", "")
+                .replace("diameter = 0.038", "breaking_load = 1319e3")
+                .replace("height = 2\nperiod = 6", wave)
+                .replace("[run]", &format!("[run]\n{run}\n{given}"));
+            structure(&text)
+        };
+        let found = scan(&with("height = 2\nperiod = 6", ""), &no_progress);
+        let found = found.unwrap().unwrap();
+        assert_eq!(found.periods_s[0], 4.0);
+        for (height_m, cell) in found.heights_m.iter().zip(&found.cells) {
+            let alone = with(
+                &format!("height = {height_m}\nperiod = 4"),
+                "duration = 240",
+            );
+            let outcome = Outcome::of(&ModelAtRest::new(alone).unwrap(), 1.0).unwrap();
+            let speeds = outcome.lines.iter().map(|line| line.speed_m_s);
+            let known = match outcome.stop.exceeds() {
+                true => ScanCell::Fails,
+                false => ScanCell::Known(speeds.fold(0.0, f64::max)),
+            };
+            assert_eq!(*cell, known, "{given} {height_m}");
+        }
     }
 }
