@@ -6,19 +6,6 @@ use crate::structure::{Structure, THREE_HOURS_S, Water};
 /// below a tenth, whatever the distribution, with 97.5 % confidence: 0.9^36 = 0.0225.
 const ENOUGH: f64 = 36.0;
 
-/// The number of periods of the transient by default.
-const TRANSIENT: f64 = 10.0;
-
-/// The transient unless one is given: some periods of the waves, at most half of the duration \[s\].
-pub(crate) fn usual_transient_s(water: Water, duration_s: f64) -> f64 {
-    let transient_s = match water {
-        Water::Still => 0.0,
-        Water::Wave(wave) => TRANSIENT * wave.period_s,
-        Water::Sea(sea) => TRANSIENT * sea.peak_period_s,
-    };
-    transient_s.min(duration_s / 2.0)
-}
-
 impl Structure {
     /// The time that is judged: what follows the transient, which is
     /// shorter than the duration \[s\].

@@ -1,7 +1,6 @@
 //! The same structure in other waves.
 
 use super::outcome::Outcome;
-use crate::judged_time::usual_transient_s;
 use crate::physics::model_at_rest::ModelAtRest;
 use crate::structure::{Structure, Water, Wave};
 use snapload::analysis::{Cancelled, Counter, OnProgress, in_parallel};
@@ -82,10 +81,9 @@ fn shown(value: f64) -> f64 {
 fn one(structure: &Structure, wave: Wave) -> ScanCell {
     let (water, duration_s) = (Water::Wave(wave), LENGTH * wave.period_s);
     // The usual transient goes with the period, as in a case of that wave; any other was given.
-    let is_usual =
-        structure.transient_s == usual_transient_s(structure.water, structure.duration_s);
+    let is_usual = structure.transient_s == structure.water.usual_transient_s(structure.duration_s);
     let transient_s = match is_usual {
-        true => usual_transient_s(water, duration_s),
+        true => water.usual_transient_s(duration_s),
         false => structure.transient_s.min(duration_s / 2.0),
     };
     let changed = Structure {

@@ -1,7 +1,6 @@
 //! Reads a structure from the keys of a case.
 
 use crate::catalogue::{GRADES, Section, TYPES, is_chain, section};
-use crate::judged_time::usual_transient_s;
 use crate::schema::STRUCTURE;
 use crate::structure::check::check;
 use crate::structure::design::{read_design, read_project};
@@ -15,8 +14,23 @@ use std::sync::Arc;
 
 /// The number of periods of a regular wave that are computed by default.
 const PERIODS: f64 = 100.0;
+/// The number of periods of the transient by default.
+const TRANSIENT: f64 = 10.0;
 /// Time that is computed in still water by default \[s\].
 const STILL_S: f64 = 60.0;
+
+impl Water {
+    /// The transient unless one is given: some periods of the waves, at most half of the duration
+    /// \[s\].
+    pub(crate) fn usual_transient_s(self, duration_s: f64) -> f64 {
+        let transient_s = match self {
+            Self::Still => 0.0,
+            Self::Wave(wave) => TRANSIENT * wave.period_s,
+            Self::Sea(sea) => TRANSIENT * sea.peak_period_s,
+        };
+        transient_s.min(duration_s / 2.0)
+    }
+}
 
 impl Structure {
     /// Reads a case file; `name` is its name in errors.
@@ -92,7 +106,7 @@ fn read(entries: &Entries, folder: Option<&Path>) -> Result<Structure, CaseError
         heading,
         restitution: run.need("restitution")?,
         duration_s,
-        transient_s: given.unwrap_or_else(|| usual_transient_s(water, duration_s)),
+        transient_s: given.unwrap_or_else(|| water.usual_transient_s(duration_s)),
         start_m: run.get("start")?,
         max_snaps: run.need("max_snaps")?,
         design: read_design(entries)?,
