@@ -181,3 +181,40 @@ mod x86 {
         unsafe { run_all(scheduler) }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::case::parameters::Parameters;
+    use std::cell::Cell;
+
+    /// Runs begin as others end, also where all of them rock from the start on: a study can be
+    /// interrupted, and its memory does not grow with the number of its cases.
+    #[test]
+    fn few_runs_are_in_progress_at_any_time() {
+        let rocking = Parameters {
+            x: 0.0,
+            y: 0.0,
+            a: 0.5,
+            f_o: 0.05,
+            t_end: 3.0,
+            stop_when_settled: false,
+            ..Parameters::STANDARD
+        };
+        let case = Case::new(rocking).expect("legal");
+        for lanes in Lanes::available() {
+            let (begun, ended, most) = (Cell::new(0), Cell::new(0), Cell::new(0));
+            let mut runs = (0..200).map(|index| {
+                begun.set(begun.get() + 1);
+                most.set(most.get().max(begun.get() - ended.get()));
+                Slot::new(index, Box::new(case.simulation()), NoFollower)
+            });
+            lanes.run(&mut runs, &mut |slot| {
+                assert!(slot.simulation.stop().is_some() && slot.outcome.rocking > 2.0);
+                ended.set(ended.get() + 1);
+            });
+            assert_eq!((begun.get(), ended.get()), (200, 200), "{lanes:?}");
+            assert!(most.get() <= 32, "{lanes:?}: {}", most.get());
+        }
+    }
+}

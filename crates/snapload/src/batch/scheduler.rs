@@ -197,9 +197,12 @@ impl<'a, L: Doubles, C: Follower> LaneScheduler<'a, L, C> {
     }
 
     /// Gives a lane to the next run that flies freely at some time; runs before it that never do
-    /// end without a lane, and those that rock wait.
+    /// end without a lane. Those that rock wait, and once as many wait as step together, no other
+    /// run begins before they have made room: few runs are in progress at any time.
     fn refill(&mut self, lane: usize) {
-        while let Some(slot) = self.returning.pop().or_else(|| self.runs.next()) {
+        while !self.rocking.is_full()
+            && let Some(slot) = self.returning.pop().or_else(|| self.runs.next())
+        {
             if self.fill(lane, slot, LaneEntry::First) {
                 return;
             }
