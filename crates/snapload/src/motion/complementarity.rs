@@ -206,13 +206,15 @@ fn eliminate_and_refine<T: Real>(
     w: impl Fn(usize, usize) -> T,
     q: &PerCable<T>,
 ) -> PerCable<T> {
-    let mut z = eliminate(set, &w, q).0;
+    let table = tabulated(set, w);
+    let w = |i: usize, j: usize| table[i][j];
+    let mut z = eliminate(set, w, q).0;
     for _ in 0..2 {
         let mut left = [T::ZERO; MAX_CABLES];
         for i in set.iter() {
             left[i] = set.iter().fold(q[i], |sum, j| sum - w(i, j) * z[j]);
         }
-        let more = eliminate(set, &w, &left).0;
+        let more = eliminate(set, w, &left).0;
         for i in set.iter() {
             z[i] += more[i];
         }
@@ -227,15 +229,9 @@ fn eliminate<T: Real>(
     w: impl Fn(usize, usize) -> T,
     q: &PerCable<T>,
 ) -> (PerCable<T>, TautSet) {
-    let mut rows = [[T::ZERO; MAX_CABLES]; MAX_CABLES];
+    let mut rows = tabulated(set, w);
     let mut z = *q;
-    let mut largest = T::ZERO;
-    for i in set.iter() {
-        for j in set.iter() {
-            rows[i][j] = w(i, j);
-        }
-        largest = largest.max(rows[i][i]);
-    }
+    let largest = set.iter().fold(T::ZERO, |most, i| most.max(rows[i][i]));
     let mut kept = TautSet::SLACK;
     for k in set.iter() {
         if rows[k][k] <= largest * DEPENDENT {
@@ -272,11 +268,13 @@ pub(crate) fn complementary<T: Real>(
     w: impl Fn(usize, usize) -> T,
     q: &PerCable<T>,
 ) -> (PerCable<T>, TautSet) {
+    let table = tabulated(set, w);
+    let w = |i: usize, j: usize| table[i][j];
     let mut best = ([T::ZERO; MAX_CABLES], TautSet::SLACK);
     let mut least = None;
     // Any impulse of more cables can be produced by three independent ones (Carathéodory).
     for pulling in set.subsets().filter(|set| set.len() <= FREEDOMS) {
-        let z = solve(pulling, &w, q);
+        let z = solve(pulling, w, q);
         let mut violation = T::ZERO;
         for i in set.iter() {
             let short = if pulling.contains(i) {
@@ -299,6 +297,20 @@ pub(crate) fn complementary<T: Real>(
         *value = value.max(T::ZERO);
     }
     (z, pulling.iter().filter(|&i| z[i] > T::ZERO).collect())
+}
+
+/// The entries of a matrix over a set of cables, where each is needed many times.
+pub(crate) fn tabulated<T: Real>(
+    set: TautSet,
+    w: impl Fn(usize, usize) -> T,
+) -> PerCable<PerCable<T>> {
+    let mut table = [[T::ZERO; MAX_CABLES]; MAX_CABLES];
+    for i in set.iter() {
+        for j in set.iter() {
+            table[i][j] = w(i, j);
+        }
+    }
+    table
 }
 
 /// Whether no cable's constraint depends on those of the others.

@@ -3,7 +3,7 @@
 
 use crate::arithmetic::real::Real;
 use crate::model::taut_set::{MAX_CABLES, PerCable, TautSet};
-use crate::motion::complementarity::{independent, solve};
+use crate::motion::complementarity::{independent, solve, tabulated};
 
 /// Every subset is tried if at most this many cables are involved.
 const MOST_TRIED: usize = 6;
@@ -32,6 +32,8 @@ pub(crate) fn least_norm<T: Real>(
     if held.len() < 2 {
         return z;
     }
+    let table = tabulated(held, w);
+    let w = |i: usize, j: usize| table[i][j];
     let product =
         |i: usize, z: &PerCable<T>| held.iter().fold(T::ZERO, |sum, j| sum + w(i, j) * z[j]);
     let size = held
@@ -42,7 +44,7 @@ pub(crate) fn least_norm<T: Real>(
         .iter()
         .filter(|&i| (product(i, &z) - q[i]).abs() <= close)
         .collect();
-    if independent(tight, &w) {
+    if independent(tight, w) {
         return z;
     }
     let does_the_same = |shared: &PerCable<T>| {
@@ -104,6 +106,8 @@ fn spread<T: Real>(
     product: &impl Fn(usize, &PerCable<T>) -> T,
 ) -> PerCable<T> {
     let square = |i: usize, j: usize| set.iter().fold(T::ZERO, |sum, k| sum + w(i, k) * w(k, j));
+    let table = tabulated(set, square);
+    let square = |i: usize, j: usize| table[i][j];
     let mut shared = [T::ZERO; MAX_CABLES];
     for _ in 0..2 {
         let mut left = [T::ZERO; MAX_CABLES];
