@@ -148,9 +148,9 @@ impl LineSi {
     }
 
     /// Whether two lines are strands of one, which always pull together: their ends and lengths are
-    /// the same, to a thousandth of the length.
+    /// the same, up to the rounding of given numbers.
     pub(crate) fn is_strand_with(&self, other: &Self) -> bool {
-        let near = 1e-3 * self.length_m.min(other.length_m);
+        let near = 1e-6 * self.length_m.min(other.length_m);
         let apart = |a: [f64; 2], b: [f64; 2]| (a[0] - b[0]).hypot(a[1] - b[1]);
         apart(self.anchor_m, other.anchor_m) <= near
             && apart(self.fairlead_m, other.fairlead_m) <= near

@@ -283,9 +283,10 @@ fn force_check(prepared: &ModelAtRest, too_little: bool) -> Option<Check> {
     let structure = &prepared.structure;
     let share = structure.design.force_share?;
     let value = wave_force_part(prepared);
-    // On lines that stretch considerably the body rests higher, where the waves are larger; a sea
-    // of few sinusoids has too few high waves.
-    let open = prepared.rest.by_stiffness.is_some() || few_components(structure).is_some();
+    // On lines that stretch considerably the body rests higher, where the waves are larger. A sea
+    // of few sinusoids has too few high waves: what exceeds the share in it does so in any.
+    let too_low = few_components(structure).is_some() && value.is_none_or(|part| part <= share);
+    let open = prepared.rest.by_stiffness.is_some() || too_low;
     let check = Check::new(Criterion::WaveForce, None, value, share, open);
     let is_sea = matches!(structure.water, Water::Sea(_));
     // The force is that on the body at rest, whatever ended the run.

@@ -123,6 +123,12 @@ fn the_waves_force_does_not_pass_by_little_of_a_sea() {
     assert_eq!(records(&part), [Answer::Unknown; 2]);
     let coarse = long.replace("tp = 6", "tp = 6\ncomponents = 10");
     assert_eq!(records(&coarse), [Answer::Open; 2]);
+    // Few sinusoids make the force too small, so that one which exceeds its limit fails.
+    let strict = coarse.replace("force_share = 0.9", "force_share = 0.001");
+    let found = seas(structure(&strict), 2, Lines::Inextensible, &no_progress).unwrap();
+    for record in &found.records {
+        assert_eq!(record.checks[0].answer, Answer::Fails);
+    }
 
     let wave = EXAMPLE.replace("[run]", "[design]\nforce_share = 0.9\n[run]\nduration = 1");
     let wave = assess(structure(&wave), 0, &no_progress).unwrap();
