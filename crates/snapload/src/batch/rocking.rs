@@ -19,7 +19,7 @@ impl<L: Doubles, C: Follower> Rocking<L, C> {
         }
     }
 
-    /// Whether a run is to wait here: whether there are others with which it can step.
+    /// Whether a run is to wait here: it rocks, and a register has places for more than one.
     pub(super) fn takes(&self, slot: &Slot<C>) -> bool {
         L::WIDTH > 1 && slot.simulation.rocks()
     }
@@ -39,8 +39,8 @@ impl<L: Doubles, C: Follower> Rocking<L, C> {
         self.waiting.is_empty()
     }
 
-    /// Lets all runs here make a step, as many at once as there are lanes, and returns those that
-    /// do not rock on.
+    /// Lets all runs here make a step, as many at once as there are lanes. Returns those that do
+    /// not rock on, and how many steps were made.
     #[inline(always)]
     pub(super) fn step(&mut self) -> (Vec<Box<Slot<C>>>, usize) {
         let mut others = Vec::new();

@@ -16,7 +16,8 @@ use crate::motion::simulation::{CONVERGING, Event, LastImpacts, MOST_IDLE, Simul
 use crate::motion::ties::{Instant, first_clear};
 
 /// Slow snaps belong to one row if the flight between them takes no longer than this many times
-/// `v_stick` over the largest force: they follow each other in 2 v/α, and α may be a 50th of it.
+/// `v_stick` over the largest constant force and waves' force together: they follow each other in
+/// 2 v/α, and α may be a 50th of it.
 const SLOW_FLIGHT: f64 = 100.0;
 /// The largest velocity, in multiples of `v_stick`, that cables take away which come to rest at
 /// once. For two at a right angle it is √2.
@@ -240,8 +241,8 @@ impl<T: Real> Simulation<T> {
     }
 
     /// Where taut cables leave the body no freedom, a gap closes by rounding only: its cable is at
-    /// rest with the body. What is found together with it is not reached there, as the instant is
-    /// one of rounding, too; if it is reached at all, the next step finds it.
+    /// rest with the body. The instant at which it closes means nothing, so that nothing else is
+    /// reached at it either; the next step finds what really is.
     #[inline(always)]
     pub(super) fn hold_closed(&mut self, reached: &mut Reached) {
         if !reached.gaps.is_empty() && self.system.is_held_by(self.active.carrying) {
