@@ -76,6 +76,8 @@ def test_a_smaller_basin_has_no_cell_of_the_one_before(open_page, command_json):
     page = open_page("t_end=20&t=0&basin=x,-0.4,0.4,9,y,0.02,0.72,9,f_o,0.1,0.6,3")
     page.locator("#basin-run").click()
     expect(page.locator("#basin-message")).to_contain_text("(LIM)", timeout=30_000)
+    # The work ends a moment after its words appear; keys are pressed once it has.
+    expect(page.locator("#basin-stop")).to_be_hidden()
     page.locator("#basin").focus()
     for _ in range(9):
         page.keyboard.press("ArrowUp")
