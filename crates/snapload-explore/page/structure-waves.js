@@ -64,7 +64,7 @@ export class StructureWaves {
     const occurring = Object.keys(meaning).filter((kind) => cells.some((cell) => cell.kind === kind));
     const legend = ["×: the body turns over or touches the floor", ...occurring.map((kind) => meaning[kind])];
     $("waves-message").textContent =
-      `${what} in waves run for ${length} periods each and judged after ten, or after a run.transient of another length (at most half of the run); ${legend.join("; ")}. ` +
+      `${what} in waves run for ${length} periods each and judged after ten, or after a run.transient that is given (at most half of the run); ${legend.join("; ")}. ` +
       "Motions are chaotic, so that single cells may differ from those beside them. Click a cell to run its wave for the duration of the case.";
     const cell = (i, j) => {
       const { value, kind } = cells[i * heights_m.length + j];

@@ -307,6 +307,8 @@ pub struct Structure {
     pub duration_s: f64,
     /// Snaps before this are not judged \[s\].
     pub transient_s: f64,
+    /// Whether the case gives it; otherwise it is the usual one of its waves.
+    pub transient_is_given: bool,
     /// Centre at the start `[x, z]`; none for the position of rest \[m\].
     pub start_m: Option<[f64; 2]>,
     /// The run ends at more snaps than this.

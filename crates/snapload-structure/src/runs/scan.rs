@@ -80,11 +80,10 @@ fn shown(value: f64) -> f64 {
 
 fn one(structure: &Structure, wave: Wave) -> ScanCell {
     let (water, duration_s) = (Water::Wave(wave), LENGTH * wave.period_s);
-    // The usual transient goes with the period, as in a case of that wave; any other was given.
-    let is_usual = structure.transient_s == structure.water.usual_transient_s(structure.duration_s);
-    let transient_s = match is_usual {
-        true => water.usual_transient_s(duration_s),
-        false => structure.transient_s.min(duration_s / 2.0),
+    // The usual transient goes with the period, as in a case of that wave.
+    let transient_s = match structure.transient_is_given {
+        true => structure.transient_s.min(duration_s / 2.0),
+        false => water.usual_transient_s(duration_s),
     };
     let changed = Structure {
         water,

@@ -107,6 +107,7 @@ fn read(entries: &Entries, folder: Option<&Path>) -> Result<Structure, CaseError
         restitution: run.need("restitution")?,
         duration_s,
         transient_s: given.unwrap_or_else(|| water.usual_transient_s(duration_s)),
+        transient_is_given: given.is_some(),
         start_m: run.get("start")?,
         max_snaps: run.need("max_snaps")?,
         design: read_design(entries)?,

@@ -66,6 +66,7 @@ pub fn the_same(a: &Structure, b: &Structure) {
     }
     // Values that were defaults are given explicitly in a written file.
     b.body.added_mass = own;
+    b.transient_is_given = a.transient_is_given;
     for (own, other) in a.lines.iter().zip(&mut b.lines) {
         assert_eq!(other.name, "");
         other.name.clone_from(&own.name);

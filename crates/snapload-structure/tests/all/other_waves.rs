@@ -68,7 +68,7 @@ fn still_water_has_no_map() {
 /// periods, or after a transient that is given.
 #[test]
 fn other_waves_are_judged_as_cases_of_those_waves() {
-    for given in ["", "transient = 70"] {
+    for given in ["", "transient = 70", "transient = 60"] {
         let with = |wave: &str, run: &str| {
             let text = EXAMPLE
                 .replace("type = \"studless chain\"\n", "")

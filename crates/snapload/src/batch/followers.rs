@@ -40,8 +40,8 @@ pub(crate) trait LaneFollowers<L: Lane>: Copy {
     fn get(&self, lane: usize, follower: &mut Self::RunFollower, impacts: u64);
 }
 
-/// The followers now, and memory for those after the next bounce: they are large, so that the two
-/// take turns and none is copied.
+/// The followers now, and memory for those after the next bounce. The two take turns: the followers
+/// are large, so that those after a bounce are not to be copied back.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct InTurn<F> {
     both: [F; 2],

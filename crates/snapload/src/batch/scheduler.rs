@@ -1,5 +1,5 @@
 //! The lanes and the runs in them: bounces are made in the lanes, all other steps by each run
-//! alone.
+//! alone, or with others that rock ([`crate::batch::rocking`]).
 
 use crate::arithmetic::elementary::Doubles;
 use crate::arithmetic::lane::{Lane, Mask};

@@ -300,11 +300,11 @@ impl<L: Lane> CablePair<L> {
 }
 
 impl<L: Doubles> CablePair<L> {
-    /// Puts the beginning of a run's series into a lane: all up to the first order, and the
-    /// tensions, which are not known yet, as zeros.
-    pub(super) fn put(&mut self, lane: usize, one: &CableSeries<f64>) {
+    /// Puts the beginning of a run's series, all up to the first order, into a lane; returns whether
+    /// it has one pair of cables.
+    pub(super) fn put(&mut self, lane: usize, one: &CableSeries<f64>) -> bool {
         let [one] = &one.pairs[..] else {
-            return;
+            return false;
         };
         for k in 0..2 {
             put_lane(&mut self.fairleads[k], lane, &one.fairleads[k]);
@@ -317,6 +317,7 @@ impl<L: Doubles> CablePair<L> {
             self.arm[place].set(lane, one.arm[place]);
             self.half_per_length[place].set(lane, one.half_per_length[place]);
         }
+        true
     }
 }
 

@@ -18,7 +18,7 @@ use crate::motion::attachment::Instant;
 use crate::motion::complementarity::solve;
 use crate::motion::contact::Contact;
 use crate::motion::projection::{project_position, project_velocity};
-use crate::motion::taut_series::{Series, state_at};
+use crate::motion::taut_series::{Series, SeriesStart, state_at};
 use crate::motion::waves::Waves;
 
 /// The motions of a system with given sets of taut cables; the water's memory is not included.
@@ -106,7 +106,14 @@ impl<T: Real> PrescribedTaut<T> {
             };
             waves.cover(t, t);
             let around = waves.expanded(&self.system, t);
-            series.expand(&self.system, &around, &state, &[], &contacts, active);
+            let start = SeriesStart {
+                around: &around,
+                state: &state,
+                memory: &[],
+                contacts: &contacts,
+                active,
+            };
+            series.expand(&self.system, &start);
             if let Some(kept) = &mut kept {
                 kept.push(Piece {
                     from: t - begun,

@@ -15,7 +15,7 @@ use crate::motion::contact::Contact;
 use crate::motion::events::Reached;
 use crate::motion::projection::{project_position, project_velocity};
 use crate::motion::simulation::{Simulation, Step};
-use crate::motion::taut_series::Series;
+use crate::motion::taut_series::{Series, SeriesStart};
 use crate::motion::waves::Waves;
 
 /// A segment of motion with one taut set, from which the state at any time in it is computed.
@@ -55,14 +55,14 @@ impl Segment {
         let contacts = [Contact::RESTING; MAX_CABLES];
         waves.cover(self.t, self.t);
         let around = waves.expanded(system, self.t);
-        series.expand(
-            system,
-            &around,
-            &self.start,
-            &self.memory,
-            &contacts,
-            self.active,
-        );
+        let start = SeriesStart {
+            around: &around,
+            state: &self.start,
+            memory: &self.memory,
+            contacts: &contacts,
+            active: self.active,
+        };
+        series.expand(system, &start);
     }
 
     /// The force of the water's memory at its start.

@@ -77,6 +77,17 @@ struct Line<T: Real> {
     tension: Polynomial<T>,
 }
 
+/// Where an expansion begins.
+pub(crate) struct SeriesStart<'a, T: Real> {
+    /// The series of the external forces about its time.
+    pub(crate) around: &'a Expanded<T>,
+    pub(crate) state: &'a State<T>,
+    /// The state of the water's memory.
+    pub(crate) memory: &'a [Complex<T>],
+    pub(crate) contacts: &'a Contacts<T>,
+    pub(crate) active: ActiveSet,
+}
+
 /// The Taylor expansion of a motion with a fixed set of taut cables.
 #[derive(Clone, Debug)]
 pub(crate) struct Series<T: Real> {
@@ -136,34 +147,24 @@ impl<T: Real> Series<T> {
         }
     }
 
-    /// Expands the motion from a start, with the series of the external forces about its time, and
-    /// chooses the length on which the expansion is used.
+    /// Expands the motion from a start, and chooses the length on which the expansion is used.
     #[inline(always)]
-    pub(crate) fn expand(
-        &mut self,
-        system: &System<T>,
-        around: &Expanded<T>,
-        start: &State<T>,
-        memory: &[Complex<T>],
-        contacts: &Contacts<T>,
-        active: ActiveSet,
-    ) {
-        self.begin(system, around, start, memory, contacts, active);
+    pub(crate) fn expand(&mut self, system: &System<T>, start: &SeriesStart<T>) {
+        self.begin(system, start);
         self.extend(system);
-        self.close(system, start, memory);
+        self.close(system, start.state, start.memory);
     }
 
     /// Begins an expansion: all coefficients up to the first order.
     #[inline(always)]
-    pub(super) fn begin(
-        &mut self,
-        system: &System<T>,
-        around: &Expanded<T>,
-        start: &State<T>,
-        memory: &[Complex<T>],
-        contacts: &Contacts<T>,
-        active: ActiveSet,
-    ) {
+    pub(super) fn begin(&mut self, system: &System<T>, start: &SeriesStart<T>) {
+        let &SeriesStart {
+            around,
+            state,
+            memory,
+            contacts,
+            active,
+        } = start;
         apart!(T, {
             self.active = active;
             self.contacts = *contacts;
@@ -179,13 +180,13 @@ impl<T: Real> Series<T> {
             if let Some(series) = &mut self.water {
                 series.begin(&around.excitation, memory);
             }
-            self.body.begin(start);
+            self.body.begin(state);
             self.pairs.begin(system);
             for k in 0..2 {
                 self.extend_pairs(k);
             }
             for (cable, tether) in system.cables.iter().enumerate() {
-                self.pairs.set_span(cable, tether.span(start));
+                self.pairs.set_span(cable, tether.span(state));
             }
         })
     }

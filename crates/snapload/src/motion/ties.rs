@@ -25,7 +25,7 @@ use crate::motion::contact::Contacts;
 use crate::motion::sizes::{
     NEGLIGIBLE, size_of_free_acceleration, size_of_load, sizes_of_tensions,
 };
-use crate::motion::taut_series::Series;
+use crate::motion::taut_series::{Series, SeriesStart};
 use crate::motion::waves::Waves;
 
 /// A normal acceleration counts as zero up to this many roundings of its summands \[F\].
@@ -287,7 +287,14 @@ impl<T: Real> Tie<'_, T> {
         } = self;
         let mut series = Box::new(Series::new(system, rules));
         let (around, memory) = (waves.expanded(system, *t), system.memory_at_rest());
-        series.expand(system, &around, state, &memory, contacts, held);
+        let start = SeriesStart {
+            around: &around,
+            state,
+            memory: &memory,
+            contacts,
+            active: held,
+        };
+        series.expand(system, &start);
         series
     }
 }

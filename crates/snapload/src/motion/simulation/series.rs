@@ -6,7 +6,7 @@ use crate::arithmetic::processor::{Kernel, dispatch};
 use crate::arithmetic::real::Real;
 use crate::model::taut_set::TautSet;
 use crate::motion::simulation::Simulation;
-use crate::motion::taut_series::{RockingSeries, Series};
+use crate::motion::taut_series::{RockingSeries, Series, SeriesStart};
 
 /// A series to be begun, by the best instructions for it.
 struct Begin<'a>(&'a mut Simulation);
@@ -27,14 +27,14 @@ impl<T: Real> Simulation<T> {
             .series
             .get_or_insert_with(|| Box::new(Series::new(&self.system, &self.rules)));
         let around = self.waves.expanded(&self.system, self.t);
-        series.begin(
-            &self.system,
-            &around,
-            &self.state,
-            &self.memory,
-            &self.contacts,
-            self.active,
-        );
+        let start = SeriesStart {
+            around: &around,
+            state: &self.state,
+            memory: &self.memory,
+            contacts: &self.contacts,
+            active: self.active,
+        };
+        series.begin(&self.system, &start);
     }
 
     /// Finds the coefficients of the series of the next segment, unless they are known.

@@ -55,12 +55,12 @@ impl<L: Doubles> RockingSeries<L> {
         let carrying = series.active.carrying;
         let normals = series.pairs.set_carrying(carrying);
         let coupling = |i: usize, j: usize| normals[i].coupling(&normals[j], inverse_inertia);
-        if !self.equations.put(lane, &Factored::new(carrying, coupling)) {
+        let equations = Factored::new(carrying, coupling);
+        if !self.equations.put(lane, &equations) || !self.pair.put(lane, &series.pairs) {
             return false;
         }
         self.inverse_inertia.set(lane, inverse_inertia);
         self.body.put(lane, &series.body);
-        self.pair.put(lane, &series.pairs);
         for (all, one) in self.force.iter_mut().zip(&series.force) {
             for k in 0..ORDER - 1 {
                 all[k].set(lane, one[k]);

@@ -186,7 +186,7 @@ mod tests {
     use crate::motion::active_set::ActiveSet;
     use crate::motion::contact::Contact;
     use crate::motion::prescribed_motion::PrescribedTaut;
-    use crate::motion::taut_series::Series;
+    use crate::motion::taut_series::{Series, SeriesStart};
     use crate::motion::waves::Waves;
 
     /// The gap of a body in a short wave at the end of a step agrees with its closed form within
@@ -233,7 +233,14 @@ mod tests {
                 waves.cover(0.0, 0.0);
                 let mut series = Series::new(&system, &rules);
                 let around = waves.expanded(&system, 0.0);
-                series.expand(&system, &around, &state, &[], &contacts, active);
+                let start = SeriesStart {
+                    around: &around,
+                    state: &state,
+                    memory: &[],
+                    contacts: &contacts,
+                    active,
+                };
+                series.expand(&system, &start);
                 let s = series.step();
                 let there = PrescribedTaut::new(free.clone()).carried(slack, 0.0, &state, s);
                 for cable in 0..2 {
