@@ -63,6 +63,7 @@ struct NotePage<'a> {
     end: &'static str,
     /// Path, snaps, tension, rotation and the water's surface, in the time shown.
     plots: Vec<Picture>,
+    hardness: plots::Hardness,
     window: [f64; 2],
     /// The hardest judged snaps out of `all`, each with the number of equal ones.
     hardest: Vec<(&'a Snap, usize)>,
@@ -131,6 +132,7 @@ pub fn page(
         utilisations: assessment.outcome.utilisations(&prepared.structure),
         end: end_text(assessment.outcome.stop),
         plots: plots::of_run(assessment)?,
+        hardness: plots::hardness(assessment),
         window: plots::window(assessment),
         hardest,
         all,

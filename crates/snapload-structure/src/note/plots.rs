@@ -138,9 +138,18 @@ fn path(assessment: &Assessment, window: [f64; 2]) -> Plot {
 }
 
 /// The measure of a snap that is drawn: its tension \[kN\], or its part of the line's own breaking
-/// load if those differ, or its speed if a line has no stiffness. Also the value at which lines
-/// break, if it is known, and the label of the axis.
-fn hardness(assessment: &Assessment) -> (fn(&Snap) -> f64, Option<f64>, &'static str) {
+/// load if those differ, or its speed if a line has no stiffness.
+pub(super) struct Hardness {
+    of: fn(&Snap) -> f64,
+    /// The value at which lines break, if it is known.
+    pub(super) breaks_at: Option<f64>,
+    /// The label of the axis.
+    label: &'static str,
+    /// What is drawn, in words.
+    pub(super) words: &'static str,
+}
+
+pub(super) fn hardness(assessment: &Assessment) -> Hardness {
     let lines = &assessment.prepared.structure.lines;
     let loads: Vec<_> = lines
         .iter()
@@ -148,20 +157,38 @@ fn hardness(assessment: &Assessment) -> (fn(&Snap) -> f64, Option<f64>, &'static
         .collect();
     let all_known = loads.len() == lines.len();
     if assessment.snaps.iter().any(|snap| snap.peak_n.is_none()) {
-        (|snap| snap.speed_m_s, None, "speed of the snap (m/s)")
+        Hardness {
+            of: |snap| snap.speed_m_s,
+            breaks_at: None,
+            label: "speed of the snap (m/s)",
+            words: "Speeds",
+        }
     } else if all_known && loads.iter().any(|load| *load != loads[0]) {
-        let part: fn(&Snap) -> f64 = |snap| snap.utilisation.unwrap_or(0.0);
-        (part, Some(1.0), "tension over breaking load")
+        Hardness {
+            of: |snap| snap.utilisation.unwrap_or(0.0),
+            breaks_at: Some(1.0),
+            label: "tension over breaking load",
+            words: "Estimated peaks, over the line's own breaking load,",
+        }
     } else {
         let load = loads.first().filter(|_| all_known);
-        let tension: fn(&Snap) -> f64 = |snap| snap.peak_n.map_or(0.0, |peak| peak / 1e3);
-        (tension, load.map(|load| load / 1e3), "tension (kN)")
+        Hardness {
+            of: |snap| snap.peak_n.map_or(0.0, |peak| peak / 1e3),
+            breaks_at: load.map(|load| load / 1e3),
+            label: "tension (kN)",
+            words: "Estimated peaks",
+        }
     }
 }
 
 fn peaks(assessment: &Assessment) -> Plot {
     let structure = &assessment.prepared.structure;
-    let (value, limit, label) = hardness(assessment);
+    let Hardness {
+        of,
+        breaks_at: limit,
+        label,
+        words,
+    } = hardness(assessment);
     let mut layers = vec![Layer::Shade(
         f64::NEG_INFINITY,
         structure.transient_s,
@@ -170,7 +197,7 @@ fn peaks(assessment: &Assessment) -> Plot {
     let counted = || assessment.snaps.iter().filter(|snap| snap.counts());
     for line in 0..structure.lines.len() {
         let of_line = counted().filter(|snap| snap.line == line);
-        let points = of_line.map(|snap| [snap.t_s, value(snap)]);
+        let points = of_line.map(|snap| [snap.t_s, of(snap)]);
         let points = hardest_of_each(points, assessment.outcome.end_s);
         let (shape, colour) = (
             [Shape::Cross, Shape::Circle][line % 2],
@@ -188,7 +215,8 @@ fn peaks(assessment: &Assessment) -> Plot {
     // The axis includes the value at which a line breaks, however small the tensions are.
     let from_zero = Range::AtLeast(0.0, limit.unwrap_or(0.0));
     let axes = [("*t* (s)", t), (label, from_zero)];
-    let mut plot = plot("Estimated tension of each snap against time", axes, layers);
+    let title = format!("{words} of the snaps against time");
+    let mut plot = plot(&title, axes, layers);
     if counted().next().is_none() {
         plot.note = "no line snapped".to_owned();
     }

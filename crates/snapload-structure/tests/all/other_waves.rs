@@ -1,8 +1,8 @@
 //! The map of other waves, and the row of other restitutions: what they compare is one quantity.
 
-use crate::verdicts::structure;
+use crate::verdicts::{source, structure};
 use snapload::analysis::no_progress;
-use snapload_structure::note::{ScanCell, scan};
+use snapload_structure::note::{ScanCell, page, scan};
 use snapload_structure::{ModelAtRest, Outcome, Structure, assess};
 
 const EXAMPLE: &str = include_str!("../../../../docs/examples/cylinder.toml");
@@ -93,5 +93,25 @@ fn other_waves_are_judged_as_cases_of_those_waves() {
             };
             assert_eq!(*cell, known, "{given} {height_m}");
         }
+    }
+}
+
+/// The caption below the snaps names what is drawn: without a stiffness their speeds, of which none
+/// breaks a line; tensions beside the breaking load of lines that are alike; and parts of it where
+/// lines differ.
+#[test]
+fn the_caption_of_the_snaps_names_what_is_drawn() {
+    let chain = |text: &str| structure(&text.replace("[run]", "[run]\nduration = 100"));
+    let stronger = EXAMPLE.replacen("diameter = 0.038", "diameter = 0.042", 1);
+    for (case, words, breaks) in [
+        (without_stiffness(2.0, 6.0), "Speeds of the snaps", false),
+        (chain(EXAMPLE), "Estimated peaks of the snaps", true),
+        (chain(&stronger), "over the line's own breaking load", true),
+    ] {
+        let assessment = assess(case, 0, &no_progress).unwrap();
+        let page = page(source("case"), &assessment, None).unwrap();
+        let (_, caption) = page.rsplit_once(words).unwrap();
+        let (caption, _) = caption.split_once("</figcaption>").unwrap();
+        assert_eq!(caption.contains("breaking load."), breaks, "{caption}");
     }
 }
