@@ -32,16 +32,15 @@ pub(crate) trait LaneFollowers<L: Lane>: Copy {
     /// Computes the followers after a bounce; returns in which of the lanes where it is `plain`
     /// they can continue from there. In the other lanes the bounce is made outside the lanes.
     fn bounce(&self, next: &mut Self, plain: L::Mask, bounced: &Bounced<L>) -> L::Mask;
-    /// Takes over the lanes of the mask.
-    fn take_lanes(&mut self, mask: L::Mask, from: &Self);
     /// Puts the follower of a run into a lane.
     fn put(&mut self, lane: usize, follower: &Self::RunFollower);
     /// Updates the follower of a run from its lane, `impacts` later.
     fn get(&self, lane: usize, follower: &mut Self::RunFollower, impacts: u64);
 }
 
-/// The followers now, and memory for those after the next bounce. The two take turns: the followers
-/// are large, so that those after a bounce are not to be copied back.
+/// The followers after the latest bounce and those before it. The two take turns: the followers are
+/// large, so that those of lanes which have not made the bounce are not copied, but read from before
+/// it.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct InTurn<F> {
     both: [F; 2],
@@ -56,7 +55,7 @@ impl<F: Copy> InTurn<F> {
         }
     }
 
-    /// Those now, and the others.
+    /// Those now, and memory for the next.
     #[inline(always)]
     pub(super) fn now_and_next(&mut self) -> (&mut F, &mut F) {
         let [first, second] = &mut self.both;
@@ -72,7 +71,12 @@ impl<F: Copy> InTurn<F> {
         self.now_and_next().0
     }
 
-    /// Lets the others be those now.
+    /// Those before the latest bounce.
+    pub(super) fn before(&mut self) -> &mut F {
+        self.now_and_next().1
+    }
+
+    /// Lets the next be those now.
     #[inline(always)]
     pub(super) fn turn(&mut self) {
         self.turned = !self.turned;
@@ -111,8 +115,6 @@ impl<L: Lane> LaneFollowers<L> for NoFollower {
     fn bounce(&self, _: &mut Self, plain: L::Mask, _: &Bounced<L>) -> L::Mask {
         plain
     }
-    #[inline(always)]
-    fn take_lanes(&mut self, _: L::Mask, _: &Self) {}
     #[inline(always)]
     fn put(&mut self, _: usize, _: &Self) {}
     #[inline(always)]

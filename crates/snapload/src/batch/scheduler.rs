@@ -124,12 +124,11 @@ impl<'a, L: Doubles, C: Follower> LaneScheduler<'a, L, C> {
             let bounced = Bounced::of(&self.two_cables, &self.after_impact, &bounce);
             let (now, next) = self.followers.now_and_next();
             let plain = now.bounce(next, plain, &bounced);
+            self.followers.turn();
             let (tally, bits) = (self.tally.with(&bounce), plain.bits());
             if bits == all {
                 (self.after_impact, self.tally) = (bounce.next, tally);
-                self.followers.turn();
             } else {
-                now.take_lanes(plain, next);
                 let chosen = |next, present| L::select(plain, next, present);
                 self.after_impact = bounce.next.zip_with(&self.after_impact, chosen);
                 self.tally = tally.zip_with(&self.tally, chosen);
@@ -254,7 +253,7 @@ impl<'a, L: Doubles, C: Follower> LaneScheduler<'a, L, C> {
         self.followers.now().put(lane, &slot.follower);
     }
 
-    /// Updates a run's simulation with the result of its lane.
+    /// Updates a run with the result of its lane, which has not made the latest bounce.
     fn leave(&mut self, lane: usize, slot: &mut Slot<C>) {
         let get = |all: L, _| all.get(lane);
         let after_impact = self.after_impact.zip_with(&self.after_impact, get);
@@ -275,7 +274,7 @@ impl<'a, L: Doubles, C: Follower> LaneScheduler<'a, L, C> {
         (norms.rho1, norms.rho2, norms.rho3) = (tally.rho1, tally.rho2, tally.rho3);
         slot.simulation.resume(&after_impact, progress);
         let made = progress.impacts - before;
-        let followers = self.followers.now();
+        let followers = self.followers.before();
         followers.get(lane, &mut slot.follower, made);
     }
 }

@@ -1,5 +1,6 @@
 //! The one loop: fly to the earliest event, apply its law, choose the next taut set.
 
+use crate::arithmetic::plane::Rotation;
 use crate::arithmetic::processor::{apart, dispatch_over};
 use crate::arithmetic::real::Real;
 use crate::model::floating::Complex;
@@ -66,6 +67,8 @@ pub struct Simulation<T: Real = f64> {
     /// The system in the form of [`crate::motion::bounce`]; none unless it has two cables and one
     /// harmonic.
     two_cables: Option<TwoCableSystem<T>>,
+    /// The rotation of the state, if the latest step was a bounce, which has computed it.
+    rotation: Option<Rotation<T>>,
     /// The start of the latest step if it was a bounce; `flight` is then not up to date.
     bounce_start: Option<AfterImpact<T>>,
     /// Facts about the latest step, if it was a bounce and nothing more.
@@ -195,6 +198,7 @@ impl<T: Real> Simulation<T> {
             memory: system.memory_at_rest(),
             extremes: Extremes::at(&start.state),
             two_cables: TwoCableSystem::of(&system, &rules),
+            rotation: None,
             bounce_start: None,
             facts: None,
             system,

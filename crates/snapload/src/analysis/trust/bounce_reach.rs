@@ -3,11 +3,10 @@
 //! decides.
 
 use crate::analysis::trust::covariance::SIGMA_REACH;
-use crate::analysis::trust::parts::{COLUMNS, square};
 use crate::analysis::trust::spread::ERROR;
 use crate::arithmetic::lane::Lane;
 use crate::model::cable::{Cable, Normal};
-use crate::motion::bounce_map::{Bounced, Rows};
+use crate::motion::bounce_map::Bounced;
 
 /// Bounds are computed in rounded arithmetic; this factor makes them safe.
 pub(super) const SAFE: f64 = 1.001;
@@ -22,23 +21,43 @@ pub(super) struct AtStart<L> {
     open: L,
 }
 
-impl<L: Lane> AtStart<L> {
+/// The cable that is open at the start of a flight.
+pub(super) struct OpenCable<L> {
+    cable: Cable<L>,
+    /// Its normal there.
+    pub(super) normal: Normal<L>,
+    reach: L,
+}
+
+impl<L: Lane> OpenCable<L> {
     #[inline(always)]
-    pub(super) fn of(bounced: &Bounced<L>, rows: &Rows<L, COLUMNS>) -> Self {
+    pub(super) fn of(bounced: &Bounced<L>) -> Self {
         let (two_cables, from) = (bounced.two_cables, bounced.from);
         // The one that snapped last is closed.
         let second = from.gaps[1][0].below(from.gaps[0][0]);
         let cable = Cable::select(second, &two_cables.cables[1], &two_cables.cables[0]);
         let lever = cable.lever(from.rotation.sine, from.rotation.cosine);
         let span = cable.span_moved(cable.moved(&from.state, &from.rotation));
-        let Normal { n, arm } = cable.normal_along(span, lever);
-        let mut along = [L::ZERO; COLUMNS];
-        for k in 0..COLUMNS {
-            let [x, y, theta] = [rows[0][k], rows[1][k], rows[2][k]];
-            along[k] = n.x.mul_add(x, n.y.mul_add(y, arm * theta));
+        Self {
+            cable,
+            normal: cable.normal_along(span, lever),
+            reach: L::select(second, two_cables.reach[1], two_cables.reach[0]),
         }
-        let [x, y, theta] = [0, 1, 2].map(|i| square(&rows[i]));
-        let reach = L::select(second, two_cables.reach[1], two_cables.reach[0]);
+    }
+}
+
+impl<L: Lane> AtStart<L> {
+    /// From the squares of what neighbours reach at the start, by x, y and θ and along the open
+    /// cable.
+    #[inline(always)]
+    pub(super) fn of(
+        bounced: &Bounced<L>,
+        open: &OpenCable<L>,
+        [x, y, theta]: [L; 3],
+        along: L,
+    ) -> Self {
+        let (two_cables, from) = (bounced.two_cables, bounced.from);
+        let OpenCable { cable, reach, .. } = *open;
         let before = bounced.before;
         let s = bounced.t - from.t;
         let speed = before
@@ -51,7 +70,7 @@ impl<L: Lane> AtStart<L> {
         Self {
             theta,
             height: y,
-            open: (place + square(&along)) * 2.0,
+            open: (place + along) * 2.0,
         }
     }
 }
@@ -97,16 +116,17 @@ impl<L: Lane> Reach<L> {
         }
     }
 
-    /// A bound on the square of the error. What rounding adds to the position is given by
-    /// `place_added`, as (a + b)² ≤ (1 + 1/64) a² + 65 b².
+    /// A bound on the square of the error, given the squares of the velocities after the impact.
+    /// What rounding adds to the position is given by `place_added`, as
+    /// (a + b)² ≤ (1 + 1/64) a² + 65 b².
     #[inline(always)]
-    pub(super) fn error(&self, after: &Rows<L, COLUMNS>, place_added: L) -> L {
+    pub(super) fn error(&self, velocities_after: [L; 3], place_added: L) -> L {
         let mut sum = place_added * 65.0;
         for square in self.met {
             sum = square.mul_add(L::from_f64(1.0 + 1.0 / 64.0), sum);
         }
-        for row in &after[3..6] {
-            sum = sum + square(row);
+        for square in velocities_after {
+            sum = sum + square;
         }
         sum * (ERROR * ERROR)
     }

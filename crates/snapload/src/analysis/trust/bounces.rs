@@ -11,7 +11,7 @@
     reason = "a deviation is an entry of every row"
 )]
 
-use crate::analysis::trust::bounce_reach::{AtStart, Reach, SAFE};
+use crate::analysis::trust::bounce_reach::{AtStart, OpenCable, Reach, SAFE};
 use crate::analysis::trust::parts::{COLUMNS, FactorParts, square, squares};
 use crate::analysis::trust::rounding::{BOUND_OF_GAP, ROUNDING};
 use crate::arithmetic::lane::{Lane, Mask};
@@ -58,38 +58,148 @@ impl<L: Lane> Followed<L> {
         [along, rows]
     }
 
-    /// Carries the parts through a bounce, in place, as they are large.
+    /// Carries the parts through a bounce, to `next`.
     #[inline(always)]
-    pub(super) fn carry(&mut self, bounced: &Bounced<L>, map: &BounceMap<L>) -> Through<L> {
+    pub(super) fn carry(
+        &self,
+        next: &mut Self,
+        bounced: &Bounced<L>,
+        map: &BounceMap<L>,
+    ) -> Through<L> {
         let rounding = BounceRounding::of(self, bounced);
-        let rows = &mut self.parts.rows;
-        let start = AtStart::of(bounced, rows);
-        map.along(rows);
-        rounding.add_location(bounced, rows);
-        let later = map.meet(rows);
-        let met = squares(rows);
-        let other = map.along_other(bounced, rows, &later);
-        let closing = map.through(rows);
-        rounding.add(map, rows);
-        let reach = Reach::of(
+        let open = OpenCable::of(bounced);
+        let columns = Columns {
             bounced,
-            start,
-            met,
-            [square(&later), square(&closing)],
-            [square(&other[0]), square(&other[1])],
-        );
-        let known = reach.error(rows, rounding.place_squared()) * SAFE;
+            map,
+            rounding: &rounding,
+            open: &open,
+        };
+        (next.slant, next.tolerance) = (self.slant, self.tolerance);
+        next.parts.take_signs(&self.parts);
+        let rows = &mut next.parts.rows;
+        let (squares, velocities_after) = if L::Mask::WIDTH == 1 {
+            *rows = self.parts.rows;
+            let squares = squares(&columns.carry(rows, true));
+            rounding.add(map, rows, 0);
+            let after = [square(&rows[3]), square(&rows[4]), square(&rows[5])];
+            next.parts.rotate();
+            (squares, after)
+        } else {
+            let squares = columns.carry_in_pairs(&self.parts.rows, rows);
+            rounding.add(map, rows, 1);
+            let after = [
+                square_permuted(&rows[3]),
+                square_permuted(&rows[4]),
+                square_permuted(&rows[5]),
+            ];
+            next.parts.advance_signs();
+            (squares, after)
+        };
+        let [x, y, theta, along_open, rest @ ..] = squares;
+        let [met @ .., later, closing, along_other, at_end] = rest;
+        let start = AtStart::of(bounced, &open, [x, y, theta], along_open);
+        let reach = Reach::of(bounced, start, met, [later, closing], [along_other, at_end]);
+        let known = reach.error(velocities_after, rounding.place_squared()) * SAFE;
         let within_tolerance = known.below(self.tolerance * self.tolerance)
             & reach.meets_all(bounced)
             & reach.leaves_the_other_open(bounced)
             & reach.rises_once(bounced)
             & reach.reaches_no_limit(bounced);
-        self.parts.rotate();
         Through {
             met,
             within_tolerance,
         }
     }
+}
+
+/// What is known of neighbours column by column: x, y and θ at the start, what that is along the
+/// cable that is open there, the seven components at the neighbour's own impact, the delay of the
+/// impact and its normal velocity, and the displacements along the other cable, at the previous
+/// event's time and at the impact's.
+const KNOWN: usize = 15;
+
+/// The columns of a spread to be carried through a bounce.
+struct Columns<'a, 'b, L: Lane> {
+    bounced: &'a Bounced<'b, L>,
+    map: &'a BounceMap<L>,
+    rounding: &'a BounceRounding<L>,
+    open: &'a OpenCable<L>,
+}
+
+impl<L: Lane> Columns<'_, '_, L> {
+    /// Carries some of the columns, except for the rounding after the impact; `located` says
+    /// whether the last of them contains the error of the impact's location.
+    #[inline(always)]
+    fn carry<const N: usize>(&self, rows: &mut Rows<L, N>, located: bool) -> [[L; N]; KNOWN] {
+        let [x, y, theta, ..] = *rows;
+        let Normal { n, arm } = self.open.normal;
+        let mut along_open = [L::ZERO; N];
+        for k in 0..N {
+            along_open[k] = n.x.mul_add(x[k], n.y.mul_add(y[k], arm * theta[k]));
+        }
+        self.map.along(rows);
+        if located {
+            self.rounding.add_location(self.bounced, rows);
+        }
+        let later = self.map.meet(rows);
+        let [a, b, c, d, e, f, g] = *rows;
+        let [along_other, at_end] = self.map.along_other(self.bounced, rows, &later);
+        let closing = self.map.through(rows);
+        [
+            x,
+            y,
+            theta,
+            along_open,
+            a,
+            b,
+            c,
+            d,
+            e,
+            f,
+            g,
+            later,
+            closing,
+            along_other,
+            at_end,
+        ]
+    }
+
+    /// Carries all columns to `next`, permuted as [`FactorParts::rotate`] does; returns the squares
+    /// of what is known, which are those of [`square`]. Two columns at a time are few enough for
+    /// the processor's registers, and the loop is short enough for its cache of instructions.
+    #[inline(always)]
+    fn carry_in_pairs(&self, rows: &Rows<L, COLUMNS>, next: &mut Rows<L, COLUMNS>) -> [L; KNOWN] {
+        const HALF: usize = COLUMNS / 2;
+        let mut sums = [[L::ZERO; KNOWN]; 2];
+        for k in 0..HALF {
+            let mut pair = [[L::ZERO; 2]; 7];
+            for i in 0..7 {
+                pair[i] = [rows[i][k], rows[i][k + HALF]];
+            }
+            let known = self.carry(&mut pair, k + 1 == HALF);
+            for i in 0..7 {
+                next[i][k + 1] = pair[i][0];
+                next[i][(k + HALF + 1) % COLUMNS] = pair[i][1];
+            }
+            for i in 0..KNOWN {
+                let [a, b] = known[i];
+                sums[k % 2][i] = sums[k % 2][i] + a.mul_add(a, b * b);
+            }
+        }
+        let [even, odd] = sums;
+        let mut squares = even;
+        for i in 0..KNOWN {
+            squares[i] = even[i] + odd[i];
+        }
+        squares
+    }
+}
+
+/// [`square`] of a row whose parts have been permuted.
+#[inline(always)]
+fn square_permuted<L: Lane>(row: &[L; COLUMNS]) -> L {
+    let [last, a, b, c, d, e, f, g] = *row;
+    square(&[a, b, c, d, e, f, g, last])
 }
 
 /// Standard deviations of the rounding in a bounce.
@@ -173,41 +283,40 @@ impl<L: Lane> BounceRounding<L> {
     /// Adds the error of the impact's location, which is a displacement across the end of the
     /// cable.
     #[inline(always)]
-    fn add_location(&self, bounced: &Bounced<L>, rows: &mut Rows<L, COLUMNS>) {
+    fn add_location<const N: usize>(&self, bounced: &Bounced<L>, rows: &mut Rows<L, N>) {
         let n = bounced.facts.normal.n;
-        let location = [None, None, None, Some(self.location)];
-        add_products(half(&mut rows[0], 1), location, n.x);
-        add_products(half(&mut rows[1], 1), location, n.y);
+        for (row, direction) in rows.iter_mut().zip([n.x, n.y]) {
+            // See [`add`].
+            let first = if L::Mask::WIDTH == 1 { N / 2 } else { N - 1 };
+            for k in first..N {
+                let location = if k == N - 1 { self.location } else { L::ZERO };
+                row[k] = location.mul_add(direction, row[k]);
+            }
+        }
     }
 
     /// Adds the rounding of the stored state and of the impact law's inputs, each in its own
-    /// column.
+    /// column, where the columns are shifted by so many.
     #[inline(always)]
-    fn add(&self, map: &BounceMap<L>, rows: &mut Rows<L, COLUMNS>) {
+    fn add(&self, map: &BounceMap<L>, rows: &mut Rows<L, COLUMNS>, shift: usize) {
         let [first, second] = self.along.map(Some);
-        add_products(
-            half(&mut rows[0], 0),
-            [first, second, None, None],
-            self.across.x,
-        );
-        add_products(
-            half(&mut rows[1], 0),
-            [first, second, None, None],
-            self.across.y,
-        );
+        let along = [first, second, None, None];
+        let (low, high) = (shift, COLUMNS / 2 + shift);
+        add_products(&mut rows[0], low, along, self.across.x);
+        add_products(&mut rows[1], low, along, self.across.y);
         for i in 0..3 {
             let turned = Some(self.turned[i]);
-            add(half(&mut rows[i], 0), [None, None, turned, None]);
+            add(&mut rows[i], low, [None, None, turned, None]);
         }
         let by_direction = map.law_of_turning(L::ZERO, self.direction, self.direction);
         let by_turn = map.law_of_turning(L::ZERO, L::ZERO, -self.turn);
         for (i, speed) in [Some(self.speed), None, None].into_iter().enumerate() {
             let law = [Some(by_direction[i]), None, Some(by_turn[i]), speed];
-            add(half(&mut rows[3 + i], 0), law);
+            add(&mut rows[3 + i], low, law);
         }
-        add(half(&mut rows[4], 1), [Some(self.speed), None, None, None]);
-        add(half(&mut rows[5], 1), [None, Some(self.spin), None, None]);
-        add(half(&mut rows[6], 1), [None, None, Some(self.time), None]);
+        add(&mut rows[4], high, [Some(self.speed), None, None, None]);
+        add(&mut rows[5], high, [None, Some(self.spin), None, None]);
+        add(&mut rows[6], high, [None, None, Some(self.time), None]);
     }
 
     /// A bound on the squares of what is added to the position and the time.
@@ -224,29 +333,29 @@ impl<L: Lane> BounceRounding<L> {
     }
 }
 
-/// Half of a row, which is as much as a vector register holds.
+/// Adds the given entries to half of a row, from its column `first` on. For a single run, of which a
+/// vector register holds half a row, zeros are added to the other entries: writing one entry alone
+/// would delay the next read of the whole row.
 #[inline(always)]
-fn half<L>(row: &mut [L; COLUMNS], which: usize) -> &mut [L; COLUMNS / 2] {
-    &mut row.as_chunks_mut().0[which]
-}
-
-/// Adds the given entries to half of a row. For a single run zeros are added to the other entries:
-/// writing one entry alone would delay the next read of the whole row.
-#[inline(always)]
-fn add<L: Lane>(half: &mut [L; COLUMNS / 2], more: [Option<L>; COLUMNS / 2]) {
-    for (entry, more) in half.iter_mut().zip(more) {
-        if more.is_some() || L::Mask::WIDTH == 1 {
-            *entry = *entry + more.unwrap_or(L::ZERO);
+fn add<L: Lane>(row: &mut [L; COLUMNS], first: usize, more: [Option<L>; COLUMNS / 2]) {
+    for k in 0..COLUMNS / 2 {
+        if more[k].is_some() || L::Mask::WIDTH == 1 {
+            row[first + k] = row[first + k] + more[k].unwrap_or(L::ZERO);
         }
     }
 }
 
 /// The same with the entries multiplied by a factor.
 #[inline(always)]
-fn add_products<L: Lane>(half: &mut [L; COLUMNS / 2], more: [Option<L>; COLUMNS / 2], factor: L) {
-    for (entry, more) in half.iter_mut().zip(more) {
-        if more.is_some() || L::Mask::WIDTH == 1 {
-            *entry = more.unwrap_or(L::ZERO).mul_add(factor, *entry);
+fn add_products<L: Lane>(
+    row: &mut [L; COLUMNS],
+    first: usize,
+    more: [Option<L>; COLUMNS / 2],
+    factor: L,
+) {
+    for k in 0..COLUMNS / 2 {
+        if more[k].is_some() || L::Mask::WIDTH == 1 {
+            row[first + k] = more[k].unwrap_or(L::ZERO).mul_add(factor, row[first + k]);
         }
     }
 }

@@ -62,14 +62,8 @@ impl<L: Doubles> LaneFollowers<L> for Followed<L> {
 
     #[inline(always)]
     fn bounce(&self, next: &mut Self, plain: L::Mask, bounced: &Bounced<L>) -> L::Mask {
-        *next = *self;
-        let through = next.carry(bounced, &BounceMap::of(bounced));
+        let through = self.carry(next, bounced, &BounceMap::of(bounced));
         plain & through.within_tolerance
-    }
-
-    #[inline(always)]
-    fn take_lanes(&mut self, mask: L::Mask, from: &Self) {
-        self.pairwise(from, |own, other| *own = L::select(mask, *other, *own));
     }
 
     fn put(&mut self, lane: usize, follower: &SpreadMonitor) {

@@ -65,6 +65,18 @@ impl<L: Lane> FactorParts<L> {
             let [a, b, c, d, e, f, g, last] = *row;
             *row = [last, a, b, c, d, e, f, g];
         }
+        self.advance_signs();
+    }
+
+    /// Takes over the signs of others.
+    #[inline(always)]
+    pub(super) fn take_signs(&mut self, others: &Self) {
+        self.signs = others.signs;
+    }
+
+    /// Advances the signs alone, where the parts are permuted already.
+    #[inline(always)]
+    pub(super) fn advance_signs(&mut self) {
         self.signs = self.signs.next();
     }
 

@@ -260,7 +260,7 @@ impl SpreadMonitor {
         map: &BounceMap<f64>,
     ) -> f64 {
         let mut followed = self.followed();
-        let through = followed.carry(bounced, map);
+        let through = self.followed().carry(&mut followed, bounced, map);
         if !through.within_tolerance && self.horizon.is_none() {
             let before = self.followed().before(bounced, map);
             dispatch(NeighbourCheck {

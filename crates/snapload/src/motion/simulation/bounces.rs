@@ -20,7 +20,8 @@ impl<T: Real> Simulation<T> {
     #[inline(always)]
     pub(super) fn next_bounce(&mut self) -> Option<Bounce<T>> {
         (self.bounce_start, self.facts) = (None, None);
-        let from = self.after_impact()?;
+        let rotation = self.rotation.take();
+        let from = self.after_impact(rotation)?;
         let bounce = bounce(self.two_cables.as_ref()?, &from);
         if bounce.arrived {
             self.bounce_start = Some(from);
@@ -28,9 +29,10 @@ impl<T: Real> Simulation<T> {
         bounce.arrived.then_some(bounce)
     }
 
-    /// The motion in the form of [`bounce`]; none if a cable is taut or at rest.
+    /// The motion in the form of [`bounce`], given its rotation if that is known; none if a cable is
+    /// taut or at rest.
     #[inline(always)]
-    pub(crate) fn after_impact(&self) -> Option<AfterImpact<T>> {
+    fn after_impact(&self, rotation: Option<Rotation<T>>) -> Option<AfterImpact<T>> {
         let [first, second, ..] = &self.contacts;
         if !self.active.taut.is_empty() || first.resting || second.resting {
             return None;
@@ -38,7 +40,7 @@ impl<T: Real> Simulation<T> {
         Some(AfterImpact {
             t: self.t,
             state: self.state,
-            rotation: Rotation::by(self.state.theta),
+            rotation: rotation.unwrap_or_else(|| Rotation::by(self.state.theta)),
             before: [self.before.vx, self.before.vy, self.before.vtheta],
             gaps: [[first.gap, first.error], [second.gap, second.error]],
             y_max: self.extremes.y_max,
@@ -48,7 +50,7 @@ impl<T: Real> Simulation<T> {
 
     /// The data that a lane needs to continue the motion; none if it does not fly freely now.
     pub(crate) fn lane_start(&self) -> Option<(&TwoCableSystem<T>, AfterImpact<T>)> {
-        Some((self.two_cables.as_ref()?, self.after_impact()?))
+        Some((self.two_cables.as_ref()?, self.after_impact(self.rotation)?))
     }
 
     /// The impacts so far.
@@ -66,6 +68,7 @@ impl<T: Real> Simulation<T> {
         }
         self.t = after_impact.t;
         self.state = after_impact.state;
+        self.rotation = Some(after_impact.rotation);
         let [vx, vy, vtheta] = after_impact.before;
         self.before = State {
             vx,
@@ -146,6 +149,7 @@ impl<T: Real> Simulation<T> {
                 return event;
             }
             self.state = next.state;
+            self.rotation = Some(next.rotation);
             self.facts = Some(bounce.facts);
             self.end_slow_row();
             let found = result.insert(ImpactResult::of_one(
