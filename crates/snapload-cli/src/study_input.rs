@@ -53,7 +53,7 @@ pub(crate) struct StudyArgs {
     /// Run N Sobol points in the box of the ranges instead of a grid
     #[arg(long, value_name = "N", value_parser = whole_number::<u64>(RANDOM))]
     random: Option<u64>,
-    /// Seed of the random points
+    /// Seed of the random points, by default 0
     #[arg(long, value_name = "S", value_parser = whole_number::<u64>(SEED))]
     seed: Option<u64>,
     /// Read the cases from a CSV or Parquet file, with one row per case and one column per key
