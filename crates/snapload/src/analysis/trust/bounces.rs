@@ -166,7 +166,7 @@ impl<L: Lane> Columns<'_, '_, L> {
 
     /// Carries all columns to `next`, permuted as [`FactorParts::rotate`] does; returns the squares
     /// of what is known, which are those of [`square`]. Two columns at a time are few enough for
-    /// the processor's registers, and the loop is short enough for its cache of instructions.
+    /// the processor's registers; written out for all eight, the code took longer.
     #[inline(always)]
     fn carry_in_pairs(&self, rows: &Rows<L, COLUMNS>, next: &mut Rows<L, COLUMNS>) -> [L; KNOWN] {
         const HALF: usize = COLUMNS / 2;
