@@ -77,6 +77,7 @@ impl<L: Lane> Followed<L> {
         (next.slant, next.tolerance) = (self.slant, self.tolerance);
         next.parts.take_signs(&self.parts);
         let rows = &mut next.parts.rows;
+        // The columns of a single run lie side by side in registers: all are carried at once.
         let (squares, velocities_after) = if L::Mask::WIDTH == 1 {
             *rows = self.parts.rows;
             let squares = squares(&columns.carry(rows, true));
@@ -333,9 +334,9 @@ impl<L: Lane> BounceRounding<L> {
     }
 }
 
-/// Adds the given entries to half of a row, from its column `first` on. For a single run, of which a
-/// vector register holds half a row, zeros are added to the other entries: writing one entry alone
-/// would delay the next read of the whole row.
+/// Adds the given entries to half of a row, from its column `first` on. For a single run, of which
+/// a vector register holds half a row, zeros are added to the other entries: writing one entry
+/// alone would delay the next read of the whole row.
 #[inline(always)]
 fn add<L: Lane>(row: &mut [L; COLUMNS], first: usize, more: [Option<L>; COLUMNS / 2]) {
     for k in 0..COLUMNS / 2 {
