@@ -21,8 +21,9 @@ pub struct Frame {
     logs: [f64; 6],
     /// Products of the factors removed since their logarithms were last added.
     lengths: [f64; 6],
-    /// Bounces since the directions were last made orthogonal.
+    /// Bounces since the directions were last made orthogonal, and at most how many there may be.
     bounces: u32,
+    most_bounces: u32,
     /// Steps along taut cables since the directions were last projected onto the constraints.
     taut_steps: u32,
     /// How many directions the body has: four of a point mass, which has no rotation.
@@ -42,11 +43,13 @@ impl Kernel for MakingOrthogonal<'_> {
 
 /// Logarithms are added when a product leaves the range from the inverse of this to this.
 const RANGE: f64 = 1e100;
-/// Directions are made orthogonal after this many bounces, or when a component has grown to the
-/// bound that follows: the part of the slowest growing direction that is orthogonal to the others
-/// has then lost about eight digits of sixteen.
-const MOST_BOUNCES: u32 = 8;
+/// Directions are made orthogonal when a component has grown to this: the part of the slowest
+/// growing direction that is orthogonal to the others has then lost about eight digits of sixteen.
 const GROWTH_LIMIT: f64 = 1e4;
+/// They are also made orthogonal after this many bounces, or fewer if the bounces together may
+/// contract a volume to this part or less, each by e²: contraction loses digits, too.
+const MOST_BOUNCES: u32 = 24;
+const CONTRACTION_LIMIT: f64 = 1e-6;
 /// Directions are projected onto the constraints of the same taut cables after this many steps; in
 /// between only rounding takes them off the constraints.
 const MOST_TAUT_STEPS: u32 = 16;
@@ -67,6 +70,7 @@ impl Frame {
             logs: [0.0; 6],
             lengths: [1.0; 6],
             bounces: 0,
+            most_bounces: 1,
             taut_steps: 0,
             count: 6,
         }
@@ -81,6 +85,7 @@ impl Frame {
             }
             frame.count = 4;
         }
+        frame.most_bounces = most_bounces(system.restitution);
         frame.keep_along(system, state, taut);
         frame.lengths = [1.0; 6];
         frame
@@ -159,7 +164,7 @@ impl Frame {
     pub(crate) fn follow_bounce(&mut self, map: &BounceMap<f64>) {
         map.at_one_time(&mut self.directions.0);
         self.bounces += 1;
-        if self.bounces == MOST_BOUNCES || self.exceeds_growth_limit() {
+        if self.bounces >= self.most_bounces || self.exceeds_growth_limit() {
             self.make_orthogonal(0.0);
         }
     }
@@ -272,6 +277,18 @@ impl Frame {
         exponents.truncate(self.count);
         exponents
     }
+}
+
+/// How many bounces may pass before the directions are made orthogonal.
+fn most_bounces(restitution: f64) -> u32 {
+    let contraction = restitution * restitution;
+    let mut left = contraction;
+    (1..MOST_BOUNCES)
+        .find(|_| {
+            left *= contraction;
+            left <= CONTRACTION_LIMIT
+        })
+        .unwrap_or(MOST_BOUNCES)
 }
 
 /// The cables that the snap of a step brings to rest and that open again at once: those that take

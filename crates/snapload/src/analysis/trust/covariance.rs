@@ -62,10 +62,16 @@ impl CovarianceFactor {
     /// floating body are kept as they are: with the water's memory they have more than seven rows.
     #[inline(always)]
     pub(super) fn with_seven(mut self) -> Self {
+        self.leave_seven();
+        self
+    }
+
+    /// [`CovarianceFactor::with_seven`], in place.
+    #[inline(always)]
+    pub(super) fn leave_seven(&mut self) {
         if self.memory.is_empty() && self.parts.rows.iter().any(|row| row[LAST] != 0.0) {
             self.parts.rows = seven(self.parts.rows);
         }
-        self
     }
 
     /// The same with one more part, in the column that is left free for it; of a floating body it
@@ -99,12 +105,7 @@ impl CovarianceFactor {
             self.add_by_sign(more);
             return;
         }
-        let mut all = [[0.0; 2 * COLUMNS]; 7];
-        for (row, (parts, more)) in all.iter_mut().zip(self.parts.rows.iter().zip(more)) {
-            row[..COLUMNS].copy_from_slice(parts);
-            row[COLUMNS..].copy_from_slice(more);
-        }
-        self.parts.rows = seven(all);
+        self.parts.rows = seven_of_both(&self.parts.rows, more);
     }
 
     /// Adds each of the new parts to one of a floating body's parts, with a pseudorandom sign, and
@@ -200,6 +201,17 @@ pub(super) fn relative(squares: &Deviation, state: &State, t: f64) -> f64 {
 #[inline(always)]
 pub(super) fn larger(a: f64, b: f64) -> f64 {
     if a > b { a } else { b }
+}
+
+/// Seven parts that stand for two sets of parts together.
+#[inline(always)]
+pub(super) fn seven_of_both(parts: &Block<COLUMNS>, more: &Block<COLUMNS>) -> Block<COLUMNS> {
+    let mut all = [[0.0; 2 * COLUMNS]; 7];
+    for (row, (parts, more)) in all.iter_mut().zip(parts.iter().zip(more)) {
+        row[..COLUMNS].copy_from_slice(parts);
+        row[COLUMNS..].copy_from_slice(more);
+    }
+    seven(all)
 }
 
 /// Reduces the parts to seven by Householder's reflections, which leave the covariance as it is:

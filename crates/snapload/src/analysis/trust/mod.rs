@@ -9,6 +9,7 @@
 //! follows.
 
 mod bounce_reach;
+mod bounce_rounding;
 mod bounces;
 mod causes;
 mod certainty;
