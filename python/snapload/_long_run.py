@@ -261,8 +261,9 @@ def orbit_diagram(
         Over the key and ``k``: ``x`` to ``vtheta``, NaN where the motion stopped at a limit. Over the key: ``period``
         in periods of the forcing (NaN if the motion is not periodic), ``snaps`` per period, the largest Lyapunov
         ``exponent`` (minus infinity where taut cables remove all directions) with ``exponent_se``, ``y_max``, ``stop``
-        (empty if the motion did not stop), and ``restarted``, whether the motion started from the start of the case
-        again. The values are in the order in which they were followed.
+        (empty if the motion did not stop) with ``stop_t`` and ``stop_certain``, false where rounding decides that time,
+        and ``restarted``, whether the motion started from the start of the case again. The values are in the order in
+        which they were followed.
 
     Raises
     ------
@@ -310,13 +311,18 @@ def orbit_diagram(
         variables[name] = (key, numbers(rows, name), known[name])
     all_removed = [row["exponent"] is None and row["exponent_se"] is not None for row in rows]
     variables["exponent"][1][all_removed] = -np.inf
-    stops = np.array([row["stop"] or "" for row in rows], dtype=object)
+    stopped = [row["stop"] or {"reason": "", "t": np.nan, "certain": None} for row in rows]
+    stops = np.array([stop["reason"] for stop in stopped], dtype=object)
     variables["stop"] = (key, stops, {"long_name": "which limit stopped the motion"})
+    stop_t = np.array([stop["t"] for stop in stopped], dtype=np.float64)
+    variables["stop_t"] = (key, stop_t, attributes_as("t", "time at which the motion stopped"))
+    certain = np.array([stop["certain"] is not False for stop in stopped], dtype=bool)
+    variables["stop_certain"] = (key, certain, {"long_name": "rounding does not decide the time of the stop"})
     restarted = np.array([row["restarted"] for row in rows], dtype=bool)
     variables["restarted"] = (key, restarted, {"long_name": "started again from the start of the case"})
     coords = {
         key: (key, numbers(rows, "value"), attributes()[key]),
-        "k": ("k", np.arange(keep + 1), {"long_name": "number of the period that is kept"}),
+        "k": ("k", np.arange(sampling[0] - sampling[1], sampling[0] + 1), {"long_name": "number of the period of the forcing"}),
     }
     title = {"title": "The attractor of a body on cables against a key", **COMMON_ATTRIBUTES}
     return with_own_names(xarray.Dataset(variables, coords, title))

@@ -119,7 +119,10 @@ def test_a_diagram_is_that_of_the_command(command_json, tmp_path):
         data = command_json("diagram", *base, *options, *(["--down"] if down else []))["rows"]
         found = snapload.orbit_diagram(snapload.Case(**TORUS), f_o="1.8:2.4:4", periods=60, keep=20, down=down)
         assert found.f_o.values.tolist() == [row["value"] for row in data] and found.sizes["k"] == 21
-        assert found.stop.values.tolist() == [row["stop"] or "" for row in data] and "upper_bound" in found.stop.values
+        stops = [row["stop"] or {"reason": "", "t": np.nan, "certain": True} for row in data]
+        assert found.stop.values.tolist() == [stop["reason"] for stop in stops] and "upper_bound" in found.stop.values
+        np.testing.assert_array_equal(found.stop_t, [stop["t"] for stop in stops])
+        assert found.stop_certain.values.tolist() == [stop["certain"] for stop in stops]
         assert found.restarted.values.tolist() == [row["restarted"] for row in data]
         for name in ("period", "snaps", "exponent", "exponent_se", "y_max"):
             expected = [np.nan if row[name] is None else row[name] for row in data]
@@ -127,7 +130,10 @@ def test_a_diagram_is_that_of_the_command(command_json, tmp_path):
         frame = pandas.read_csv(out)
         for name in STATE:
             points = found[name].values.ravel()
-            assert points[~np.isnan(points)].tolist() == frame[name].tolist()
+            assert points[~np.isnan(points)].tolist() == frame[name].dropna().tolist()
+        # A value at which the motion stops before the first point has a row, too.
+        assert frame.f_o.drop_duplicates().tolist() == found.f_o.values.tolist()
+        assert set(frame.k.dropna()) <= set(found.k.values) == set(range(40, 61))
     assert snapload.plot_diagram(found, "vx").get_legend().get_texts()[0].get_text() == "stops at a limit"
 
 

@@ -11,7 +11,7 @@ use snapload_hydro::{
     Body, Decay, FREEDOMS, Fit, HydroError, Hydrodynamics, Swing, Warning, decay, large_motion,
     rest_without_tension, swings,
 };
-use snapload_report::tables::in_digits;
+use snapload_report::tables::in_digits_with_fraction;
 use snapload_structure::labelled_row;
 use std::f64::consts::FRAC_PI_2;
 use std::fmt::Write as _;
@@ -214,7 +214,7 @@ fn swing_table(called: &str, swings: &[Swing], freedom: usize, motion: &Decay) -
 fn table(motion: &Decay) -> String {
     let mut text = "t_s,surge_m,heave_m,pitch_rad\n".to_owned();
     for (t, q) in motion.t_s.iter().zip(&motion.q) {
-        let row = [*t, q[0], q[1], q[2]].map(in_digits);
+        let row = [*t, q[0], q[1], q[2]].map(in_digits_with_fraction);
         let _ = writeln!(text, "{}", row.join(","));
     }
     text

@@ -7,10 +7,10 @@ use crate::json::JsonArgs;
 use crate::orbit_picture::PlotArgs;
 use crate::outputs::{Outputs, TABLE};
 use crate::section::SectionArgs;
-use crate::table::{axis, names, numbers};
+use crate::table::{axis, names};
 use serde::Serialize;
 use snapload::analysis::{Progress, START_KEYS};
-use snapload_orbits::{DiagramPoint, DiagramRow, diagram, diagram_summary};
+use snapload_orbits::{DiagramPoint, DiagramRow, Point, diagram, diagram_summary};
 use snapload_report::{CaseEcho, case_in_words, case_without};
 use snapload_study::Values;
 use std::path::PathBuf;
@@ -54,6 +54,9 @@ struct Answer<'a> {
     case: CaseEcho<'a>,
     vary: &'static str,
     down: bool,
+    phase: f64,
+    periods: u64,
+    keep: u64,
     rows: Vec<DiagramRow>,
 }
 
@@ -78,13 +81,19 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
     if let Some(mut plot) = plot {
         plot.spans(key, &values);
         let layers = diagram_layers(&found, &rows, plot.axes());
-        let title = case_without(&[key], &name, &parameters);
+        let mut title = case_without(&[key], &name, &parameters);
+        if args.down {
+            title.push_str(", downwards");
+        }
         plot.add_to(&mut outputs, &title, layers)?;
     }
     let row = Answer {
         case: CaseEcho(&parameters),
         vary: key,
         down: args.down,
+        phase: options.phase,
+        periods: options.skip + options.keep,
+        keep: options.keep,
         rows: found.iter().map(DiagramRow::new).collect(),
     };
     let mut text = format!("Case      {}\n", case_in_words(&name, &parameters));
@@ -92,38 +101,47 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
     outputs.finish(&row, text)
 }
 
+/// A point of a diagram: the value that it belongs to, its index, its time, and its state; a value
+/// at which the motion stopped before the first point has one row without them.
+type Row<'a> = (&'a DiagramPoint, Option<(u64, f64, &'a Point)>);
+
+fn rows(found: &[DiagramPoint]) -> impl Iterator<Item = Row<'_>> {
+    found.iter().flat_map(|at| {
+        let points = at.section.points_with_times().map(move |point| (at, Some(point)));
+        points.chain(at.section.points.is_empty().then_some((at, None)))
+    })
+}
+
 fn columns(key: &'static str, found: &[DiagramPoint]) -> Vec<(&'static str, Values)> {
-    let rows = || {
-        let points = |at: &'_ DiagramPoint| at.section.points.len();
-        found
-            .iter()
-            .flat_map(move |at| (0..points(at)).map(move |k| (at, k)))
+    let rows = || rows(found);
+    let by_value = |of: &dyn Fn(&DiagramPoint) -> Option<f64>| {
+        Values::Numbers(rows().map(|(at, _)| of(at)).collect())
     };
     let exponent = |place: usize| {
-        let value = rows().map(|(at, _)| at.section.exponents.first().map(|both| both[place]));
-        Values::Numbers(value.collect())
+        move |at: &DiagramPoint| at.section.exponents.first().map(|both| both[place])
     };
+    let k = rows().map(|(_, point)| point.map(|(k, ..)| k as i64));
+    let t = rows().map(|(_, point)| point.map(|(_, t, _)| t));
     let mut columns = vec![
-        (key, numbers(rows().map(|(at, _)| at.value))),
-        (
-            "k",
-            Values::Counts(rows().map(|(_, k)| Some(k as i64)).collect()),
-        ),
+        (key, by_value(&|at| Some(at.value))),
+        ("k", Values::Counts(k.collect())),
+        ("t", Values::Numbers(t.collect())),
     ];
     for (i, name) in START_KEYS.into_iter().enumerate() {
-        columns.push((name, numbers(rows().map(|(at, k)| at.section.points[k][i]))));
+        let state = rows().map(|(_, point)| point.map(|(.., state)| state[i]));
+        columns.push((name, Values::Numbers(state.collect())));
     }
     let period = rows().map(|(at, _)| at.period.map(|period| period as i64));
     columns.push(("period", Values::Counts(period.collect())));
-    columns.push((
-        "snaps",
-        Values::Numbers(rows().map(|(at, _)| at.snaps()).collect()),
-    ));
-    columns.push(("exponent", exponent(0)));
-    columns.push(("exponent_se", exponent(1)));
+    columns.push(("snaps", by_value(&DiagramPoint::snaps)));
+    columns.push(("exponent", by_value(&exponent(0))));
+    columns.push(("exponent_se", by_value(&exponent(1))));
     columns.push((
         "stop",
         names(rows().map(|(at, _)| at.stop().map(|stop| stop.name()))),
     ));
+    columns.push(("stop_t", by_value(&|at| at.stop().map(|_| at.section.end.1))));
+    let certain = rows().map(|(at, _)| at.section.stop_is_certain());
+    columns.push(("stop_certain", Values::Flags(certain.collect())));
     columns
 }

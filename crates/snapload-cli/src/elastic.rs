@@ -7,7 +7,7 @@ use crate::outputs::Outputs;
 use crate::structure_input::{ReadStructure, StructureArgs};
 use snapload::CaseError;
 use snapload::analysis::{Progress, Unfinished};
-use snapload_report::tables::in_digits;
+use snapload_report::tables::in_digits_with_fraction;
 use snapload_structure::{
     EVERY, ElasticComparison, ModelAtRest, STIFFER, checked_every, compare_elastic,
 };
@@ -81,7 +81,7 @@ fn table(comparison: &ElasticComparison, out: &mut dyn io::Write) -> io::Result<
             .to_si([state.x, state.y]);
         let place = [sample.t_s, x, z, 0.0 - state.theta];
         let row = place.iter().chain(&sample.tension_n);
-        table.write_record(row.copied().map(in_digits))?;
+        table.write_record(row.copied().map(in_digits_with_fraction))?;
     }
     table.flush()
 }

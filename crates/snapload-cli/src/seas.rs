@@ -5,7 +5,7 @@ use crate::json::JsonArgs;
 use crate::option_values::whole_number;
 use crate::outputs::Outputs;
 use crate::structure_input::{ReadStructure, StructureArgs};
-use snapload_report::tables::in_digits;
+use snapload_report::tables::in_digits_with_fraction;
 use snapload_structure::note::{self, Source};
 use snapload_structure::{Lines, SEEDS, SeaOutcome, Seas, end_text, seas};
 use std::io;
@@ -88,7 +88,7 @@ fn table(seas: &Seas, out: &mut dyn io::Write) -> io::Result<()> {
         let slack = outcome.lines.iter().map(|line| line.slack_fraction);
         let least = outcome.lines.iter().filter_map(|line| line.least_n);
         let least = least.reduce(f64::min);
-        let peak = outcome.peak_n().map(in_digits);
+        let peak = outcome.peak_n().map(in_digits_with_fraction);
         // Of a record that ends before anything is judged there is nothing to tell.
         let judged = |text: String| match outcome.is_unjudged() {
             true => String::new(),
@@ -96,14 +96,14 @@ fn table(seas: &Seas, out: &mut dyn io::Write) -> io::Result<()> {
         };
         table.write_record([
             seed.to_string(),
-            in_digits(outcome.end_s),
+            in_digits_with_fraction(outcome.end_s),
             end_text(outcome.stop).to_owned(),
             judged(outcome.snaps().to_string()),
-            judged(in_digits(outcome.speed_m_s())),
+            judged(in_digits_with_fraction(outcome.speed_m_s())),
             peak.unwrap_or_default(),
-            judged(in_digits(outcome.largest_n())),
-            least.map(in_digits).unwrap_or_default(),
-            judged(in_digits(slack.fold(0.0, f64::max))),
+            judged(in_digits_with_fraction(outcome.largest_n())),
+            least.map(in_digits_with_fraction).unwrap_or_default(),
+            judged(in_digits_with_fraction(slack.fold(0.0, f64::max))),
         ])?;
     }
     table.flush()

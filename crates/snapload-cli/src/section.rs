@@ -250,9 +250,12 @@ fn section_layers(section: &Section, plot: &PlotFile) -> Vec<Layer> {
 }
 
 fn columns(section: &Section) -> Vec<(&'static str, Values)> {
-    let count = section.points.len() as i64;
-    let ks = (0..count).map(|k| Some(k + section.first as i64)).collect();
-    let mut columns = vec![("k", Values::Counts(ks))];
+    let points = || section.points_with_times();
+    let ks = points().map(|(k, ..)| Some(k as i64)).collect();
+    let mut columns = vec![
+        ("k", Values::Counts(ks)),
+        ("t", numbers(points().map(|(_, t, _)| t))),
+    ];
     for (i, name) in START_KEYS.into_iter().enumerate() {
         columns.push((name, numbers(section.points.iter().map(|point| point[i]))));
     }

@@ -1,6 +1,6 @@
 //! Tables: their columns, as CSV, and the values of a key from `KEY=first:last:n`.
 use crate::failure::Failure;
-use snapload_report::tables::in_digits;
+use snapload_report::tables::in_digits_with_fraction;
 use snapload_study::{Axis, Values};
 use std::io::{self, Write};
 
@@ -22,7 +22,7 @@ fn texts(values: &Values) -> Vec<String> {
     }
     match values {
         Values::Numbers(list) => {
-            let text = |value: &Option<f64>| value.map(in_digits).unwrap_or_default();
+            let text = |value: &Option<f64>| value.map(in_digits_with_fraction).unwrap_or_default();
             list.iter().map(text).collect()
         }
         Values::Counts(list) => all(list),

@@ -42,6 +42,16 @@ struct StopRow {
     certain: Option<bool>,
 }
 
+impl StopRow {
+    fn of(section: &Section) -> Option<Self> {
+        section.stop.map(|stop| Self {
+            reason: stop.name(),
+            t: section.end.1,
+            certain: section.stop_is_certain(),
+        })
+    }
+}
+
 #[derive(Serialize)]
 struct PointRow {
     k: u64,
@@ -68,11 +78,7 @@ impl SectionRow {
             exponents: exponents(section),
             y_max: section.y_max,
             theta_max: section.theta_max,
-            stop: section.stop.map(|stop| StopRow {
-                reason: stop.name(),
-                t: section.end.1,
-                certain: section.stop_is_certain(),
-            }),
+            stop: StopRow::of(section),
             points: points
                 .map(|(state, k)| PointRow { k, state: *state })
                 .collect(),
@@ -89,7 +95,7 @@ pub struct DiagramRow {
     snaps: Option<f64>,
     exponent: Option<f64>,
     exponent_se: Option<f64>,
-    stop: Option<&'static str>,
+    stop: Option<StopRow>,
     seed: Point,
     restarted: bool,
     x_min: Option<f64>,
@@ -110,7 +116,7 @@ impl DiagramRow {
                 .map(|[mean, _]| *mean)
                 .filter(|mean| mean.is_finite()),
             exponent_se: exponent.map(|[_, error]| *error),
-            stop: at.stop().map(|stop| stop.name()),
+            stop: StopRow::of(&at.section),
             seed: at.seed,
             restarted: at.restarted,
             x_min: xs().min_by(f64::total_cmp),

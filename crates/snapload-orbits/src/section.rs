@@ -13,6 +13,8 @@ pub struct Section {
     pub points: Vec<Point>,
     /// The index k of the first of them, which is the number of periods left out.
     pub first: u64,
+    /// The time at which the motion began, and the period of the forcing.
+    pub(crate) clock: [f64; 2],
     /// Snaps in each of the kept periods.
     pub snaps: Vec<u64>,
     /// The impacts one by one, if they were requested.
@@ -129,6 +131,7 @@ impl Section {
             section: Section {
                 points: Vec::new(),
                 first: options.skip,
+                clock: [t, period],
                 snaps: Vec::new(),
                 impacts: options.impacts.then(Impacts::default),
                 exponents: Vec::new(),
@@ -142,6 +145,13 @@ impl Section {
         };
         follow.run(simulation, last, on_progress)?;
         Ok(follow.section)
+    }
+
+    /// The points with the indices k of their instants, and the instants themselves.
+    pub fn points_with_times(&self) -> impl Iterator<Item = (u64, f64, &Point)> {
+        let [begun, period] = self.clock;
+        let points = (self.first..).zip(&self.points);
+        points.map(move |(k, point)| (k, begun + period * k as f64, point))
     }
 
     /// Its shortest period in periods of the forcing, if it is periodic.
@@ -368,6 +378,7 @@ mod tests {
             ),
             points,
             first: u64::from(first),
+            clock: [0.0, length],
             snaps: Vec::new(),
             impacts: None,
             exponents: Vec::new(),

@@ -217,7 +217,7 @@ pub fn diagram_summary(key: &str, found: &[DiagramPoint]) -> String {
         let exponent = exponent.map_or("-".to_owned(), |both| exponent_text(*both));
         let value = six_digits(at.value);
         let _ = match at.stop() {
-            Some(stop) => writeln!(text, "{value:<12} {}", stop.label()),
+            Some(stop) => writeln!(text, "{value:<12} {}{}", stop.label(), doubt(&at.section)),
             None => writeln!(text, "{value:<12} {period:<7} {snaps:<8} {exponent}"),
         };
     }
@@ -226,6 +226,11 @@ pub fn diagram_summary(key: &str, found: &[DiagramPoint]) -> String {
         .filter(|at| at.stop().is_none() && at.period.is_none());
     if let Some(longest) = none.map(|at| at.section.longest_period()).max() {
         let _ = writeln!(text, "none: no period of the forcing up to {longest}");
+    }
+    let doubtful = |at: &DiagramPoint| at.section.stop_is_certain() == Some(false);
+    if found.iter().any(doubtful) {
+        text += "not certain: rounding decides whether and when the motion stops; with another number of periods\n\
+                 a chaotic motion may also stop where this one does not\n";
     }
     text
 }

@@ -247,11 +247,13 @@ pub(crate) fn csv_6_2(study: &Study) -> String {
 
 fn cells(head: &[&str], numbers: &[Number]) -> String {
     let exact = numbers.iter().map(|number| number.exact.as_str());
-    head.iter()
-        .copied()
-        .chain(exact)
-        .collect::<Vec<&str>>()
-        .join(",")
+    // Some names of series contain a comma; none contains a quote.
+    let quoted = |cell: &str| match cell.contains(',') {
+        true => format!("\"{cell}\""),
+        false => cell.to_owned(),
+    };
+    let cells: Vec<String> = head.iter().copied().chain(exact).map(quoted).collect();
+    cells.join(",")
 }
 
 fn table(header: &str, rows: impl Iterator<Item = String>) -> String {

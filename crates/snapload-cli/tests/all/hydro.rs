@@ -130,7 +130,7 @@ fn decay_lists_its_swings() {
     assert!((row[3] - 100.0 * of("damping_ratio")).abs() < 1e-2);
     let table = fs::read_to_string(room.path().join("decay.csv")).unwrap();
     assert_eq!(table.lines().count(), 402);
-    assert!(table.starts_with("t_s,surge_m,heave_m,pitch_rad\n0,0,0,0.1\n"));
+    assert!(table.starts_with("t_s,surge_m,heave_m,pitch_rad\n0.0,0.0,0.0,0.1\n"));
     let swings = json(&room, "decay.json")["swings"].clone();
     let period = swings[2]["period_s"].as_f64().unwrap();
     // 2π/1.6526, the eigenvalue of surge and pitch of `linear.json`.

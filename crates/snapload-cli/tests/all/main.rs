@@ -7,6 +7,7 @@ mod bifurcations;
 mod certified;
 mod command_line;
 mod common;
+mod diagrams;
 mod documents;
 mod explore;
 mod hydro;

@@ -315,7 +315,7 @@ fn elastic_runs_both_ways() {
         .skip(1)
         .map(|row| row.split(',').next().unwrap());
     let known: Vec<String> = (0..=30)
-        .map(|k| (f64::from(k) / 10.0).to_string())
+        .map(|k| format!("{:?}", f64::from(k) / 10.0))
         .collect();
     assert_eq!(times.collect::<Vec<_>>(), known);
     for (options, words) in [

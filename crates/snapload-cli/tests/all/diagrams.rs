@@ -1,0 +1,63 @@
+//! Diagrams by the command.
+
+use crate::common::{directory, snapload};
+use crate::orbits::number;
+use serde_json::Value;
+
+/// A chaotic motion that stops does so by rounding: the text, the JSON and the table of a diagram
+/// say so at each value, in the table also where no point was reached.
+#[test]
+fn a_diagram_tells_where_rounding_decides_a_stop() {
+    let d = directory();
+    let keys = ["body=point", "e=0.71", "nu=0.87", "omega=4.847", "f_o=1.6"];
+    let out = snapload(d.path())
+        .args(["diagram", "--vary", "r=1.6:1.8:2", "--phase", "0.25"])
+        .args(keys.map(|key| format!("--set={key}")))
+        .args(["--out", "table.csv", "--json", "answer.json"])
+        .assert()
+        .success();
+    let text = String::from_utf8(out.get_output().stdout.clone()).unwrap();
+    assert!(text.contains("(not certain)\n") && text.contains("not certain: rounding decides"));
+    let read = |name: &str| std::fs::read_to_string(d.path().join(name)).unwrap();
+    let answer: Value = serde_json::from_str(&read("answer.json")).unwrap();
+    assert_eq!(
+        [number(&answer["phase"]), number(&answer["periods"])],
+        [0.25, 400.0]
+    );
+    let stop = &answer["rows"][0]["stop"];
+    assert_eq!(
+        [&stop["reason"], &stop["certain"]],
+        [&serde_json::json!("upper_bound"), &serde_json::json!(false)]
+    );
+    let table = read("table.csv");
+    let mut reader = csv::Reader::from_reader(table.as_bytes());
+    let header = reader.headers().unwrap().clone();
+    let place = |name: &str| header.iter().position(|column| column == name).unwrap();
+    let rows: Vec<_> = reader.records().map(Result::unwrap).collect();
+    assert_eq!(rows.len(), 1 + 101);
+    let stopped = &rows[0];
+    assert_eq!(
+        [
+            &stopped[place("r")],
+            &stopped[place("k")],
+            &stopped[place("x")]
+        ],
+        ["1.6", "", ""]
+    );
+    assert_eq!(
+        [&stopped[place("stop")], &stopped[place("stop_certain")]],
+        ["upper_bound", "false"]
+    );
+    assert_eq!(
+        stopped[place("stop_t")].parse::<f64>().unwrap(),
+        number(&stop["t"])
+    );
+    let period = std::f64::consts::TAU / 4.847;
+    for (k, row) in (300..).zip(&rows[1..]) {
+        assert_eq!(row[place("k")], format!("{k}"));
+        let t: f64 = row[place("t")].parse().unwrap();
+        assert!((t - (0.25 + f64::from(k)) * period).abs() < 1e-9);
+        // A column of doubles, each with its fraction.
+        assert_eq!(&row[place("theta")], "0.0");
+    }
+}
