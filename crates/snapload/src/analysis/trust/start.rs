@@ -23,6 +23,7 @@ use crate::analysis::trust::causes::Closing;
 use crate::analysis::trust::covariance::{CovarianceFactor, SIGMA_REACH};
 use crate::analysis::trust::neighbours::Spread;
 use crate::model::cable::Normal;
+use crate::model::rules::Rules;
 use crate::model::taut_set::{MAX_CABLES, PerCable, TautSet};
 use crate::motion::simulation::{Simulation, Step};
 use crate::motion::start::{START_TOLERANCE, start_tolerance};
@@ -184,14 +185,22 @@ impl Loose {
 /// while a neighbour does not. No neighbour starts beyond a limit by more than the start's
 /// tolerance.
 pub(super) fn may_stop(simulation: &Simulation, spread: &Spread) -> bool {
-    let (system, rules, state) = (simulation.system(), simulation.rules(), simulation.state());
+    let (system, state) = (simulation.system(), simulation.state());
+    let Rules {
+        limits,
+        settled_below,
+        sliding_above,
+        t_end: _,
+        max_impacts: _,
+        v_stick: _,
+    } = simulation.rules();
     let near = |place: f64, margin: f64| place.abs() <= margin;
-    let limits = rules.limits.iter().any(|(limit, bound)| {
+    let limits = limits.iter().any(|(limit, bound)| {
         let slopes = limit.slope_bounds(system, bound);
         let margin = spread.at_most(&slopes).min(START_TOLERANCE);
         near(limit.quantity(system, state) - bound, margin)
     });
-    let heights = [rules.settled_below, rules.sliding_above];
+    let heights = [*settled_below, *sliding_above];
     let margin = SIGMA_REACH * spread.sizes[1];
     let settles = heights
         .into_iter()

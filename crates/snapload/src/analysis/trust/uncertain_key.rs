@@ -174,7 +174,7 @@ impl UncertainKey {
             let change = Change::along(&self.simulation, step);
             let reach = self.simulation.system().body.reach();
             let most = self.largest(step, |s| self.over_limit(limit, &state(s)));
-            let bound = change.of_acceleration([reach.value, reach.slope[0]]);
+            let bound = change.of_limit(limit, [reach.value, reach.slope[0]]);
             most + self.between(step, bound, EVALUATIONS)
         })
     }
@@ -254,6 +254,15 @@ impl Change {
         let [spin, spin_slope] = self.spin;
         let centripetal = spin * spin * (reach_slope + reach * self.turn);
         self.force[1] + 2.0 * spin * spin_slope * reach + centripetal
+    }
+
+    /// Of the second derivative of a limit's quantity; a flight does not change the rate of
+    /// rotation.
+    fn of_limit(&self, limit: Limit, reach: [f64; 2]) -> f64 {
+        match limit {
+            Limit::Rotation => 0.0,
+            Limit::UpperBound => self.of_acceleration(reach),
+        }
     }
 
     /// Of g̈ = 2 (Ṗ² + d·P̈), where |d| ≤ r.

@@ -2,7 +2,7 @@
 
 use crate::arithmetic::processor::apart;
 use crate::arithmetic::real::Real;
-use crate::model::rules::Stop;
+use crate::model::rules::{Rules, Stop};
 use crate::model::state::State;
 use crate::model::system::System;
 use crate::model::taut_set::TautSet;
@@ -318,13 +318,21 @@ impl<T: Real> Simulation<T> {
     #[inline(always)]
     pub(super) fn check_rules(&mut self, stuck: TautSet) {
         let y = self.state.y;
-        let low = self.rules.settled_below.is_some_and(|height| y < height);
-        let high = self.rules.sliding_above.is_some_and(|height| y >= height);
+        let Rules {
+            limits: _,
+            settled_below,
+            sliding_above,
+            t_end: _,
+            max_impacts,
+            v_stick: _,
+        } = self.rules;
+        let low = settled_below.is_some_and(|height| y < height);
+        let high = sliding_above.is_some_and(|height| y >= height);
         if low && (!stuck.is_empty() || self.active.taut.len() >= 2) {
             self.stop = Some(Stop::Settled);
         } else if high && !stuck.is_empty() {
             self.stop = Some(Stop::SlidingStart);
-        } else if self.impacts > self.rules.max_impacts {
+        } else if self.impacts > max_impacts {
             self.stop = Some(Stop::ImpactLimit);
         }
         if matches!(self.stop, Some(Stop::Settled | Stop::SlidingStart)) {
@@ -373,7 +381,6 @@ mod tests {
     use crate::model::body::Body;
     use crate::model::cable::Cable;
     use crate::model::forcing::Forcing;
-    use crate::model::rules::Rules;
     use crate::motion::simulation::Step;
 
     /// A run that stands still ends as such, however many impacts are allowed, and not certainly.
