@@ -258,12 +258,12 @@ def orbit_diagram(
     Returns
     -------
     xarray.Dataset
-        Over the key and ``k``: ``x`` to ``vtheta``, NaN where the motion stopped at a limit. Over the key: ``period``
-        in periods of the forcing (NaN if the motion is not periodic), ``snaps`` per period, the largest Lyapunov
-        ``exponent`` (minus infinity where taut cables remove all directions) with ``exponent_se``, ``y_max``, ``stop``
-        (empty if the motion did not stop) with ``stop_t`` and ``stop_certain``, false where rounding decides that time,
-        and ``restarted``, whether the motion started from the start of the case again. The values are in the order in
-        which they were followed.
+        Over the key and ``k``, the number of the period of the forcing: ``x`` to ``vtheta``, NaN where the motion
+        stopped at a limit. Over the key: ``period`` in periods of the forcing (NaN if the motion is not periodic),
+        ``snaps`` per period, the largest Lyapunov ``exponent`` (minus infinity where taut cables remove all directions)
+        with ``exponent_se``, ``y_max``, ``stop`` (empty if the motion did not stop) with ``stop_t`` and
+        ``stop_certain``, false where rounding decides that time and otherwise true, and ``restarted``, whether the
+        motion started from the start of the case again. The values are in the order in which they were followed.
 
     Raises
     ------
@@ -322,7 +322,11 @@ def orbit_diagram(
     variables["restarted"] = (key, restarted, {"long_name": "started again from the start of the case"})
     coords = {
         key: (key, numbers(rows, "value"), attributes()[key]),
-        "k": ("k", np.arange(sampling[0] - sampling[1], sampling[0] + 1), {"long_name": "number of the period of the forcing"}),
+        "k": (
+            "k",
+            np.arange(sampling[0] - sampling[1], sampling[0] + 1),
+            {"long_name": "number of the period of the forcing"},
+        ),
     }
     title = {"title": "The attractor of a body on cables against a key", **COMMON_ATTRIBUTES}
     return with_own_names(xarray.Dataset(variables, coords, title))

@@ -175,7 +175,8 @@ pub(crate) fn diagram_layers(
         layers = Layer::shades(&stopped, "the motion stops");
     }
     let points = points(columns, [x, y]);
-    if !points.is_empty() {
+    let has_place = |[x, y]: &Point| x.is_finite() && y.is_finite();
+    if points.iter().any(has_place) {
         layers.push(Layer::Markers(
             points,
             Shape::Circle,

@@ -118,7 +118,10 @@ fn columns(key: &'static str, found: &[DiagramPoint]) -> Vec<(&'static str, Valu
         Values::Numbers(rows().map(|(at, _)| of(at)).collect())
     };
     let exponent = |place: usize| {
-        move |at: &DiagramPoint| at.section.exponents.first().map(|both| both[place])
+        move |at: &DiagramPoint| {
+            let known = at.section.exponents.first().filter(|_| at.stop().is_none());
+            known.map(|both| both[place])
+        }
     };
     let k = rows().map(|(_, point)| point.map(|(k, ..)| k as i64));
     let t = rows().map(|(_, point)| point.map(|(_, t, _)| t));

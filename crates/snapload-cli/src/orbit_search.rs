@@ -192,7 +192,7 @@ pub(crate) fn columns(found: &FoundOrbits) -> Vec<(&'static str, Values)> {
         .map(number)
         .collect();
     columns.extend(text_columns(&orbits.iter().collect::<Vec<_>>()));
-    let proved = |orbit: &Orbit| orbit.proof.as_ref().map(Result::is_ok);
+    let proved = |orbit: &Orbit| Some(matches!(orbit.proof, Some(Ok(_))));
     columns.push(("proved", Values::Flags(orbits.iter().map(proved).collect())));
     let bound = |orbit: &Orbit| {
         let proof = orbit.proof.as_ref()?.as_ref().ok()?;

@@ -61,3 +61,39 @@ fn a_diagram_tells_where_rounding_decides_a_stop() {
         assert_eq!(&row[place("theta")], "0.0");
     }
 }
+
+/// Where a motion stops after its first points, these are of no attractor: the table has no
+/// exponent of it, as the JSON has none.
+#[test]
+fn a_motion_that_stops_has_no_exponent() {
+    let d = directory();
+    let keys = ["body=point", "e=0.71", "nu=0.87", "omega=4.847", "f_o=1.6"];
+    let draw = |vary: &str, more: &[&str]| {
+        let out = snapload(d.path())
+            .args(["diagram", "--vary", vary, "--phase", "0.25"])
+            .args(keys.map(|key| format!("--set={key}")))
+            .args(more)
+            .assert()
+            .success();
+        String::from_utf8(out.get_output().stderr.clone()).unwrap()
+    };
+    let options = ["--periods", "200", "--keep", "10", "--out", "table.csv"];
+    draw("r=1.7:1.8:2", &options);
+    let mut table = csv::Reader::from_path(d.path().join("table.csv")).unwrap();
+    let header = table.headers().unwrap().clone();
+    let place = |name: &str| header.iter().position(|column| column == name).unwrap();
+    let (mut stopped, mut going) = (0, 0);
+    for row in table.records().map(Result::unwrap) {
+        let stops = !row[place("stop")].is_empty();
+        assert_eq!(row[place("exponent")].is_empty(), stops);
+        assert_eq!(row[place("exponent_se")].is_empty(), stops);
+        stopped += usize::from(stops && !row[place("k")].is_empty());
+        going += usize::from(!stops);
+    }
+    assert!(stopped > 0 && going == 11, "{stopped} {going}");
+    // Without any point there is nothing to draw.
+    let plot = ["--plot", "none.svg", "--show", "x,y"];
+    let words = draw("r=1.6:1.6001:2", &plot);
+    let picture = std::fs::read_to_string(d.path().join("none.svg")).unwrap();
+    assert!(picture.contains("nothing to draw"), "{words}");
+}

@@ -9,7 +9,7 @@ use crate::motion::bounce_map::BounceMap;
 use crate::motion::simulation::{Simulation, Step};
 use crate::motion::step_map::{Block, StepMap};
 
-/// Six directions that are carried along a run and made orthogonal after each step (Benettin,
+/// Six directions that are carried along a run and made orthogonal again and again (Benettin,
 /// Galgani, Giorgilli & Strelcyn, *Meccanica* 15 (1980) 9); the logarithms of the factors by which
 /// their lengths are reduced add up to the exponents.
 #[derive(Clone, Debug)]
@@ -159,7 +159,7 @@ impl Frame {
     }
 
     /// Carries it through a bounce, which closes no direction: several bounces may pass before the
-    /// directions are made orthogonal again, as long as they have not grown much.
+    /// directions are made orthogonal again, as long as they have not grown or contracted much.
     #[inline(always)]
     pub(crate) fn follow_bounce(&mut self, map: &BounceMap<f64>) {
         map.at_one_time(&mut self.directions.0);

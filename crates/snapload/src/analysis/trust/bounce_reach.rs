@@ -6,7 +6,7 @@ use crate::analysis::trust::covariance::SIGMA_REACH;
 use crate::analysis::trust::spread::ERROR;
 use crate::arithmetic::lane::Lane;
 use crate::model::cable::{Cable, Normal};
-use crate::motion::bounce_map::Bounced;
+use crate::motion::bounce_map::{Bounced, Rows};
 
 /// Bounds are computed in rounded arithmetic; this factor makes them safe.
 pub(super) const SAFE: f64 = 1.001;
@@ -21,20 +21,25 @@ pub(super) struct AtStart<L> {
     open: L,
 }
 
-/// The cable that is open at the start of a flight.
+/// A cable that is open at the start of a flight.
 pub(super) struct OpenCable<L> {
     cable: Cable<L>,
     /// Its normal there.
-    pub(super) normal: Normal<L>,
+    normal: Normal<L>,
     reach: L,
 }
 
 impl<L: Lane> OpenCable<L> {
+    /// The one that is open wider: after a snap the other is closed.
     #[inline(always)]
     pub(super) fn of(bounced: &Bounced<L>) -> Self {
+        let [[first, _], [second, _]] = bounced.from.gaps;
+        Self::either(bounced, second.below(first))
+    }
+
+    #[inline(always)]
+    fn either(bounced: &Bounced<L>, second: L::Mask) -> Self {
         let (two_cables, from) = (bounced.two_cables, bounced.from);
-        // The one that snapped last is closed.
-        let second = from.gaps[1][0].below(from.gaps[0][0]);
         let cable = Cable::select(second, &two_cables.cables[1], &two_cables.cables[0]);
         let lever = cable.lever(from.rotation.sine, from.rotation.cosine);
         let span = cable.span_moved(cable.moved(&from.state, &from.rotation));
@@ -43,6 +48,26 @@ impl<L: Lane> OpenCable<L> {
             normal: cable.normal_along(span, lever),
             reach: L::select(second, two_cables.reach[1], two_cables.reach[0]),
         }
+    }
+
+    /// Displacements of the body along it.
+    #[inline(always)]
+    pub(super) fn along<const N: usize>(&self, rows: &Rows<L, N>) -> [L; N] {
+        let ([x, y, theta, ..], Normal { n, arm }) = (rows, self.normal);
+        let mut along = [L::ZERO; N];
+        for k in 0..N {
+            along[k] = n.x.mul_add(x[k], n.y.mul_add(y[k], arm * theta[k]));
+        }
+        along
+    }
+}
+
+impl OpenCable<f64> {
+    /// The nearer of two open cables; none if it is closed.
+    #[inline(always)]
+    pub(super) fn nearer(bounced: &Bounced<f64>) -> Option<Self> {
+        let [[first, _], [second, _]] = bounced.from.gaps;
+        (first < 0.0 && second < 0.0).then(|| Self::either(bounced, second >= first))
     }
 }
 
@@ -71,6 +96,17 @@ impl<L: Lane> AtStart<L> {
             theta,
             height: y,
             open: (place + along) * 2.0,
+        }
+    }
+}
+
+impl AtStart<f64> {
+    /// The same with another cable open, too.
+    #[inline(always)]
+    pub(super) fn with_open(self, other: &Self) -> Self {
+        Self {
+            open: self.open.max(other.open),
+            ..self
         }
     }
 }

@@ -100,8 +100,9 @@ impl<L: Lane> BounceRounding<L> {
         }
     }
 
-    /// Adds the rounding of the stored state and of the impact law's inputs, each in its own
-    /// column, where the columns are shifted by so many.
+    /// Adds the rounding of the stored state and of the impact law's inputs, where the columns are
+    /// shifted by so many. Each has its own column, but that of the law's direction shares one with
+    /// the displacement by x, and that of its rotation the one of the turn.
     #[inline(always)]
     pub(super) fn add(&self, map: &BounceMap<L>, rows: &mut Rows<L, COLUMNS>, shift: usize) {
         let [first, second] = self.along.map(Some);

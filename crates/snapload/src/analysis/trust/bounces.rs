@@ -8,9 +8,8 @@
 use crate::analysis::trust::bounce_reach::{AtStart, OpenCable, Reach, SAFE};
 use crate::analysis::trust::bounce_rounding::BounceRounding;
 use crate::analysis::trust::covariance::seven_of_both;
-use crate::analysis::trust::parts::{COLUMNS, FactorParts, square, squares};
+use crate::analysis::trust::parts::{COLUMNS, FactorParts, LAST, square, squares};
 use crate::arithmetic::lane::{Lane, Mask};
-use crate::model::cable::Normal;
 use crate::motion::bounce_map::{BounceMap, Bounced, Rows};
 
 /// The data of a run that are carried through bounces.
@@ -90,14 +89,15 @@ impl<L: Lane> Followed<L> {
             next.parts.advance_signs();
             (squares, after)
         };
-        columns.judge(&squares, velocities_after, self.tolerance)
+        let start = columns.start(&squares);
+        columns.judge(start, &squares, velocities_after, self.tolerance)
     }
 }
 
 impl Followed<f64> {
-    /// Carries the parts through a bounce, to `next`, with its rounding added up exactly: the seven
-    /// parts that remain leave a column for the error of the impact's location, and the others are
-    /// parts of their own until all are combined again.
+    /// Carries the parts through a bounce, to `next`, with its rounding added up exactly. There
+    /// have to be seven parts: the error of the impact's location is put into the eighth column.
+    /// The other roundings are parts of their own, and all are combined to seven at the end.
     #[inline(always)]
     pub(super) fn carry_exactly(
         &self,
@@ -107,8 +107,16 @@ impl Followed<f64> {
     ) -> Through<f64> {
         let rounding = BounceRounding::of(bounced, self.slant);
         let columns = Columns::of(bounced, map, &rounding);
-        let mut rows = self.parts.rows;
+        let before = self.parts.rows;
+        debug_assert!(before.iter().all(|row| row[LAST] == 0.0));
+        let mut rows = before;
         let squares = squares(&columns.carry(&mut rows, true));
+        let mut start = columns.start(&squares);
+        if let Some(nearer) = OpenCable::nearer(bounced) {
+            let [x, y, theta, ..] = squares;
+            let along = square(&nearer.along(&before));
+            start = start.with_open(&AtStart::of(bounced, &nearer, [x, y, theta], along));
+        }
         let mut more = [[0.0; COLUMNS]; 7];
         rounding.add(map, &mut more, 0);
         let rows = seven_of_both(&rows, &more);
@@ -117,7 +125,7 @@ impl Followed<f64> {
             parts: self.parts.with(rows),
             ..*self
         };
-        columns.judge(&squares, after, self.tolerance)
+        columns.judge(start, &squares, after, self.tolerance)
     }
 }
 
@@ -155,11 +163,7 @@ impl<'a, 'b, L: Lane> Columns<'a, 'b, L> {
     #[inline(always)]
     fn carry<const N: usize>(&self, rows: &mut Rows<L, N>, located: bool) -> [[L; N]; KNOWN] {
         let [x, y, theta, ..] = *rows;
-        let Normal { n, arm } = self.open.normal;
-        let mut along_open = [L::ZERO; N];
-        for k in 0..N {
-            along_open[k] = n.x.mul_add(x[k], n.y.mul_add(y[k], arm * theta[k]));
-        }
+        let along_open = self.open.along(rows);
         self.map.along(rows);
         if located {
             self.rounding.add_location(self.bounced, rows);
@@ -217,13 +221,24 @@ impl<'a, 'b, L: Lane> Columns<'a, 'b, L> {
         squares
     }
 
+    /// How far neighbours reach at the start, given the squares of what is known of them.
+    #[inline(always)]
+    fn start(&self, [x, y, theta, along_open, ..]: &[L; KNOWN]) -> AtStart<L> {
+        AtStart::of(self.bounced, &self.open, [*x, *y, *theta], *along_open)
+    }
+
     /// Whether it is certain that all neighbours have this bounce, given the squares of what is
     /// known of them and of their velocities after it.
     #[inline(always)]
-    fn judge(&self, squares: &[L; KNOWN], velocities_after: [L; 3], tolerance: L) -> Through<L> {
-        let [x, y, theta, along_open, rest @ ..] = *squares;
+    fn judge(
+        &self,
+        start: AtStart<L>,
+        squares: &[L; KNOWN],
+        velocities_after: [L; 3],
+        tolerance: L,
+    ) -> Through<L> {
+        let [_, _, _, _, rest @ ..] = *squares;
         let [met @ .., later, closing, along_other, at_end] = rest;
-        let start = AtStart::of(self.bounced, &self.open, [x, y, theta], along_open);
         let reach = Reach::of(
             self.bounced,
             start,

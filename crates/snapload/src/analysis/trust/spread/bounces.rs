@@ -11,8 +11,8 @@ use crate::motion::bounce_map::{BounceMap, Bounced};
 use crate::motion::simulation::{Simulation, Step};
 use crate::motion::step_map::Block;
 
-/// One of the first bounces, by the best instructions for it: inlined beside the later ones it would
-/// slow those down.
+/// One of the first bounces, by the best instructions for it: inlined beside the later ones it
+/// would slow those down.
 struct FirstBounce<'a>(
     &'a mut SpreadMonitor,
     &'a Simulation,
@@ -117,7 +117,9 @@ impl SpreadMonitor {
             memory: Vec::new(),
         });
         let at_start = self.covariance.clone();
-        let neighbours = Neighbours::of_bounce([&at_start, &along, &met].map(Spread::of));
+        // One by one: a function given to `map` would not have the processor's own instructions.
+        let spreads = [Spread::of(&at_start), Spread::of(&along), Spread::of(&met)];
+        let neighbours = Neighbours::of_bounce(spreads);
         let approach = Approach {
             rate: map.rate(),
             delay: map.delay(),
