@@ -172,7 +172,12 @@ pub(crate) fn diagram_layers(
             .iter()
             .map(|at| (at.value, at.stop().is_some()))
             .collect();
-        layers = Layer::shades(&stopped, "the motion stops");
+        let uncertain = |at: &DiagramPoint| at.section.stop_is_certain() == Some(false);
+        let words = match found.iter().any(uncertain) {
+            true => "the motion stops, not certain at some values",
+            false => "the motion stops",
+        };
+        layers = Layer::shades(&stopped, words);
     }
     let points = points(columns, [x, y]);
     let has_place = |[x, y]: &Point| x.is_finite() && y.is_finite();

@@ -107,7 +107,10 @@ type Row<'a> = (&'a DiagramPoint, Option<(u64, f64, &'a Point)>);
 
 fn rows(found: &[DiagramPoint]) -> impl Iterator<Item = Row<'_>> {
     found.iter().flat_map(|at| {
-        let points = at.section.points_with_times().map(move |point| (at, Some(point)));
+        let points = at
+            .section
+            .points_with_times()
+            .map(move |point| (at, Some(point)));
         points.chain(at.section.points.is_empty().then_some((at, None)))
     })
 }
@@ -143,7 +146,10 @@ fn columns(key: &'static str, found: &[DiagramPoint]) -> Vec<(&'static str, Valu
         "stop",
         names(rows().map(|(at, _)| at.stop().map(|stop| stop.name()))),
     ));
-    columns.push(("stop_t", by_value(&|at| at.stop().map(|_| at.section.end.1))));
+    columns.push((
+        "stop_t",
+        by_value(&|at| at.stop().map(|_| at.section.end.1)),
+    ));
     let certain = rows().map(|(at, _)| at.section.stop_is_certain());
     columns.push(("stop_certain", Values::Flags(certain.collect())));
     columns
