@@ -82,9 +82,7 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
         plot.spans(key, &values);
         let layers = diagram_layers(&found, &rows, plot.axes());
         let mut title = case_without(&[key], &name, &parameters);
-        if args.down {
-            title.push_str(", downwards");
-        }
+        title += &followed(key, &values, args.down, plot.axes());
         plot.add_to(&mut outputs, &title, layers)?;
     }
     let row = Answer {
@@ -99,6 +97,15 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
     let mut text = format!("Case      {}\n", case_in_words(&name, &parameters));
     text.push_str(&diagram_summary(key, &found));
     outputs.finish(&row, text)
+}
+
+/// What the axes of a picture do not show of the values that were followed.
+fn followed(key: &str, values: &[f64], down: bool, axes: [&str; 2]) -> String {
+    match (values, axes.contains(&key)) {
+        ([first, .., last], false) => format!(", {key} from {first} to {last}"),
+        (_, true) if down => ", downwards".to_owned(),
+        _ => String::new(),
+    }
 }
 
 /// A point of a diagram: the value that it belongs to, its index, its time, and its state; a value

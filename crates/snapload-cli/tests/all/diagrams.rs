@@ -95,6 +95,8 @@ fn a_motion_that_stops_has_no_exponent() {
     draw("r=1.6:1.6001:2", &plot);
     let picture = std::fs::read_to_string(d.path().join("none.svg")).unwrap();
     assert!(picture.contains("nothing to draw"));
+    // Of values that are on no axis the title has the range.
+    assert!(picture.contains("r from 1.6 to 1.6001"));
     // Grey where it stops, with what is not known of it.
     draw("r=1.6:1.8:2", &["--plot", "some.svg"]);
     let picture = std::fs::read_to_string(d.path().join("some.svg")).unwrap();
