@@ -172,7 +172,7 @@ pub(crate) fn diagram_layers(
             .iter()
             .map(|at| (at.value, at.stop().is_some()))
             .collect();
-        let uncertain = |at: &DiagramPoint| at.section.stop_is_certain() == Some(false);
+        let uncertain = |at: &DiagramPoint| at.stop_is_certain() == Some(false);
         let words = match found.iter().any(uncertain) {
             true => "the motion stops, not certain at some values",
             false => "the motion stops",

@@ -157,7 +157,7 @@ fn columns(key: &'static str, found: &[DiagramPoint]) -> Vec<(&'static str, Valu
         "stop_t",
         by_value(&|at| at.stop().map(|_| at.section.end.1)),
     ));
-    let certain = rows().map(|(at, _)| at.section.stop_is_certain());
+    let certain = rows().map(|(at, _)| at.stop_is_certain());
     columns.push(("stop_certain", Values::Flags(certain.collect())));
     columns
 }

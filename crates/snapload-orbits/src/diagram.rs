@@ -16,6 +16,9 @@ pub struct DiagramPoint {
     pub seed: Point,
     /// Whether that was the case's own start, and not the last state of the value before.
     pub restarted: bool,
+    /// Whether rounding does not decide that state: no motion was chaotic between this value and
+    /// the last start of the case.
+    pub seed_is_certain: bool,
     /// The section points, with facts about them.
     pub section: Section,
     /// The period in periods of the forcing, if the motion repeats itself.
@@ -26,6 +29,13 @@ impl DiagramPoint {
     /// Why the motion stopped, if it did.
     pub fn stop(&self) -> Option<Stop> {
         self.section.stop
+    }
+
+    /// Whether the time at which it stopped is known in spite of rounding, in this motion and in
+    /// those before, of which it began with the last state; none if it did not stop.
+    pub fn stop_is_certain(&self) -> Option<bool> {
+        let certain = self.section.stop_is_certain()?;
+        Some(certain && self.seed_is_certain)
     }
 
     /// Snaps per period.
@@ -62,10 +72,10 @@ pub fn diagram(
                 values.len() as f64,
             ))
         };
-        let before = found
-            .last()
-            .filter(|at| at.stop().is_none())
-            .map(|at| at.section.end.0);
+        let last = found.last().filter(|at| at.stop().is_none());
+        let before = last.map(|at| at.section.end.0);
+        let passed_on =
+            last.is_none_or(|at| at.seed_is_certain && at.section.end_is_certain() == Some(true));
         let continued = before.map(|seed| {
             Section::from(&here, (t_start, &seed), options, &share).map(|section| (section, seed))
         });
@@ -83,6 +93,7 @@ pub fn diagram(
             value: *value,
             seed,
             restarted,
+            seed_is_certain: restarted || passed_on,
             section,
             period,
         });

@@ -43,11 +43,11 @@ struct StopRow {
 }
 
 impl StopRow {
-    fn of(section: &Section) -> Option<Self> {
+    fn of(section: &Section, certain: Option<bool>) -> Option<Self> {
         section.stop.map(|stop| Self {
             reason: stop.name(),
             t: section.end.1,
-            certain: section.stop_is_certain(),
+            certain,
         })
     }
 }
@@ -78,7 +78,7 @@ impl SectionRow {
             exponents: exponents(section),
             y_max: section.y_max,
             theta_max: section.theta_max,
-            stop: StopRow::of(section),
+            stop: StopRow::of(section, section.stop_is_certain()),
             points: points
                 .map(|(state, k)| PointRow { k, state: *state })
                 .collect(),
@@ -116,7 +116,7 @@ impl DiagramRow {
                 .map(|[mean, _]| *mean)
                 .filter(|mean| mean.is_finite()),
             exponent_se: exponent.map(|[_, error]| *error),
-            stop: StopRow::of(&at.section),
+            stop: StopRow::of(&at.section, at.stop_is_certain()),
             seed: at.seed,
             restarted: at.restarted,
             x_min: xs().min_by(f64::total_cmp),

@@ -224,6 +224,12 @@ impl Section {
     /// grow smoothly; none if it did not stop, or their growth was not followed.
     pub fn stop_is_certain(&self) -> Option<bool> {
         self.stop?;
+        self.end_is_certain()
+    }
+
+    /// The same of the state at its end, whether or not it stopped; none if the growth of deviations
+    /// was not followed.
+    pub fn end_is_certain(&self) -> Option<bool> {
         self.growth.map(|growth| growth < KNOWN.ln())
     }
 

@@ -143,15 +143,15 @@ pub fn without_points_summary(section: &Section) -> Option<String> {
     Some(format!(
         "stops at t = {:.4}{}: {}. That is before the first point of the section, which comes after {}",
         section.end.1,
-        doubt(section),
+        doubt(section.stop_is_certain()),
         stop.reason_text(),
         of_the_forcing(section.first as usize)
     ))
 }
 
 /// What follows the time of a stop that rounding decides.
-fn doubt(section: &Section) -> &'static str {
-    match section.stop_is_certain() {
+fn doubt(certain: Option<bool>) -> &'static str {
+    match certain {
         Some(false) => " (not certain)",
         _ => "",
     }
@@ -168,7 +168,7 @@ pub fn section_summary(section: &Section) -> String {
             text,
             "Stopped   at t = {:.4}{}: {}",
             section.end.1,
-            doubt(section),
+            doubt(section.stop_is_certain()),
             stop.reason_text()
         );
         if section.stop_is_certain() == Some(false) {
@@ -217,7 +217,12 @@ pub fn diagram_summary(key: &str, found: &[DiagramPoint]) -> String {
         let exponent = exponent.map_or("-".to_owned(), |both| exponent_text(*both));
         let value = six_digits(at.value);
         let _ = match at.stop() {
-            Some(stop) => writeln!(text, "{value:<12} {}{}", stop.label(), doubt(&at.section)),
+            Some(stop) => writeln!(
+                text,
+                "{value:<12} {}{}",
+                stop.label(),
+                doubt(at.stop_is_certain())
+            ),
             None => writeln!(text, "{value:<12} {period:<7} {snaps:<8} {exponent}"),
         };
     }
@@ -227,10 +232,10 @@ pub fn diagram_summary(key: &str, found: &[DiagramPoint]) -> String {
     if let Some(longest) = none.map(|at| at.section.longest_period()).max() {
         let _ = writeln!(text, "none: no period of the forcing up to {longest}");
     }
-    let doubtful = |at: &DiagramPoint| at.section.stop_is_certain() == Some(false);
+    let doubtful = |at: &DiagramPoint| at.stop_is_certain() == Some(false);
     if found.iter().any(doubtful) {
-        text += "not certain: rounding decides whether and when the motion stops; with another number of periods\n\
-                 a chaotic motion may also stop where this one does not\n";
+        text += "not certain: rounding decides whether and when the motion stops, here or in the chaotic motion before\n\
+                 it; with another number of periods a chaotic motion may also stop where this one does not\n";
     }
     text
 }

@@ -62,6 +62,38 @@ fn a_diagram_tells_where_rounding_decides_a_stop() {
     }
 }
 
+/// What follows chaos begins with a state that rounding decides: if the start of the diagram is
+/// another one in its last bit, the next motion stops at another time, although deviations hardly
+/// grow in it.
+#[test]
+fn a_stop_after_chaos_is_not_certain() {
+    let keys = ["body=point", "e=0.71", "nu=0.87", "omega=4.847", "f_o=1.6"];
+    let rows = |y: f64| {
+        let out = snapload(directory().path())
+            .args(["diagram", "--vary", "r=1.5:1.52:2", "--json", "-"])
+            .args(keys.map(|key| format!("--set={key}")))
+            .arg(format!("--set=y={y}"))
+            .assert()
+            .success();
+        let answer: Value = serde_json::from_slice(&out.get_output().stdout).unwrap();
+        answer["rows"].clone()
+    };
+    let (rows, others) = (rows(0.1), rows(0.1_f64.next_up()));
+    let [stop, other] = [&rows, &others].map(|rows| &rows[1]["stop"]);
+    assert_eq!(
+        [&rows[0]["stop"], &rows[1]["restarted"]],
+        [&Value::Null, &Value::Bool(false)]
+    );
+    assert!(
+        (number(&stop["t"]) - number(&other["t"])).abs() > 1.0,
+        "{stop} {other}"
+    );
+    assert_eq!(
+        [&stop["certain"], &other["certain"]],
+        [&Value::Bool(false); 2]
+    );
+}
+
 /// Where a motion stops after its first points, these are of no attractor: the table has no
 /// exponent of it, as the JSON has none.
 #[test]
