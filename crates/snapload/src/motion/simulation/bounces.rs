@@ -164,15 +164,23 @@ impl<T: Real> Simulation<T> {
     }
 
     /// Includes the flight of a bounce in the extremes.
+    #[inline(always)]
     fn cover(&mut self, bounce: &Bounce<T>) {
-        let next = &bounce.next;
-        if let (false, Some(two_cables), Some(from)) =
-            (bounce.top_known, &self.two_cables, &self.bounce_start)
-        {
-            let record = self.extremes.y_max;
-            self.extremes.y_max = highest_point(two_cables, from, bounce.s, record);
+        if !bounce.top_known {
+            self.cover_top(bounce.s);
         }
-        self.extremes.y_max = self.extremes.y_max.max(next.y_max);
-        self.extremes.theta_max = self.extremes.theta_max.max(next.theta_max);
+        self.extremes.y_max = self.extremes.y_max.max(bounce.next.y_max);
+        self.extremes.theta_max = self.extremes.theta_max.max(bounce.next.theta_max);
+    }
+
+    /// Searches the flight of a bounce, of length `s`, for a highest point. Rare, and apart from
+    /// the bounce, the numbers of which would otherwise have to be in memory.
+    #[cold]
+    #[inline(never)]
+    fn cover_top(&mut self, s: T) {
+        if let (Some(two_cables), Some(from)) = (&self.two_cables, &self.bounce_start) {
+            let record = self.extremes.y_max;
+            self.extremes.y_max = highest_point(two_cables, from, s, record);
+        }
     }
 }
