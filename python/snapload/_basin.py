@@ -117,7 +117,7 @@ with_keys(safe_basin, defaults=False)
 
 
 def basins_of_attraction(
-    case: Case, *, transient: int = 300, progress: bool = True, **window: Unpack[Axes]
+    case: Case, *, transient: int = 300, trust: bool = True, progress: bool = True, **window: Unpack[Axes]
 ) -> tuple[xarray.DataArray, dict[int, Orbit]]:
     """Compute which attractor each start of a window reaches, as ``snapload basin --kind attractor`` does.
 
@@ -127,6 +127,8 @@ def basins_of_attraction(
         The case with all keys that do not vary.
     transient : int
         Forcing periods to skip before attractors are identified.
+    trust : bool
+        Whether to follow the neighbours of each cell, which takes most of the time.
     progress : bool
         Whether to show a progress bar if the computation takes long.
     **window : array_like or str
@@ -138,7 +140,10 @@ def basins_of_attraction(
         The number of the attractor over the two keys, counted from 1 in order of decreasing numbers of cells; 0 where
         no period up to 15 forcing periods was found, which a longer transient may show; -1 where the start is not
         legal; -2 and below where the motion stops at a limit, as ``flag_values`` and ``flag_meanings`` describe.
-        Attributes: the number of ``legal`` cells, and the ``cells`` of each attractor with their ``fractions``.
+        With trust the coordinates ``decided``, whether neighbours at 1e-8 behave alike, and ``trusted``, whether
+        rounding can not have decided it, both false where the start is not legal.
+        Attributes: the number of ``legal`` and, with trust, of ``undecided`` cells, and the ``cells`` of each attractor
+        with their ``fractions``.
     attractors : dict of int to Orbit
         The orbit of each label, if both keys are start values and the orbit could be computed.
 
@@ -168,9 +173,9 @@ def basins_of_attraction(
     from ._dataset import COMMON_ATTRIBUTES
 
     engine, axes = engine_case(case), _window_axes(window)
-    transient = whole_number("transient", transient)
+    transient, trust = whole_number("transient", transient), flag("trust", trust)
     with progress_bar("basins of attraction", _PROGRESS_TOTAL, progress) as report_progress:
-        answer, columns, orbits = _engine.basins_of_attraction(engine, axes, transient, report_progress)
+        answer, columns, orbits = _engine.basins_of_attraction(engine, axes, transient, trust, report_progress)
     data, coords = json.loads(answer), _axis_coordinates(axes)
     found = {name: _column(kind, buffer, words) for name, kind, buffer, words in columns}
     shape = tuple(len(values) for _, values, _ in coords.values())
@@ -192,8 +197,12 @@ def basins_of_attraction(
         "periods": np.array([row["period"] for row in data["attractors"]], dtype=np.int64),
         **COMMON_ATTRIBUTES,
     }
+    if trust:
+        attrs["undecided"] = data["undecided"]
+    flags = {name: found[name].reshape(shape) for name in ("decided", "trusted") if name in found}
+    of_cells = {name: (tuple(coords), values, {"long_name": _LONG_NAMES[name]}) for name, values in flags.items()}
     variables = {"attractor": (tuple(coords), labels.reshape(shape), attrs)}
-    array = with_own_names(xarray.Dataset(variables, coords)).attractor
+    array = with_own_names(xarray.Dataset(variables, coords | of_cells)).attractor
     label_orbits = zip(numbers, orbits, strict=True)
     return array, {number: Orbit(case, orbit) for number, orbit in label_orbits if orbit is not None}
 

@@ -45,7 +45,7 @@ def draw_basin(basin: xarray.Dataset | xarray.DataArray, ax: Axes | None) -> Axe
         first, second = basin["outcome"].dims
     elif "flag_meanings" in getattr(basin, "attrs", {}):
         numbers, styles = _label_numbers(label_array)
-        undecided = None
+        undecided = ~basin["decided"].values & (label_array.values != -1) if "decided" in basin.coords else None
         first, second = basin.dims
     else:
         allowed = "what snapload.safe_basin gives, or the labels of snapload.basins_of_attraction"

@@ -184,7 +184,7 @@ def safe_basin(
     case: Case, axes: Sequence[_Axis], trust: bool, progress: Callable[[int], object] | None, /
 ) -> tuple[str, list[_Column]]: ...
 def basins_of_attraction(
-    case: Case, axes: Sequence[_Axis], transient: int, progress: Callable[[int], object] | None, /
+    case: Case, axes: Sequence[_Axis], transient: int, trust: bool, progress: Callable[[int], object] | None, /
 ) -> tuple[str, list[_Column], list[Orbit | None]]: ...
 def erosion(
     case: Case, axes: Sequence[_Axis], over: _Axis, trust: bool, progress: Callable[[int], object] | None, /

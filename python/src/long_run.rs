@@ -12,8 +12,8 @@ use pyo3::types::PyByteArray;
 use snapload::CaseError;
 use snapload::analysis::{Progress, Unfinished};
 use snapload_orbits::{
-    Attraction, AttractionRow, Basin, BasinRow, Cell, CellOutcome, DiagramRow, Erosion, ErosionRow,
-    MOST_KEPT, Section, SectionOptions, SectionRow, Window,
+    AttractedCell, Attraction, AttractionRow, Basin, BasinRow, Cell, CellOutcome, DiagramRow,
+    Erosion, ErosionRow, MOST_KEPT, Section, SectionOptions, SectionRow, Window,
 };
 use snapload_study::Values;
 use std::ops::ControlFlow;
@@ -194,16 +194,17 @@ pub(crate) fn basins_of_attraction<'py>(
     case: &Case,
     sides: [Side<'py>; 2],
     transient: u64,
+    trust: bool,
     progress: Option<&Bound<'py, PyAny>>,
 ) -> PyResult<(String, Vec<Filled<'py>>, Vec<Option<Orbit>>)> {
     let window = window(case, &sides)?;
     let found = interruptible(py, progress, move |shared| {
-        Attraction::of(window, transient, &|progress| {
+        Attraction::of(window, transient, trust, &|progress| {
             in_thousandths(shared, progress)
         })
     })?;
     let found = found.map_err(of_unfinished)?;
-    let outcomes = || found.outcomes.iter();
+    let outcomes = || found.cells.iter().map(|cell| &cell.outcome);
     let outcome = |outcome: &CellOutcome| match outcome {
         CellOutcome::Illegal => None,
         CellOutcome::Stopped(stop, _) => Some(stop.name()),
@@ -214,7 +215,7 @@ pub(crate) fn basins_of_attraction<'py>(
         CellOutcome::Attracted(k) => Some(*k as i64 + 1),
         _ => None,
     };
-    let columns = vec![
+    let mut columns = vec![
         filled(py, "outcome", words(outcomes().map(outcome))),
         filled(
             py,
@@ -222,6 +223,15 @@ pub(crate) fn basins_of_attraction<'py>(
             Values::Counts(outcomes().map(number).collect()),
         ),
     ];
+    if trust {
+        let flags = |flag: fn(&AttractedCell) -> bool| {
+            let of =
+                |cell: &AttractedCell| Some(cell.outcome != CellOutcome::Illegal && flag(cell));
+            Values::Flags(found.cells.iter().map(of).collect())
+        };
+        columns.push(filled(py, "decided", flags(|cell| cell.decided)));
+        columns.push(filled(py, "trusted", flags(|cell| cell.trusted)));
+    }
     let orbits = found.attractors.iter().map(|attractor| {
         let orbit = attractor.orbit.clone();
         orbit.map(|orbit| Orbit::of_case(case.clone(), orbit))

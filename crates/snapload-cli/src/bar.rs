@@ -1,104 +1,158 @@
 //! The progress bar, on standard error and only on a terminal.
-use indicatif::{ProgressBar, ProgressStyle};
+use indicatif::{HumanCount, HumanDuration, ProgressBar, ProgressStyle};
 use snapload::analysis::Progress;
+use std::io::IsTerminal;
 use std::ops::ControlFlow;
-use std::sync::Mutex;
+use std::sync::{Arc, Mutex, Weak};
 use std::time::{Duration, Instant};
 
 /// The time that passes before a bar is shown.
 const DELAY: Duration = Duration::from_secs(2);
 /// The form of a bar in per cent.
-const PARTS: &str = "{msg} {bar:40} {percent} %, {eta} left";
+const PARTS: &str = "{msg} {bar:40} {percent} %{prefix}";
 /// The form of a bar in numbers, with the rate.
-const COUNTS: &str = "{msg} {bar:30} {human_pos} of {human_len}, {per_sec:0}, {eta} left";
+const COUNTS: &str = "{msg} {bar:30} {human_pos} of {human_len}{prefix}";
 
 /// Shows the progress of work; it disappears when it is dropped.
 pub(crate) struct Bar {
     counts: bool,
-    stage: Mutex<Stage>,
+    began: Instant,
+    stage: Arc<Mutex<Stage>>,
 }
 
 /// The work that is being done, its beginning, and the bar that shows it.
 struct Stage {
     doing: String,
-    part: f64,
+    done: f64,
+    of: f64,
     began: Instant,
+    /// What was done already when it began.
+    done_before: f64,
     bar: Option<ProgressBar>,
 }
 
 impl Bar {
     /// A bar for work that may take longer than two seconds.
     pub(crate) fn new() -> Self {
-        Self {
+        let bar = Self {
             counts: false,
-            stage: Mutex::new(Stage::new("")),
+            began: Instant::now(),
+            stage: Arc::new(Mutex::new(Stage::new(Progress::new("", 0.0, 1.0)))),
+        };
+        if std::io::stderr().is_terminal() {
+            show_late(Arc::downgrade(&bar.stage));
         }
+        bar
     }
 
     /// A bar for many cases, which are counted and shown from the beginning.
     pub(crate) fn counting() -> Self {
-        Self {
-            counts: true,
-            ..Self::new()
-        }
+        let mut bar = Self::new();
+        bar.counts = true;
+        bar
     }
 
     /// The callback for long work; it always lets the work continue.
     pub(crate) fn show(&self, progress: Progress) -> ControlFlow<()> {
         // If another thread is updating the bar, this update is skipped.
         if let Ok(mut stage) = self.stage.try_lock() {
-            let part = progress.done / progress.of;
-            if stage.doing != progress.doing && part <= stage.part {
-                *stage = Stage::new(progress.doing);
-            }
-            stage.part = part;
+            stage.update(progress);
             if self.counts {
-                stage.count(progress);
-            } else if stage.began.elapsed() >= DELAY {
-                stage.part(progress);
+                stage.count();
+            } else if self.began.elapsed() >= DELAY {
+                stage.part();
             }
         }
         ControlFlow::Continue(())
     }
 }
 
+/// Shows the bar of work that has begun, and reports nothing for long, once it may be shown.
+fn show_late(stage: Weak<Mutex<Stage>>) {
+    std::thread::spawn(move || {
+        std::thread::sleep(DELAY);
+        let Some(stage) = stage.upgrade() else { return };
+        if let Ok(mut stage) = stage.lock()
+            && !stage.doing.is_empty()
+            && stage.bar.is_none()
+        {
+            stage.part();
+        }
+    });
+}
+
 impl Stage {
-    fn new(doing: &str) -> Self {
+    fn new(progress: Progress) -> Self {
         Self {
-            doing: doing.to_owned(),
-            part: 0.0,
+            doing: progress.doing.to_owned(),
+            done: progress.done,
+            of: progress.of,
             began: Instant::now(),
+            done_before: progress.done,
             bar: None,
         }
     }
 
-    fn part(&mut self, progress: Progress) {
-        let began = self.began;
-        let new = || styled(PARTS, 1000, progress.doing).with_elapsed(began.elapsed());
-        let bar = self.bar.get_or_insert_with(new);
-        if self.doing != progress.doing {
-            self.doing = progress.doing.to_owned();
-            bar.set_message(self.doing.clone());
+    /// Work of another name that has not come as far is another stage, with a bar of its own.
+    fn update(&mut self, progress: Progress) {
+        let is_new = self.doing != progress.doing;
+        if is_new && progress.done / progress.of <= self.done / self.of {
+            *self = Self::new(progress);
+        } else {
+            (self.done, self.of) = (progress.done, progress.of);
+            if is_new {
+                self.doing = progress.doing.to_owned();
+            }
         }
-        bar.set_position((1000.0 * self.part) as u64);
     }
 
-    fn count(&mut self, progress: Progress) {
-        let done = progress.done as u64;
-        let new = || {
-            let bar = styled(COUNTS, progress.of as u64, progress.doing).with_position(done);
-            bar.reset_eta();
-            bar
+    fn part(&mut self) {
+        let left = self.left().unwrap_or_default();
+        let bar = self.bar.get_or_insert_with(|| styled(PARTS, 1000));
+        if bar.message() != self.doing {
+            bar.set_message(self.doing.clone());
+        }
+        bar.set_prefix(left);
+        bar.set_position((1000.0 * self.done / self.of) as u64);
+    }
+
+    fn count(&mut self) {
+        let words = match (self.rate(), self.left()) {
+            (Some(rate), Some(left)) => format!(", {}/s{left}", HumanCount(rate as u64)),
+            _ => String::new(),
         };
-        self.bar.get_or_insert_with(new).set_position(done);
+        let new = || styled(COUNTS, self.of as u64).with_message(self.doing.clone());
+        let bar = self.bar.get_or_insert_with(new);
+        bar.set_prefix(words);
+        bar.set_position(self.done as u64);
+    }
+
+    /// What is done in a second, on average since this work began; none before something is done.
+    fn rate(&self) -> Option<f64> {
+        let rate = (self.done - self.done_before) / self.began.elapsed().as_secs_f64();
+        (rate > 0.0 && rate.is_finite()).then_some(rate)
+    }
+
+    /// How long the rest takes at that rate, in words.
+    fn left(&self) -> Option<String> {
+        let seconds = (self.of - self.done) / self.rate()?;
+        let left = Duration::try_from_secs_f64(seconds).ok()?;
+        Some(format!(", {:#} left", HumanDuration(left)))
     }
 }
 
-fn styled(template: &str, length: u64, doing: &str) -> ProgressBar {
+fn styled(template: &str, length: u64) -> ProgressBar {
     let style = ProgressStyle::with_template(template);
-    ProgressBar::new(length)
-        .with_style(style.unwrap_or_else(|_| ProgressStyle::default_bar()))
-        .with_message(doing.to_owned())
+    ProgressBar::new(length).with_style(style.unwrap_or_else(|_| ProgressStyle::default_bar()))
+}
+
+impl Drop for Bar {
+    /// At once, and not where a thread still holds the stage.
+    fn drop(&mut self) {
+        if let Ok(mut stage) = self.stage.lock() {
+            *stage = Stage::new(Progress::new("", 0.0, 1.0));
+        }
+    }
 }
 
 impl Drop for Stage {
@@ -106,5 +160,26 @@ impl Drop for Stage {
         if let Some(bar) = &self.bar {
             bar.finish_and_clear();
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Work that goes on as it began: after ten seconds a quarter is done, and three times as long is
+    /// left. Before anything is done nothing is known, and what takes for ever has no words.
+    #[test]
+    fn the_rest_takes_as_long_as_what_is_done() {
+        let words = |done, done_before| {
+            let mut stage = Stage::new(Progress::new("running", done_before, 100.0));
+            stage.began -= Duration::from_millis(10_010);
+            stage.update(Progress::new("running", done, 100.0));
+            stage.left()
+        };
+        assert_eq!(words(25.0, 0.0).as_deref(), Some(", 30s left"));
+        assert_eq!(words(60.0, 20.0).as_deref(), Some(", 10s left"));
+        assert_eq!(words(20.0, 20.0), None);
+        assert_eq!(words(1e-300, 0.0), None);
     }
 }

@@ -14,8 +14,8 @@ use serde::Serialize;
 use snapload::Parameters;
 use snapload::analysis::Progress;
 use snapload_orbits::{
-    Attraction, AttractionRow, BASIN_TRANSIENT, Basin, BasinRow, CellOutcome, Erosion, ErosionRow,
-    Window, attraction_summary, basin_summary, erosion_summary,
+    AttractedCell, Attraction, AttractionRow, BASIN_TRANSIENT, Basin, BasinRow, CellOutcome,
+    Erosion, ErosionRow, Window, attraction_summary, basin_summary, erosion_summary,
 };
 use snapload_report::{CaseEcho, case_in_words, case_without};
 use snapload_study::Values;
@@ -131,7 +131,7 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
     let bar = Bar::new();
     let on_progress = |progress: Progress| bar.show(progress);
     if args.kind == "attractor" {
-        let found = Attraction::of(window, args.transient, &on_progress)?;
+        let found = Attraction::of(window, args.transient, !args.window.no_trust, &on_progress)?;
         drop(bar);
         outputs.table(table, &base, &outcome_columns(&found))?;
         if let Some(plot) = plot {
@@ -270,6 +270,14 @@ fn outcome_columns(found: &Attraction) -> Vec<(&'static str, Values)> {
         CellOutcome::Stopped(_, t) => Some(*t),
         _ => None,
     };
+    let outcomes = || found.cells.iter().map(|cell| &cell.outcome);
+    let flags = |flag: fn(&AttractedCell) -> bool| {
+        let of = |cell: &AttractedCell| {
+            let is_known = found.neighbours_run && cell.outcome != CellOutcome::Illegal;
+            is_known.then(|| flag(cell))
+        };
+        Values::Flags(found.cells.iter().map(of).collect())
+    };
     let number = |outcome: &CellOutcome| match outcome {
         CellOutcome::Attracted(k) => Some(*k as i64 + 1),
         _ => None,
@@ -277,14 +285,13 @@ fn outcome_columns(found: &Attraction) -> Vec<(&'static str, Values)> {
     vec![
         (window.keys[0], key(0)),
         (window.keys[1], key(1)),
-        ("outcome", names(found.outcomes.iter().map(outcome))),
-        (
-            "t",
-            Values::Numbers(found.outcomes.iter().map(time).collect()),
-        ),
+        ("outcome", names(outcomes().map(outcome))),
+        ("t", Values::Numbers(outcomes().map(time).collect())),
         (
             "attractor",
-            Values::Counts(found.outcomes.iter().map(number).collect()),
+            Values::Counts(outcomes().map(number).collect()),
         ),
+        ("decided", flags(|cell| cell.decided)),
+        ("trusted", flags(|cell| cell.trusted)),
     ]
 }

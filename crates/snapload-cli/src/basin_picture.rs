@@ -17,8 +17,8 @@ pub(crate) fn basin_layers(basin: &Basin) -> Vec<Layer> {
     )
 }
 
-/// The map of the attractors that the cells reach, or of how their runs end,
-/// hatched where these are cut short.
+/// The map of the attractors that the cells reach, or of how their runs end, hatched where that is
+/// not decided.
 pub(crate) fn attraction_layers(found: &Attraction) -> Vec<Layer> {
     let reached = |outcome: &CellOutcome| match outcome {
         CellOutcome::Illegal => None,
@@ -26,8 +26,7 @@ pub(crate) fn attraction_layers(found: &Attraction) -> Vec<Layer> {
         CellOutcome::Aperiodic => Some(Reached::NoPeriod),
         CellOutcome::Stopped(stop, _) => Some(Reached::End(*stop)),
     };
-    let cut = |outcome: &CellOutcome| matches!(outcome, CellOutcome::Stopped(stop, _) if stop.cuts_short());
-    let outcomes = || found.outcomes.iter();
+    let outcomes = || found.cells.iter().map(|cell| &cell.outcome);
     let mut classes: Vec<Reached> = outcomes().filter_map(reached).collect();
     classes.sort_unstable();
     classes.dedup();
@@ -38,7 +37,7 @@ pub(crate) fn attraction_layers(found: &Attraction) -> Vec<Layer> {
         &found.window,
         outcomes().map(|outcome| reached(outcome).map(&in_colours)),
         classes,
-        outcomes().map(cut).collect(),
+        found.cells.iter().map(|cell| !cell.decided).collect(),
     )
 }
 

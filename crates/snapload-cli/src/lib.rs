@@ -238,5 +238,12 @@ fn refuse(mut error: clap::Error) -> ! {
         let tips = ContextValue::StyledStrs(vec![tip.into()]);
         error.insert(ContextKind::Suggested, tips);
     }
-    error.exit()
+    if error.exit_code() != 0 {
+        error.exit()
+    }
+    // Help and version are output, which may not be possible to write.
+    let printed = standard_output::standard_output().map(drop);
+    let printed = printed.and_then(|()| error.print());
+    let printed = printed.map_err(|error| failure::Failure::write("standard output", &error));
+    std::process::exit(i32::from(failure::exit_status(printed)))
 }

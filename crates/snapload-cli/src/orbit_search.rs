@@ -115,18 +115,25 @@ impl Search<'_> {
         (starts, seed): (u32, u64),
     ) -> Result<FoundOrbits, Failure> {
         let bar = Bar::new();
-        let on_progress = |progress: Progress| bar.show(progress);
         let mut found = FoundOrbits::none(self.along.as_ref().map(|(key, _)| *key));
         let mut near = Vec::new();
-        for case in cases {
+        for (k, case) in cases.iter().enumerate() {
+            // The bar covers the searches and the proofs of all cases.
+            let steps = 1 + usize::from(self.prove);
+            let within = |step: usize, progress: Progress| {
+                let done = (steps * k + step) as f64 + progress.done / progress.of;
+                bar.show(Progress::new("starts", done, (steps * cases.len()) as f64))
+            };
+            let on_search = |progress: Progress| within(0, progress);
+            let on_proof = |progress: Progress| within(1, progress);
             let starts = Starts {
                 count: starts as usize,
                 seed,
                 near: &near,
             };
-            let orbits = find_orbits(&case.parameters, &starts, self.request, &on_progress)?;
+            let orbits = find_orbits(&case.parameters, &starts, self.request, &on_search)?;
             near = orbits.iter().map(|orbit| orbit.z).collect();
-            found.add(case, orbits, &on_progress)?;
+            found.add(case, orbits, &on_proof)?;
         }
         Ok(found)
     }

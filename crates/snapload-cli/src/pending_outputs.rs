@@ -99,15 +99,23 @@ impl PendingOutputs {
 
     /// Moves every file to its place and returns their paths.
     pub(crate) fn commit(mut self) -> Result<Vec<PathBuf>, Failure> {
+        let files = std::mem::take(&mut self.files);
+        let failed = |target: &Path| {
+            let shown = target.display().to_string();
+            move |error| Failure::write(shown, &error)
+        };
+        let (streams, places): (Vec<_>, Vec<_>) =
+            files.iter().partition(|(_, target)| is_stream(target));
+        // Without the lock, so that a pipe to which nobody listens can be interrupted.
+        for (scratch, target) in streams {
+            copy_into(scratch, target).map_err(failed(target))?;
+        }
         let mut temporary_paths = temporary_paths();
-        let mut placed = Vec::new();
-        for (scratch, target) in std::mem::take(&mut self.files) {
-            move_into_place(&scratch, &target)
-                .map_err(|error| Failure::write(target.display(), &error))?;
-            placed.push(target);
+        for (scratch, target) in places {
+            move_into_place(scratch, target).map_err(failed(target))?;
         }
         temporary_paths.new.clear();
-        Ok(placed)
+        Ok(files.into_iter().map(|(_, target)| target).collect())
     }
 }
 
@@ -119,9 +127,13 @@ impl Drop for PendingOutputs {
     }
 }
 
+/// Whether this is a device or a pipe, into which contents are copied.
+fn is_stream(target: &Path) -> bool {
+    target.exists() && !target.is_file()
+}
+
 /// Moves a file to its place. A link is followed, so that its target is replaced and not the link;
-/// the contents are copied into a device or a pipe, and into a file on another disk, to which
-/// nothing can be renamed.
+/// the contents are copied into a file on another disk, to which nothing can be renamed.
 fn move_into_place(scratch: &Path, target: &Path) -> io::Result<()> {
     let target = match target.is_symlink() {
         // A link whose target does not exist yet.
@@ -131,17 +143,18 @@ fn move_into_place(scratch: &Path, target: &Path) -> io::Result<()> {
         })?,
         false => target.to_owned(),
     };
-    if !target.exists() || target.is_file() {
-        match fs::rename(scratch, &target) {
-            Err(error) if error.kind() == ErrorKind::CrossesDevices => {}
-            renamed => return renamed,
-        }
+    match fs::rename(scratch, &target) {
+        Err(error) if error.kind() == ErrorKind::CrossesDevices => copy_into(scratch, &target),
+        renamed => renamed,
     }
+}
+
+fn copy_into(scratch: &Path, target: &Path) -> io::Result<()> {
     let mut to = OpenOptions::new()
         .write(true)
         .create(true)
         .truncate(true)
-        .open(&target)?;
+        .open(target)?;
     io::copy(&mut File::open(scratch)?, &mut to).map(drop)
 }
 

@@ -25,17 +25,19 @@ pub fn attraction_summary(found: &Attraction) -> String {
             symbol.map_or(no_orbit.to_owned(), |symbol| format!("symbol {symbol}"))
         );
     }
-    let count = |is: &dyn Fn(&CellOutcome) -> bool| found.outcomes.iter().filter(|o| is(o)).count();
-    let stopped = count(&|outcome| matches!(outcome, CellOutcome::Stopped(..)));
+    let stopped = found.count(|outcome| matches!(outcome, CellOutcome::Stopped(..)));
     let _ = writeln!(text, "Stopped   {stopped} cells");
-    let open = count(&|outcome| *outcome == CellOutcome::Aperiodic);
+    let open = found.count(|outcome| *outcome == CellOutcome::Aperiodic);
     if open > 0 {
         let _ = writeln!(
             text,
             "Open      {open} cells: no period up to {LONGEST_SHOWN} was found; a longer transient may show one"
         );
     }
-    let legal = count(&|outcome| *outcome != CellOutcome::Illegal);
-    let _ = writeln!(text, "Legal     {legal} of {} cells", found.outcomes.len());
+    if let Some(undecided) = found.undecided() {
+        let _ = writeln!(text, "Undecided {undecided}");
+    }
+    let legal = found.count(|outcome| *outcome != CellOutcome::Illegal);
+    let _ = writeln!(text, "Legal     {legal} of {} cells", found.cells.len());
     text
 }

@@ -38,6 +38,21 @@ const NEIGHBOURS: [[f64; 2]; 8] = [
     [1.0, -1.0],
     [-1.0, 1.0],
 ];
+
+/// The values of the two keys of a cell's neighbours, which must end as the cell does if that is
+/// decided: at a small distance, and at smaller ones, too, unless the cell is trusted.
+pub(crate) fn neighbours_of(at: [f64; 2], trusted: bool) -> impl Iterator<Item = [f64; 2]> {
+    let distances = match trusted {
+        true => &NEIGHBOUR_DISTANCES[..1],
+        false => &NEIGHBOUR_DISTANCES[..],
+    };
+    let about = move |distance: &f64| {
+        let distance = *distance;
+        NEIGHBOURS.map(|[a, b]| [at[0] + a * distance, at[1] + b * distance])
+    };
+    distances.iter().flat_map(about)
+}
+
 impl Basin {
     /// Runs every cell; with `trust` also its neighbours, and determines the horizons of trust.
     ///
@@ -156,28 +171,17 @@ fn run_neighbours(
     cells: &mut [Cell],
     on_progress: OnProgress,
 ) -> Result<(), Cancelled> {
-    let mut neighbours = Vec::new();
+    let mut neighbours: Vec<(usize, [f64; 2])> = Vec::new();
     for (k, cell) in cells
         .iter()
         .enumerate()
         .filter(|(_, cell)| cell.end.is_some())
     {
-        let distances = if cell.trusted {
-            &NEIGHBOUR_DISTANCES[..1]
-        } else {
-            &NEIGHBOUR_DISTANCES[..]
-        };
-        for distance in distances {
-            neighbours.extend(NEIGHBOURS.map(|[a, b]| (k, [a * distance, b * distance])));
-        }
+        neighbours.extend(neighbours_of(window.at(k), cell.trusted).map(|at| (k, at)));
     }
     let counter = Counter::new("their neighbours", 0, neighbours.len() as u64, on_progress);
     let made = on_all_threads(neighbours.len(), |numbers| {
-        let case = |k: usize| {
-            let (centre, [a, b]) = neighbours[k];
-            let at = window.at(centre);
-            window.case([at[0] + a, at[1] + b])
-        };
+        let case = |k: usize| window.case(neighbours[k].1);
         run(numbers, case, false, &counter)
     })?;
     let reason = |cell: &Cell| cell.end.map(|(stop, _)| stop);

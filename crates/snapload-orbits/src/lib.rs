@@ -40,6 +40,7 @@ mod distances;
 mod erosion;
 mod exponents;
 mod follower;
+mod growth;
 mod half_branch;
 mod hybrid;
 mod impact_map;
@@ -67,7 +68,7 @@ mod survey;
 mod switch;
 mod window;
 
-pub use attraction::{Attraction, Attractor, CellOutcome};
+pub use attraction::{AttractedCell, Attraction, Attractor, CellOutcome};
 pub use attraction_summary::attraction_summary;
 pub use attractor::{ATTRACTOR_PERIODS, Starts, TRANSIENT, attracts, find_orbits, of_attractor};
 pub use basin::Basin;
@@ -79,6 +80,7 @@ pub use curve_rows::{CurveRow, curve_summary};
 pub use diagram::{DiagramPoint, diagram};
 pub use erosion::{Erosion, KNEE};
 pub use follower::BranchOptions;
+pub use growth::Growth;
 pub use half_branch::{BranchEnd, BranchPoint};
 pub use hybrid::{
     DURATION, Family, Hybrid, Jet, Limits, PARAMETER, Point, Simulated, TIME, constant, distance,

@@ -233,6 +233,7 @@ impl ErosionRow {
 pub struct AttractionRow {
     keys: [&'static str; 2],
     legal: usize,
+    undecided: Option<usize>,
     by_outcome: ByOutcome,
     cell: Widths,
     attractors: Vec<AttractorRow>,
@@ -253,24 +254,22 @@ impl AttractionRow {
     pub fn new(found: &Attraction) -> Self {
         let [first, second] = found.window.keys;
         let [height, width] = found.window.cell();
-        let count =
-            |is: &dyn Fn(&CellOutcome) -> bool| found.outcomes.iter().filter(|f| is(f)).count();
-        let legal = count(&|outcome| *outcome != CellOutcome::Illegal);
+        let legal = found.count(|outcome| *outcome != CellOutcome::Illegal);
         let mut by_outcome: Vec<(&'static str, usize)> = snapload::Stop::ALL
             .iter()
             .map(|stop| {
                 let is = |outcome: &CellOutcome| matches!(outcome, CellOutcome::Stopped(s, _) if s == stop);
-                (stop.name(), count(&is))
+                (stop.name(), found.count(is))
             })
             .filter(|(_, cells)| *cells > 0)
             .collect();
         by_outcome.push((
             "attracted",
-            count(&|outcome| matches!(outcome, CellOutcome::Attracted(_))),
+            found.count(|outcome| matches!(outcome, CellOutcome::Attracted(_))),
         ));
         by_outcome.push((
             "aperiodic",
-            count(&|outcome| *outcome == CellOutcome::Aperiodic),
+            found.count(|outcome| *outcome == CellOutcome::Aperiodic),
         ));
         let attractors = found.attractors.iter().zip(1..);
         let attractors = attractors.map(|(attractor, number)| AttractorRow {
@@ -284,6 +283,7 @@ impl AttractionRow {
         Self {
             keys: found.window.keys,
             legal,
+            undecided: found.undecided(),
             by_outcome: ByOutcome(by_outcome),
             cell: Widths([(first, height), (second, width)]),
             attractors: attractors.collect(),

@@ -1,6 +1,7 @@
 //! Stroboscopic sections of long motions, and diagrams of them against a key.
 
 use crate::exponents::{Directions, exponents};
+use crate::growth::Growth;
 use crate::hybrid::{Point, distance};
 use crate::impact_map::Impacts;
 use snapload::analysis::{Cancelled, OnProgress, Progress};
@@ -34,9 +35,8 @@ pub struct Section {
     pub theta_max: f64,
     /// Why it stopped, if it did so early.
     pub stop: Option<Stop>,
-    /// ln of the factor by which deviations had grown at the end, the largest since any earlier
-    /// time; none if exponents were not requested.
-    pub growth: Option<f64>,
+    /// How far deviations have grown; none if exponents were not requested.
+    pub growth: Option<Growth>,
 }
 
 /// How long a motion is followed.
@@ -54,9 +54,6 @@ pub struct SectionOptions {
     pub impacts: bool,
 }
 
-/// Beyond this growth roundings may have come to the digits that are printed of the time of a stop:
-/// that of 1e-16 at one step to 1e-6, and there is one at each.
-const KNOWN: f64 = 1e10;
 /// A motion counts as periodic if its section points agree to within this, over the number of laps
 /// that follows.
 const SAME: f64 = 1e-8;
@@ -70,6 +67,8 @@ const ROUNDINGS: f64 = 4.0;
 /// A lap whose ends differ by more than this part of the distance between points fewer periods
 /// apart does not follow the motion that is approached, but comes to it.
 const FOLLOWED: f64 = 0.25;
+/// The longest period of the forcing, which is the longest time of a run (the key `t_end`).
+const LONGEST_FORCING: f64 = 1e6;
 /// The longest period that is searched for.
 pub const LONGEST_PERIOD: usize = 64;
 
@@ -140,7 +139,7 @@ impl Section {
                 y_max: z[1],
                 theta_max: z[2].abs(),
                 stop: None,
-                growth: options.exponents.then_some(0.0),
+                growth: options.exponents.then(Growth::default),
             },
         };
         follow.run(simulation, last, on_progress)?;
@@ -230,7 +229,7 @@ impl Section {
     /// The same of the state at its end, whether or not it stopped; none if the growth of deviations
     /// was not followed.
     pub fn end_is_certain(&self) -> Option<bool> {
-        self.growth.map(|growth| growth < KNOWN.ln())
+        self.growth.map(Growth::end_is_known)
     }
 
     /// The longest period that can be detected with this many points.
@@ -248,13 +247,17 @@ impl Section {
 /// The period of the forcing.
 ///
 /// # Errors
-/// A [`CaseError`] where there is no forcing.
+/// A [`CaseError`] where there is no forcing, or its period is longer than a run can be.
 pub fn period_of(parameters: &Parameters) -> Result<f64, CaseError> {
-    let omega = parameters.omega.abs();
-    if omega > 0.0 {
-        return Ok(std::f64::consts::TAU / omega);
+    let period = std::f64::consts::TAU / parameters.omega.abs();
+    if period <= LONGEST_FORCING {
+        return Ok(period);
     }
-    let allowed = "a frequency other than 0, as sections are a period of the forcing apart";
+    let allowed = format!(
+        "a frequency of at least {:.3e}, as sections are a period of the forcing apart, and a period \
+         is at most {LONGEST_FORCING:e}",
+        std::f64::consts::TAU / LONGEST_FORCING
+    );
     Err(CaseError::value("omega", parameters.omega, allowed))
 }
 
@@ -305,9 +308,11 @@ impl Follow {
             }
             if let Some((tangent, directions)) = &mut self.linearised {
                 let map = tangent.of_step(&simulation, &step);
-                let grown = directions.follow(&map, &step);
-                let growth = self.section.growth.get_or_insert(0.0);
-                *growth = (*growth + grown).max(0.0);
+                let magnified = directions.follow(&map, &step);
+                self.section
+                    .growth
+                    .get_or_insert_default()
+                    .follow(magnified);
             }
             let periods = (step.t_end - self.t_start) / self.period;
             Progress::new("following the motion", periods, last as f64).report(on_progress)?;

@@ -101,7 +101,15 @@ fn standard_output_that_takes_nothing_is_an_error() {
         ("> /dev/full", "No space left on device"),
     ];
     for (place, why) in places {
-        for verb in ["cases", "run --set t_end=1", "run --set t_end=1 --json -"] {
+        let run = "run --set t_end=1";
+        for verb in [
+            &format!("{run} --json -"),
+            run,
+            "cases",
+            "--help",
+            "--version",
+            "help run",
+        ] {
             let line = format!("exec {program} {verb} {place}");
             let mut shell = Command::new("sh");
             let done = shell
@@ -141,10 +149,42 @@ fn an_interruption_leaves_nothing_behind() {
     while !d.path().join("new/results").exists() {
         std::thread::yield_now();
     }
+    interrupt(&mut child);
+    assert!(listing(d.path()).is_empty());
+}
+
+fn interrupt(child: &mut std::process::Child) {
     let interrupt = Command::new("kill")
         .args(["-INT", &child.id().to_string()])
         .status();
     assert!(interrupt.unwrap().success());
     assert_eq!(child.wait().unwrap().code(), Some(130));
-    assert!(listing(d.path()).is_empty());
+}
+
+/// A pipe to which nobody listens can not be opened, and the command waits for its reader.
+#[test]
+#[cfg(target_os = "linux")]
+fn waiting_for_the_reader_of_a_pipe_can_be_interrupted() {
+    let d = directory();
+    let made = Command::new("mkfifo").arg(d.path().join("pipe")).status();
+    assert!(made.unwrap().success());
+    let scratch = d.path().join("scratch");
+    std::fs::create_dir(&scratch).unwrap();
+    let mut child = Command::new(assert_cmd::cargo::cargo_bin!("snapload"))
+        .args(["run", "--set", "t_end=1", "--json", "pipe"])
+        .env("TMPDIR", &scratch)
+        .current_dir(d.path())
+        .spawn()
+        .unwrap();
+    // The answer is complete once it is in its temporary file, just before it is copied.
+    let answer = || {
+        let folder = listing(&scratch).pop()?;
+        std::fs::metadata(scratch.join(folder).join("0")).ok()
+    };
+    while !answer().is_some_and(|file| file.len() > 0) {
+        assert_eq!(child.try_wait().unwrap(), None);
+        std::thread::yield_now();
+    }
+    interrupt(&mut child);
+    assert!(listing(&scratch).is_empty());
 }

@@ -1,12 +1,12 @@
-//! Long motions: periods, snaps, exponents; basins of attraction.
+//! Long motions: periods, snaps, exponents.
 
 use crate::common::{number, numbers, parameters, reference};
 use crate::orbits::volley;
 use snapload::Parameters;
 use snapload::analysis::no_progress;
 use snapload_orbits::{
-    Attraction, CellOutcome, Orbit, OrbitRequest, Section, SectionOptions, Stability, Window,
-    attraction_summary, diagram, distance, of_attractor, section_summary,
+    Orbit, OrbitRequest, Section, SectionOptions, Stability, diagram, distance, of_attractor,
+    section_summary,
 };
 
 #[test]
@@ -43,27 +43,6 @@ fn the_attractor_is_followed_as_in_the_reference() {
             assert!((largest - number(&row["x_max"])).abs() < 1e-9);
         }
     }
-}
-
-/// Below f_c rest in the corner and an orbit of three snaps are both attractors.
-#[test]
-fn two_attractors_share_the_starts() {
-    let base = crate::common::two_attractors();
-    let window = Window {
-        base,
-        keys: ["x", "y"],
-        values: [vec![-0.1, 0.0, 0.1], vec![0.2, 0.425, 0.65]],
-    };
-    let found = Attraction::of(window, 200, &no_progress).unwrap();
-    let symbols: Vec<_> = found
-        .attractors
-        .iter()
-        .map(|attractor| attractor.orbit.as_ref().unwrap().lap.sequence.symbol())
-        .collect();
-    println!("{symbols:?} {:?}", found.outcomes);
-    assert!(symbols.contains(&Vec::new()));
-    assert!(symbols.iter().any(|symbol| symbol.len() == 3));
-    assert!(!found.outcomes.contains(&CellOutcome::Aperiodic));
 }
 
 const KEPT: SectionOptions = SectionOptions {
@@ -394,40 +373,4 @@ fn exponents_are_known_as_well_along_taut_motion_as_stated() {
     }
     let [mean, error] = found.exponents[0];
     assert!((mean + 0.339_446_84).abs() < error);
-}
-
-/// A motion that takes long to come to its orbit, near a fold, is not called one without a period.
-#[test]
-fn cells_without_a_period_are_told_of() {
-    let case = Parameters {
-        f_o: 1.304_055,
-        vx: 0.786,
-        vy: -0.3735,
-        ..parameters(&reference()["branches"][0]["base"])
-    };
-    let window = Window {
-        base: case,
-        keys: ["x", "y"],
-        values: [vec![-3.2131, -0.2131, 2.7869], vec![0.2575, 0.2615]],
-    };
-    let found = Attraction::of(window, 100, &no_progress).unwrap();
-    let open = found
-        .outcomes
-        .iter()
-        .filter(|o| **o == CellOutcome::Aperiodic);
-    let open = open.count();
-    assert!(open > 0, "{:?}", found.outcomes);
-    let words = attraction_summary(&found);
-    let line = format!("Open      {open} cells: no period up to 15 was found");
-    assert!(words.contains(&line), "{words}");
-    assert!(words.contains("Legal     2 of 6 cells"), "{words}");
-    // A period is one that nine stretches of as many periods agree in: 137 points have 15 of these.
-    let options = SectionOptions {
-        skip: 0,
-        keep: 136,
-        exponents: false,
-        ..KEPT
-    };
-    let section = Section::of(&case, &options, &no_progress).unwrap();
-    assert_eq!(section.longest_period(), 15);
 }

@@ -3,6 +3,7 @@
 #![allow(clippy::unwrap_used, clippy::panic)]
 
 mod accumulations;
+mod attraction;
 mod basins;
 mod branch_points;
 mod branches;

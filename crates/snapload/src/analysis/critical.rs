@@ -2,7 +2,7 @@
 //! is reached (chapter 6.4.2), and all larger amplitudes of the scan that reach one of them.
 
 use crate::analysis::ensemble::Ensemble;
-use crate::analysis::outcomes::{ThreadResults, on_all_threads, outcomes_on_one_thread};
+use crate::analysis::outcomes::{on_all_threads, outcomes_on_one_thread};
 use crate::analysis::progress::{Cancelled, Counter, OnProgress, Unfinished};
 use crate::analysis::trust::{Certainty, Uncertainty};
 use crate::batch::lanes::Lanes;
@@ -11,7 +11,6 @@ use crate::case::error::CaseError;
 use crate::case::parameters::Parameters;
 use crate::case::value::Value;
 use crate::model::rules::Stop;
-use crate::motion::outcome::Outcome;
 use crate::motion::trajectory::End;
 
 /// The force amplitudes that are tried: f_o = step, 2 step, … up to `max`.
@@ -41,14 +40,17 @@ impl ForceScan {
     /// A [`CaseError`] if `step` is not above 0, or `max` is below it or more than a million steps.
     pub fn new(step: f64, max: f64) -> Result<Self, CaseError> {
         let wrong =
-            |key, value, allowed: &str| Err(CaseError::value(key, Value::Number(value), allowed));
+            |key, value, allowed: String| Err(CaseError::value(key, Value::Number(value), allowed));
         if !(step > 0.0 && step.is_finite()) {
-            return wrong("step", step, "a number above 0, such as 0.01");
+            return wrong("step", step, "a number above 0, such as 0.01".to_owned());
         }
         // The last multiple may fall short of `max` by rounding.
         let count = (max / step * (1.0 + 1e-12)).floor();
         if !(1.0..=MOST).contains(&count) {
-            return wrong("max", max, "at least one step, and at most a million steps");
+            let step = Value::Number(step);
+            let allowed =
+                format!("at least one step, which is {step}, and at most a million steps");
+            return wrong("max", max, allowed);
         }
         Ok(Self {
             step,
@@ -129,6 +131,9 @@ const FIRST_NEIGHBOURS: u32 = 4;
 /// Of so many runs at once, which fills all lanes and needs little memory.
 const AT_ONCE: usize = 1000;
 
+/// So many of the runs themselves are made at once, likewise.
+const RUNS_AT_ONCE: usize = 10_000;
+
 impl CriticalForce {
     /// Runs the case at every amplitude of the scan, on all threads that there are.
     ///
@@ -146,33 +151,35 @@ impl CriticalForce {
                 ..*parameters
             })
         };
-        let cases: Vec<Case> = amplitudes.iter().map(case).collect::<Result<_, _>>()?;
-        let counter = Counter::new("running", 0, cases.len() as u64, on_progress);
-        let runs = on_all_threads(cases.len(), |numbers| {
-            let cases = numbers.map(|k| cases[k].clone());
-            Certainty::with_outcomes(Lanes::best(), cases, &counter)
-        });
-        let runs = runs.map(ThreadResults::into_vec)?;
-        let undecided = |k: &usize| !runs[*k].1.decides_the_end();
-        let undecided: Vec<usize> = (0..runs.len()).filter(undecided).collect();
+        let cases = |some: &[f64]| some.iter().map(case).collect::<Result<Vec<_>, _>>();
+        let counter = Counter::new("running", 0, amplitudes.len() as u64, on_progress);
+        let mut ends = Vec::with_capacity(amplitudes.len());
+        for some in amplitudes.chunks(RUNS_AT_ONCE) {
+            let cases = cases(some)?;
+            let runs = on_all_threads(cases.len(), |numbers| {
+                let cases = numbers.map(|k| cases[k].clone());
+                Certainty::with_outcomes(Lanes::best(), cases, &counter)
+            })?;
+            let runs = some.iter().zip(runs.iter());
+            ends.extend(runs.map(|(f_o, (outcome, certainty))| DecidedEnd {
+                f_o: *f_o,
+                end: outcome.end,
+                certain: certainty.decides_the_end(),
+                decided: certainty.decides_the_end(),
+            }));
+        }
+        let undecided: Vec<usize> = (0..ends.len()).filter(|k| !ends[*k].decided).collect();
         let all = undecided.len() as u64 * u64::from(NEIGHBOURS);
         let counter = Counter::new("neighbours", 0, all, on_progress);
-        let mut decided = vec![true; runs.len()];
         for some in undecided.chunks(AT_ONCE) {
-            let past_horizon: Vec<_> = some.iter().map(|k| (&cases[*k], &runs[*k].0)).collect();
-            let agree = neighbours_agree(&past_horizon, &counter)?;
+            let at: Vec<f64> = some.iter().map(|k| ends[*k].f_o).collect();
+            let exceed = some.iter().map(|k| ends[*k].end.reason.exceeds());
+            let agree = neighbours_agree(&cases(&at)?, &exceed.collect::<Vec<_>>(), &counter)?;
             for (k, agree) in some.iter().zip(agree) {
-                decided[*k] = agree;
+                ends[*k].decided = agree;
             }
         }
-        let ends = runs.iter().zip(decided).zip(&amplitudes);
-        let ends = ends.map(|(((outcome, certainty), decided), f_o)| DecidedEnd {
-            f_o: *f_o,
-            end: outcome.end,
-            certain: certainty.decides_the_end(),
-            decided,
-        });
-        Ok(Self::of(&ends.collect::<Vec<_>>()))
+        Ok(Self::of(&ends))
     }
 
     /// The answer from the end of the run at each amplitude.
@@ -210,14 +217,18 @@ pub(crate) struct DecidedEnd {
     pub(crate) decided: bool,
 }
 
-/// For each run, whether all its neighbours exceed if it does, and none otherwise; they
-/// do not if some can not be drawn or are cut short. The neighbours of all runs are run
-/// side by side: the first few, which mostly show where they disagree, and then the
+/// For each case, given whether its run exceeds, whether all its neighbours exceed if it does, and
+/// none otherwise; they do not if some can not be drawn or are cut short. The neighbours of all
+/// cases are run side by side: the first few, which mostly show where they disagree, and then the
 /// others of those that agree so far.
-fn neighbours_agree(runs: &[(&Case, &Outcome)], counter: &Counter) -> Result<Vec<bool>, Cancelled> {
+fn neighbours_agree(
+    cases: &[Case],
+    exceed: &[bool],
+    counter: &Counter,
+) -> Result<Vec<bool>, Cancelled> {
     let about = |case| Ensemble::about(case, &Uncertainty::default(), NEIGHBOURS, 1);
-    let ensembles: Vec<Ensemble> = runs.iter().map(|(case, _)| about(case)).collect();
-    let mut agree = vec![true; runs.len()];
+    let ensembles: Vec<Ensemble> = cases.iter().map(about).collect();
+    let mut agree = vec![true; cases.len()];
     for members in [0..FIRST_NEIGHBOURS, FIRST_NEIGHBOURS..NEIGHBOURS] {
         let mut neighbours = Vec::new();
         for (k, ensemble) in ensembles.iter().enumerate() {
@@ -235,9 +246,9 @@ fn neighbours_agree(runs: &[(&Case, &Outcome)], counter: &Counter) -> Result<Vec
         })?;
         for ((k, _), outcome) in neighbours.iter().zip(outcomes.iter()) {
             let cut_short = outcome.end.reason.cuts_short();
-            agree[*k] &= !cut_short && outcome.exceeds() == runs[*k].1.exceeds();
+            agree[*k] &= !cut_short && outcome.exceeds() == exceed[*k];
         }
-        counter.add((runs.len() * members.len() - neighbours.len()) as u64)?;
+        counter.add((cases.len() * members.len() - neighbours.len()) as u64)?;
     }
     Ok(agree)
 }

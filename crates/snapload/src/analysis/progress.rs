@@ -107,14 +107,17 @@ pub struct Counter<'a> {
 }
 
 impl<'a> Counter<'a> {
-    /// A counter up to `of`, with `done` done already.
+    /// A counter up to `of`, with `done` done already, which it reports: that this work begins is
+    /// seen before a part of it is finished. If the answer is to end, it ends with the next part.
     pub fn new(doing: &'a str, done: u64, of: u64, on_progress: OnProgress<'a>) -> Self {
-        Self {
+        let counter = Self {
             doing,
             done: AtomicU64::new(done),
             of,
             on_progress,
-        }
+        };
+        let _ = counter.add(0);
+        counter
     }
 
     /// Counts `more` parts as done; with 0 it only asks whether to continue.
