@@ -7,7 +7,7 @@ use crate::multipliers::Stability;
 use crate::orbit::{NoOrbit, Orbit, OrbitRequest};
 use crate::section::{LONGEST_PERIOD, Section, SectionOptions, period_of};
 use crate::summary::{exponent_text, periods};
-use snapload::analysis::{Counter, OnProgress, Unfinished, on_all_threads};
+use snapload::analysis::{Counter, OnProgress, Progress, Unfinished, on_all_threads};
 use snapload::{Case, Limit, Parameters};
 
 /// Periods that are left out as the transient, and periods that are examined after it.
@@ -15,6 +15,8 @@ pub const TRANSIENT: u64 = 400;
 const SAMPLED_PERIODS: u64 = 600;
 /// The number of all these periods.
 pub const ATTRACTOR_PERIODS: u64 = TRANSIENT + SAMPLED_PERIODS;
+/// The number of periods up to which a motion is followed that still approaches an orbit.
+const MOST_PERIODS: u64 = 16 * ATTRACTOR_PERIODS;
 
 /// The orbit that the motion of a case approaches, if it is periodic.
 ///
@@ -32,7 +34,25 @@ pub fn of_attractor(
         exponents: true,
         impacts: false,
     };
-    let section = Section::of(parameters, &options, on_progress)?;
+    let mut section = Section::of(parameters, &options, on_progress)?;
+    let mut followed = ATTRACTOR_PERIODS;
+    while followed < MOST_PERIODS && still_approaches(&section) {
+        let options = SectionOptions {
+            skip: followed - SAMPLED_PERIODS,
+            ..options
+        };
+        let (z, t) = section.end;
+        let share = |progress: Progress| {
+            let of = ATTRACTOR_PERIODS as f64;
+            on_progress(Progress::new(
+                progress.doing,
+                of * progress.done / progress.of,
+                of,
+            ))
+        };
+        section = Section::from(parameters, (t, &z), &options, &share)?;
+        followed *= 2;
+    }
     if let Some(stop) = section.stop {
         let t = section.end.1;
         return Ok(Err(NoOrbit(format!(
@@ -46,7 +66,7 @@ pub fn of_attractor(
         let exponent = exponent_text(largest.unwrap_or([f64::NAN; 2]));
         return Ok(Err(NoOrbit(format!(
             "the motion from this start repeats itself after no number of periods of the forcing up to \
-             {LONGEST_PERIOD}, as its first {ATTRACTOR_PERIODS} show (largest Lyapunov exponent \
+             {LONGEST_PERIOD}, as its first {followed} show (largest Lyapunov exponent \
              {exponent}); search for unstable orbits with --find N, or look at snapload section"
         ))));
     };
@@ -73,6 +93,14 @@ pub fn of_attractor(
         Some(_) => Orbit::find,
     };
     Ok(find(&family, [0.0; 2], &last, &request))
+}
+
+/// Whether a motion does not repeat itself yet, although deviations certainly shrink: it approaches
+/// an orbit slowly.
+fn still_approaches(section: &Section) -> bool {
+    let shrinks = |[mean, error]: &[f64; 2]| mean + 2.0 * error < 0.0;
+    let alone = section.stop.is_none() && section.period().is_none();
+    alone && section.exponents.first().is_some_and(shrinks)
 }
 
 /// Starts for each unit of work.
