@@ -8,6 +8,8 @@ use std::time::{Duration, Instant};
 
 /// The time that passes before a bar is shown.
 const DELAY: Duration = Duration::from_secs(2);
+/// The time between two drawings of a bar, which cost more than a case does.
+const PAUSE: Duration = Duration::from_millis(50);
 /// The form of a bar in per cent.
 const PARTS: &str = "{msg} {bar:40} {percent} %{prefix}";
 /// The form of a bar in numbers, with the rate.
@@ -28,6 +30,8 @@ struct Stage {
     began: Instant,
     /// What was done already when it began.
     done_before: f64,
+    /// When its bar was drawn last.
+    drawn: Instant,
     bar: Option<ProgressBar>,
 }
 
@@ -57,9 +61,10 @@ impl Bar {
         // If another thread is updating the bar, this update is skipped.
         if let Ok(mut stage) = self.stage.try_lock() {
             stage.update(progress);
-            if self.counts {
+            let is_fresh = stage.bar.is_some() && stage.drawn.elapsed() < PAUSE;
+            if !is_fresh && self.counts {
                 stage.count();
-            } else if self.began.elapsed() >= DELAY {
+            } else if !is_fresh && self.began.elapsed() >= DELAY {
                 stage.part();
             }
         }
@@ -89,6 +94,7 @@ impl Stage {
             of: progress.of,
             began: Instant::now(),
             done_before: progress.done,
+            drawn: Instant::now(),
             bar: None,
         }
     }
@@ -114,6 +120,7 @@ impl Stage {
         }
         bar.set_prefix(left);
         bar.set_position((1000.0 * self.done / self.of) as u64);
+        self.drawn = Instant::now();
     }
 
     fn count(&mut self) {
@@ -125,6 +132,7 @@ impl Stage {
         let bar = self.bar.get_or_insert_with(new);
         bar.set_prefix(words);
         bar.set_position(self.done as u64);
+        self.drawn = Instant::now();
     }
 
     /// What is done in a second, on average since this work began; none before something is done.
