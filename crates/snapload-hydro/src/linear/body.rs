@@ -119,13 +119,15 @@ impl Body {
             let most = of_damping * arm_m * arm_m;
             if !(0.0..=most).contains(&damping[i]) {
                 let what = format!("the damping of {freedom} in addition to that of waves");
-                let expected = format!("it must be 0 or above, and at most {most:.3e}");
+                let expected = format!(
+                    "it must be 0 or above, and at most {most:.3e} (--damping; float.damping in a case)"
+                );
                 return Err(HydroError::value(what, damping[i], expected));
             }
             let most = of_force * arm_m;
             if !(-most..=most).contains(&force[i]) {
                 let what = format!("the constant load on {freedom}");
-                let expected = format!("it must be from -{most:.3e} to {most:.3e}");
+                let expected = format!("it must be from -{most:.3e} to {most:.3e} (--force)");
                 return Err(HydroError::value(what, force[i], expected));
             }
         }

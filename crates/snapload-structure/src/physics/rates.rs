@@ -55,7 +55,7 @@ impl Rate {
             }
             None => {
                 let allowed = format!(
-                    "at most {} s for this body, which {} with up to {:.1e} rad/s: a longer run takes very long",
+                    "at most {} s for this body, which {} at a rate of up to {:.1e} 1/s: a longer run takes very long",
                     digits(&(duration_s / excess), 0),
                     self.does,
                     self.per_time / model.scales.time_s
