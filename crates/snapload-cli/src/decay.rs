@@ -6,7 +6,7 @@ use crate::json::JsonArgs;
 use crate::outputs::Outputs;
 use serde::Serialize;
 use snapload::analysis::Progress;
-use snapload_hydro::digits::{digits, tenths};
+use snapload_hydro::digits::{digits, in_full, tenths};
 use snapload_hydro::{
     Body, Decay, FREEDOMS, Fit, HydroError, Hydrodynamics, Swing, Warning, decay, large_motion,
     rest_without_tension, swings,
@@ -20,6 +20,8 @@ use std::path::PathBuf;
 const EXAMPLES: &str = include_str!("../help/decay.txt").trim_ascii_end();
 /// A displacement below this from the position of the file is none \[m, rad\].
 const SMALL: f64 = 1e-3;
+/// The furthest release \[m\].
+const FURTHEST: f64 = 1000.0;
 /// The number of swings that are printed.
 const MOST_SWINGS: usize = 8;
 
@@ -88,7 +90,7 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
     let mut rows = Vec::new();
     for (freedom, called) in FREEDOMS.iter().enumerate().filter(|(i, _)| from[*i] != 0.0) {
         let swings = swings(&motion, freedom);
-        text += &swing_table(called, &swings, freedom, &motion);
+        text += &swing_table(called, &swings, freedom, (&motion, args.duration));
         rows.extend(swings.into_iter().map(|swing| SwingRow {
             freedom: called,
             from_s: swing.from_s,
@@ -138,12 +140,14 @@ fn released(args: &Args, body: &Body, fit: &Fit) -> Result<Decay, HydroError> {
 /// turned over does not swing back.
 fn check_release(from: [f64; 3]) -> Result<(), Failure> {
     let [surge, heave, pitch] = from;
-    if from != [0.0; 3] && from.iter().all(|q| q.is_finite()) && pitch.abs() < FRAC_PI_2 {
+    let near = [surge, heave].iter().all(|way| way.abs() <= FURTHEST);
+    if from != [0.0; 3] && near && pitch.abs() < FRAC_PI_2 {
         return Ok(());
     }
     Err(Failure::bad_input(format!(
-        "--from = {surge},{heave},{pitch} is not allowed; allowed: three finite numbers, not all of them 0, such as \
-         0,1,0, with less than π/2 rad of pitch"
+        "--from = {} is not allowed; allowed: three finite numbers, not all of them 0, such as 0,1,0, with at \
+         most {FURTHEST} m of surge and heave and less than π/2 rad of pitch",
+        from.map(|q| in_full(&q)).join(",")
     )))
 }
 
@@ -170,9 +174,14 @@ fn measured_from(body: &Body, hydro: &Hydrodynamics) -> Option<String> {
 }
 
 /// The swings of a freedom as a small table below its name.
-fn swing_table(called: &str, swings: &[Swing], freedom: usize, motion: &Decay) -> String {
+fn swing_table(
+    called: &str,
+    swings: &[Swing],
+    freedom: usize,
+    (motion, duration_s): (&Decay, f64),
+) -> String {
     if swings.is_empty() {
-        let end = motion.t_s.last().map_or_else(String::new, tenths);
+        let end = tenths(&duration_s);
         let none = format!(
             "no whole swing within {end} s; those below a thousandth of the first are left out"
         );

@@ -2,12 +2,23 @@
 use crate::failure::Failure;
 use crate::hydro_input::{HydroArgs, line, triple};
 use crate::json::JsonArgs;
+use crate::option_values::number;
 use crate::outputs::Outputs;
 use serde::Serialize;
+use snapload::{Key, Kind};
+use snapload_hydro::digits::digits;
 use snapload_hydro::{FREEDOMS, Line, Report, Warning, large_motion, page};
 use snapload_report::shell_command;
 use snapload_structure::{IrregularSea, Spectrum, SpectrumShape, labelled_row};
+use std::f64::consts::PI;
 use std::path::PathBuf;
+
+/// What a sea may be.
+const HS: Key = Key::option("hs", Kind::positive(100.0));
+const TP: Key = Key::option("tp", Kind::number(0.1, 100.0));
+const GAMMA: Key = Key::option("gamma", Kind::number(1.0, 20.0));
+/// The response in a sea is that of this part of its energy or more.
+const LEAST_COVERED: f64 = 0.005;
 
 const EXAMPLES: &str = include_str!("../help/hydro.txt").trim_ascii_end();
 
@@ -24,13 +35,13 @@ pub(crate) struct Args {
     #[arg(long, value_name = "F1,F3,F5", value_parser = triple, allow_hyphen_values = true)]
     force: Option<[f64; 3]>,
     /// Significant wave height of an irregular sea in m
-    #[arg(long, value_name = "NUMBER", requires = "tp")]
+    #[arg(long, value_name = "NUMBER", value_parser = number(HS), requires = "tp")]
     hs: Option<f64>,
     /// Peak period of that sea in s
-    #[arg(long, value_name = "NUMBER", requires = "hs")]
+    #[arg(long, value_name = "NUMBER", value_parser = number(TP), requires = "hs")]
     tp: Option<f64>,
     /// Peak enhancement factor of the JONSWAP spectrum; 1 gives Pierson-Moskowitz
-    #[arg(long, value_name = "NUMBER", default_value_t = 3.3)]
+    #[arg(long, value_name = "NUMBER", value_parser = number(GAMMA), default_value_t = 3.3)]
     gamma: f64,
     /// Write the results as one self-contained HTML page with plots
     #[arg(long, value_name = "PAGE.html")]
@@ -97,17 +108,6 @@ impl Args {
         let (Some(hs), Some(tp)) = (self.hs, self.tp) else {
             return Ok(Vec::new());
         };
-        for (name, value) in [("--hs", hs), ("--tp", tp)] {
-            if !(value > 0.0 && value.is_finite()) {
-                return Err(Failure::bad_input(format!(
-                    "{name} = {value} is not allowed; allowed: a number above 0"
-                )));
-            }
-        }
-        if !(1.0..=20.0).contains(&self.gamma) {
-            let words = format!("--gamma = {} is not allowed; allowed: 1 to 20", self.gamma);
-            return Err(Failure::BadInput(words));
-        }
         let spectrum = Spectrum::new(&IrregularSea {
             significant_height_m: hs,
             peak_period_s: tp,
@@ -137,7 +137,17 @@ impl Args {
             }
         };
         // There may be a narrow resonance between the file's frequencies.
-        Ok(floating.fine.iter().map(row).collect())
+        let rows: Vec<SeaRow> = floating.fine.iter().map(row).collect();
+        let [first, last] = report.reading.hydro.range_rad_s();
+        match rows.iter().all(|row| row.covered >= LEAST_COVERED) {
+            true => Ok(rows),
+            false => Err(Failure::BadInput(format!(
+                "--tp = {tp} is not allowed; allowed: the peak period of a sea with some of its energy at \
+                 the file's periods, {} to {} s; this one has less than half a per cent of it there",
+                digits(&(2.0 * PI / last), 2),
+                digits(&(2.0 * PI / first), 2)
+            ))),
+        }
     }
 }
 

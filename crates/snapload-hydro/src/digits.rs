@@ -52,6 +52,15 @@ pub fn tenths(value: &f64) -> String {
     ((unit * value).round() / unit).to_string()
 }
 
+/// A number as it was given: all of its digits, with a power of ten where there would be too many.
+pub fn in_full(value: &f64) -> String {
+    match value.abs() {
+        usual if usual == 0.0 || (1e-4..1e7).contains(&usual) => value.to_string(),
+        _ if !value.is_finite() => value.to_string(),
+        _ => format!("{value:e}"),
+    }
+}
+
 /// A number of things, such as `1 snap` or `2 snaps`.
 pub fn count(number: impl Borrow<u64>, noun: &str) -> String {
     let number = *number.borrow();

@@ -1,5 +1,6 @@
 //! Errors in hydrodynamic coefficients, or in their use.
 
+use crate::digits::in_full;
 use std::fmt;
 
 /// Why coefficients can not be used. The message says what is wrong, where, and how to correct it.
@@ -27,7 +28,7 @@ pub enum HydroError {
         expected: String,
     },
     /// A number that is not possible.
-    #[error("{what} = {value}: {expected}")]
+    #[error("{what} = {}: {expected}", in_full(value))]
     Value {
         /// The quantity, and where it is.
         what: String,
@@ -45,7 +46,11 @@ pub enum HydroError {
         message: String,
     },
     /// The file and a value that is given in addition contradict each other.
-    #[error("{what} is {file} in the file and {given} {source_of_given}; they must agree")]
+    #[error(
+        "{what} is {} in the file and {} {source_of_given}; they must agree",
+        in_full(file),
+        in_full(given)
+    )]
     Disagreement {
         /// The quantity in which they differ.
         what: &'static str,

@@ -6,28 +6,30 @@ use snapload::DefaultValue::{Count, Derived, Flag, Number, Required, Word};
 use snapload::{Heading, Key, Kind, Schema, Table};
 use snapload_hydro::FirstColumn;
 
-/// The upper bound of lengths \[m\].
+/// The bounds of lengths \[m\]; the lower ones are below those of the smallest models.
+const SHORTEST: f64 = 1e-4;
 const LONGEST: f64 = 1e5;
-/// The upper bound of masses, forces and stiffnesses, in their SI units.
+/// The bounds of masses, forces and stiffnesses, in their SI units.
+const LIGHTEST: f64 = 1e-6;
 const HEAVIEST: f64 = 1e13;
 
-const MASS: Kind = Kind::positive(HEAVIEST);
-const LENGTH: Kind = Kind::positive(LONGEST);
+const MASS: Kind = Kind::number(LIGHTEST, HEAVIEST);
+const LENGTH: Kind = Kind::number(SHORTEST, LONGEST);
 const PLACE: Kind = Kind::Pair(LONGEST);
-const FACTOR: Kind = Kind::positive(100.0);
+const FACTOR: Kind = Kind::number(1e-3, 100.0);
 const DIRECTION: Kind = Kind::Choice(&["+x", "-x"]);
 
 #[rustfmt::skip] // one row a key
 const BODY: &[Key] = &[
     Key::new("mass", "kg", MASS, Required, "mass, ballast included"),
-    Key::new("displaced_volume", "m^3", Kind::positive(1e9), Required, "volume of water it displaces when submerged"),
+    Key::new("displaced_volume", "m^3", Kind::number(1e-9, 1e9), Required, "volume of water it displaces when submerged"),
     Key::new("added_mass", "kg", Kind::PerFreedom(1e18),
         Derived("of the outline in two-dimensional flow (DNV-RP-C205, table D-1)"),
         "added mass of the water: [surge, heave, pitch], pitch in kg m^2 about the centre, or one number for x and z"),
     Key::new("shape", "", Kind::Choice(&["circle", "rectangle"]), Word("circle"), "its outline in the x-z plane"),
     Key::new("width", "m", LENGTH, Required, "size in x; the diameter of a circle"),
     Key::new("height", "m", LENGTH, Derived("the width; a rectangle needs it"), "size in z; leave it out for a circle"),
-    Key::new("moment_of_inertia", "kg m^2", Kind::positive(1e18),
+    Key::new("moment_of_inertia", "kg m^2", Kind::number(1e-14, 1e18),
         Derived("of a uniform body: mass width^2/8 (circle), mass (width^2 + height^2)/12 (rectangle)"),
         "about the centre; includes that of the water where added_mass is one number; a hollow cylinder has nearly mass width^2/4"),
     Key::new("drag_area", "m^2", Kind::number(0.0, 1e6), Number(0.0),
@@ -46,11 +48,11 @@ const LINE: &[Key] = &[
     Key::new("length", "m", LENGTH, Required, "unstretched length"),
     Key::new("type", "", Kind::Choice(TYPES), Derived("none"),
         "a type of line; with diameter it gives stiffness, mass_per_length and breaking_load"),
-    Key::new("diameter", "m", Kind::positive(0.4), Derived("none"), "nominal diameter; for a chain that of its bar"),
+    Key::new("diameter", "m", Kind::number(1e-5, 0.4), Derived("none"), "nominal diameter; for a chain that of its bar"),
     Key::new("grade", "", Kind::Choice(GRADES), Derived("R3 for a chain"), "steel grade of a chain"),
     Key::new("stiffness", "N", MASS, Derived("from type and diameter"), "axial stiffness EA"),
     Key::new("spring_rate", "N/m", MASS, Derived("stiffness / length"), "k, in place of the axial stiffness"),
-    Key::new("mass_per_length", "kg/m", Kind::positive(1e5), Derived("from type and diameter"), "mass per metre in air"),
+    Key::new("mass_per_length", "kg/m", Kind::number(1e-6, 1e5), Derived("from type and diameter"), "mass per metre in air"),
     Key::new("breaking_load", "N", MASS, Derived("from type and diameter"), "minimum breaking load"),
 ];
 

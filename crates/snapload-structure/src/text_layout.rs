@@ -19,7 +19,9 @@ pub(crate) fn ratio(value: &f64) -> String {
     let is_below = |text: &String| text.parse().is_ok_and(|number: f64| number < 1.0);
     let mut all = (2..=6).map(written);
     let shown = all.find(|text| is_below(text) == (*value < 1.0));
-    shown.unwrap_or_else(|| written(2))
+    shown
+        .filter(|_| *value < 1e6)
+        .unwrap_or_else(|| decimals(value, 2))
 }
 
 /// The lines of a template; below the first line, those with a bar are a label and its text.

@@ -286,3 +286,28 @@ fn hydro_refuses_with_reasons() {
     }
     assert_eq!(listing(room.path()), ["cut.nc", "no.json", "pontoon.nc"]);
 }
+
+/// Seas and releases beyond all measure are refused in few digits, and so is a sea of which the
+/// file's frequencies hold nothing.
+#[test]
+fn seas_and_releases_are_of_the_size_of_the_file() {
+    let room = room();
+    for (words, reason) in [
+        (
+            &["hydro", "pontoon.nc", "--hs", "1", "--tp", "0.1"][..],
+            "a sea with some of its energy at the file's periods, 1.35 to 78.54 s",
+        ),
+        (
+            &["hydro", "pontoon.nc", "--hs", "1e300", "--tp", "5"],
+            "--hs = 1e300 is not allowed; allowed: a number, 0 < hs <= 100",
+        ),
+        (
+            &["decay", "pontoon.nc", "--from", "1e300,0,0"],
+            "--from = 1e300,0,0 is not allowed",
+        ),
+    ] {
+        let refused = snapload(room.path()).args(words).assert().code(2);
+        let error = String::from_utf8(refused.get_output().stderr.clone()).unwrap();
+        assert!(error.contains(reason) && error.len() < 250, "{error}");
+    }
+}

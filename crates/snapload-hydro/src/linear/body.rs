@@ -1,11 +1,19 @@
 //! The rigid body: its mass matrix, its hydrostatic stiffness, and the constant forces.
 
-use crate::coefficients::Hydrodynamics;
+use crate::coefficients::{FREEDOMS, Hydrodynamics};
 use crate::error::HydroError;
 use nalgebra::{Matrix3, Vector2, Vector3};
 
 /// A body floats upright if it pitches by less than this, in rad.
 pub(crate) const BALANCED_ANGLE: f64 = 0.01;
+
+/// A body that is so many times as heavy as the water it displaces, or whose radius of gyration is
+/// so many times the side of a cube of that water, is a mistake of units. Within these bounds the
+/// frequencies of its motions are close enough for all of them to be found.
+const MOST_MASSES: f64 = 100.0;
+const MOST_SIDES: f64 = 1000.0;
+/// So is damping of so many times m √(g/side), about the critical one of heave.
+const MOST_DAMPING: f64 = 1e6;
 
 /// The body's weight. Values that are not given are taken from the file: the displaced mass, and
 /// the centre of gravity and inertia for which it was computed.
@@ -57,7 +65,9 @@ impl Body {
             value.ok_or_else(|| HydroError::missing(what, advice))
         };
         let mass_kg = need("the mass", weight.mass_kg.or(statics.displaced_mass_kg))?;
-        positive("the mass in kg", mass_kg)?;
+        let size = Size::new(hydro, mass_kg);
+        let key = "--mass; body.mass in a case";
+        up_to(MOST_MASSES * size.mass_kg, "the mass in kg", mass_kg, key)?;
         let centre = weight.centre_m.or(statics.centre_of_mass_m);
         let centre_m = [0, 1].map(|axis| centre.map(|centre| centre[axis]));
         let what = "the centre of gravity";
@@ -65,7 +75,10 @@ impl Body {
         let [x, z] = [0, 1].map(|axis| centre_m[axis] - hydro.reference_m[axis]);
         let about_o = match (weight.inertia_kg_m2, statics.inertia) {
             (Some(inertia), _) => {
-                positive("the moment of inertia in kg m²", inertia)?;
+                let radius_m = MOST_SIDES * size.side_m;
+                let most = mass_kg.max(size.mass_kg) * radius_m * radius_m;
+                let key = "--inertia; body.moment_of_inertia in a case";
+                up_to(most, "the moment of inertia in kg m²", inertia, key)?;
                 inertia + mass_kg * (x * x + z * z)
             }
             (None, Some(file)) => {
@@ -84,6 +97,43 @@ impl Body {
             constant_force: weight_and_buoyancy(hydro, mass_kg, x),
             level_m: hydro.reference_m[1],
         })
+    }
+
+    /// The body with linear damping in addition to that of waves, and with a constant force.
+    ///
+    /// # Errors
+    /// [`HydroError::Value`] if one of them is not possible for a body of its size.
+    pub(crate) fn loaded(
+        mut self,
+        hydro: &Hydrodynamics,
+        damping: [f64; 3],
+        force: [f64; 3],
+    ) -> Result<Self, HydroError> {
+        let Size { mass_kg, side_m } = Size::new(hydro, self.mass_kg);
+        let mass_kg = mass_kg.max(self.mass_kg);
+        let gravity = hydro.water.gravity_m_s2;
+        let of_damping = MOST_DAMPING * mass_kg * (gravity / side_m).sqrt();
+        let of_force = MOST_MASSES * mass_kg * gravity;
+        for (i, freedom) in FREEDOMS.into_iter().enumerate() {
+            let arm_m = if i == 2 { side_m } else { 1.0 };
+            let most = of_damping * arm_m * arm_m;
+            if !(0.0..=most).contains(&damping[i]) {
+                let what = format!("the damping of {freedom} in addition to that of waves");
+                let expected = format!(
+                    "it must be 0 or above, and at most {most:.3e} (--damping; float.damping in a case)"
+                );
+                return Err(HydroError::value(what, damping[i], expected));
+            }
+            let most = of_force * arm_m;
+            if !(-most..=most).contains(&force[i]) {
+                let what = format!("the constant load on {freedom}");
+                let expected = format!("it must be from -{most:.3e} to {most:.3e} (--force)");
+                return Err(HydroError::value(what, force[i], expected));
+            }
+        }
+        self.damping += Matrix3::from_diagonal(&damping.into());
+        self.constant_force += Vector3::from(force);
+        Ok(self)
     }
 
     /// The moment of inertia about the centre of gravity, I_O − m (x_G² + z_G²) \[kg m²\].
@@ -183,11 +233,31 @@ fn of_the_file(
     Ok(file[(2, 2)] + (mass_kg * square(centre) - own_mass * square(own)))
 }
 
-fn positive(what: &str, value: f64) -> Result<(), HydroError> {
-    match value > 0.0 && value.is_finite() {
-        true => Ok(()),
-        false => Err(HydroError::value(what, value, "it must be above 0")),
+/// The water that a body displaces: its mass, and the side of a cube of it.
+struct Size {
+    mass_kg: f64,
+    side_m: f64,
+}
+
+impl Size {
+    /// A body whose file has no volume is taken to displace its own mass.
+    fn new(hydro: &Hydrodynamics, mass_kg: f64) -> Self {
+        let displaced = hydro.hydrostatics.displaced_mass_kg;
+        let mass_kg = displaced.filter(|mass| *mass > 0.0).unwrap_or(mass_kg);
+        let side_m = (mass_kg / hydro.water.density_kg_m3).cbrt();
+        Self { mass_kg, side_m }
     }
+}
+
+/// Refuses a number that is not above 0, or above the most that a body of this size may have.
+fn up_to(most: f64, what: &str, value: f64, key: &str) -> Result<(), HydroError> {
+    if value > 0.0 && value <= most {
+        return Ok(());
+    }
+    let expected = format!(
+        "it must be above 0 and, for the water that the body displaces, at most {most:.3e} ({key})"
+    );
+    Err(HydroError::value(what, value, expected))
 }
 
 /// M = [[m, 0, m z_G], [0, m, −m x_G], [m z_G, −m x_G, I_O]], (x_G, z_G) from the reference point.

@@ -4,6 +4,7 @@ use super::body::Body;
 use super::natural::{of_matrix, state_matrix};
 use super::swings::{Turn, changes_sign};
 use crate::coefficients::Hydrodynamics;
+use crate::digits::{digits, in_full};
 use crate::error::HydroError;
 use crate::memory::{DampingCurve, Memory};
 use nalgebra::{Complex, DMatrix, Matrix3, Vector3};
@@ -25,6 +26,8 @@ pub struct Decay {
 /// The most steps of a motion and the most rows of its table.
 const MOST_STEPS: f64 = 1e7;
 const MOST_ROWS: f64 = 1e6;
+/// The shortest and the longest time between rows \[s\].
+const STEPS_S: [f64; 2] = [1e-6, 1e6];
 /// The longest step as a part of 1/|λ| of the fastest oscillation: a cubic through velocities and
 /// accelerations that far apart is off by less than a millionth.
 const PART_OF_OSCILLATION: f64 = 0.125;
@@ -32,7 +35,7 @@ const PART_OF_OSCILLATION: f64 = 0.125;
 /// The motion from rest at `start`, with the exponentials as the memory. It is linear with constant
 /// coefficients, so that each step of a fixed length is one multiplication, y ← e^{Lh} y, exact to
 /// rounding. Turns are found in steps that are short enough for the motion, however far the rows
-/// are apart. `on_progress` is called with the part that is done.
+/// are apart, and up to the duration, which may be after the last row. `on_progress` is called with the part that is done.
 ///
 /// # Errors
 /// A [`HydroError`] if the mass is not positive definite, or the times are not possible.
@@ -49,6 +52,7 @@ pub fn decay(
     let matrix = state_matrix(body, &body.stiffness, memory, added_mass_inf, &identity)?;
     let parts = steps_per_row(&matrix, [duration_s, row_s])?;
     let step_s = row_s / parts as f64;
+    let steps = (duration_s / step_s + 1e-9) as usize;
     let (to_row, step) = (Flow::new(&matrix, row_s), Flow::new(&matrix, step_s));
     let mut row_state = vec![0.0; matrix.nrows()];
     row_state[..3].copy_from_slice(start.into().as_slice());
@@ -63,14 +67,14 @@ pub fn decay(
         let t_s = row as f64 * row_s;
         decay.t_s.push(t_s);
         decay.q.push(Vector3::from_column_slice(&row_state[..3]));
-        if row == last_row {
-            break;
-        }
-        for part in 0..parts {
+        for part in 0..parts.min(steps.saturating_sub(row * parts)) {
             let next = step.applied(&state);
             let times = [t_s + part as f64 * step_s, step_s];
             decay.turns_within(times, &matrix, [&state, &next]);
             state = next;
+        }
+        if row == last_row {
+            break;
         }
         row_state = match parts {
             1 => state.clone(),
@@ -83,13 +87,15 @@ pub fn decay(
 
 /// The number of the last row, the first being 0.
 fn last_row(duration_s: f64, row_s: f64) -> Result<usize, HydroError> {
-    if !(row_s > 0.0 && row_s.is_finite()) {
-        let expected = "the step must be above 0";
+    let [least, most] = STEPS_S;
+    if !(least..=most).contains(&row_s) {
+        let expected = format!("the step must be above 0, from {least:e} to {most:e}");
         return Err(HydroError::value("the step in s", row_s, expected));
     }
     if !(duration_s >= 0.0 && duration_s <= MOST_ROWS * row_s) {
         let most = MOST_ROWS * row_s;
-        let expected = format!("0 to {most} is allowed, a million steps");
+        let [most, row_s] = [most, row_s].map(|time_s| in_full(&time_s));
+        let expected = format!("0 to {most} is allowed, a million steps of {row_s} s");
         return Err(HydroError::value("the duration in s", duration_s, expected));
     }
     Ok((duration_s / row_s + 1e-9) as usize)
@@ -107,7 +113,10 @@ fn steps_per_row(
     let parts = (row_s * fastest / PART_OF_OSCILLATION).ceil().max(1.0);
     if parts * duration_s / row_s > MOST_STEPS {
         let most = (MOST_STEPS * row_s / parts).floor();
-        let expected = format!("with this step the motion is followed for at most {most} s");
+        let expected = format!(
+            "as the body oscillates with up to {} rad/s, it is followed for at most {most} s",
+            digits(&fastest, 1)
+        );
         return Err(HydroError::value("the duration in s", duration_s, expected));
     }
     Ok(parts as usize)

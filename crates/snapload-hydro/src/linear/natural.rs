@@ -73,9 +73,7 @@ pub(super) fn natural(
         if *value <= SOFT * largest {
             continue;
         }
-        let Some(omega) = problem.balanced(k, high)? else {
-            continue;
-        };
+        let omega = problem.balanced(k, high)?;
         let shape = &problem.at(omega)?[k].1;
         let motion = basis * shape;
         let whole = mass + curve.at(omega);
@@ -127,7 +125,8 @@ impl Problem<'_> {
     }
 
     /// The lowest ω at which the k-th eigenvalue is ω², by bisection of the first change of sign.
-    fn balanced(&self, k: usize, high: f64) -> Result<Option<f64>, HydroError> {
+    /// Far beyond the last frequency A and with it the eigenvalue no longer changes.
+    fn balanced(&self, k: usize, high: f64) -> Result<f64, HydroError> {
         let excess =
             |omega: f64| -> Result<f64, HydroError> { Ok(self.at(omega)?[k].0 - omega * omega) };
         let top = 10.0 * high;
@@ -147,11 +146,11 @@ impl Problem<'_> {
                         false => above = middle,
                     }
                 }
-                return Ok(Some(0.5 * (below + above)));
+                return Ok(0.5 * (below + above));
             }
             low = next;
         }
-        Ok(None)
+        Ok(self.at(top)?[k].0.sqrt())
     }
 }
 

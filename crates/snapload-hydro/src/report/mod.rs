@@ -12,7 +12,7 @@ pub use page::page;
 use summary::plain;
 pub use summary::{held_summary, periods_summary};
 
-use crate::coefficients::{FREEDOMS, transport};
+use crate::coefficients::transport;
 use crate::digits::kilo;
 use crate::error::{HydroError, Warning};
 use crate::linear::{
@@ -22,7 +22,7 @@ use crate::linear::{
 };
 use crate::memory::{Fit, FitOptions, TermRow, fit, given};
 use crate::read::{Format, Reading};
-use nalgebra::{Matrix3, Vector3};
+use nalgebra::Matrix3;
 use serde::{Deserialize, Serialize};
 
 /// Below this part of critical damping a peak counts as narrow; then damping other than that of
@@ -102,19 +102,6 @@ pub struct Request {
     pub memory: Option<GivenMemory>,
 }
 
-impl Request {
-    /// Refuses damping that would feed energy into the motion.
-    fn check_damping(&self) -> Result<(), HydroError> {
-        for (freedom, damping) in FREEDOMS.into_iter().zip(self.damping) {
-            if !(damping >= 0.0 && damping.is_finite()) {
-                let what = format!("the damping of {freedom} in addition to that of waves");
-                return Err(HydroError::value(what, damping, "it must be 0 or above"));
-            }
-        }
-        Ok(())
-    }
-}
-
 /// The answers that need the body's weight and stiffness.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Floating {
@@ -154,7 +141,6 @@ impl Report {
     /// A [`HydroError`] if no memory is found, or lines and weights are not possible. If a file
     /// lacks weight or stiffness, only the answers that do not need them are given.
     pub fn new(name: &str, reading: Reading, request: &Request) -> Result<Self, HydroError> {
-        request.check_damping()?;
         let hydro = &reading.hydro;
         let fit = match (&request.memory, reading.format) {
             (Some(memory), _) => {
@@ -223,12 +209,11 @@ impl Floating {
     fn new(
         reading: &Reading,
         fit: &Fit,
-        mut body: Body,
+        body: Body,
         request: &Request,
     ) -> Result<Self, HydroError> {
         let hydro = &reading.hydro;
-        body.damping += Matrix3::from_diagonal(&request.damping.into());
-        body.constant_force += Vector3::from(request.force);
+        let body = body.loaded(hydro, request.damping, request.force)?;
         let (memory, inf) = (&fit.memory, &fit.added_mass_inf);
         let free = body.afloat();
         let natural = natural_of_the_file(hydro, &free)?;

@@ -2,7 +2,7 @@
 
 use super::{Floating, Report, ZERO_DAMPING};
 use crate::coefficients::FREEDOMS;
-use crate::digits::kilo;
+use crate::digits::{digits, kilo};
 use crate::linear::{BALANCED_ANGLE, LARGE_PITCH, Mode, Natural, Peak};
 use crate::memory::{BlockQuality, EntryQuality};
 use std::f64::consts::PI;
@@ -250,15 +250,15 @@ pub fn periods_summary(natural: &[Natural], modes: &[Mode]) -> String {
         let damped = match mode.is_overdamped() {
             true => "overdamped with damping".to_owned(),
             false => format!(
-                "{:.3} s with {:.2} % of critical damping",
-                mode.period_s,
+                "{} s with {:.2} % of critical damping",
+                digits(&mode.period_s, 3),
                 plain(100.0 * mode.damping_ratio, 1e-2)
             ),
         };
         let name = FREEDOMS[natural.freedom];
         format!(
-            "{name} {:.3} s undamped, {damped}{outside}",
-            natural.period_s
+            "{name} {} s undamped, {damped}{outside}",
+            digits(&natural.period_s, 3)
         )
     };
     let all: Vec<String> = natural.iter().zip(modes).map(one).collect();

@@ -123,6 +123,76 @@ fn an_overdamped_motion_is_called_so() {
     assert!(row["damped_period_s"].is_null() && row["damping_ratio"] == 1.0);
 }
 
+/// A body ninety times as heavy as the water that it displaces swings in heave with C33 over its
+/// mass and in pitch, with surge free to follow, with C55 over what is left of its inertia, far
+/// beyond the file's frequencies. The periods of both are found and printed.
+#[test]
+fn a_heavy_body_keeps_all_of_its_motions() {
+    let (hydro, light, inf, _) = oscillator();
+    let weight = Weight {
+        mass_kg: Some(90.0 * light.mass_kg),
+        ..Weight::default()
+    };
+    let body = Body::new(&hydro, &weight).expect("a body").afloat();
+    let (mass, stiffness) = (body.mass + inf, body.stiffness);
+    let turning = mass[(2, 2)] - mass[(0, 2)] * mass[(0, 2)] / mass[(0, 0)];
+    let heave = (stiffness[(1, 1)] / mass[(1, 1)]).sqrt();
+    let pitch = (stiffness[(2, 2)] / turning).sqrt();
+    assert!(pitch > 10.0 * hydro.range_rad_s()[1]);
+    let natural = natural_of_the_file(&hydro, &body).expect("motions");
+    let found: Vec<_> = natural.iter().map(|one| one.freedom).collect();
+    assert_eq!(found, [1, 2], "{natural:?}");
+    for (one, omega) in natural.iter().zip([heave, pitch]) {
+        assert!((one.omega_rad_s / omega - 1.0).abs() < 1e-6, "{one:?}");
+    }
+}
+
+/// Weights, damping and loads of other units are refused with what is allowed. What is allowed
+/// leaves heave, which neither moment of inertia nor damping of other freedoms touch, as it is.
+#[test]
+fn a_body_of_other_units_is_refused() {
+    let of = |weight: Weight, damping: [f64; 3], force: [f64; 3]| {
+        let request = Request {
+            weight,
+            damping,
+            force,
+            fit: FitOptions { pairs: Some(4) },
+            ..Request::default()
+        };
+        Report::new("pontoon", reading("pontoon-deep.nc"), &request)
+    };
+    let heaving = |weight: Weight, damping: [f64; 3]| {
+        let report = of(weight, damping, [0.0; 3]).expect("a report");
+        let floating = report.floating.expect("a body");
+        heave(&floating.natural, &floating.modes).eigenvalue
+    };
+    let (own, none) = (Weight::default(), [0.0; 3]);
+    let inertia = |inertia_kg_m2: f64| Weight {
+        inertia_kg_m2: Some(inertia_kg_m2),
+        ..own
+    };
+    let mass = |mass_kg: f64| Weight {
+        mass_kg: Some(mass_kg),
+        ..own
+    };
+    let known = heaving(own, none);
+    for (weight, damping) in [(inertia(2e12), none), (own, [1e11, 0.0, 1e12])] {
+        let found = heaving(weight, damping);
+        assert!((found - known).norm() < 1e-6, "{found} {known}");
+    }
+    for (weight, damping, force, says) in [
+        (mass(1e13), none, none, "the mass in kg = 1e13: it must be"),
+        (mass(0.0), none, none, "9.840e6 (--mass; body.mass"),
+        (inertia(1e300), none, none, "kg m² = 1e300: it must be"),
+        (own, [0.0, 1e300, 0.0], none, "the damping of heave in"),
+        (own, [0.0, 0.0, -1.0], none, "of waves = -1: it must be 0"),
+        (own, none, [0.0, -1e300, 0.0], "load on heave = -1e300: it"),
+    ] {
+        let error = of(weight, damping, force).expect_err(says).to_string();
+        assert!(error.contains(says), "{error}");
+    }
+}
+
 /// The peak of heave does not depend on the damping of a pitch that resonates at the same
 /// frequency, as the two are not coupled; surge, which is, does.
 #[test]

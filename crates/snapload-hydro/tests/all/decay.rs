@@ -148,7 +148,11 @@ fn times_that_are_not_possible_are_named() {
     for (times, says) in [
         ([-5.0, 0.05], "the duration in s = -5"),
         ([f64::NAN, 0.05], "the duration in s = NaN"),
-        ([1e5, 0.05], "0 to 50000 is allowed"),
+        (
+            [1e5, 0.05],
+            "0 to 50000 is allowed, a million steps of 0.05 s",
+        ),
+        ([40.0, 1e-300], "the step in s = 1e-300"),
         ([40.0, 0.0], "the step in s = 0: the step must be above 0"),
         ([40.0, f64::INFINITY], "the step in s = inf"),
         // A million rows, but more steps than can be computed.
@@ -157,5 +161,28 @@ fn times_that_are_not_possible_are_named() {
         let motion = decay(&body, &memory, &inf, start, times, &|_| ());
         let error = motion.expect_err("a refusal").to_string();
         assert!(error.contains(says), "{error}");
+    }
+}
+
+/// However far the rows are apart, the turns are those up to the duration.
+#[test]
+fn turns_do_not_depend_on_the_rows() {
+    let entry = &reference("linear.json")["pontoon"];
+    let body = body(&entry["case"], &hydro(file("pontoon")));
+    let (memory, inf) = given("pontoon");
+    let of = |row_s: f64| {
+        let start = Vector3::new(0.0, 1.0, 0.1);
+        let motion = decay(&body, &memory, &inf, start, [40.0, row_s], &|_| ());
+        motion.expect("a decay").turns
+    };
+    let known = of(0.05);
+    assert!(known[1].len() > 20);
+    for row_s in [50.0, 30.0] {
+        for (turns, known) in of(row_s).iter().zip(&known) {
+            assert_eq!(turns.len(), known.len(), "{row_s}");
+            for (turn, known) in turns.iter().zip(known) {
+                assert!((turn.t_s - known.t_s).abs() < 1e-4, "{turn:?} {known:?}");
+            }
+        }
     }
 }

@@ -7,6 +7,7 @@ pub(crate) mod gumbel;
 pub(crate) mod model;
 pub(crate) mod model_at_rest;
 pub(crate) mod periods;
+pub(crate) mod rates;
 pub(crate) mod sea;
 pub(crate) mod sea_records;
 pub(crate) mod snap;

@@ -6,6 +6,7 @@ use super::equilibrium::{
     DistributionByStiffness, Equilibrium, TOUCHING, equilibrium, steady_load_error,
 };
 use super::model::{CURRENT, Model};
+use super::rates::check_rates;
 use crate::structure::{IrregularSea, Structure, Water};
 use snapload::{CaseError, Simulation, StartError, State, Stop};
 use snapload_hydro::{held_summary, periods_summary};
@@ -67,6 +68,7 @@ impl ModelAtRest {
             None => (equilibrium(&structure)?, Vec::new()),
         };
         let model = model_about_rest(&structure, &rest)?;
+        check_rates(&structure, &model)?;
         if structure.afloat.is_some() {
             rest.distribute_by_least_squares(&model);
         }

@@ -3,7 +3,7 @@
 use crate::physics::elastic::LEAST_RESTITUTION;
 use crate::physics::snap::SLOWEST_M_S;
 use crate::physics::warning::Warning;
-use crate::runs::assess::Assessment;
+use crate::runs::assess::{Assessment, TOLERANCE};
 use crate::runs::elastic_comparison::ElasticComparison;
 use crate::runs::outcome::{LineOutcome, Outcome};
 use crate::runs::three_hours::{NoDistribution, one_run_is_too_little};
@@ -116,8 +116,8 @@ struct VerdictText<'a> {
 struct TrustText<'a> {
     trust: &'a Trust,
     horizon_s: Option<f64>,
-    /// The unit of length, L.
-    length_m: f64,
+    /// The error up to which the run is certain.
+    error_m: f64,
     /// The quantiles of the neighbours' largest tensions, as they are shown.
     spread_kn: Option<[String; 3]>,
     /// Whether no line snaps in any of the neighbours.
@@ -437,7 +437,7 @@ impl Assessment {
             trust: &self.trust,
             snapless: spread.is_some() && self.neighbours.iter().all(|n| n.peak_n().is_none()),
             horizon_s: self.horizon_s(),
-            length_m: self.prepared.model.scales.length_m,
+            error_m: TOLERANCE * self.prepared.model.scales.length_m,
             spread_kn: spread.map(|spread| spread.map(|newtons| kilo(&newtons, 0))),
             count: self.neighbours.len(),
             failing: self.neighbours.iter().filter(|n| n.stop.exceeds()).count(),

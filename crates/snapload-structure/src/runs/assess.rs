@@ -22,7 +22,7 @@ use snapload::{Playback, Trajectory};
 use std::ops::ControlFlow;
 
 /// A state counts as known while its standard deviation is below this, in the engine's units.
-const TOLERANCE: f64 = 1e-3;
+pub(crate) const TOLERANCE: f64 = 1e-3;
 /// The distance of neighbours from the run, as a part of the waves' height.
 pub const NEIGHBOUR: f64 = 1e-6;
 /// By this the restitution is varied, as it is rarely known more accurately.

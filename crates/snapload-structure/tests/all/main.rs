@@ -26,6 +26,7 @@ mod moordyn_edits;
 mod moordyn_keys;
 mod other_waves;
 mod physics;
+mod rates;
 mod scale;
 mod sea_verdicts;
 mod short_run;

@@ -1,9 +1,10 @@
 //! The manual's tables are those of the schema.
 
 use proptest::prelude::*;
+use snapload::analysis::no_progress;
 use snapload::{Bounds, DefaultValue, Entries, Kind};
 use snapload_structure::note::inputs;
-use snapload_structure::{ModelAtRest, STRUCTURE, Structure};
+use snapload_structure::{ModelAtRest, STRUCTURE, Structure, assess};
 use std::path::Path;
 
 /// The keys that a file gives.
@@ -259,5 +260,32 @@ proptest! {
             prop_assert!(prepared.rest.place_m.iter().all(|x| x.is_finite()));
             prop_assert!(prepared.rest.tension_n.iter().all(|tension| tension.is_finite() && *tension >= 0.0));
         }
+    }
+}
+
+/// Whatever the least value of a key, a report has no infinite number and none of hundreds of
+/// digits; what is smaller is refused.
+#[test]
+fn the_least_values_leave_a_report_readable() {
+    let example = include_str!("../../../../docs/examples/cylinder.toml");
+    let with = |key: &str, value: &str| {
+        let mut entries = read(example);
+        entries.set(&format!("{key}={value}")).map(|()| entries)
+    };
+    for (key, least) in [
+        ("line.breaking_load", "1e-6"),
+        ("line.stiffness", "1e-6"),
+        ("line.diameter", "1e-5"),
+        ("body.width", "1e-4"),
+    ] {
+        let entries = with(key, least).expect("a value");
+        let structure = Structure::from_entries(&entries).expect("a structure");
+        let assessment = assess(structure, 0, &no_progress).expect("an assessment");
+        let summary = assessment.summary("case");
+        let mut words = summary.split_whitespace();
+        let long = words.find(|word| word.len() > 25 || word.starts_with("inf,"));
+        assert_eq!(long, None, "{key}: {summary}");
+        let smaller = with(key, "1e-300").expect_err("a refusal").to_string();
+        assert!(smaller.contains(&format!("{least} <= ")), "{smaller}");
     }
 }

@@ -98,6 +98,18 @@ impl<'a> BodyOnElasticLines<'a> {
         })
     }
 
+    /// A bound on the rates at which it oscillates or is damped while any lines pull.
+    pub(super) fn quickest_of_all(&self) -> f64 {
+        let lines = self.system.cables.iter().zip(self.elastic_lines);
+        let quickest = lines.map(|(cable, line)| {
+            let arm = cable.fairlead().length();
+            let inverse_mass = self.system.body.largest_inverse_effective_mass(arm);
+            let damping = line.damping * inverse_mass;
+            (line.rate * inverse_mass).sqrt().max(damping)
+        });
+        quickest.fold(0.0, f64::max)
+    }
+
     /// The accelerations, including the force of the water's memory.
     pub(super) fn acceleration(
         &self,

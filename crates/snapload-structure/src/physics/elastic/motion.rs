@@ -13,6 +13,7 @@ use super::body::BodyOnElasticLines;
 use super::law::ElasticLine;
 use super::record::{ElasticRun, PullRecorder};
 use crate::physics::model_at_rest::ModelAtRest;
+use crate::physics::rates::check_rate_on_elastic_lines;
 use differential_equations::ode::OrdinaryNumericalMethod;
 use differential_equations::prelude::{Error, ExplicitRungeKutta, Interpolation, ODE, Status};
 use snapload::analysis::{OnProgress, Progress, Unfinished};
@@ -274,6 +275,7 @@ pub fn run_elastic(
         return Err(CaseError::value("springs", shown, "one for each line").into());
     }
     let body = BodyOnElasticLines::new(&model.system, elastic_lines);
+    check_rate_on_elastic_lines(&prepared.structure, model, body.quickest_of_all())?;
     match model.system.memory_at_rest().len() {
         0 => run::<STATE_WITHOUT_MEMORY>(prepared, &body, every_s, on_progress),
         1..=USUAL_MEMORY => run::<STATE_WITH_MEMORY>(prepared, &body, every_s, on_progress),

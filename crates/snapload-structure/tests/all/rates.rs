@@ -1,0 +1,90 @@
+//! Motions that are too fast to be followed for the duration of a run.
+
+use crate::verdicts::structure;
+use snapload::analysis::no_progress;
+use snapload_structure::{ModelAtRest, Structure, compare_elastic};
+
+const EXAMPLE: &str = include_str!("../../../../docs/examples/cylinder.toml");
+
+/// The example with keys of its body and its run in place of its own.
+fn changed(body: &[(&str, f64)], run: &str) -> Structure {
+    let is_own = |line: &&str| {
+        !body
+            .iter()
+            .any(|(key, _)| line.starts_with(&format!("{key} =")))
+    };
+    let text: Vec<&str> = EXAMPLE.lines().filter(is_own).collect();
+    let keys = body
+        .iter()
+        .map(|(key, value)| format!("{key} = {value:e}\n"));
+    let keys = format!("[body]\n{}", keys.collect::<String>());
+    let text = text.join("\n").replace("[body]", &keys);
+    structure(&text.replace("[run]", &format!("[run]\n{run}")))
+}
+
+/// The refusal of a structure that is at rest.
+fn refused(structure: Structure) -> String {
+    let error = ModelAtRest::new(structure).expect_err("a refusal");
+    error.to_string()
+}
+
+/// Damping that stops the body within the duration over three millions or less is refused, with the
+/// most that is allowed: that many times inertia, or mass with added mass, over 600 s.
+#[test]
+fn damping_is_bounded_by_mass_and_duration() {
+    let most = |inertia: f64| 3e6 / 600.0 * inertia;
+    for (key, most) in [
+        ("turning_damping", most(163_017.0)),
+        ("linear_damping", most(72_452.0 + 144_904.0)),
+    ] {
+        let with = |damping: f64| changed(&[(key, damping)], "");
+        assert!(ModelAtRest::new(with(0.99 * most)).is_ok(), "{key}");
+        let error = refused(with(1.01 * most));
+        let says = format!("is not allowed; allowed: at most {most:.3e}");
+        assert!(
+            error.starts_with(&format!("body.{key} = ")) && error.contains(&says),
+            "{error}"
+        );
+        // Half the duration allows twice as much.
+        let half = changed(&[(key, 1.01 * most)], "duration = 300");
+        assert!(ModelAtRest::new(half).is_ok(), "{key}");
+    }
+}
+
+/// A body so light for its loads that it would swing or turn millions of times is refused with the
+/// time for which it could be followed, and with the keys to be checked.
+#[test]
+fn a_body_too_light_for_its_loads_is_refused() {
+    let light = [
+        ("mass", 1e-6),
+        ("added_mass", 0.0),
+        ("moment_of_inertia", 1e-6),
+    ];
+    for (body, checks) in [
+        (&light[..], "body.mass"),
+        (&[("displaced_volume", 1e9)], "body.displaced_volume"),
+        (&[("added_mass", 1e13)], "body.added_mass"),
+        (&[("moment_of_inertia", 1e-6)], "body.moment_of_inertia"),
+    ] {
+        let error = refused(changed(body, ""));
+        let has = |words: &str| assert!(error.contains(words), "{words}: {error}");
+        has("run.duration = 600 is not allowed; allowed: at most ");
+        has("check the units of ");
+        has(checks);
+    }
+}
+
+/// Lines that are a hundred million times as stiff oscillate ten thousand times as fast, which can
+/// be followed for a moment and not for ten minutes.
+#[test]
+fn elastic_lines_too_stiff_for_the_duration_are_refused() {
+    let of = |duration: &str, stiffer: f64| {
+        let prepared = ModelAtRest::for_elastic_lines(changed(&[], duration)).expect("a case");
+        compare_elastic(prepared, stiffer, f64::INFINITY, &no_progress)
+    };
+    let error = of("duration = 600", 1e8)
+        .expect_err("a refusal")
+        .to_string();
+    assert!(error.contains("oscillates on its elastic lines"), "{error}");
+    assert!(of("duration = 0.001", 1e8).is_ok());
+}
