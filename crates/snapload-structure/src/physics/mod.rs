@@ -10,6 +10,7 @@ pub(crate) mod periods;
 pub(crate) mod sea;
 pub(crate) mod sea_records;
 pub(crate) mod snap;
+pub(crate) mod softness;
 pub(crate) mod warning;
 pub(crate) mod warnings;
 pub(crate) mod waterline;

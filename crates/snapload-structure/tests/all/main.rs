@@ -29,6 +29,7 @@ mod physics;
 mod scale;
 mod sea_verdicts;
 mod short_run;
+mod softness;
 mod still_water;
 mod verdicts;
 mod waves;
