@@ -2,6 +2,7 @@
 
 pub(crate) mod afloat;
 pub(crate) mod elastic;
+pub(crate) mod emergence;
 pub(crate) mod equilibrium;
 pub(crate) mod gumbel;
 pub(crate) mod model;
