@@ -25,6 +25,7 @@ pub use physics::afloat::TautMode;
 pub use physics::elastic::{
     ElasticLine, ElasticRun, Pull, Sample, damping_ratio, elastic_lines, run_elastic,
 };
+pub use physics::emergence::Emergence;
 pub use physics::equilibrium::{Equilibrium, equilibrium};
 pub use physics::gumbel::{Estimate, Gumbel, reduced_variate};
 pub use physics::model::{Groups, Model, Scales, force_per_acceleration};

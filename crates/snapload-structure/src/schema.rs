@@ -70,7 +70,7 @@ const FLOAT: &[Key] = &[
     Key::new("file", "", Kind::Text, Derived("textbook values of the outline's section"),
         "coefficients of a panel code, beside this file: Capytaine's .nc or WAMIT's .1"),
     Key::new("deep_water", "", Kind::Flag, Flag(false), "accept coefficients of deep water although the site is not deep"),
-    Key::new("centre_of_gravity", "m", PLACE, Derived("the file's"), "[x, z] of the centre of gravity; body.moment_of_inertia is about it"),
+    Key::new("centre_of_gravity", "m", PLACE, Derived("the file's"), "[x, z] of the centre of gravity, from the same origin as body.position; body.moment_of_inertia is about it"),
     Key::new("damping", "N s/m", Kind::Triple(1e18), Derived("none"),
         "[surge, heave, pitch], pitch in N m s: linear damping in addition to that of waves"),
     Key::new("constant_moment", "N m", Kind::number(-1e18, 1e18), Number(0.0),

@@ -328,6 +328,11 @@ impl Structure {
         self.site.gravity_m_s2 * (self.displaced_mass_kg() - self.body.mass_kg)
     }
 
+    /// The weight of the displaced water \[N\].
+    pub(crate) fn weight_of_displaced_n(&self) -> f64 {
+        self.site.gravity_m_s2 * self.displaced_mass_kg()
+    }
+
     /// Mass of the displaced water ρV \[kg\].
     pub fn displaced_mass_kg(&self) -> f64 {
         self.site.water_density_kg_m3 * self.body.displaced_volume_m3

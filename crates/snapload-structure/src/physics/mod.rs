@@ -2,6 +2,7 @@
 
 pub(crate) mod afloat;
 pub(crate) mod elastic;
+pub(crate) mod emergence;
 pub(crate) mod equilibrium;
 pub(crate) mod gumbel;
 pub(crate) mod model;
@@ -11,6 +12,7 @@ pub(crate) mod rates;
 pub(crate) mod sea;
 pub(crate) mod sea_records;
 pub(crate) mod snap;
+pub(crate) mod softness;
 pub(crate) mod warning;
 pub(crate) mod warnings;
 pub(crate) mod waterline;

@@ -23,12 +23,14 @@ pub struct Warning {
 impl Warning {
     /// Whether it applies to elastic lines, too, and not only to the tensions of inextensible ones.
     pub(crate) fn is_of_all_lines(&self) -> bool {
-        !self.leaves_open || [HYDROSTATICS, COMPONENTS].contains(&self.rule)
+        !self.leaves_open || [HYDROSTATICS, COMPONENTS, EMERGENCE].contains(&self.rule)
     }
 }
 
 /// The rule on which the tensions of all lines of a floating body depend.
 pub(super) const HYDROSTATICS: &str = "hydrostatics";
+/// The rule on a submerged body that comes out of the water as it moves.
+pub(super) const EMERGENCE: &str = "emergence";
 /// The rule on the number of sinusoids of a sea.
 pub(super) const COMPONENTS: &str = "few components";
 

@@ -4,6 +4,7 @@ use super::afloat::{left_out, loaded};
 use super::equilibrium::Equilibrium;
 use super::model_at_rest::ModelAtRest;
 use super::sea_records::few_components;
+use super::softness::soft_lines;
 use super::warning::{HYDROSTATICS, Warning, warning_if};
 use super::waterline::{Waterline, rest_beyond_in_words};
 use super::wave::LinearWave;
@@ -317,18 +318,6 @@ fn in_waves(
         warning_if(!soft.is_empty(), "instant snap", [period, 0.0], &soft),
         few_components(structure),
     ]
-}
-
-/// The engine's snap takes no time; a line of spring rate k takes half a period, π sqrt(m/k) with
-/// the mass m that it stops. Lists the lines for which that is more than a tenth of a period.
-fn soft_lines(prepared: &ModelAtRest, period_s: f64) -> String {
-    let lines = prepared.structure.lines.iter().enumerate();
-    let soft = lines.filter_map(|(index, line)| {
-        let stopped_kg = prepared.mass_stopped(index) * prepared.model.scales.mass_kg;
-        let lasts = PI * (stopped_kg / line.spring_rate_n_m()?).sqrt();
-        (lasts > 0.1 * period_s).then(|| format!("{lasts:.2} s in line {}", index + 1))
-    });
-    soft.collect::<Vec<_>>().join(", ")
 }
 
 /// The warning that a body moves so far that the wave's phase at its position differs from that at

@@ -253,6 +253,8 @@ impl Assessment {
         let depends = self.outcome.depends_on_hydrostatics(structure);
         let limits = limits_afloat(structure, self.outcome.waterline.as_ref(), turned, depends);
         let short = short_run(structure).into_iter();
+        let emergence = self.outcome.emergence.warning(depends);
+        let limits = limits.into_iter().chain(emergence);
         short.chain(phase).chain(turning).chain(limits).collect()
     }
 

@@ -94,6 +94,7 @@ impl ElasticComparison {
     /// Rules of thumb that the case violates, except those that are decided by elastic lines.
     pub fn warnings(&self) -> Vec<Warning> {
         let (structure, run) = (&self.elastic_case.structure, &self.elastic);
+        let depends = self.outcome.depends_on_hydrostatics(structure);
         warnings(&self.elastic_case)
             .into_iter()
             .chain(short_run(structure))
@@ -107,8 +108,9 @@ impl ElasticComparison {
                 structure,
                 run.waterline.as_ref(),
                 run.turned_rad,
-                self.outcome.depends_on_hydrostatics(structure),
+                depends,
             ))
+            .chain(self.outcome.emergence.warning(depends))
             .filter(Warning::is_of_all_lines)
             .collect()
     }

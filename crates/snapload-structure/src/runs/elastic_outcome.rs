@@ -65,6 +65,7 @@ impl Outcome {
             turned_rad: run.turned_rad,
             excursion_m: run.excursion_m,
             waterline: run.waterline,
+            emergence: run.emergence,
             peaks_n: judged().map(|pull| pull.peak_n).collect(),
             speeds_m_s: snapping().map(|pull| pull.speed_m_s).collect(),
             waves_n: run.waves_n.clone(),

@@ -1,5 +1,6 @@
 //! The outcome of one run.
 
+use crate::physics::emergence::Emergence;
 use crate::physics::model_at_rest::ModelAtRest;
 use crate::physics::snap::{Snap, snaps_of_step};
 use crate::physics::waterline::Waterline;
@@ -83,6 +84,8 @@ pub struct Outcome {
     /// The extreme positions of a floating body relative to the still water; none for a submerged
     /// one.
     pub waterline: Option<Waterline>,
+    /// How far a submerged body comes out of the water.
+    pub emergence: Emergence,
     /// Peak tensions of all counted snaps \[N\].
     pub peaks_n: Vec<f64>,
     /// Their speeds \[m/s\].
@@ -164,18 +167,23 @@ impl Outcome {
         !breaks && self.exceeds_hydrostatics()
     }
 
-    /// Whether the largest tension of a line is one for which linear hydrostatics do not hold.
+    /// Whether the largest tension of a line is one for which linear hydrostatics do not hold, or a
+    /// submerged body came out of the water.
     pub(crate) fn exceeds_hydrostatics(&self) -> bool {
-        self.lines
-            .iter()
-            .any(|line| line.largest_n() > self.reliable_n(line))
+        let mut lines = self.lines.iter();
+        self.emergence.matters || lines.any(|line| line.largest_n() > self.reliable_n(line))
     }
 
-    /// The largest tension of a line while linear hydrostatics hold, as they always do for a
-    /// submerged body; none if that is not known \[N\].
+    /// The largest tension of a line while linear hydrostatics hold, as they do for a submerged
+    /// body until it comes out of the water; none if that is not known \[N\].
     pub(crate) fn reliable_n(&self, line: &LineOutcome) -> Option<f64> {
         let largest_n = line.largest_n()?;
-        Some(self.waterline.map_or(largest_n, |_| line.reliable_n))
+        let may_not_hold = self.waterline.is_some() || self.emergence.matters;
+        Some(if may_not_hold {
+            line.reliable_n
+        } else {
+            largest_n
+        })
     }
 
     /// Whether a line breaks in the judged time, the body turns over or touches the
@@ -232,6 +240,7 @@ pub(super) struct OutcomeCounter<'a> {
     turned_rad: f64,
     excursion_m: f64,
     waterline: Option<Waterline>,
+    emergence: Emergence,
     peaks_n: Vec<f64>,
     speeds_m_s: Vec<f64>,
     /// The current wave of tension of each line, and the finished ones.
@@ -249,6 +258,7 @@ impl<'a> OutcomeCounter<'a> {
             turned_rad: 0.0,
             excursion_m: 0.0,
             waterline: Waterline::before(&prepared.structure),
+            emergence: Emergence::default(),
             peaks_n: Vec::new(),
             speeds_m_s: Vec::new(),
             waves: WavesOfTension::of_lines(&prepared.rest),
@@ -268,6 +278,7 @@ impl<'a> OutcomeCounter<'a> {
         let transient_s = self.prepared.structure.transient_s;
         let end_s = step.t_end * scales.time_s;
         let place = [z, state.theta];
+        self.emergence.add(self.prepared, place, end_s);
         if let Some(seen) = &mut self.waterline {
             *seen = seen.with(&Waterline::at(&self.prepared.structure, place, None));
         }
@@ -339,7 +350,8 @@ impl<'a> OutcomeCounter<'a> {
     /// asked only where a line pulls more than before.
     fn add_reliable(&mut self, place: [f64; 2], t_s: f64, pulls_n: &[f64]) {
         let mut lines = self.lines.iter().zip(pulls_n);
-        if lines.all(|(line, pull)| *pull <= line.reliable_n) {
+        let emerged = self.emergence.matters;
+        if emerged || lines.all(|(line, pull)| *pull <= line.reliable_n) {
             return;
         }
         if let Some(seen) = &mut self.waterline {
@@ -389,6 +401,7 @@ impl<'a> OutcomeCounter<'a> {
             turned_rad: self.turned_rad,
             excursion_m: self.excursion_m,
             waterline: self.waterline,
+            emergence: self.emergence,
             peaks_n: self.peaks_n,
             speeds_m_s: self.speeds_m_s,
             waves_n: self.waves_n,

@@ -5,6 +5,7 @@ use super::outcome::Outcome;
 use super::quantile::sorted;
 use crate::options::{SEEDS, check};
 use crate::physics::elastic::elastic_lines;
+use crate::physics::emergence::Emergence;
 use crate::physics::model_at_rest::ModelAtRest;
 use crate::physics::sea_records::short_records;
 use crate::physics::warning::Warning;
@@ -142,6 +143,8 @@ fn warnings_of_records(reported: &ModelAtRest, records: &[SeaOutcome]) -> Vec<Wa
     let excursion = most(|outcome| outcome.excursion_m);
     let seen = outcomes().filter_map(|outcome| outcome.waterline);
     let seen = seen.reduce(|all, one| all.with(&one));
+    let emergences = outcomes().map(|outcome| outcome.emergence);
+    let emergence = emergences.fold(Emergence::default(), Emergence::with);
     // A record in which a line breaks while linear hydrostatics hold
     // decides, whatever the others do.
     let depends = |outcome: &Outcome| outcome.depends_on_hydrostatics(structure);
@@ -156,6 +159,7 @@ fn warnings_of_records(reported: &ModelAtRest, records: &[SeaOutcome]) -> Vec<Wa
         ))
         .chain(turning_warning(structure, turned))
         .chain(limits_afloat(structure, seen.as_ref(), turned, depends))
+        .chain(emergence.warning(depends))
         .collect()
 }
 

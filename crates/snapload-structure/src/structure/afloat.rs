@@ -1,16 +1,19 @@
 //! The table `[float]`: the coefficients of a floating body, with the memory of the waves it makes.
 
 use super::{BodySi, Outline, Site};
+use crate::text_layout::decimals;
 use nalgebra::Vector3;
 use snapload::{CaseError, Entries, Fields, FromValue};
 use snapload_hydro::{
-    FirstColumn, FitOptions, Given, GivenMemory, GivenSource, HydroError, Reading, Report, Request,
-    SectionBody, Shape, Water, Weight, read,
+    FirstColumn, FitOptions, Given, GivenMemory, GivenSource, HydroError, Hydrodynamics, Reading,
+    Report, Request, SectionBody, Shape, Water, Weight, read,
 };
 use std::path::{Path, PathBuf};
 
 /// The largest relative difference of the file's displaced mass and the case's volume.
 const SAME_VOLUME: f64 = 0.01;
+/// The largest distance in x of the body by the file from that of the case, as a part of its width.
+const SAME_PLACE: f64 = 0.01;
 /// A circle counts as half immersed if its centre is within this part of its width of the still
 /// water.
 const HALF_IMMERSED: f64 = 0.01;
@@ -124,6 +127,7 @@ fn coefficients(
     let reading = read(file, &given(fields, site)?);
     let mut reading = reading.map_err(|error| refused(fields, &error))?;
     same_volume(entries.table("body", 0), site, body, &mut reading)?;
+    same_place(body, &reading.hydro)?;
     Ok(reading)
 }
 
@@ -236,6 +240,36 @@ fn same_volume(
     let volume = file / site.water_density_kg_m3;
     let allowed = format!("the {volume:.3} m^3 that the body of the file displaces, to 1 %");
     Err(own.refuse("displaced_volume", body.displaced_volume_m3, allowed))
+}
+
+/// Refuses a file that has the body elsewhere in x than the case, in which the lines are. The outline
+/// of the case is symmetric, so that its centre is above or below that of the file's buoyancy, or of
+/// its waterplane, C35 = −C33 x, if the file does not have the former.
+fn same_place(body: &BodySi, hydro: &Hydrodynamics) -> Result<(), CaseError> {
+    let statics = &hydro.hydrostatics;
+    let of_buoyancy = statics.centre_of_buoyancy_m.map(|centre| centre[0]);
+    let of_waterplane = || {
+        let stiffness = statics.stiffness.as_ref()?;
+        Some(hydro.reference_m[0] - stiffness[(1, 2)] / stiffness[(1, 1)])
+    };
+    let [x, z] = body.position_m;
+    let Some(file_x) = of_buoyancy.or_else(of_waterplane) else {
+        return Ok(());
+    };
+    // A file without a waterplane is refused for that elsewhere.
+    if !file_x.is_finite() || (file_x - x).abs() <= SAME_PLACE * body.width_m {
+        return Ok(());
+    }
+    let allowed = format!(
+        "x = {}, where the file has the body, to 1 % of its width, as the x of the file are \
+         those of the case",
+        decimals(&file_x, 3)
+    );
+    let error = CaseError::value("body.position", format!("[{x}, {z}]"), allowed);
+    Err(error.with_hint(format!(
+        "move all places of the case by {} m in x, or compute the file with the body elsewhere",
+        decimals(&(file_x - x), 3)
+    )))
 }
 
 /// The memory that a file of JSON holds, if there is one.

@@ -355,6 +355,34 @@ fn what_a_floating_body_can_not_be_is_refused() {
     }
 }
 
+/// The x of a file are those of the case: a case that has the body elsewhere is refused, whether the
+/// file has the centre of buoyancy, or only the stiffness, as WAMIT's, whose origin the case gives.
+#[test]
+fn a_file_with_the_body_elsewhere_is_refused() {
+    let text = case(-0.2, 2.0, 9.666, "", "duration = 5");
+    let says = "= [1, -0.2] is not allowed; allowed: x = 0.000, where the file has the body";
+    let error = parsed(&text.replace("position = [0,", "position = [1,")).expect_err("elsewhere");
+    assert!(error.to_string().contains(says), "{error}");
+    // A centimetre of four metres is within the accuracy of a mesh.
+    parsed(&text.replace("position = [0,", "position = [0.01,")).expect("the same place");
+
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../snapload-hydro/tests/data");
+    let of_wamit = |x: f64| {
+        let given = format!("\"pontoon-deep.1\"\nreference = [{x}, 0]\nunit_length = 1");
+        let text = text
+            .replace("\"pontoon.nc\"", &given)
+            .replace("pairs = 6", "pairs = 6\nfile_centre_of_gravity = [0, -0.2]");
+        Structure::from_entries_beside(&Entries::parse(&STRUCTURE, "case", &text).unwrap(), &folder)
+    };
+    of_wamit(0.0).expect("the same place");
+    let error = of_wamit(-1.5).expect_err("elsewhere").to_string();
+    assert!(
+        error.contains("x = -1.500, where the file has the body"),
+        "{error}"
+    );
+    assert!(error.contains("by -1.500 m in x"), "{error}");
+}
+
 /// Linear theory is left on elastic lines, too, and said to be.
 #[test]
 fn the_limits_are_reported_for_elastic_lines() {

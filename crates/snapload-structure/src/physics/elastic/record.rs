@@ -2,6 +2,7 @@
 
 use super::body::BodyOnElasticLines;
 use crate::options::sampling;
+use crate::physics::emergence::Emergence;
 use crate::physics::model::Scales;
 use crate::physics::model_at_rest::ModelAtRest;
 use crate::physics::snap::number_of_line;
@@ -62,6 +63,8 @@ pub struct ElasticRun {
     pub excursion_m: f64,
     /// The extreme positions of a floating body relative to the still water.
     pub waterline: Option<Waterline>,
+    /// How far a submerged body comes out of the water.
+    pub emergence: Emergence,
     /// The largest tension of each line after the transient \[N\].
     pub peaks_n: Vec<f64>,
     /// The same while linear hydrostatics hold \[N\].
@@ -176,6 +179,7 @@ impl<'a> PullRecorder<'a> {
             .max((x - self.prepared.rest.place_m[0]).abs());
         let is_judged = t_s >= self.transient_s;
         let place = [z, state.theta];
+        self.run.emergence.add(self.prepared, place, t_s);
         if let Some(seen) = &mut self.run.waterline {
             *seen = seen.with(&Waterline::at(self.structure, place, None));
         }
@@ -210,11 +214,8 @@ impl<'a> PullRecorder<'a> {
     /// asked only where a line pulls more than before.
     fn add_reliable(&mut self, place: [f64; 2], t_s: f64, tensions_n: &[f64]) {
         let reliable = &mut self.run.reliable_peaks_n;
-        if reliable
-            .iter()
-            .zip(tensions_n)
-            .all(|(peak, pull)| pull <= peak)
-        {
+        let mut peaks = reliable.iter().zip(tensions_n);
+        if self.run.emergence.matters || peaks.all(|(peak, pull)| pull <= peak) {
             return;
         }
         if let Some(seen) = &mut self.run.waterline {
