@@ -175,8 +175,8 @@ impl Drop for Stage {
 mod tests {
     use super::*;
 
-    /// Work that goes on as it began: after ten seconds a quarter is done, and three times as long is
-    /// left. Before anything is done nothing is known, and what takes for ever has no words.
+    /// Work that goes on as it began: after ten seconds a quarter is done, and three times as long
+    /// is left. Before anything is done nothing is known, and what takes for ever has no words.
     #[test]
     fn the_rest_takes_as_long_as_what_is_done() {
         let words = |done, done_before| {

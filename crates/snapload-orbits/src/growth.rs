@@ -25,8 +25,8 @@ impl Growth {
         self.at_end < KNOWN.ln()
     }
 
-    /// Whether the whole motion is. Deviations that have grown may fall again on an attractor, which
-    /// then has been chosen by rounding.
+    /// Whether the whole motion is. Deviations that have grown may fall again on an attractor,
+    /// which then has been chosen by rounding.
     pub fn whole_is_known(self) -> bool {
         self.most < KNOWN.ln()
     }

@@ -226,8 +226,8 @@ impl Section {
         self.end_is_certain()
     }
 
-    /// The same of the state at its end, whether or not it stopped; none if the growth of deviations
-    /// was not followed.
+    /// The same of the state at its end, whether or not it stopped; none if the growth of
+    /// deviations was not followed.
     pub fn end_is_certain(&self) -> Option<bool> {
         self.growth.map(Growth::end_is_known)
     }

@@ -35,7 +35,8 @@ const PART_OF_OSCILLATION: f64 = 0.125;
 /// The motion from rest at `start`, with the exponentials as the memory. It is linear with constant
 /// coefficients, so that each step of a fixed length is one multiplication, y ← e^{Lh} y, exact to
 /// rounding. Turns are found in steps that are short enough for the motion, however far the rows
-/// are apart, and up to the duration, which may be after the last row. `on_progress` is called with the part that is done.
+/// are apart, and up to the duration, which may be after the last row. `on_progress` is called with
+/// the part that is done.
 ///
 /// # Errors
 /// A [`HydroError`] if the mass is not positive definite, or the times are not possible.

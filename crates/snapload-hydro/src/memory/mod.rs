@@ -89,8 +89,8 @@ impl Memory {
 
     /// The least eigenvalue of Re K̂(iω), as a part of the largest magnitude over ω, over
     /// frequencies from 1e-4 to 1000 times the given one, minima between them included. If it is
-    /// not negative the memory is passive and can not feed energy into the motion. Each entry is relative to the damping
-    /// of its own degrees of freedom.
+    /// not negative the memory is passive and can not feed energy into the motion. Each entry is
+    /// relative to the damping of its own degrees of freedom.
     pub fn least_eigenvalue(&self, omega_max_rad_s: f64) -> f64 {
         passivity::least(self, omega_max_rad_s)
     }

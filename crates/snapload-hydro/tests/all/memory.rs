@@ -42,9 +42,9 @@ fn good_files_are_fitted_within_one_percent() {
     }
 }
 
-/// A memory is passive at all frequencies, and not only at those of some grid: at a hundred thousand
-/// of them, 0.0001 rad/s apart, no damping is negative by more than 1e-9 of the largest. Between them
-/// it falls by less, as its minima are wider than 0.01 rad/s.
+/// A memory is passive at all frequencies, and not only at those of some grid: at a hundred
+/// thousand of them, 0.0001 rad/s apart, no damping is negative by more than 1e-9 of the largest.
+/// Between them it falls by less, as its minima are wider than 0.01 rad/s.
 #[test]
 fn memories_are_passive_between_the_frequencies_of_a_grid() {
     for name in ["pontoon-deep.nc", "pontoon.nc"] {

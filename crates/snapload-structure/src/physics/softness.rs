@@ -10,9 +10,9 @@
 //! sqrt(k_i) G_i M⁻¹ G_jᵀ sqrt(k_j),    for one line alone k w/M
 //! ```
 //!
-//! A snap that lasts less than a tenth of the waves' period T is also one whose motion has less than
-//! a fifth of it, 2π/ω < T/5. In it the waves' loads then reach the lines as they reach lines that do
-//! not stretch: a linear oscillator amplifies them by 1/(1 − (2π/ωT)²), by less than 4.2 %.
+//! A snap that lasts less than a tenth of the waves' period T is also one whose motion has less
+//! than a fifth of it, 2π/ω < T/5. In it the waves' loads then reach the lines as they reach lines
+//! that do not stretch: a linear oscillator amplifies them by 1/(1 − (2π/ωT)²), by less than 4.2 %.
 
 use super::model_at_rest::ModelAtRest;
 use nalgebra::DMatrix;

@@ -242,9 +242,9 @@ fn same_volume(
     Err(own.refuse("displaced_volume", body.displaced_volume_m3, allowed))
 }
 
-/// Refuses a file that has the body elsewhere in x than the case, in which the lines are. The outline
-/// of the case is symmetric, so that its centre is above or below that of the file's buoyancy, or of
-/// its waterplane, C35 = −C33 x, if the file does not have the former.
+/// Refuses a file that has the body elsewhere in x than the case, in which the lines are. The
+/// outline of the case is symmetric, so that its centre is above or below that of the file's
+/// buoyancy, or of its waterplane, C35 = −C33 x, if the file does not have the former.
 fn same_place(body: &BodySi, hydro: &Hydrodynamics) -> Result<(), CaseError> {
     let statics = &hydro.hydrostatics;
     let of_buoyancy = statics.centre_of_buoyancy_m.map(|centre| centre[0]);

@@ -355,8 +355,9 @@ fn what_a_floating_body_can_not_be_is_refused() {
     }
 }
 
-/// The x of a file are those of the case: a case that has the body elsewhere is refused, whether the
-/// file has the centre of buoyancy, or only the stiffness, as WAMIT's, whose origin the case gives.
+/// The x of a file are those of the case: a case that has the body elsewhere is refused, whether
+/// the file has the centre of buoyancy, or only the stiffness, as WAMIT's, whose origin the case
+/// gives.
 #[test]
 fn a_file_with_the_body_elsewhere_is_refused() {
     let text = case(-0.2, 2.0, 9.666, "", "duration = 5");

@@ -29,8 +29,8 @@ impl<T: Real> Simulation<T> {
         bounce.arrived.then_some(bounce)
     }
 
-    /// The motion in the form of [`bounce`], given its rotation if that is known; none if a cable is
-    /// taut or at rest.
+    /// The motion in the form of [`bounce`], given its rotation if that is known; none if a cable
+    /// is taut or at rest.
     #[inline(always)]
     fn after_impact(&self, rotation: Option<Rotation<T>>) -> Option<AfterImpact<T>> {
         let [first, second, ..] = &self.contacts;
