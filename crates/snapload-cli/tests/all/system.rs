@@ -177,11 +177,14 @@ fn waiting_for_the_reader_of_a_pipe_can_be_interrupted() {
         .spawn()
         .unwrap();
     // The answer is complete once it is in its temporary file, just before it is copied.
-    let answer = || {
-        let folder = listing(&scratch).pop()?;
-        std::fs::metadata(scratch.join(folder).join("0")).ok()
+    let is_written = || {
+        let answer = listing(&scratch)
+            .pop()
+            .map(|folder| scratch.join(folder).join("0"));
+        let answer = answer.and_then(|answer| std::fs::metadata(answer).ok());
+        answer.is_some_and(|file| file.len() > 0)
     };
-    while !answer().is_some_and(|file| file.len() > 0) {
+    while !is_written() {
         assert_eq!(child.try_wait().unwrap(), None);
         std::thread::yield_now();
     }
