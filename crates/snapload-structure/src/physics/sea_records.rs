@@ -3,6 +3,7 @@
 
 use super::warning::{COMPONENTS, Warning, warning_if};
 use crate::structure::{Structure, THREE_HOURS_S, Water};
+use snapload::Stop;
 
 /// With fewer judged wave periods the start of the waves may still decide the largest tension.
 const FEW_PERIODS: f64 = 10.0;
@@ -26,12 +27,14 @@ pub(crate) fn short_records(structure: &Structure) -> Option<Warning> {
 }
 
 /// The warning that only few periods of the waves are judged, or of a sea, in which higher waves
-/// come for hours, a record as short as those of the warning above.
-pub(crate) fn short_run(structure: &Structure) -> Option<Warning> {
+/// come for hours, a record as short as those of the warning above. A run that ended by itself
+/// would not be longer with a longer duration.
+pub(crate) fn short_run(structure: &Structure, stop: Stop) -> Option<Warning> {
     let judged = structure.judged_periods()?;
     let is_sea = matches!(structure.water, Water::Sea(_));
     let is_short = judged < FEW_PERIODS || is_sea && short_records(structure).is_some();
     let numbers = [structure.judged_s(), judged];
+    let is_short = is_short && stop == Stop::EndTime;
     warning_if(is_short, "short run", numbers, "")
 }
 

@@ -252,7 +252,7 @@ impl Assessment {
         let turning = turning_warning(structure, turned);
         let depends = self.outcome.depends_on_hydrostatics(structure);
         let limits = limits_afloat(structure, self.outcome.waterline.as_ref(), turned, depends);
-        let short = short_run(structure).into_iter();
+        let short = short_run(structure, self.outcome.stop).into_iter();
         let emergence = self.outcome.emergence.warning(depends);
         let limits = limits.into_iter().chain(emergence);
         short.chain(phase).chain(turning).chain(limits).collect()

@@ -97,7 +97,7 @@ impl ElasticComparison {
         let depends = self.outcome.depends_on_hydrostatics(structure);
         warnings(&self.elastic_case)
             .into_iter()
-            .chain(short_run(structure))
+            .chain(short_run(structure, self.outcome.stop))
             .chain(phase_warning(
                 structure,
                 self.elastic_case.rest.place_m[1],

@@ -46,3 +46,15 @@ fn what_is_cut_short_is_at_least_as_much() {
         assert!(matches!(cell, ScanCell::Known(_)), "{cell:?}");
     }
 }
+
+/// A run that stops by itself is not said to have a short judged time, which it does not reach.
+#[test]
+fn a_run_that_ended_by_itself_needs_no_longer_duration() {
+    for (limit, is_short) in [("", true), ("max_snaps = 1\n", false)] {
+        let text = EXAMPLE.replace("[run]", &format!("[run]\nduration = 60\n{limit}"));
+        let assessment = assess(structure(&text), 0, &no_progress).unwrap();
+        assert_eq!(assessment.outcome.stop == Stop::EndTime, is_short);
+        let short = assessment.warnings.iter().any(|w| w.rule == "short run");
+        assert_eq!(short, is_short, "{limit}");
+    }
+}
