@@ -212,7 +212,7 @@ def test_invalid_options_are_refused(options, message):
 
 
 def test_other_invalid_arguments_are_refused():
-    with pytest.raises(ValueError, match="omega = 0 is not allowed; allowed: a frequency of at least 6.283e-6"):
+    with pytest.raises(ValueError, match="omega = 0 is not allowed; allowed: a frequency of at least 6.286e-6"):
         snapload.Case(omega=0).orbit()
     with pytest.raises(ValueError, match="starts = 0 is not allowed"):
         snapload.find_orbits(snapload.Case(), 0)

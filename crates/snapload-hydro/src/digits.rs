@@ -61,6 +61,14 @@ pub fn in_full(value: &f64) -> String {
     }
 }
 
+/// The most that is allowed, in four digits, which do not exceed it.
+pub fn rounded_down(most: f64) -> f64 {
+    let unit = 10_f64.powi((most.log10().floor() - 3.0) as i32);
+    let near = [most, most - 0.5 * unit].map(|value| format!("{value:.3e}").parse());
+    let shown = near.into_iter().flatten().find(|shown| *shown <= most);
+    shown.unwrap_or(most)
+}
+
 /// A number of things, such as `1 snap` or `2 snaps`.
 pub fn count(number: impl Borrow<u64>, noun: &str) -> String {
     let number = *number.borrow();
@@ -70,7 +78,7 @@ pub fn count(number: impl Borrow<u64>, noun: &str) -> String {
 
 #[cfg(test)]
 mod tests {
-    use super::{count, decimals, digits, kilo, tenths};
+    use super::{count, decimals, digits, kilo, rounded_down, tenths};
 
     #[test]
     fn one_thing_has_no_plural() {
@@ -97,6 +105,16 @@ mod tests {
         assert_eq!(kilo(&11.1, 0), "0.0111");
         let none = [f64::INFINITY, f64::NAN].map(|value| digits(&value, 1));
         assert_eq!(none, ["inf", "NaN"]);
+    }
+
+    #[test]
+    fn a_limit_that_is_shown_is_allowed() {
+        assert_eq!(rounded_down(0.0), 0.0);
+        for k in 0..20_000 {
+            let most = 1.000_37_f64.powi(k - 10_000);
+            let shown = rounded_down(most);
+            assert!(shown <= most && shown > most * 0.999, "{most:e} {shown:e}");
+        }
     }
 
     #[test]

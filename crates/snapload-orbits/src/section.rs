@@ -253,10 +253,11 @@ pub fn period_of(parameters: &Parameters) -> Result<f64, CaseError> {
     if period <= LONGEST_FORCING {
         return Ok(period);
     }
+    // Its fourth digit is rounded up, so that what is shown is allowed.
+    let least = std::f64::consts::TAU / LONGEST_FORCING * (1.0 + 5e-4);
     let allowed = format!(
-        "a frequency of at least {:.3e}, as sections are a period of the forcing apart, and a period \
-         is at most {LONGEST_FORCING:e}",
-        std::f64::consts::TAU / LONGEST_FORCING
+        "a frequency of at least {least:.3e}, as sections are a period of the forcing apart, and a \
+         period is at most {LONGEST_FORCING:e}"
     );
     Err(CaseError::value("omega", parameters.omega, allowed))
 }

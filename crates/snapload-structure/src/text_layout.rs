@@ -1,7 +1,9 @@
 //! Templates as text: paragraphs, and labels with their texts. The texts are in `templates/`.
 
 use askama::Template;
-pub(crate) use snapload_hydro::digits::{count, decimals, decimals_for, digits, kilo, tenths};
+pub(crate) use snapload_hydro::digits::{
+    count, decimals, decimals_for, digits, in_full, kilo, rounded_down, tenths,
+};
 
 /// Columns of the text next to a label.
 const WIDTH: usize = 98;

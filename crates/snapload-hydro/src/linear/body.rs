@@ -1,6 +1,7 @@
 //! The rigid body: its mass matrix, its hydrostatic stiffness, and the constant forces.
 
 use crate::coefficients::{FREEDOMS, Hydrodynamics};
+use crate::digits::rounded_down;
 use crate::error::HydroError;
 use nalgebra::{Matrix3, Vector2, Vector3};
 
@@ -120,14 +121,16 @@ impl Body {
             if !(0.0..=most).contains(&damping[i]) {
                 let what = format!("the damping of {freedom} in addition to that of waves");
                 let expected = format!(
-                    "it must be 0 or above, and at most {most:.3e} (--damping; float.damping in a case)"
+                    "it must be 0 or above, and at most {:e} (--damping; float.damping in a case)",
+                    rounded_down(most)
                 );
                 return Err(HydroError::value(what, damping[i], expected));
             }
             let most = of_force * arm_m;
             if !(-most..=most).contains(&force[i]) {
                 let what = format!("the constant load on {freedom}");
-                let expected = format!("it must be from -{most:.3e} to {most:.3e} (--force)");
+                let most = rounded_down(most);
+                let expected = format!("it must be from -{most:e} to {most:e} (--force)");
                 return Err(HydroError::value(what, force[i], expected));
             }
         }
@@ -255,7 +258,8 @@ fn up_to(most: f64, what: &str, value: f64, key: &str) -> Result<(), HydroError>
         return Ok(());
     }
     let expected = format!(
-        "it must be above 0 and, for the water that the body displaces, at most {most:.3e} ({key})"
+        "it must be above 0 and, for the water that the body displaces, at most {:e} ({key})",
+        rounded_down(most)
     );
     Err(HydroError::value(what, value, expected))
 }

@@ -182,7 +182,7 @@ fn a_body_of_other_units_is_refused() {
     }
     for (weight, damping, force, says) in [
         (mass(1e13), none, none, "the mass in kg = 1e13: it must be"),
-        (mass(0.0), none, none, "9.840e6 (--mass; body.mass"),
+        (mass(0.0), none, none, "9.839e6 (--mass; body.mass"),
         (inertia(1e300), none, none, "kg m² = 1e300: it must be"),
         (own, [0.0, 1e300, 0.0], none, "the damping of heave in"),
         (own, [0.0, 0.0, -1.0], none, "of waves = -1: it must be 0"),

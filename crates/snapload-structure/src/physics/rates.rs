@@ -2,7 +2,7 @@
 
 use super::model::Model;
 use crate::structure::Structure;
-use crate::text_layout::digits;
+use crate::text_layout::{in_full, rounded_down};
 use snapload::{Body, CaseError, Harmonic, Value};
 
 /// A run follows so many radians of the fastest oscillation, or times in which the strongest
@@ -47,16 +47,16 @@ impl Rate {
         let error = match self.damping {
             Some((key, damping)) => {
                 let allowed = format!(
-                    "at most {:.3e} for this body: more stops it within so short a time that a run of \
+                    "at most {} for this body: more stops it within so short a time that a run of \
                      {duration_s} s takes very long",
-                    damping / excess
+                    in_full(&rounded_down(damping / excess))
                 );
                 CaseError::value(key, Value::Number(damping), allowed)
             }
             None => {
                 let allowed = format!(
                     "at most {} s for this body, which {} at a rate of up to {:.1e} 1/s: a longer run takes very long",
-                    digits(&(duration_s / excess), 0),
+                    in_full(&rounded_down(duration_s / excess)),
                     self.does,
                     self.per_time / model.scales.time_s
                 );
@@ -152,21 +152,24 @@ fn afloat(model: &Model) -> Vec<Rate> {
         return Vec::new();
     };
     let (mobility, turning) = mobilities(&model.system.body);
-    let inverse_masses = [mobility, mobility, turning];
-    let rates = inverse_masses
-        .into_iter()
-        .enumerate()
-        .flat_map(|(i, inverse_mass)| {
-            let stiffness = water.stiffness[i][i].abs() * inverse_mass;
-            [
-                Rate::new(stiffness.sqrt(), "oscillates in the water", "body.mass"),
-                Rate::new(
-                    water.damping[i][i] * inverse_mass,
-                    "is slowed down by its damping",
-                    "body.mass and float.damping",
-                ),
-            ]
-        });
+    let mass = ["body.mass", "body.mass and float.damping"];
+    let inertia = [
+        "body.moment_of_inertia",
+        "body.moment_of_inertia and float.damping",
+    ];
+    let freedoms = [(mobility, mass), (mobility, mass), (turning, inertia)];
+    let rates = freedoms.into_iter().enumerate();
+    let rates = rates.flat_map(|(i, (inverse_mass, [keys, keys_of_damping]))| {
+        let stiffness = water.stiffness[i][i].abs() * inverse_mass;
+        [
+            Rate::new(stiffness.sqrt(), "oscillates in the water", keys),
+            Rate::new(
+                water.damping[i][i] * inverse_mass,
+                "is slowed down by its damping",
+                keys_of_damping,
+            ),
+        ]
+    });
     rates.collect()
 }
 

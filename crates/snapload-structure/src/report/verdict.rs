@@ -303,6 +303,7 @@ fn broken_lines(
         let reliable_n = outcome.reliable_n(line);
         let part = reliable_n? / known.breaking_load_n?;
         let how = match line.largest_n() > reliable_n {
+            true if outcome.waterline.is_none() => "before the body comes out of the water",
             true => "while linear hydrostatics hold",
             false => how_it_breaks(line, elastic),
         };
