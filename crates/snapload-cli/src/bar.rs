@@ -72,7 +72,7 @@ impl Bar {
     }
 }
 
-/// Shows the bar of work that has begun, and reports nothing for long, once it may be shown.
+/// Shows the bar after the delay if work has begun but has reported nothing since.
 fn show_late(stage: Weak<Mutex<Stage>>) {
     std::thread::spawn(move || {
         std::thread::sleep(DELAY);
@@ -155,7 +155,7 @@ fn styled(template: &str, length: u64) -> ProgressBar {
 }
 
 impl Drop for Bar {
-    /// At once, and not where a thread still holds the stage.
+    /// Removes the bar now, even if the thread of [`show_late`] still holds the stage.
     fn drop(&mut self) {
         if let Ok(mut stage) = self.stage.lock() {
             *stage = Stage::new(Progress::new("", 0.0, 1.0));

@@ -107,8 +107,9 @@ pub struct Counter<'a> {
 }
 
 impl<'a> Counter<'a> {
-    /// A counter up to `of`, with `done` done already, which it reports: that this work begins is
-    /// seen before a part of it is finished. If the answer is to end, it ends with the next part.
+    /// A counter up to `of`, with `done` done already. It reports that this work begins, unless
+    /// there is nothing to do, so that it is seen before a part is finished. If the answer is to
+    /// end, it ends with the next part.
     pub fn new(doing: &'a str, done: u64, of: u64, on_progress: OnProgress<'a>) -> Self {
         let counter = Self {
             doing,
@@ -116,7 +117,9 @@ impl<'a> Counter<'a> {
             of,
             on_progress,
         };
-        let _ = counter.add(0);
+        if of > 0 {
+            let _ = counter.add(0);
+        }
         counter
     }
 
