@@ -114,12 +114,15 @@ impl Stage {
 
     fn part(&mut self) {
         let left = self.left().unwrap_or_default();
-        let bar = self.bar.get_or_insert_with(|| styled(PARTS, 1000));
+        let position = (1000.0 * self.done / self.of) as u64;
+        // Its first drawing is with the position already.
+        let new = || styled(PARTS, 1000).with_position(position);
+        let bar = self.bar.get_or_insert_with(new);
         if bar.message() != self.doing {
             bar.set_message(self.doing.clone());
         }
         bar.set_prefix(left);
-        bar.set_position((1000.0 * self.done / self.of) as u64);
+        bar.set_position(position);
         self.drawn = Instant::now();
     }
 
@@ -128,7 +131,10 @@ impl Stage {
             (Some(rate), Some(left)) => format!(", {}/s{left}", HumanCount(rate as u64)),
             _ => String::new(),
         };
-        let new = || styled(COUNTS, self.of as u64).with_message(self.doing.clone());
+        let new = || {
+            let bar = styled(COUNTS, self.of as u64).with_position(self.done as u64);
+            bar.with_message(self.doing.clone())
+        };
         let bar = self.bar.get_or_insert_with(new);
         bar.set_prefix(words);
         bar.set_position(self.done as u64);
