@@ -1,9 +1,8 @@
 //! Sobol points with Owen's scrambling, each of which can be computed by itself.
 //!
 //! The available crates are limited to 65,536 points in single precision, or compute each point
-//! from the one before; a study needs ten million points in any order. Direction numbers: S. Joe
-//! and F.
-//! Y. Kuo, *Constructing Sobol sequences with better two-dimensional projections*, SIAM J. Sci.
+//! from the one before; a study needs ten million points in any order. Direction numbers: S. Joe and
+//! F. Y. Kuo, *Constructing Sobol sequences with better two-dimensional projections*, SIAM J. Sci.
 //! Comput. 30 (2008) 2635-2654, set new-joe-kuo-6.21201.
 
 /// Bits of a coordinate: as many as a double below 1 holds.
@@ -77,11 +76,14 @@ impl Sobol {
 
     /// Before scrambling, as a whole number of 2^-53.
     fn plain(&self, index: u64, dimension: usize) -> u64 {
-        let gray = index ^ (index >> 1);
-        let vectors = self.vectors[dimension].iter().enumerate();
-        vectors
-            .filter(|(j, _)| gray >> j & 1 == 1)
-            .fold(0, |point, (_, vector)| point ^ vector)
+        let vectors = &self.vectors[dimension];
+        let mut gray = (index ^ (index >> 1)) & ((1 << BITS) - 1);
+        let mut point = 0;
+        while gray != 0 {
+            point ^= vectors[gray.trailing_zeros() as usize];
+            gray &= gray - 1;
+        }
+        point
     }
 }
 

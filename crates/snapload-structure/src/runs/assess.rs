@@ -16,10 +16,9 @@ use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::SeedableRng;
 use serde::Serialize;
 use snapload::analysis::{
-    Counter, OnProgress, Progress, Trust, TrustMonitor, Unfinished, in_parallel, record,
+    Counter, OnProgress, Trust, TrustMonitor, Unfinished, in_parallel, record,
 };
 use snapload::{Playback, Trajectory};
-use std::ops::ControlFlow;
 
 /// A state counts as known while its standard deviation is below this, in the engine's units.
 pub(crate) const TOLERANCE: f64 = 1e-3;
@@ -84,19 +83,12 @@ pub fn assess(
     let prepared = ModelAtRest::new(structure)?;
     let further = FurtherRuns::new(&prepared, neighbours);
     let counter = Counter::new("runs", 0, 1 + further.len() as u64, on_progress);
-    // Progress within a run is not counted, but the run may be cancelled.
-    let within = |_: Progress| match counter.add(0) {
-        Ok(()) => ControlFlow::Continue(()),
-        Err(_) => ControlFlow::Break(()),
-    };
     // The run of the case takes longest, and therefore begins first.
     let runs = in_parallel(1 + further.len(), |index| {
-        let run = match index.checked_sub(1) {
-            None => Run::Recorded(Box::new(RecordedRun::new(&prepared, &within)?)),
-            Some(index) => Run::Other(further.run(index)?),
-        };
-        counter.add(1)?;
-        Ok::<_, Unfinished>(run)
+        counter.part(|within| match index.checked_sub(1) {
+            None => RecordedRun::new(&prepared, within).map(|run| Run::Recorded(Box::new(run))),
+            Some(index) => further.run(index, within).map(Run::Other),
+        })
     })?;
     let (mut recorded, mut outcomes) = (None, Vec::new());
     for run in runs {
@@ -169,17 +161,17 @@ impl<'a> FurtherRuns<'a> {
         self.restitutions.len() + self.neighbours
     }
 
-    fn run(&self, index: usize) -> Result<Outcome, Unfinished> {
-        let Self {
-            prepared,
-            restitutions,
-            ..
-        } = self;
-        let outcome = match index.checked_sub(restitutions.len()) {
-            None => Outcome::of(&prepared.with_restitution(restitutions[index]), 1.0)?,
-            Some(index) => Outcome::of(prepared, 1.0 + NEIGHBOUR * perturbation(index as u32))?,
-        };
-        Ok(outcome)
+    fn run(&self, index: usize, on_progress: OnProgress) -> Result<Outcome, Unfinished> {
+        match index.checked_sub(self.restitutions.len()) {
+            None => {
+                let other = self.prepared.with_restitution(self.restitutions[index]);
+                Outcome::of(&other, 1.0, on_progress)
+            }
+            Some(index) => {
+                let height = 1.0 + NEIGHBOUR * perturbation(index as u32);
+                Outcome::of(self.prepared, height, on_progress)
+            }
+        }
     }
 
     /// Separates the outcomes with another restitution, each with its coefficient, from those of
@@ -270,9 +262,7 @@ impl Assessment {
         let further = FurtherRuns::new(&self.prepared, neighbours);
         let counter = Counter::new("neighbours", 0, further.len() as u64, on_progress);
         let outcomes = in_parallel(further.len(), |index| {
-            let outcome = further.run(index)?;
-            counter.add(1)?;
-            Ok::<_, Unfinished>(outcome)
+            counter.part(|within| further.run(index, within))
         })?;
         (self.restitutions, self.neighbours) = further.part(outcomes);
         Ok(self)

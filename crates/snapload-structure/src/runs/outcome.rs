@@ -7,7 +7,8 @@ use crate::physics::waterline::Waterline;
 use crate::physics::waves_of_tension::WavesOfTension;
 use crate::structure::Structure;
 use serde::Serialize;
-use snapload::{CaseError, Simulation, Step, Stop};
+use snapload::analysis::{OnProgress, Unfinished, follow};
+use snapload::{Simulation, Step, Stop};
 
 /// The outcome of one run for one line.
 #[derive(Clone, Debug, Default, PartialEq, Serialize)]
@@ -98,13 +99,16 @@ impl Outcome {
     /// Runs a structure in waves `height` times as high and keeps the outcome.
     ///
     /// # Errors
-    /// A [`CaseError`] if it can not start.
-    pub fn of(prepared: &ModelAtRest, height: f64) -> Result<Self, CaseError> {
-        let mut simulation = prepared.begin(height)?;
+    /// A [`snapload::CaseError`] if it can not start, and [`Unfinished::Cancelled`].
+    pub fn of(
+        prepared: &ModelAtRest,
+        height: f64,
+        on_progress: OnProgress,
+    ) -> Result<Self, Unfinished> {
         let mut outcome_counter = OutcomeCounter::new(prepared);
-        while let Some(step) = simulation.step() {
-            outcome_counter.add_step(&simulation, &step);
-        }
+        let simulation = follow(prepared.begin(height)?, on_progress, |simulation, step| {
+            outcome_counter.add_step(simulation, step);
+        })?;
         let stop = simulation.stop().unwrap_or(Stop::EndTime);
         Ok(outcome_counter.finish(simulation.time(), stop))
     }

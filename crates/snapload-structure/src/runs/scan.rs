@@ -3,7 +3,7 @@
 use super::outcome::Outcome;
 use crate::physics::model_at_rest::ModelAtRest;
 use crate::structure::{Structure, Water, Wave};
-use snapload::analysis::{Cancelled, Counter, OnProgress, in_parallel};
+use snapload::analysis::{Cancelled, Counter, OnProgress, Unfinished, in_parallel};
 
 /// The range of heights and periods, as parts of the case's.
 const HEIGHTS: [f64; 2] = [0.5, 1.25];
@@ -62,9 +62,7 @@ pub fn scan(structure: &Structure, on_progress: OnProgress) -> Result<Option<Sca
     let waves: Vec<Wave> = periods_s.iter().flat_map(of_period).collect();
     let counter = Counter::new("scanning", 0, waves.len() as u64, on_progress);
     let cells = in_parallel(waves.len(), |index| {
-        let cell = one(structure, waves[index]);
-        counter.add(1)?;
-        Ok::<_, Cancelled>(cell)
+        counter.part(|within| one(structure, waves[index], within))
     })?;
     Ok(Some(Scan {
         cells,
@@ -78,7 +76,7 @@ fn shown(value: f64) -> f64 {
     format!("{value:.2e}").parse().unwrap_or(value)
 }
 
-fn one(structure: &Structure, wave: Wave) -> ScanCell {
+fn one(structure: &Structure, wave: Wave, on_progress: OnProgress) -> Result<ScanCell, Cancelled> {
     let (water, duration_s) = (Water::Wave(wave), LENGTH * wave.period_s);
     // The usual transient goes with the period, as in a case of that wave.
     let transient_s = match structure.transient_is_given {
@@ -91,15 +89,19 @@ fn one(structure: &Structure, wave: Wave) -> ScanCell {
         transient_s,
         ..structure.clone()
     };
-    let prepared = ModelAtRest::new(changed).ok();
-    let Some(outcome) = prepared.and_then(|prepared| Outcome::of(&prepared, 1.0).ok()) else {
-        return ScanCell::NotJudged;
+    let Ok(prepared) = ModelAtRest::new(changed) else {
+        return Ok(ScanCell::NotJudged);
+    };
+    let outcome = match Outcome::of(&prepared, 1.0, on_progress) {
+        Ok(outcome) => outcome,
+        Err(Unfinished::Case(_)) => return Ok(ScanCell::NotJudged),
+        Err(Unfinished::Cancelled(cancelled)) => return Err(cancelled),
     };
     if outcome.stop.exceeds() {
-        return ScanCell::Fails;
+        return Ok(ScanCell::Fails);
     }
     if outcome.is_unjudged() {
-        return ScanCell::NotJudged;
+        return Ok(ScanCell::NotJudged);
     }
     // All cells show the same quantity: without a stiffness the tensions of a run without snaps are
     // known, too, but not those of the next one.
@@ -108,8 +110,8 @@ fn one(structure: &Structure, wave: Wave) -> ScanCell {
         true => parts.fold(0.0, f64::max),
         false => outcome.speed_m_s(),
     };
-    match outcome.stop.cuts_short() {
+    Ok(match outcome.stop.cuts_short() {
         true => ScanCell::AtLeast(found),
         false => ScanCell::Known(found),
-    }
+    })
 }

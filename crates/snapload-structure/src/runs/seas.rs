@@ -13,9 +13,8 @@ use crate::physics::warnings::{limits_afloat, phase_warning, turning_warning, wa
 use crate::schema::LAST_SEED;
 use crate::structure::{IrregularSea, Structure, THREE_HOURS_S, Water};
 use serde::Serialize;
-use snapload::analysis::{Counter, OnProgress, Progress, Share, Unfinished, in_parallel};
+use snapload::analysis::{Counter, OnProgress, Share, Unfinished, in_parallel};
 use snapload::{CaseError, Stop};
-use std::ops::ControlFlow;
 
 /// The outcome of one record.
 #[derive(Clone, Debug, PartialEq)]
@@ -105,19 +104,13 @@ pub fn seas(
     let records = in_parallel(count as usize, |index| {
         let seed = sea.seed + index as u64;
         let record = prepared.in_sea(IrregularSea { seed, ..sea })?;
-        // Progress within a record is not counted, but the record may be cancelled.
-        let within = |_: Progress| match counter.add(0) {
-            Ok(()) => ControlFlow::Continue(()),
-            Err(_) => ControlFlow::Break(()),
-        };
-        let (record, outcome) = match lines {
+        let (record, outcome) = counter.part(|within| match lines {
             Lines::Inextensible => {
-                let outcome = Outcome::of(&record, 1.0)?;
-                (record, outcome)
+                let outcome = Outcome::of(&record, 1.0, within)?;
+                Ok::<_, Unfinished>((record, outcome))
             }
-            Lines::Elastic => Outcome::with_elastic_lines(&record, &within)?,
-        };
-        counter.add(1)?;
+            Lines::Elastic => Outcome::with_elastic_lines(&record, within),
+        })?;
         let open = open || outcome.depends_on_hydrostatics(&record.structure);
         Ok::<_, Unfinished>(SeaOutcome {
             checks: record_checks(&record, &outcome, open),

@@ -21,7 +21,7 @@ fn what_is_cut_short_is_at_least_as_much() {
             restitution: row.restitution,
             ..own.clone()
         };
-        let outcome = Outcome::of(&ModelAtRest::new(changed).unwrap(), 1.0).unwrap();
+        let outcome = Outcome::of(&ModelAtRest::new(changed).unwrap(), 1.0, &no_progress).unwrap();
         let cut_short = outcome.stop == Stop::ImpactLimit;
         assert_eq!(row.cut_short, cut_short, "{}", row.restitution);
     }

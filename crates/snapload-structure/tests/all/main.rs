@@ -27,6 +27,7 @@ mod moordyn_edits;
 mod moordyn_keys;
 mod other_waves;
 mod physics;
+mod progress;
 mod rates;
 mod scale;
 mod sea_verdicts;

@@ -85,7 +85,8 @@ fn other_waves_are_judged_as_cases_of_those_waves() {
                 &format!("height = {height_m}\nperiod = 4"),
                 "duration = 240",
             );
-            let outcome = Outcome::of(&ModelAtRest::new(alone).unwrap(), 1.0).unwrap();
+            let outcome =
+                Outcome::of(&ModelAtRest::new(alone).unwrap(), 1.0, &no_progress).unwrap();
             let speeds = outcome.lines.iter().map(|line| line.speed_m_s);
             let known = match outcome.stop.exceeds() {
                 true => ScanCell::Fails,

@@ -26,7 +26,7 @@ pub use outcomes::{
     ThreadResults, on_all_threads, on_all_threads_until, outcomes, outcomes_on_one_thread,
 };
 pub use progress::{
-    Cancelled, Counter, OnProgress, Progress, Unfinished, no_progress, outcome, record,
+    Cancelled, Counter, OnProgress, Progress, Unfinished, follow, no_progress, outcome, record,
 };
 pub use sensitivity::{Sensitivity, Slope, sensitivity};
 pub use threads::in_parallel;

@@ -98,9 +98,14 @@ impl<'a> Progress<'a> {
     }
 }
 
-/// Counts the finished parts of some work, on any thread, and reports them.
+/// Fractions of a part that are counted: few enough for 2^48 parts.
+const FRACTIONS: u64 = 1 << 16;
+
+/// Counts the parts of some work that are finished and fractions of those under way, on any thread,
+/// and reports them.
 pub struct Counter<'a> {
     doing: &'a str,
+    /// What is done, as a number of fractions.
     done: AtomicU64,
     of: u64,
     on_progress: OnProgress<'a>,
@@ -113,7 +118,7 @@ impl<'a> Counter<'a> {
     pub fn new(doing: &'a str, done: u64, of: u64, on_progress: OnProgress<'a>) -> Self {
         let counter = Self {
             doing,
-            done: AtomicU64::new(done),
+            done: AtomicU64::new(done * FRACTIONS),
             of,
             on_progress,
         };
@@ -123,13 +128,42 @@ impl<'a> Counter<'a> {
         counter
     }
 
+    /// Does one part, whose own progress counts as a fraction of it. A part of several stages counts
+    /// only what goes beyond the earlier ones.
+    ///
+    /// # Errors
+    /// Those of the part, and [`Cancelled`] if the work is to end.
+    pub fn part<T, E: From<Cancelled>>(
+        &self,
+        work: impl FnOnce(OnProgress) -> Result<T, E>,
+    ) -> Result<T, E> {
+        let counted = AtomicU64::new(0);
+        let within = |progress: Progress| {
+            let fraction = (progress.done / progress.of).clamp(0.0, 1.0);
+            let reached = (fraction * FRACTIONS as f64) as u64;
+            let before = counted.fetch_max(reached, Ordering::Relaxed);
+            match self.advance(reached.saturating_sub(before)) {
+                Ok(()) => ControlFlow::Continue(()),
+                Err(_) => ControlFlow::Break(()),
+            }
+        };
+        let result = work(&within)?;
+        self.advance(FRACTIONS - counted.into_inner())?;
+        Ok(result)
+    }
+
     /// Counts `more` parts as done; with 0 it only asks whether to continue.
     ///
     /// # Errors
     /// [`Cancelled`] if the work is to end.
     pub fn add(&self, more: u64) -> Result<(), Cancelled> {
-        let done = self.done.fetch_add(more, Ordering::Relaxed) + more;
-        Progress::new(self.doing, done as f64, self.of as f64).report(self.on_progress)
+        self.advance(more * FRACTIONS)
+    }
+
+    fn advance(&self, fractions: u64) -> Result<(), Cancelled> {
+        let done = self.done.fetch_add(fractions, Ordering::Relaxed) + fractions;
+        let done = done as f64 / FRACTIONS as f64;
+        Progress::new(self.doing, done, self.of as f64).report(self.on_progress)
     }
 }
 
@@ -184,6 +218,26 @@ pub fn record(
         progress.step(simulation)
     });
     run.ok_or_else(|| progress.cancelled())
+}
+
+/// Follows a simulation to its end and keeps nothing of it; `see` is called with the simulation and
+/// the step after every step. The result is the simulation at its end.
+///
+/// # Errors
+/// [`Cancelled`] if it is to end before.
+pub fn follow(
+    mut simulation: Simulation,
+    on_progress: OnProgress,
+    mut see: impl FnMut(&Simulation, &Step),
+) -> Result<Simulation, Cancelled> {
+    let mut progress = RunProgress::new(on_progress);
+    while let Some(step) = simulation.step() {
+        see(&simulation, &step);
+        if progress.step(&simulation).is_break() {
+            return Err(progress.cancelled());
+        }
+    }
+    Ok(simulation)
 }
 
 /// The outcome of a case's run.

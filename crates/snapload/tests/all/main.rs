@@ -26,6 +26,7 @@ mod loose_starts;
 mod many_cables;
 mod near_events;
 mod outcomes;
+mod progress;
 mod same_bits;
 mod starts;
 mod ties;
