@@ -67,8 +67,9 @@ struct Linear {
 
 /// A lap, linearised.
 pub struct Linearised {
-    /// ∂(the state at the section, projected onto its surfaces)/∂(the state given).
-    placed: [[f64; 6]; 6],
+    /// The derivatives of the state at the section, projected onto its surfaces: by the state given,
+    /// and by the parameters, as lengths move the surfaces.
+    placed: [Slopes; 6],
     legs: Vec<Linear>,
     /// Derivatives of the lap's length by the two parameters, and of the time of the section.
     length_slopes: [f64; 2],
@@ -187,7 +188,7 @@ impl<F: Family> Lap<'_, F> {
         }
         let by = |factor: f64| [0, 1].map(|i| period.slope[PARAMETER + i] * factor);
         Linearised {
-            placed: placed.map(|row| std::array::from_fn(|j| row.slope[j])),
+            placed: placed.map(|row| row.slope),
             legs,
             length_slopes: by(f64::from(self.periods)),
             start_slopes: by(self.phase),
@@ -245,6 +246,9 @@ impl Linearised {
         let mut time = DMatrix::zeros(1, columns);
         for i in 0..parameters {
             time[m + n + i] = self.start_slopes[i];
+            for (row, slopes) in self.placed.iter().enumerate() {
+                state[(row, m + n + i)] = slopes[PARAMETER + i];
+            }
         }
         let t_start = time.clone();
         for (k, leg) in self.legs.iter().enumerate() {

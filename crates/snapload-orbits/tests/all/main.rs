@@ -14,6 +14,7 @@ mod curves;
 mod diagrams;
 mod ends;
 mod held;
+mod lengths;
 mod orbits;
 mod proofs;
 mod releases;
