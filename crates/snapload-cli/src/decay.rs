@@ -152,8 +152,8 @@ fn check_release(from: [f64; 3]) -> Result<(), Failure> {
 }
 
 /// The note if a swing is larger than the one before.
-const NEGATIVE_DAMPING_NOTE: &str = "a damping below zero occurs in a freedom in which motions of several periods are \
-                                     added; snapload hydro gives the damping of each motion";
+const NEGATIVE_DAMPING_NOTE: &str = "a damping below zero, of one of these swings or of a later one (--json), occurs in a freedom in \
+                                     which motions of several periods are added; snapload hydro gives the damping of each motion";
 
 /// From where displacements are measured, if not from the position of the file: the motion is
 /// linear about the position in which the body floats without lines.

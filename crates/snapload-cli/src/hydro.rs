@@ -75,10 +75,12 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
     let sea = args.sea(&report)?;
     let large = large_motion_in(&sea, &report);
     report.warnings.extend(large);
+    let further = sea.iter().map(|row| ("sea".to_owned(), row.text()));
+    let further: Vec<(String, String)> = further.collect();
     if let Some(out) = out {
         let words = crate::given_words();
         let command = shell_command(words.iter().map(|word| &**word));
-        let page = page(&report, &command)
+        let page = page(&report, &further, &command)
             .map_err(|error| Failure::Failed(format!("can not draw the page: {error}")))?;
         outputs.write(out, |out| out.write_all(page.as_bytes()))?;
     }
@@ -90,10 +92,7 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
     for (label, words) in &told_first {
         text += &labelled_row(label, words);
     }
-    for row in &sea {
-        text += &labelled_row("sea", &row.text());
-    }
-    for (label, words) in &warnings {
+    for (label, words) in further.iter().chain(&warnings) {
         text += &labelled_row(label, words);
     }
     let answer = Answer {

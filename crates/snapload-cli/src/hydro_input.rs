@@ -41,7 +41,8 @@ pub(crate) struct HydroArgs {
     /// Mass of the displaced water in kg, if the file does not give it
     #[arg(long, value_name = "NUMBER", help_heading = "The file")]
     displaced_mass: Option<f64>,
-    /// Centre of gravity used for the stiffness in the file, if the file does not give it
+    /// Centre of gravity used for the stiffness in the file, if the file does not give it; where the file
+    /// has no centre of buoyancy (WAMIT without 4,6, Nemoh) that is taken to be below it
     #[arg(long, value_name = "X,Z", value_parser = pair, allow_hyphen_values = true, help_heading = "The file")]
     file_centre: Option<[f64; 2]>,
     /// Name of the body, if the file has several

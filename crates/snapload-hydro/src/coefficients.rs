@@ -22,7 +22,7 @@ pub struct Hydrostatics {
     /// The centre of gravity that `stiffness` assumes \[m\].
     pub centre_of_mass_m: Option<[f64; 2]>,
     /// The centre of buoyancy \[m\].
-    pub centre_of_buoyancy_m: Option<[f64; 2]>,
+    pub centre_of_buoyancy_x_m: Option<f64>,
     /// The file's own rigid-body mass matrix about the reference point.
     pub inertia: Option<Matrix3<f64>>,
 }
@@ -51,9 +51,10 @@ pub struct Hydrodynamics {
     pub added_mass_zero: Option<Matrix3<f64>>,
     /// A(∞), if the file has it.
     pub added_mass_inf: Option<Matrix3<f64>>,
-    /// The largest |A_ij − A_ji| over ω, as a part of sqrt(A_ii A_jj), before A was made symmetric.
+    /// The largest Σ |A_ij − A_ji| as a part of sqrt(Σ A_ii Σ A_jj), summed over ω, before A was made
+    /// symmetric.
     pub asymmetry: f64,
-    /// The same of B, with sums over ω in place of the values at each.
+    /// The same of B.
     pub damping_asymmetry: f64,
     /// X(ω), one or two directions.
     pub excitation: Vec<Excitation>,

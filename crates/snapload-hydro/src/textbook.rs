@@ -72,7 +72,7 @@ impl SectionBody {
             stiffness: Some(stiffness),
             displaced_mass_kg: Some(displaced),
             centre_of_mass_m: Some([x, z]),
-            centre_of_buoyancy_m: Some([self.x_m, buoyancy]),
+            centre_of_buoyancy_x_m: Some(self.x_m),
             inertia: None,
         }
     }

@@ -313,15 +313,11 @@ fn weight_and_buoyancy(hydro: &Hydrodynamics, mass_kg: f64, x: f64) -> Vector3<f
     let Some(displaced) = statics.displaced_mass_kg else {
         return Vector3::zeros();
     };
-    let buoyancy = statics
-        .centre_of_buoyancy_m
-        .map(|b| b[0] - hydro.reference_m[0]);
     // Without a centre of buoyancy the body is taken to float upright with the file's centre of
     // gravity.
-    let made = statics
-        .centre_of_mass_m
-        .map(|c| c[0] - hydro.reference_m[0]);
-    let x_b = buoyancy.or(made).unwrap_or(0.0);
+    let made = statics.centre_of_mass_m.map(|centre| centre[0]);
+    let x_b = statics.centre_of_buoyancy_x_m.or(made);
+    let x_b = x_b.map_or(0.0, |x_b| x_b - hydro.reference_m[0]);
     let lift = (displaced - mass_kg) * g;
     Vector3::new(0.0, lift, g * (mass_kg * x - displaced * x_b))
 }

@@ -14,6 +14,8 @@ use std::f64::consts::{FRAC_PI_2, PI};
 const IN_PLANE: f64 = 1e-6;
 /// The names of the frequency dimension in different versions of Capytaine.
 const FREQUENCIES: [&str; 5] = ["omega", "freq", "period", "wavenumber", "wavelength"];
+/// The dimension of values that a file with several bodies has for each of them.
+const BODY: &str = "body";
 const ROW: &str = "influenced_dof";
 const COLUMN: &str = "radiating_dof";
 
@@ -73,8 +75,10 @@ impl Plane {
 pub fn from_dataset(dataset: &Dataset, given: &Given) -> Result<Hydrodynamics, HydroError> {
     given.refuse_those_of_wamit(Format::Capytaine)?;
     refuse_speed(dataset)?;
-    let (plane, rows) = freedoms(dataset, ROW, given)?;
-    let (_, columns) = freedoms(dataset, COLUMN, given)?;
+    let body = chosen_body(dataset.words(ROW)?, given)?;
+    let dataset = &values_of(dataset, body.as_deref())?;
+    let (plane, rows) = freedoms(dataset, ROW, body.as_deref())?;
+    let (_, columns) = freedoms(dataset, COLUMN, body.as_deref())?;
     let dim = frequency_dimension(dataset)?;
     let omega = frequencies(dataset, &dim)?;
     let numbers = ["rho", "g", "water_depth"].map(|name| dataset.scalar(name));
@@ -139,24 +143,36 @@ fn names(dataset: &Dataset, dim: &str) -> Result<usize, HydroError> {
     Ok(dataset.words(dim)?.len())
 }
 
-/// The indices in the file of surge, heave and pitch, or of sway, heave and roll.
+/// The directions β of the waves \[rad\].
+fn waves(dataset: &Dataset) -> Result<Vec<f64>, HydroError> {
+    dataset.arranged("wave_direction", &["wave_direction"])
+}
+
+/// The indices in the file of surge, heave and pitch, or of sway, heave and roll: the latter where
+/// it lacks one of the former, or no waves along x.
 fn freedoms(
     dataset: &Dataset,
     dim: &str,
-    given: &Given,
+    body: Option<&str>,
 ) -> Result<(Plane, [usize; 3]), HydroError> {
     let words = dataset.words(dim)?;
-    let body = chosen_body(words, given)?;
     let place = |freedom: &str| {
         words
             .iter()
-            .position(|word| match (word.split_once("__"), &body) {
+            .position(|word| match (word.split_once("__"), body) {
                 (Some((name, of)), Some(body)) => name == body && of == freedom,
                 (None, None) => word == freedom,
                 _ => false,
             })
     };
-    for plane in [Plane::X, Plane::Y] {
+    let mut planes = [Plane::X, Plane::Y];
+    if waves(dataset)?
+        .iter()
+        .all(|beta| Plane::X.direction(*beta).is_none())
+    {
+        planes.reverse();
+    }
+    for plane in planes {
         if let [Some(a), Some(b), Some(c)] = plane.freedoms().map(place) {
             return Ok((plane, [a, b, c]));
         }
@@ -200,6 +216,20 @@ fn chosen_body(words: &[String], given: &Given) -> Result<Option<String>, HydroE
             Err(HydroError::missing(what, advice))
         }
     }
+}
+
+/// The dataset with the values of one body where it has some for each body: masses, centres and
+/// rotation centres.
+fn values_of(dataset: &Dataset, body: Option<&str>) -> Result<Dataset, HydroError> {
+    let (Some(body), true) = (body, dataset.has(BODY)) else {
+        return Ok(dataset.clone());
+    };
+    let bodies = dataset.words(BODY)?;
+    let index = bodies.iter().position(|name| name == body).ok_or_else(|| {
+        let found = format!("its values are those of {}", bodies.join(", "));
+        HydroError::layout(BODY, found, format!("those of {body} are expected"))
+    })?;
+    Ok(dataset.at(BODY, index))
 }
 
 /// The dimension of the frequencies.
@@ -258,7 +288,7 @@ fn excitation(
     plane: Plane,
     rows: &[usize; 3],
 ) -> Result<(Vec<f64>, Forces), HydroError> {
-    let betas = dataset.arranged("wave_direction", &["wave_direction"])?;
+    let betas = waves(dataset)?;
     if let Some(beta) = betas.iter().find(|beta| beta.abs() > 2.0 * PI + IN_PLANE) {
         let expected = "radians are expected, at most 2π; is it in degrees?";
         return Err(HydroError::value("wave_direction", *beta, expected));
@@ -413,7 +443,7 @@ fn hydrostatics(
             own_centre,
             (given.centre_of_gravity_m, given.source),
         )?,
-        centre_of_buoyancy_m: point(dataset, "center_of_buoyancy", plane)?,
+        centre_of_buoyancy_x_m: point(dataset, "center_of_buoyancy", plane)?.map(|[x, _]| x),
         inertia: matrix("inertia_matrix")?,
     })
 }

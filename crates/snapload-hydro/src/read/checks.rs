@@ -10,6 +10,10 @@ use crate::waves::wave_number;
 const DOUBTFUL: [f64; 2] = [0.01, 0.05];
 /// Asymmetry above which rows and columns are mixed up.
 const MIXED_UP: f64 = 0.2;
+/// Added mass varies if it does by more than this part, and there is no damping if all of B/ω is
+/// below that part of the added mass.
+const VARYING: f64 = 1e-2;
+const NO_DAMPING: f64 = 1e-6;
 /// The wave number times the length of the waterplane below which a wave is long enough for the
 /// limit of low frequency.
 const LONG_WAVE: f64 = 0.5;
@@ -19,6 +23,8 @@ pub(super) fn check(format: Format, hydro: &Hydrodynamics) -> Result<Vec<Warning
     let mut warnings = Vec::new();
     symmetry(hydro, &mut warnings)?;
     damping(hydro, &mut warnings)?;
+    no_damping(hydro, &mut warnings);
+    size(format, hydro, &mut warnings);
     stiffness(hydro, &mut warnings)?;
     for excitation in &hydro.excitation {
         low_frequency(format, hydro, excitation, &mut warnings)?;
@@ -95,6 +101,56 @@ fn damping(hydro: &Hydrodynamics, warnings: &mut Vec<Warning>) -> Result<(), Hyd
         warnings.push(Warning::new("high frequencies", message));
     }
     Ok(())
+}
+
+/// Added mass of heave is not so many times the displaced mass, nor so small a part of it, unless
+/// the two are of different units.
+const SIZES: [f64; 2] = [1e-3, 100.0];
+
+fn size(format: Format, hydro: &Hydrodynamics, warnings: &mut Vec<Warning>) {
+    let Some(displaced) = hydro.hydrostatics.displaced_mass_kg else {
+        return;
+    };
+    let all = hydro.added_mass.iter().map(|a| a[(1, 1)].abs());
+    let ratio = all.fold(0.0, f64::max) / displaced;
+    if !(SIZES[0]..=SIZES[1]).contains(&ratio) {
+        let unit = match format {
+            Format::Wamit => ", or unit_length is not that of the files (ULEN)",
+            _ => "",
+        };
+        let message = format!(
+            "the added mass of heave is {ratio:.3e} times the displaced mass: one of the two is of another body or \
+             unit{unit}"
+        );
+        warnings.push(Warning::new("size", message));
+    }
+}
+
+/// Added mass varies with ω only as far as the body makes waves, which carry energy away (the
+/// Kramers-Kronig relations): where it does and the damping is zero, the damping is missing.
+fn no_damping(hydro: &Hydrodynamics, warnings: &mut Vec<Warning>) {
+    let largest_of = |i: usize| hydro.added_mass.iter().map(move |a| a[(i, i)].abs());
+    let force = largest_of(0).chain(largest_of(1)).fold(0.0, f64::max);
+    let length_m = (force / hydro.water.density_kg_m3).cbrt();
+    for (i, freedom) in FREEDOMS.iter().enumerate() {
+        let values = || hydro.added_mass.iter().map(|a| a[(i, i)]);
+        let [least, most] = [
+            values().fold(f64::INFINITY, f64::min),
+            values().fold(0.0, f64::max),
+        ];
+        let unit = if i == 2 { length_m * length_m } else { 1.0 };
+        let rates = hydro.damping.iter().zip(&hydro.omega_rad_s);
+        let rates = rates.map(|(b, omega)| b[(i, i)].abs() / omega);
+        let varies = most - least > VARYING * most && most > VARYING * force * unit;
+        if varies && rates.fold(0.0, f64::max) < NO_DAMPING * most {
+            let message = format!(
+                "the added mass of {freedom} varies by {:.0} % over the file's frequencies, but its damping is \
+                 zero: a body whose added mass varies makes waves. Is the damping missing?",
+                100.0 * (most - least) / most
+            );
+            warnings.push(Warning::new("no damping", message));
+        }
+    }
 }
 
 fn shortened(list: &[String]) -> String {

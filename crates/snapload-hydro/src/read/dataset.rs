@@ -79,6 +79,15 @@ impl Dataset {
         Ok(set)
     }
 
+    /// The part at one index of a dimension, which the variables along it no longer have.
+    #[must_use]
+    pub fn at(&self, dim: &str, index: usize) -> Self {
+        let cut = |(name, variable): (&String, &Variable)| (name.clone(), variable.at(dim, index));
+        Self {
+            variables: self.variables.iter().map(cut).collect(),
+        }
+    }
+
     /// All variables with their names.
     pub fn variables(&self) -> impl Iterator<Item = (&String, &Variable)> {
         self.variables.iter()
@@ -178,7 +187,11 @@ impl Variable {
     /// The strides and lengths of dimensions in another order than they are stored in.
     fn order(&self, name: &str, dims: &[&str]) -> Result<(Vec<usize>, Vec<usize>), HydroError> {
         let refuse = |found: String| {
-            let expected = format!("the dimensions {} are expected", dims.join(", "));
+            let expected = match dims {
+                [] => "one number is expected".to_owned(),
+                [dim] => format!("the dimension {dim} is expected"),
+                dims => format!("the dimensions {} are expected", dims.join(", ")),
+            };
             Err(HydroError::layout(name, found, expected))
         };
         for (dim, length) in self.dims.iter().zip(&self.shape) {
@@ -203,8 +216,39 @@ impl Variable {
 }
 
 impl Variable {
+    /// The part at one index of a dimension; all of it if it does not have that dimension.
+    fn at(&self, dim: &str, index: usize) -> Self {
+        let Some(place) = self.dims.iter().position(|name| name == dim) else {
+            return self.clone();
+        };
+        let inner: usize = self.shape[place + 1..].iter().product();
+        let block = inner * self.shape[place];
+        let kept = |k: usize| k % block / inner == index;
+        let (mut dims, mut shape) = (self.dims.clone(), self.shape.clone());
+        dims.remove(place);
+        shape.remove(place);
+        let values = match &self.values {
+            Values::Numbers(numbers) => Values::Numbers(filtered(numbers, kept)),
+            Values::Words(words) => Values::Words(filtered(words, kept)),
+            Values::Other(kind) => Values::Other(kind.clone()),
+        };
+        Self {
+            dims,
+            shape,
+            values,
+        }
+    }
+
     /// Whether it holds something that is neither numbers nor strings.
     pub(super) fn is_other(&self) -> bool {
         matches!(self.values, Values::Other(_))
     }
+}
+
+/// The values whose places are kept.
+fn filtered<T: Clone>(values: &[T], kept: impl Fn(usize) -> bool) -> Vec<T> {
+    let all = values.iter().enumerate();
+    all.filter(|(place, _)| kept(*place))
+        .map(|(_, value)| value.clone())
+        .collect()
 }

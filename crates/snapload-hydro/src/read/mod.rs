@@ -7,11 +7,14 @@ mod nemoh;
 mod netcdf;
 mod table;
 mod wamit;
+mod wamit_hydrostatics;
+mod wamit_text;
 
 pub use capytaine::from_dataset;
 pub use dataset::{Dataset, Values, Variable};
 pub use nemoh::from_nemoh;
-pub use wamit::{FirstColumn, WamitText, from_wamit};
+pub use wamit::{WamitText, from_wamit};
+pub use wamit_text::FirstColumn;
 
 use crate::coefficients::Hydrodynamics;
 use crate::error::{GivenSource, HydroError, Warning};
@@ -176,7 +179,10 @@ fn bytes(asked: &Path, path: &Path) -> Result<Vec<u8>, HydroError> {
 
 /// The text of a file that belongs to the one that was `asked` for.
 fn text(asked: &Path, path: &Path) -> Result<String, HydroError> {
-    String::from_utf8(bytes(asked, path)?).map_err(|_| unreadable(asked, path, "it is not text"))
+    let text = String::from_utf8(bytes(asked, path)?);
+    let text = text.map_err(|_| unreadable(asked, path, "it is not text"))?;
+    // Some editors begin a file with a mark of its encoding.
+    Ok(text.trim_start_matches('\u{feff}').to_owned())
 }
 
 /// The message names the file only if it is not the requested one.

@@ -17,6 +17,10 @@ use crate::error::HydroError;
 use nalgebra::{Complex, Matrix3, Vector3};
 use std::f64::consts::TAU;
 
+const RADIATION: &str = "RadiationCoefficients.tec";
+const EXCITATION: &str = "ExcitationForce.tec";
+/// Frequencies are the same if they differ by no more than this part, as the files have seven digits.
+const SAME_FREQUENCY: f64 = 1e-5;
 /// The degrees of freedom of one body, all six of which are in the files.
 const SIX: usize = 6;
 /// The indices of surge, heave and pitch.
@@ -44,7 +48,7 @@ pub fn from_nemoh(
         let advice = "Nemoh's results do not say about which point pitch turns; give it as x,z";
         HydroError::missing("the reference point", advice)
     })?;
-    let name = "RadiationCoefficients.tec";
+    let name = RADIATION;
     let motions = zones(name, radiation, 1 + 2 * SIX)?;
     if motions.len() != SIX {
         let found = format!("it has {} zones", motions.len());
@@ -52,19 +56,14 @@ pub fn from_nemoh(
                         motion; of Capytaine use the .nc file";
         return Err(HydroError::layout(name, found, expected));
     }
-    let name = "ExcitationForce.tec";
-    let waves = zones(name, excitation, 1 + 2 * SIX)?;
-    let (directions, headed) = along_x(name, &waves)?;
-    let count = motions[0].rows.len();
-    for zone in motions.iter().chain(headed.iter().copied()) {
-        if zone.rows.len() != count {
-            let found = format!("{} has {} rows", zone.heading.trim(), zone.rows.len());
-            return Err(HydroError::layout(
-                name,
-                found,
-                format!("{count} are expected"),
-            ));
-        }
+    let waves = zones(EXCITATION, excitation, 1 + 2 * SIX)?;
+    let (directions, headed) = along_x(EXCITATION, &waves)?;
+    let (first, count) = (&motions[0], motions[0].rows.len());
+    for zone in &motions {
+        zone.has_frequencies_of(RADIATION, first)?;
+    }
+    for zone in &headed {
+        zone.has_frequencies_of(EXCITATION, first)?;
     }
     headed.iter().try_for_each(|wave| in_radians(wave))?;
     let table = Table {
@@ -81,6 +80,35 @@ pub fn from_nemoh(
         },
     };
     table.into_hydrodynamics()
+}
+
+impl Zone<'_> {
+    /// Checks that its rows are at the frequencies of the first zone of the radiation coefficients.
+    fn has_frequencies_of(&self, name: &str, first: &Zone) -> Result<(), HydroError> {
+        let heading = self.heading.trim();
+        if self.rows.len() != first.rows.len() {
+            let found = format!("{heading} has {} rows", self.rows.len());
+            let expected = format!(
+                "{} are expected, as many as in the first zone of {RADIATION}",
+                first.rows.len()
+            );
+            return Err(HydroError::layout(name, found, expected));
+        }
+        let mut pairs = self.rows.iter().zip(&first.rows);
+        let other =
+            pairs.find(|(own, first)| (own[0] - first[0]).abs() > SAME_FREQUENCY * first[0].abs());
+        match other {
+            Some((own, first)) => {
+                let found = format!("{heading} has ω = {} rad/s", own[0]);
+                let expected = format!(
+                    "{} is expected in that row, as in the first zone of {RADIATION}; are the files of two runs?",
+                    first[0]
+                );
+                Err(HydroError::layout(name, found, expected))
+            }
+            None => Ok(()),
+        }
+    }
 }
 
 /// The zones of the waves to +x and −x.
@@ -115,7 +143,7 @@ fn in_radians(wave: &Zone) -> Result<(), HydroError> {
             .into_iter()
             .find(|phase| phase.abs() > 1.000_01 * TAU)
         {
-            let what = format!("a phase in ExcitationForce.tec at ω = {} rad/s", row[0]);
+            let what = format!("a phase in {EXCITATION} at ω = {} rad/s", row[0]);
             let expected = "−2π to 2π, in radians, is allowed; convert degrees to radians, and \
                             subtract whole turns";
             return Err(HydroError::value(what, *phase, expected));

@@ -57,10 +57,9 @@ impl Table {
         self.sort()?;
         let (mut zero, mut inf) = (None, None);
         let mut finite: Vec<Row> = Vec::new();
-        let mut asymmetry: f64 = 0.0;
+        let mut added_mass = Vec::new();
         for mut row in self.rows {
-            let apart = row.added_mass - row.added_mass.transpose();
-            asymmetry = asymmetry.max(asymmetric_part(&apart, &row.added_mass));
+            added_mass.push(row.added_mass);
             row.added_mass = symmetric(&row.added_mass);
             let whole = row.added_mass.iter().all(|value| value.is_finite());
             match row.omega {
@@ -75,10 +74,10 @@ impl Table {
             return Err(HydroError::layout("the file", found, expected));
         }
         finite.iter().try_for_each(Row::check)?;
-        // At single frequencies damping is nearly zero, and a part of it says nothing.
-        let damping = || finite.iter().map(|row| row.damping);
-        let apart: Matrix3<f64> = damping().map(|b| (b - b.transpose()).abs()).sum();
-        let damping_asymmetry = asymmetric_part(&apart, &damping().map(|b| b.abs()).sum());
+        let damping: Vec<Matrix3<f64>> = finite.iter().map(|row| row.damping).collect();
+        let length_m = length_of(&added_mass, self.water.density_kg_m3);
+        let asymmetry = asymmetric_part(&added_mass, length_m);
+        let damping_asymmetry = asymmetric_part(&damping, length_m);
         let excitation = self.directions.iter().enumerate();
         let (ahead_m, water) = (self.reference_m[0], self.water);
         let excitation = excitation.map(|(index, direction)| {
@@ -145,20 +144,36 @@ fn symmetric(matrix: &Matrix3<f64>) -> Matrix3<f64> {
     (matrix + matrix.transpose()) * 0.5
 }
 
-/// The largest |M_ij − M_ji|, which are `apart`, over sqrt(|M_ii M_jj|).
-fn asymmetric_part(apart: &Matrix3<f64>, matrix: &Matrix3<f64>) -> f64 {
-    let part = |(i, j): (usize, usize)| {
-        let scale = (matrix[(i, i)] * matrix[(j, j)]).abs().sqrt();
-        let difference = apart[(i, j)].abs();
-        // Entries whose values were printed as zero are no asymmetry.
-        if difference > 0.0 && scale > 0.0 {
-            difference / scale
-        } else {
-            0.0
-        }
+/// A motion whose added mass or damping is this part of the largest, in terms of a length of the
+/// body's size, makes no waves, as a circle that turns about its centre: what the file has for it is
+/// noise.
+const NOISE: f64 = 1e-6;
+
+/// Σ |M|, without matrices that are not whole.
+fn sum_of_sizes(matrices: impl Iterator<Item = Matrix3<f64>>) -> Matrix3<f64> {
+    let whole = matrices.filter(|matrix| matrix.iter().all(|value| value.is_finite()));
+    whole.map(|matrix| matrix.abs()).sum()
+}
+
+/// A length of the body's size, the side of a cube of water with the mass that it moves \[m\].
+fn length_of(added_mass: &[Matrix3<f64>], density_kg_m3: f64) -> f64 {
+    let whole = added_mass.iter().map(|a| a[(0, 0)].max(a[(1, 1)]));
+    let largest = whole.filter(|mass| mass.is_finite()).fold(0.0, f64::max);
+    (largest / density_kg_m3).cbrt()
+}
+
+/// The largest Σ |M_ij − M_ji| over sqrt(Σ |M_ii| Σ |M_jj|). At single frequencies a value may be
+/// nearly zero, or irregular, and a part of it says nothing.
+fn asymmetric_part(matrices: &[Matrix3<f64>], length_m: f64) -> f64 {
+    let apart = sum_of_sizes(matrices.iter().map(|m| m - m.transpose()));
+    let sizes = sum_of_sizes(matrices.iter().copied());
+    let largest = sizes[(0, 0)].max(sizes[(1, 1)]);
+    let size = |i: usize| {
+        let unit = if i == 2 { length_m * length_m } else { 1.0 };
+        sizes[(i, i)].max(NOISE * largest * unit)
     };
-    [(0, 1), (0, 2), (1, 2)]
-        .map(part)
-        .into_iter()
-        .fold(0.0, f64::max)
+    let part = |(i, j): (usize, usize)| apart[(i, j)] / (size(i) * size(j)).sqrt();
+    let parts = [(0, 1), (0, 2), (1, 2)].map(part);
+    let known = parts.into_iter().filter(|part| part.is_finite());
+    known.fold(0.0, f64::max)
 }

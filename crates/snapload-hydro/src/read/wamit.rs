@@ -3,55 +3,19 @@
 //! ```text
 //! .1    PER I J Ā [B̄]                    A = ρ L^k Ā, B = ρ L^k ω B̄, k = 3, 4, 5 for no, one, two rotations
 //! .3 .2 PER BETA I MOD PHA RE IM         X = ρ g L^m conj(RE + i IM), m = 2 for I = 1-3, 3 for 4-6
-//! .hst  I J C̄                            C = ρ g L^k C̄, k = 2 for (3,3), 3 for one rotation, 4 for two
 //! ```
 //!
 //! BETA and PHA are degrees. PER < 0 stands for zero frequency, PER = 0 for infinite frequency,
 //! where the first column holds periods. Source: WAMIT user manual, chapter "Output files".
 
 use super::table::{Row, Table};
+use super::wamit_hydrostatics::hydrostatics;
+use super::wamit_text::{MODES, Units, differ, lines, mode, place, rotation, twice};
 use super::{Given, agreed_water, within};
-use crate::coefficients::{Hydrodynamics, Hydrostatics};
+use crate::coefficients::Hydrodynamics;
 use crate::error::HydroError;
-use crate::water::Water;
 use nalgebra::{Complex, Matrix3, Vector3};
 use std::f64::consts::PI;
-
-/// What the first column of a file holds: WAMIT's IPEROUT from 1 to 4, with its length L (ULEN).
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum FirstColumn {
-    /// T \[s\].
-    #[default]
-    Period,
-    /// ω \[rad/s\]; zero and negative values stand for zero and infinite frequency.
-    Frequency,
-    /// KL with K = ω²/g whatever the depth; zero and negative values as for the frequency.
-    InfiniteDepthWaveNumber,
-    /// kL at the depth h, ω² = g k tanh(kh); zero and negative values as for the frequency.
-    WaveNumber,
-}
-
-impl FirstColumn {
-    /// The words for them, in cases and options.
-    pub const WORDS: [&str; 4] = [
-        "period",
-        "frequency",
-        "infinite-depth-wavenumber",
-        "wavenumber",
-    ];
-
-    /// The one that a word means.
-    #[must_use]
-    pub fn from_word(word: &str) -> Option<Self> {
-        match word {
-            "period" => Some(Self::Period),
-            "frequency" => Some(Self::Frequency),
-            "infinite-depth-wavenumber" => Some(Self::InfiniteDepthWaveNumber),
-            "wavenumber" => Some(Self::WaveNumber),
-            _ => None,
-        }
-    }
-}
 
 /// The text of the files.
 #[derive(Clone, Debug, Default)]
@@ -63,9 +27,6 @@ pub struct WamitText {
     /// `.hst`, if there is one.
     pub hydrostatics: Option<String>,
 }
-
-/// The numbers of surge, heave and pitch among WAMIT's modes.
-const MODES: [usize; 3] = [1, 3, 5];
 
 /// The coefficients of WAMIT's files. ρ, g, the depth and the reference point are not in them.
 ///
@@ -88,107 +49,14 @@ pub fn from_wamit(files: &WamitText, given: &Given) -> Result<Hydrodynamics, Hyd
     })?;
     let mut rows = radiation(&files.radiation, &units)?;
     let directions = excitation(&files.excitation, &units, &mut rows)?;
-    let stiffness = match &files.hydrostatics {
-        Some(text) => Some(stiffness(text, &units)?),
-        None => None,
-    };
     let table = Table {
         rows,
         directions,
         water,
         reference_m,
-        hydrostatics: Hydrostatics {
-            stiffness,
-            displaced_mass_kg: given.displaced_mass_kg,
-            centre_of_mass_m: given.centre_of_gravity_m,
-            ..Hydrostatics::default()
-        },
+        hydrostatics: hydrostatics(files.hydrostatics.as_deref(), &units, given)?,
     };
     table.into_hydrodynamics()
-}
-
-struct Units {
-    water: Water,
-    length: f64,
-    first: FirstColumn,
-}
-
-impl Units {
-    /// ω from a first column.
-    fn omega(&self, first: f64) -> f64 {
-        let g = self.water.gravity_m_s2;
-        match self.first {
-            FirstColumn::Period if first < 0.0 => 0.0,
-            FirstColumn::Period if first == 0.0 => f64::INFINITY,
-            FirstColumn::Period => 2.0 * PI / first,
-            _ if first < 0.0 => f64::INFINITY,
-            FirstColumn::Frequency => first,
-            FirstColumn::InfiniteDepthWaveNumber => (g * first / self.length).sqrt(),
-            FirstColumn::WaveNumber if first == 0.0 => 0.0,
-            FirstColumn::WaveNumber => {
-                let k = first / self.length;
-                (g * k * (k * self.water.depth_m).tanh()).sqrt()
-            }
-        }
-    }
-
-    fn power(&self, exponent: usize) -> f64 {
-        self.length.powi(exponent as i32)
-    }
-}
-
-/// The numbers of each line, with its number from 1 on. One header line is skipped.
-fn lines<'a>(
-    name: &'static str,
-    text: &'a str,
-    counts: std::ops::RangeInclusive<usize>,
-) -> impl Iterator<Item = Result<Vec<f64>, HydroError>> + 'a {
-    let lines = text.lines().enumerate();
-    let lines = lines.filter(|(_, line)| !line.trim().is_empty());
-    lines.filter_map(move |(index, line)| {
-        let words = line.split_whitespace();
-        // Fortran writes exponents with D, too.
-        let numbers: Result<Vec<f64>, _> = words
-            .map(|word| word.replace(['d', 'D'], "e").parse::<f64>())
-            .collect();
-        match numbers {
-            Ok(numbers) if counts.contains(&numbers.len()) => Some(Ok(numbers)),
-            Err(_) if index == 0 => None,
-            Ok(numbers) => {
-                let found = format!("line {} has {} numbers", index + 1, numbers.len());
-                let expected = format!("{} to {} are expected", counts.start(), counts.end());
-                Some(Err(HydroError::layout(name, found, expected)))
-            }
-            Err(_) => {
-                let beginning: String = line.trim().chars().take(60).collect();
-                let found = format!("line {} is {beginning:?}", index + 1);
-                Some(Err(HydroError::layout(name, found, "numbers are expected")))
-            }
-        }
-    })
-}
-
-/// A mode, 1 to 6; those of further bodies are refused.
-fn mode(name: &'static str, value: f64) -> Result<usize, HydroError> {
-    let whole = value.fract() == 0.0 && (1.0..=6.0).contains(&value);
-    if whole {
-        return Ok(value as usize);
-    }
-    let expected = "the modes of one body are expected, 1 to 6";
-    Err(HydroError::value(
-        format!("a mode of {name}"),
-        value,
-        expected,
-    ))
-}
-
-fn place(mode: usize) -> Option<usize> {
-    MODES.iter().position(|known| *known == mode)
-}
-
-/// 1 for a rotation, else 0.
-fn rotation(mode: usize) -> usize {
-    usize::from(mode > 3)
 }
 
 /// The values at one value of PER, and which of them the file has.
@@ -202,7 +70,7 @@ fn radiation(text: &str, units: &Units) -> Result<Vec<Row>, HydroError> {
     let name = "the .1 file";
     let mut steps: Vec<Step> = Vec::new();
     for line in lines(name, text, 4..=5) {
-        let line = line?;
+        let (number, line) = line?;
         let (force, motion) = (mode(name, line[1])?, mode(name, line[2])?);
         let omega = units.omega(line[0]);
         let (Some(i), Some(j)) = (place(force), place(motion)) else {
@@ -216,8 +84,9 @@ fn radiation(text: &str, units: &Units) -> Result<Vec<Row>, HydroError> {
             Some(damping) => row.damping[(i, j)] = scale * omega * damping,
             None if omega == 0.0 || omega.is_infinite() => {}
             None => {
-                let found = format!("no damping at {}", line[0]);
-                let expected = "PER I J A B is expected; does the first column hold periods?";
+                let found = format!("line {number} has no damping");
+                let expected = "PER I J A B is expected, also where the first column holds no periods; \
+                                is the file cut off?";
                 return Err(HydroError::layout(name, found, expected));
             }
         }
@@ -231,22 +100,6 @@ fn radiation(text: &str, units: &Units) -> Result<Vec<Row>, HydroError> {
     }
     complete(&mut steps)?;
     Ok(steps.into_iter().map(|step| step.row).collect())
-}
-
-/// Whether values differ that are given twice. Damping at ω = 0 and ∞ may be no number.
-fn differ(before: &[f64], now: &[f64]) -> bool {
-    let mut pairs = before.iter().zip(now);
-    pairs.any(|(a, b)| a != b && !(a.is_nan() && b.is_nan()))
-}
-
-/// A copy of a line does no harm, but of two different ones it is not known which one is right.
-fn twice(name: &'static str, what: String) -> HydroError {
-    let expected = "both have to be the same; is it two runs in one file?";
-    HydroError::layout(
-        name,
-        format!("{what} occurs twice, with different values"),
-        expected,
-    )
 }
 
 /// The step of a frequency, which is added without values if it is new.
@@ -301,7 +154,7 @@ fn excitation(text: &str, units: &Units, rows: &mut [Row]) -> Result<Vec<f64>, H
     let mut columns: Vec<(f64, f64)> = Vec::new();
     let mut headings: Vec<f64> = Vec::new();
     for line in lines(name, text, 7..=7) {
-        let line = line?;
+        let (_, line) = line?;
         let mode = mode(name, line[2])?;
         if !headings.contains(&line[1]) {
             headings.push(line[1]);
@@ -343,8 +196,28 @@ fn excitation(text: &str, units: &Units, rows: &mut [Row]) -> Result<Vec<f64>, H
     }
     for row in rows.iter_mut() {
         row.excitation.resize(columns.len(), unknown);
+        all_are_there(row, &columns)?;
     }
     one_of_each(&columns, rows, units)
+}
+
+/// Checks that the forces of every heading are given at a frequency that is neither 0 nor infinite.
+fn all_are_there(row: &Row, columns: &[(f64, f64)]) -> Result<(), HydroError> {
+    if row.omega == 0.0 || row.omega.is_infinite() {
+        return Ok(());
+    }
+    for ((heading, _), forces) in columns.iter().zip(&row.excitation) {
+        if let Some(i) = forces.iter().position(|force| force.re.is_nan()) {
+            let what = format!(
+                "the force {} at ω = {} rad/s, BETA = {heading} in the .3 file",
+                MODES[i], row.omega
+            );
+            let advice =
+                "add the line, with numbers, or remove this PER from the .1 and the .3 file";
+            return Err(HydroError::missing(what, advice));
+        }
+    }
+    Ok(())
 }
 
 /// What rounding leaves of a force that is zero, as a part of the largest number of the file.
@@ -414,36 +287,4 @@ fn direction(degrees: f64) -> Option<f64> {
     } else {
         None
     }
-}
-
-fn stiffness(text: &str, units: &Units) -> Result<Matrix3<f64>, HydroError> {
-    let name = "the .hst file";
-    let mut stiffness = Matrix3::zeros();
-    let mut has = Matrix3::from_element(false);
-    for line in lines(name, text, 3..=3) {
-        let line = line?;
-        let (force, motion) = (mode(name, line[0])?, mode(name, line[1])?);
-        let (Some(i), Some(j)) = (place(force), place(motion)) else {
-            continue;
-        };
-        let water = units.water;
-        let rho_g = water.density_kg_m3 * water.gravity_m_s2;
-        let scale = rho_g * units.power(2 + rotation(force) + rotation(motion));
-        let before = std::mem::replace(&mut stiffness[(i, j)], scale * line[2]);
-        if has[(i, j)] && differ(&[before], &[stiffness[(i, j)]]) {
-            return Err(twice(name, format!("{force},{motion}")));
-        }
-        has[(i, j)] = true;
-    }
-    if !has[(1, 1)] {
-        let advice = "the .hst file must have the line 3 3 C";
-        return Err(HydroError::missing("the mode 3,3", advice));
-    }
-    // Some files have only the upper triangle.
-    for (i, j) in [(0, 1), (0, 2), (1, 2)] {
-        if stiffness[(j, i)] == 0.0 {
-            stiffness[(j, i)] = stiffness[(i, j)];
-        }
-    }
-    Ok(stiffness)
 }

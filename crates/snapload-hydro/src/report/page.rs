@@ -26,11 +26,16 @@ struct Period {
     mode: Mode,
 }
 
-/// The page. `command` is the command line that reproduces it.
+/// The page, with `further` rows of a label and a text below those of the report. `command` is the
+/// command line that reproduces it.
 ///
 /// # Errors
 /// A [`FigureError`] if a picture can not be drawn.
-pub fn page(report: &Report, command: &str) -> Result<String, FigureError> {
+pub fn page(
+    report: &Report,
+    further: &[(String, String)],
+    command: &str,
+) -> Result<String, FigureError> {
     let mut periods = Vec::new();
     if let Ok(floating) = &report.floating {
         let free = floating.natural.iter().zip(&floating.modes);
@@ -47,7 +52,7 @@ pub fn page(report: &Report, command: &str) -> Result<String, FigureError> {
         }
     }
     let page = Page {
-        summary: report.summary(),
+        summary: [report.summary(), further.to_vec()].concat(),
         pictures: plots::all(report)?,
         report,
         command,

@@ -1,6 +1,6 @@
 //! The pictures of coefficients, memory and response.
 
-use super::Report;
+use super::{Floating, Report};
 use crate::coefficients::FREEDOMS;
 use crate::linear::Response;
 use crate::memory::DampingCurve;
@@ -50,7 +50,7 @@ pub(super) fn all(report: &Report) -> Result<Vec<Picture>, FigureError> {
         )?,
     ];
     if let Ok(floating) = &report.floating {
-        let plots = each(|i| response(&floating.fine, i));
+        let plots = each(|i| response(floating, i));
         pictures.push(draw("response", Width::Column, &plots)?);
     }
     Ok(pictures)
@@ -152,7 +152,36 @@ fn excitation(report: &Report, i: usize) -> Plot {
     plot(FREEDOMS[i], description, axes, layers.collect())
 }
 
-fn response(responses: &[[Response; 2]], i: usize) -> Plot {
+/// Amplitudes in waves from either side that differ by no more than this part of the largest are
+/// those of a mirror-symmetric body.
+const ALIKE: f64 = 0.01;
+
+/// Whether a freedom responds alike to waves from either side.
+fn is_symmetric(floating: &Floating, i: usize) -> bool {
+    let [[one, _], [other, _]] = floating.responses.as_slice() else {
+        return true;
+    };
+    let sizes = |response: &Response| -> Vec<f64> {
+        response.amplitude.iter().map(|xi| xi[i].norm()).collect()
+    };
+    let (one, other) = (sizes(one), sizes(other));
+    let largest = one.iter().chain(&other).fold(0.0, |a: f64, b| a.max(*b));
+    let mut pairs = one.iter().zip(&other);
+    pairs.all(|(a, b)| (a - b).abs() <= ALIKE * largest)
+}
+
+/// The highest peak of a freedom in all responses, without what grows towards long waves.
+fn highest_peak(floating: &Floating, i: usize) -> f64 {
+    let peaks = floating.fine.iter().flatten().flat_map(|response| {
+        let sizes: Vec<f64> = response.amplitude.iter().map(|xi| xi[i].norm()).collect();
+        let is_peak = |three: &&[f64]| three[1] >= three[0] && three[1] >= three[2];
+        let peaks = sizes.windows(3).filter(is_peak).map(|three| three[1]);
+        peaks.collect::<Vec<f64>>()
+    });
+    peaks.fold(0.0, f64::max)
+}
+
+fn response(floating: &Floating, i: usize) -> Plot {
     let unit = if i == 2 { 180.0 / PI } else { 1.0 };
     let points = |response: &Response| {
         let pairs = response.omega_rad_s.iter().zip(&response.amplitude);
@@ -160,11 +189,29 @@ fn response(responses: &[[Response; 2]], i: usize) -> Plot {
             .map(|(omega, xi)| [*omega, xi[i].norm() * unit])
             .collect()
     };
-    // For a mirror-symmetric body one direction is enough; the first is drawn.
-    let layers = responses.iter().take(1).flat_map(|[file, memory]| {
+    let symmetric = is_symmetric(floating, i);
+    let drawn = if symmetric { 1 } else { 2 };
+    let layers = floating.fine.iter().take(drawn).flat_map(|[file, memory]| {
+        let to = match (symmetric, file.direction > 0.0) {
+            (true, _) => "",
+            (false, true) => ", to +*x*",
+            (false, false) => ", to −*x*",
+        };
+        let [of_file, of_memory] = match to.contains('−') {
+            true => [Colour::GREEN, Colour::PURPLE],
+            false => [Colour::BLUE, Colour::VERMILION],
+        };
         [
-            line(points(file), FILE, "file"),
-            line(points(memory), FIT, "exponentials"),
+            line(
+                points(file),
+                Stroke::new(of_file, 0.9, Dash::Solid),
+                &format!("file{to}"),
+            ),
+            line(
+                points(memory),
+                Stroke::new(of_memory, 0.9, Dash::Dashed),
+                &format!("exponentials{to}"),
+            ),
         ]
     });
     let description = format!(
@@ -178,7 +225,7 @@ fn response(responses: &[[Response; 2]], i: usize) -> Plot {
     let mut plot = plot(FREEDOMS[i], description, axes, layers.collect());
     if i == 0 {
         // Surge grows without bound towards long waves.
-        plot.y.range = Range::Fixed(0.0, 2.0);
+        plot.y.range = Range::Fixed(0.0, f64::max(2.0, 1.1 * highest_peak(floating, i)));
     }
     plot
 }

@@ -74,6 +74,9 @@ fn one_of_several_bodies_must_be_chosen() {
             v.values = Values::Words(names.map(str::to_owned).to_vec());
         });
     }
+    spoilt = spoilt.with("body", |v| {
+        v.values = Values::Words(vec!["left".to_owned()])
+    });
     // A single body is used without a name; the name of another one is refused.
     let hydro = from_dataset(&spoilt.0, &Given::default()).expect("coefficients");
     assert_eq!(hydro.omega_rad_s.len(), 58);

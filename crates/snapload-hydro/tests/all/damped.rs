@@ -114,7 +114,7 @@ fn an_overdamped_motion_is_called_so() {
         periods.contains("heave 3.254 s undamped, overdamped with damping"),
         "{periods}"
     );
-    let page = page(&report, "snapload hydro").expect("a page");
+    let page = page(&report, &[], "snapload hydro").expect("a page");
     assert!(page.contains("<td>overdamped</td>") && !page.contains("inf"));
     let json = serde_json::to_value(report.to_json()).expect("JSON");
     let row = json["floating"]["natural"].as_array().expect("motions");

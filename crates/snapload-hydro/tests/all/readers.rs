@@ -338,6 +338,20 @@ fn nemoh_is_read() {
         message.contains("at ω = 0.1 rad/s = -90") && message.contains("radians"),
         "{message}"
     );
+    // Frequencies of another run, in one zone or in all of the other file.
+    let other_waves = excitation.replace("2 408302.5", "2.6 408302.5");
+    let other_motion = radiation
+        .replacen("  0.3 ", "  0.39 ", 3)
+        .replacen("  0.39 ", "  0.3 ", 2);
+    for (radiation, excitation, file) in [
+        (&radiation, &other_waves, "ExcitationForce.tec"),
+        (&other_motion, &excitation, "RadiationCoefficients.tec"),
+    ] {
+        let error = from_nemoh(radiation, excitation, &given).expect_err("a refusal");
+        let message = error.to_string();
+        let parts = [file, "rad/s", "is expected in that row"];
+        assert!(parts.iter().all(|part| message.contains(part)), "{message}");
+    }
     let no_zones = radiation.replace("Zone", "Surge");
     let error = from_nemoh(&no_zones, &excitation, &given).expect_err("a refusal");
     assert!(error.to_string().contains("Capytaine"), "{error}");

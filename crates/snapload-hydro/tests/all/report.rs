@@ -26,7 +26,7 @@ fn everything_is_reported() {
     request.lines = vec![line(2.0), line(-2.0)];
     request.weight.mass_kg = Some(80_000.0);
     let report = Report::new("pontoon", reading("pontoon-deep.nc"), &request).expect("a report");
-    let page = page(&report, "snapload hydro <pontoon>").expect("a page");
+    let page = page(&report, &[], "snapload hydro <pontoon>").expect("a page");
     assert_eq!(page.matches("<svg").count(), 5);
     for message in [
         "held by its lines",
@@ -81,7 +81,7 @@ fn a_body_that_is_held_fast_is_reported() {
         .into_iter()
         .find(|(label, _)| label == "held");
     assert!(held.expect("a row").1.contains("allow no motion"));
-    let page = page(&report, "snapload hydro").expect("a page");
+    let page = page(&report, &[], "snapload hydro").expect("a page");
     assert!(page.contains("allow no motion") && !page.contains("NaN"));
     let json = serde_json::to_value(report.to_json()).expect("JSON");
     assert_eq!(json["floating"]["rest"]["natural"], serde_json::json!([]));
@@ -103,7 +103,10 @@ fn files_without_hydrostatics_are_reported() {
     let named = missing.1.contains("the hydrostatic stiffness is missing");
     assert!(named && missing.1.contains("Nemoh"), "{missing:?}");
     assert_eq!(
-        page(&report, "").expect("a page").matches("<svg").count(),
+        page(&report, &[], "")
+            .expect("a page")
+            .matches("<svg")
+            .count(),
         4
     );
 }

@@ -247,7 +247,7 @@ fn same_volume(
 /// buoyancy, or of its waterplane, C35 = −C33 x, if the file does not have the former.
 fn same_place(body: &BodySi, hydro: &Hydrodynamics) -> Result<(), CaseError> {
     let statics = &hydro.hydrostatics;
-    let of_buoyancy = statics.centre_of_buoyancy_m.map(|centre| centre[0]);
+    let of_buoyancy = statics.centre_of_buoyancy_x_m;
     let of_waterplane = || {
         let stiffness = statics.stiffness.as_ref()?;
         Some(hydro.reference_m[0] - stiffness[(1, 2)] / stiffness[(1, 1)])

@@ -1,0 +1,147 @@
+//! The lines and units of WAMIT's text files.
+
+use crate::error::HydroError;
+use crate::water::Water;
+use std::f64::consts::PI;
+
+/// What the first column of a file holds: WAMIT's IPEROUT from 1 to 4, with its length L (ULEN).
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum FirstColumn {
+    /// T \[s\].
+    #[default]
+    Period,
+    /// ω \[rad/s\]; zero and negative values stand for zero and infinite frequency.
+    Frequency,
+    /// KL with K = ω²/g whatever the depth; zero and negative values as for the frequency.
+    InfiniteDepthWaveNumber,
+    /// kL at the depth h, ω² = g k tanh(kh); zero and negative values as for the frequency.
+    WaveNumber,
+}
+
+impl FirstColumn {
+    /// The words for them, in cases and options.
+    pub const WORDS: [&str; 4] = [
+        "period",
+        "frequency",
+        "infinite-depth-wavenumber",
+        "wavenumber",
+    ];
+
+    /// The one that a word means.
+    #[must_use]
+    pub fn from_word(word: &str) -> Option<Self> {
+        match word {
+            "period" => Some(Self::Period),
+            "frequency" => Some(Self::Frequency),
+            "infinite-depth-wavenumber" => Some(Self::InfiniteDepthWaveNumber),
+            "wavenumber" => Some(Self::WaveNumber),
+            _ => None,
+        }
+    }
+}
+
+/// The numbers of surge, heave and pitch among WAMIT's modes.
+pub(super) const MODES: [usize; 3] = [1, 3, 5];
+
+/// The units of a model's files.
+pub(super) struct Units {
+    pub water: Water,
+    /// L \[m\].
+    pub length: f64,
+    pub first: FirstColumn,
+}
+
+impl Units {
+    /// ω from a first column.
+    pub fn omega(&self, first: f64) -> f64 {
+        let g = self.water.gravity_m_s2;
+        match self.first {
+            FirstColumn::Period if first < 0.0 => 0.0,
+            FirstColumn::Period if first == 0.0 => f64::INFINITY,
+            FirstColumn::Period => 2.0 * PI / first,
+            _ if first < 0.0 => f64::INFINITY,
+            FirstColumn::Frequency => first,
+            FirstColumn::InfiniteDepthWaveNumber => (g * first / self.length).sqrt(),
+            FirstColumn::WaveNumber if first == 0.0 => 0.0,
+            FirstColumn::WaveNumber => {
+                let k = first / self.length;
+                (g * k * (k * self.water.depth_m).tanh()).sqrt()
+            }
+        }
+    }
+
+    /// L to a power.
+    pub fn power(&self, exponent: usize) -> f64 {
+        self.length.powi(exponent as i32)
+    }
+}
+
+/// The number of each line, from 1 on, and its numbers. One header line is skipped.
+pub(super) fn lines<'a>(
+    name: &'static str,
+    text: &'a str,
+    counts: std::ops::RangeInclusive<usize>,
+) -> impl Iterator<Item = Result<(usize, Vec<f64>), HydroError>> + 'a {
+    let lines = text.lines().enumerate();
+    let lines = lines.filter(|(_, line)| !line.trim().is_empty());
+    lines.filter_map(move |(index, line)| {
+        let words = line.split_whitespace();
+        // Fortran writes exponents with D, too.
+        let numbers: Result<Vec<f64>, _> = words
+            .map(|word| word.replace(['d', 'D'], "e").parse::<f64>())
+            .collect();
+        match numbers {
+            Ok(numbers) if counts.contains(&numbers.len()) => Some(Ok((index + 1, numbers))),
+            Err(_) if index == 0 => None,
+            Ok(numbers) => {
+                let found = format!("line {} has {} numbers", index + 1, numbers.len());
+                let expected = format!("{} to {} are expected", counts.start(), counts.end());
+                Some(Err(HydroError::layout(name, found, expected)))
+            }
+            Err(_) => {
+                let beginning: String = line.trim().chars().take(60).collect();
+                let found = format!("line {} is {beginning:?}", index + 1);
+                Some(Err(HydroError::layout(name, found, "numbers are expected")))
+            }
+        }
+    })
+}
+
+/// A mode, 1 to 6; those of further bodies are refused.
+pub(super) fn mode(name: &'static str, value: f64) -> Result<usize, HydroError> {
+    let whole = value.fract() == 0.0 && (1.0..=6.0).contains(&value);
+    if whole {
+        return Ok(value as usize);
+    }
+    let expected = "the modes of one body are expected, 1 to 6";
+    Err(HydroError::value(
+        format!("a mode of {name}"),
+        value,
+        expected,
+    ))
+}
+
+pub(super) fn place(mode: usize) -> Option<usize> {
+    MODES.iter().position(|known| *known == mode)
+}
+
+/// 1 for a rotation, else 0.
+pub(super) fn rotation(mode: usize) -> usize {
+    usize::from(mode > 3)
+}
+
+/// Whether values differ that are given twice. Damping at ω = 0 and ∞ may be no number.
+pub(super) fn differ(before: &[f64], now: &[f64]) -> bool {
+    let mut pairs = before.iter().zip(now);
+    pairs.any(|(a, b)| a != b && !(a.is_nan() && b.is_nan()))
+}
+
+/// A copy of a line does no harm, but of two different ones it is not known which one is right.
+pub(super) fn twice(name: &'static str, what: String) -> HydroError {
+    let expected = "both have to be the same; is it two runs in one file?";
+    HydroError::layout(
+        name,
+        format!("{what} occurs twice, with different values"),
+        expected,
+    )
+}
