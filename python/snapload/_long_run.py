@@ -143,7 +143,7 @@ class LyapunovSpectrum(Result):
     standard_errors : numpy.ndarray
         The standard errors [1/T], from twenty batches of periods. They include the amount by which a growth rate that
         is still decreasing may fall, and the accuracy of the linearised motion along taut cables; NaN for fewer than
-        four periods.
+        four periods, infinite where an exponent has no limit as ``v_stick`` falls.
     periods : int
         Number of forcing periods over which the exponents are averaged.
     transient : int

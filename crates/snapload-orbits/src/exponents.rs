@@ -23,9 +23,17 @@ pub(crate) struct Directions {
     directions: Vec<Option<DVector<f64>>>,
     /// The logarithms of the factors by which they have grown; −∞ for a closed one.
     logs: Vec<f64>,
+    /// The part of these logarithms that grew at the slowest snaps.
+    slow_logs: Vec<f64>,
+    /// The speed below which snaps are among the slowest.
+    slow_below: f64,
     /// Whether directions that contact closes count as closed from now on.
     closes_for_good: bool,
 }
+
+/// The slowest snaps are those within a factor of ten of `v_stick`: without them the exponents would
+/// be those of a case with ten times its value.
+const SLOW: f64 = 10.0;
 
 /// If less than this part of a direction is independent of the others, it is rounding, and the
 /// direction is closed.
@@ -38,6 +46,10 @@ const BATCHES: usize = 20;
 const FEWEST: usize = 4;
 /// A trend of this many times its standard error is not taken as chance.
 const TREND: f64 = 3.0;
+/// What grows in a period at the slowest snaps is negligible below the first number; above it and
+/// beyond this part of the whole, or beyond its error, the whole depends on it.
+const NEGLIGIBLE: f64 = 1e-2;
+const PART: f64 = 0.1;
 
 impl Directions {
     /// The unit vectors of the components, at the start of a motion of a case.
@@ -49,13 +61,18 @@ impl Directions {
             variables: family.variables(),
             directions: (0..count).map(|i| Some(unit(count, i))).collect(),
             logs: vec![0.0; count],
+            slow_logs: vec![0.0; count],
+            slow_below: SLOW * parameters.v_stick,
             closes_for_good: false,
         }
     }
 
-    /// From now on a direction that contact closes stays closed. A cable that was taut only in the
-    /// beginning closes no direction of the long motion.
+    /// From now on a direction that contact closes stays closed, and growth at the slowest snaps
+    /// counts. A cable that was taut only in the beginning closes no direction of the long motion.
     pub(crate) fn close_from_now_on(&mut self) {
+        if !self.closes_for_good {
+            self.slow_logs.fill(0.0);
+        }
         self.closes_for_good = true;
     }
 
@@ -64,10 +81,15 @@ impl Directions {
         self.logs.clone()
     }
 
+    /// The part of that which grew at the slowest snaps.
+    pub(crate) fn slow_logs(&self) -> &[f64] {
+        &self.slow_logs
+    }
+
     /// Carries them through a step, to its end. Returns ln of the factor by which the first one has
     /// grown, which turns to where deviations grow most.
     pub(crate) fn follow(&mut self, map: &StepMap, step: &Step) -> f64 {
-        let first = self.logs[0];
+        let before = self.logs.clone();
         let event = event_of(step).map(|(event, _)| event);
         let rebounds = self.system.system().restitution.value > 0.0;
         let stops = event.map_or(TautSet::SLACK, |event| event.stops(rebounds));
@@ -98,7 +120,16 @@ impl Directions {
         if !self.closes_for_good {
             self.fill(taken.split_off(constraints));
         }
-        self.logs[0] - first
+        // Where a cable sticks, deviations lose what they have across it, whatever `v_stick` is.
+        let sticks = step.taut_after.len() > step.taut.len();
+        let slow = |v_n: f64| v_n > 0.0 && v_n < self.slow_below;
+        if !sticks && step.impacts().any(|impact| slow(impact.v_n)) {
+            let grown = self.logs.iter().zip(&before);
+            for (slow, (after, before)) in self.slow_logs.iter_mut().zip(grown) {
+                *slow += after - before;
+            }
+        }
+        self.logs[0] - before[0]
     }
 
     /// Replaces the closed directions by others, so that all remain independent.
@@ -125,8 +156,14 @@ fn unit(count: usize, place: usize) -> DVector<f64> {
 /// a period apart, the first of which is `first` periods after the motion's start. The error of
 /// taut motion, which had `taut_steps` steps in a period, is the same in all of them, so that no
 /// scatter shows it.
+///
+/// `slow` is the part of the growth over all periods that comes from the slowest snaps. Where snaps
+/// of one cable accumulate it tends to zero, and the exponent does not depend on `v_stick`. Where
+/// those of two cables accumulate in turn deviations may grow by a factor with every tenth of the
+/// speed, without end: the motion then has no derivative there, and the exponent no limit. Its error
+/// is infinite.
 pub(crate) fn exponents(
-    logs: &[Vec<f64>],
+    (logs, slow): (&[Vec<f64>], &[f64]),
     first: u64,
     period: f64,
     taut_steps: f64,
@@ -139,8 +176,10 @@ pub(crate) fn exponents(
         .map(|i| {
             let of_one: Vec<f64> = logs.iter().map(|logs| logs[i]).collect();
             let [mean, error] = estimate(&of_one, first as f64);
+            let of_slow = (slow[i] / (logs.len() - 1) as f64).abs();
             let error = match mean.is_finite() {
-                true => error.hypot(TAUT_ERROR * taut_steps),
+                true if of_slow > error.min(PART * mean.abs()).max(NEGLIGIBLE) => f64::INFINITY,
+                true => error.hypot(TAUT_ERROR * taut_steps).hypot(of_slow),
                 false => error,
             };
             [mean, error].map(|number| number / period)

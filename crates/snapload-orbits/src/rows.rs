@@ -30,7 +30,7 @@ pub struct SectionRow {
 struct ExponentRow {
     /// None stands for −∞.
     value: Option<f64>,
-    /// Written as null if there are too few periods to estimate it.
+    /// Written as null if there are too few periods to estimate it, or the exponent has no limit.
     se: f64,
 }
 

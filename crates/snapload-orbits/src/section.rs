@@ -331,7 +331,10 @@ impl Follow {
             .snaps
             .resize(section.points.len().saturating_sub(1), 0);
         let taut_steps = self.taut_steps as f64 / section.snaps.len().max(1) as f64;
-        section.exponents = exponents(&self.logs, section.first, self.period, taut_steps);
+        if let Some((_, directions)) = &self.linearised {
+            let growth = (&self.logs[..], directions.slow_logs());
+            section.exponents = exponents(growth, section.first, self.period, taut_steps);
+        }
         Ok(())
     }
 

@@ -110,7 +110,10 @@ pub(crate) fn exponent_text([mean, error]: [f64; 2]) -> String {
     match (mean.is_finite(), error.is_finite()) {
         // Adding 0 makes 0 of -0.
         (true, true) => format!("{:.4} +- {known:.4}", (mean * 1e4).round() / 1e4 + 0.0),
-        (true, false) => format!("{mean:.4} (too few periods for an error estimate)"),
+        (true, false) if error.is_nan() => {
+            format!("{mean:.4} (too few periods for an error estimate)")
+        }
+        (true, false) => format!("{mean:.4} (not known: it grows as v_stick falls)"),
         (false, _) => "-inf".to_owned(),
     }
 }

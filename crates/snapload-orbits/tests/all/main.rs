@@ -13,6 +13,7 @@ mod corners;
 mod curves;
 mod diagrams;
 mod ends;
+mod exponents;
 mod held;
 mod lengths;
 mod orbits;
