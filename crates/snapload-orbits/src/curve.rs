@@ -9,7 +9,7 @@ use crate::branch_events::{BranchEvent, Kind};
 use crate::continuation::{Continuation, Unknowns};
 use crate::follower::{END_OF_RANGE, TOO_LONG, beyond_largest_gap};
 use crate::hybrid::Family;
-use crate::multipliers::Stability;
+use crate::multipliers::{NEAR_CIRCLE, Stability};
 use crate::normal_form::{Coefficient, coefficient};
 use crate::on_curve::OnCurve;
 use crate::orbit::{NoOrbit, Orbit};
@@ -218,16 +218,23 @@ impl HalfCurve {
 /// torus.
 fn others(kind: Kind, orbit: &Orbit) -> Stability {
     let mut left = orbit.multipliers.clone();
-    let mut take = |off: &dyn Fn([f64; 2]) -> f64| {
+    let mut take_at = |critical: f64| {
+        let off = |[re, im]: [f64; 2]| (re - critical).hypot(im);
         let values = left.values.iter().enumerate();
         let nearest = values.min_by(|a, b| off(*a.1).total_cmp(&off(*b.1)));
         if let Some((place, _)) = nearest {
             left.values.remove(place);
         }
+        // Two that meet there, as without losses, are known to half of the digits.
+        let double = left
+            .values
+            .iter_mut()
+            .filter(|value| off(**value) < NEAR_CIRCLE);
+        double.for_each(|value| *value = [critical, 0.0]);
     };
     match kind {
-        Kind::Fold => take(&|[re, im]| (re - 1.0).hypot(im)),
-        Kind::PeriodDoubling => take(&|[re, im]| (re + 1.0).hypot(im)),
+        Kind::Fold => take_at(1.0),
+        Kind::PeriodDoubling => take_at(-1.0),
         Kind::NeimarkSacker => {
             if let Some([i, j]) = left.pair_of_torus() {
                 left.values.remove(j);

@@ -28,7 +28,7 @@ pub struct Multipliers {
 const NEUTRAL: f64 = 1e-9;
 /// A modulus this close to 1 is certainly neither inside nor outside of the unit circle: two
 /// multipliers that meet there are known to half of the digits.
-const NEAR_CIRCLE: f64 = 1e-6;
+pub(crate) const NEAR_CIRCLE: f64 = 1e-6;
 
 /// The stability of an orbit by its multipliers.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
