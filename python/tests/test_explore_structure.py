@@ -403,8 +403,13 @@ def test_a_body_that_floats_is_opened_unless_it_names_a_file(open_at, url, tmp_p
 
 @pytest.mark.parametrize(("viewport", "scheme"), [(DESKTOP, "light"), (PHONE, "dark")], ids=["desktop", "phone"])
 def test_the_page_of_a_structure_is_for_everyone(open_structure, viewport, scheme):
-    page = open_structure(f"{SHORT}&t=30&elastic=false", viewport=viewport, color_scheme=scheme)
+    long_number = "line.breaking_load=911809.536&line.stiffness=82667200"
+    page = open_structure(f"{SHORT}&{long_number}&t=30&elastic=false", viewport=viewport, color_scheme=scheme)
     page.locator("details.group:visible").evaluate_all("groups => groups.forEach(group => (group.open = true))")
+    shown = page.locator(".key .field[type=text]:visible")
+    cut_off = shown.evaluate_all("all => all.filter(one => one.scrollWidth > one.clientWidth).map(one => one.value)")
+    assert "911809.536" in shown.evaluate_all("all => all.map(one => one.value)")
+    assert not cut_off
     assert page.evaluate("() => document.documentElement.scrollWidth <= innerWidth"), "it is wider than the window"
     blameless(page)
     page.emulate_media(forced_colors="active")

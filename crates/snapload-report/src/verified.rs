@@ -30,7 +30,7 @@ Examples:
             "1",
             Kind::Count(1, MOST_DIGITS as u64),
             DefaultValue::Count(60),
-            "decimal digits to compute with, at least: 76, 153 or 307 are",
+            "decimal digits to compute with, rounded up to 76, 153 or 307",
         )
         .symbol("N"),
         TOLERANCE,

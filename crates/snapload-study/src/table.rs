@@ -136,7 +136,7 @@ static COLUMNS: [Column; 18] = [
         "time with one taut cable"),
     Column::new("t_rocking", "time rocking", "T", ColumnValue::Number(|a| Some(a.outcome.rocking)), "time with both"),
     Column::new("horizon_t", "horizon", "T", ColumnValue::Number(|a| horizon(a, |h| h.t)),
-        "time up to which the run can be trusted; null if to its end"),
+        "time up to which the run can be trusted; null if to its end, or if the case could not be run"),
     Column::new("horizon_impact", "impact at the horizon", "", ColumnValue::Count(|a| horizon(a, |h| h.impact as u64)),
         "the number of the impact there"),
     Column::new("certain", "end certain", "", ColumnValue::Flag(|a| a.certainty.map(|c| c.decides_the_end())),
