@@ -191,7 +191,10 @@ pub fn section_summary(section: &Section) -> String {
     };
     if !section.exponents.is_empty() {
         let all = exponents_text(section);
-        let _ = writeln!(text, "Exponents per unit of time: {all}");
+        let _ = writeln!(
+            text,
+            "Exponents per unit of time, with standard errors: {all}"
+        );
     }
     if let Some(kept) = &section.impacts {
         let velocities = || kept.points.iter().map(|impact| impact.v_n);
@@ -232,6 +235,9 @@ pub fn diagram_summary(key: &str, found: &[DiagramPoint]) -> String {
     let none = found
         .iter()
         .filter(|at| at.stop().is_none() && at.period.is_none());
+    if found.iter().any(|at| !at.section.exponents.is_empty()) {
+        text += "exponent: the largest, per unit of time, with its standard error\n";
+    }
     if let Some(longest) = none.map(|at| at.section.longest_period()).max() {
         let _ = writeln!(text, "none: no period of the forcing up to {longest}");
     }
