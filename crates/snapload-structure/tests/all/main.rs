@@ -18,6 +18,7 @@ mod emergence;
 mod equilibrium;
 mod firm_verdicts;
 mod hydrostatics;
+mod implausible;
 mod judged;
 mod judged_step;
 mod manual;
