@@ -70,7 +70,7 @@ impl ModelAtRest {
         let model = model_about_rest(&structure, &rest)?;
         check_rates(&structure, &model)?;
         if structure.afloat.is_some() {
-            rest.distribute_by_least_squares(&model);
+            rest.distribute_by_least_squares(&structure, &model);
         }
         let mut prepared = Self {
             modes_on_taut_lines,

@@ -32,6 +32,7 @@ mod progress;
 mod rates;
 mod scale;
 mod sea_verdicts;
+mod shares;
 mod short_run;
 mod softness;
 mod still_water;
