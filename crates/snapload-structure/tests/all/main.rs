@@ -34,6 +34,7 @@ mod scale;
 mod sea_verdicts;
 mod shares;
 mod short_run;
+mod slight_changes;
 mod softness;
 mod still_water;
 mod verdicts;
