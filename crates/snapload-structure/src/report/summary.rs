@@ -134,7 +134,7 @@ impl Assessment {
         let (by_height, heights) = group(|row| row.height_m, |row| row.period_s);
         let (by_period, periods) = group(|row| row.period_s, |row| row.height_m);
         Some(format!(
-            "{what} {by_height} with a height of {heights} m, {by_period} with a period of {periods} s"
+            "{what} {by_height} with a height of {heights} m; {by_period} with a period of {periods} s"
         ))
     }
 }

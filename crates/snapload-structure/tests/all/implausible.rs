@@ -11,7 +11,7 @@ const SEA: &str = include_str!("../../../../docs/examples/cylinder-sea.toml");
 
 /// A pontoon of 3 m x 1.6 m that displaces 33.21 t of water at rest, without a file, on two chains
 /// of 7.916 m, which are taut there.
-const PONTOON: &str = "[body]\nshape = \"rectangle\"\nwidth = 3\nheight = 1.6\ndisplaced_volume = 32.4\n\
+pub(crate) const PONTOON: &str = "[body]\nshape = \"rectangle\"\nwidth = 3\nheight = 1.6\ndisplaced_volume = 32.4\n\
     mass = 25000\nmoment_of_inertia = 24083\nposition = [0, -0.1]\n\
     [float]\ncentre_of_gravity = [0, -0.1]\ndamping = [0, 0, 8000]\n\
     [[line]]\nanchor = [5, -8]\nfairlead = [1.5, -0.9]\nlength = 7.916\nstiffness = 8.27e7\n\

@@ -26,6 +26,7 @@ mod moordyn;
 mod moordyn_columns;
 mod moordyn_edits;
 mod moordyn_keys;
+mod note_words;
 mod other_waves;
 mod physics;
 mod progress;

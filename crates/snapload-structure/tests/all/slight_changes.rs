@@ -107,6 +107,6 @@ fn only_a_regular_wave_is_varied() {
         let assessment = assess(structure(&text), 0, &no_progress).expect("an assessment");
         assert!(assessment.by_wave().is_empty());
         assert_eq!(assessment.waves_text(), None);
-        assert!(!assessment.summary("case").contains("\n  waves"));
+        assert!(!assessment.summary("case").contains("\n  wave "));
     }
 }
