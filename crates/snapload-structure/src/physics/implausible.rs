@@ -9,11 +9,12 @@ const PROPORTION: f64 = 100.0;
 /// The largest plausible ratio of a line's length to the distance of its ends with the body at the
 /// case's position.
 const LONGEST_RATIO: f64 = 3.0;
-/// The least plausible mass over displaced volume: not even a bag of air, of 1.2 kg/m³, weighs less,
-/// but every body does whose mass is in tonnes \[kg/m³\].
+/// The least plausible mass over displaced volume: air alone has 1.2, and every body that floats has
+/// less than 1.3 if its mass is in tonnes \[kg/m³\].
 const LEAST_DENSITY: f64 = 2.0;
-/// The plausible ratios of a radius of gyration to the half diagonal of the outline. A ring has 1 and
-/// a uniform rectangle 0.58. Kilogrammes and tonnes differ by a factor of 32.
+/// The plausible ratios of a radius of gyration to the half diagonal of the outline. A ring has 1
+/// and a uniform rectangle 0.58. A mass in tonnes makes the radius 32 times too large, a moment of
+/// inertia in t m² 32 times too small.
 const GYRATION: [f64; 2] = [0.05, 5.0];
 
 /// The warnings of a structure.

@@ -89,8 +89,8 @@ impl Snap {
         self.counts() && self.t_s >= transient_s
     }
 
-    /// The order from the softest to the hardest: by the part of the line's breaking load if that is
-    /// known, else by the peak, else by the speed.
+    /// The order from the softest to the hardest: by the part of the line's breaking load if that
+    /// is known, else by the peak, else by the speed.
     pub(crate) fn by_hardness(&self, other: &Self) -> Ordering {
         let all = |snap: &Self| (snap.utilisation, snap.peak_n, snap.effective_speed_m_s);
         all(self)

@@ -31,8 +31,8 @@ const FREE_TURN: f64 = 60.0;
 /// Where the tensions at rest on elastic lines differ from those on inextensible lines by more than
 /// this part, so may all others, as the water then carries part of what moves the body.
 const STRETCHED: f64 = 0.1;
-/// Where the memory of a floating body lacks more than this part of its largest value to be passive,
-/// tensions are not reliable.
+/// Where the memory of a floating body lacks more than this part of its largest value to be
+/// passive, tensions are not reliable.
 const NOT_PASSIVE: f64 = 0.1;
 /// A change of the wave's phase of this much is no longer small \[rad\].
 const MOST_PHASE: f64 = 0.3;

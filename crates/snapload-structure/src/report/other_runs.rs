@@ -40,8 +40,9 @@ fn otherwise_in_words(fails: bool, is_fact: bool) -> &'static str {
 }
 
 impl Assessment {
-    /// A verdict that no line breaks does not stand if a line breaks in a neighbour or in a slightly
-    /// other wave, and any verdict says with which restitution the answer would be another.
+    /// A verdict that no line breaks does not stand if a line breaks in a neighbour or in a
+    /// slightly other wave, and any verdict says with which restitution the answer would be
+    /// another.
     pub(super) fn with_other_runs(&self, mut verdict: Verdict) -> Verdict {
         let fails = match verdict.standing {
             VerdictKind::Holds => false,

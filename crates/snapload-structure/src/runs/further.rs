@@ -13,7 +13,8 @@ use snapload::analysis::{OnProgress, Unfinished};
 pub const NEIGHBOUR: f64 = 1e-6;
 /// By this the restitution is varied, as it is rarely known more accurately.
 const RESTITUTION: f64 = 0.2;
-/// By this part height and period of a regular wave are varied, as neither is known more accurately.
+/// By this part height and period of a regular wave are varied, as neither is known more
+/// accurately.
 const WAVE: f64 = 0.01;
 
 /// The runs that are to be made.

@@ -29,8 +29,9 @@ fn warning(assessment: &Assessment, rule: &str) -> Option<Warning> {
     warnings.find(|w| w.rule == rule).cloned()
 }
 
-/// A mass in tonnes makes a cylinder lighter than air, 72.452 kg in 141.37 m³, and a moment of inertia
-/// in t m² one that turns as if its mass were in its axis: r = sqrt(163.017/72452) = 0.047 m of 1.5 m.
+/// A mass in tonnes makes a cylinder lighter than air, 72.452 kg in 141.37 m³, and a moment of
+/// inertia in t m² one that turns as if its mass were in its axis: r = sqrt(163.017/72452) = 0.047
+/// m of 1.5 m.
 #[test]
 fn masses_and_inertias_in_other_units_leave_the_verdict_open() {
     let calm = EXAMPLE.replace("height = 2\n", "height = 0.5\n");

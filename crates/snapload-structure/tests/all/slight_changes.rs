@@ -8,7 +8,8 @@ use snapload_structure::{Assessment, VerdictKind, assess};
 const EXAMPLE: &str = include_str!("../../../../docs/examples/cylinder.toml");
 const SEA: &str = include_str!("../../../../docs/examples/cylinder-sea.toml");
 
-/// The cylinder in waves so high and so long, in which no line goes slack, on lines of this strength.
+/// The cylinder in waves so high and so long, in which no line goes slack, on lines of this
+/// strength.
 fn held(height_m: f64, period_s: f64, breaking_load_n: f64) -> Assessment {
     let text = EXAMPLE
         .replace("height = 2\n", &format!("height = {height_m}\n"))
@@ -43,8 +44,8 @@ fn the_wave_is_varied_by_one_percent() {
     }
 }
 
-/// Taut lines bear more in higher waves: if they just hold, they break in waves of one percent more,
-/// and the verdict says so in every report. Lines with a reserve of a fifth hold in both.
+/// Taut lines bear more in higher waves: if they just hold, they break in waves of one percent
+/// more, and the verdict says so in every report. Lines with a reserve of a fifth hold in both.
 #[test]
 fn a_line_that_breaks_in_slightly_other_waves_leaves_the_verdict_open() {
     let most_n = held(0.2, 6.0, 1.3e6).outcome.largest_n();
