@@ -52,8 +52,8 @@ class Assessment(RepeatableResult[_engine.Assessment]):
         """The verdict in one word: ``holds``, ``breaks``, ``exceeds``, ``open`` or ``unknown``.
 
         ``exceeds`` means that the body turned over or reached the sea floor. ``open`` means that the tensions are not
-        reliable, that a line would break before anything is judged, or that the run is one record of a sea, in which
-        no line breaks.
+        reliable, that a line would break before anything is judged, in a neighbour or in a wave that differs by one
+        percent, or that the run is one record of a sea, in which no line breaks.
 
         See Also
         --------

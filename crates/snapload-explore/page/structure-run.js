@@ -63,6 +63,8 @@ export class StructureRun {
   standing = "";
   /** @type {string | null} */
   rebound = null;
+  /** @type {string | null} */
+  nearby_waves = null;
   preview = false;
   lasts_s = 0;
   transient_s = 0;

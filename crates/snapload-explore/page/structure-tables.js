@@ -76,7 +76,7 @@ function elasticWords({ verdict, warnings }, others) {
   return [`On elastic lines: ${verdict.words}`, ...own].join(" ");
 }
 
-/** Checks by the rule of the case, other restitutions, and warnings. */
+/** Checks by the rule of the case, other restitutions and waves, and warnings. */
 export function showChecks(run) {
   const { checks, warnings } = run.assessment;
   const rows = checks.map((check) => {
@@ -85,7 +85,8 @@ export function showChecks(run) {
     return `<li class="${check.answer}"><b>${escape(check.answer_in_words)}</b> ${of}: ${escape(check.words)}
       ${number(check.limit)}: ${value}</li>`;
   });
-  const heard = run.rebound ? `<p class="small">${sentence(run.rebound)}</p>` : "";
+  const others = [run.rebound, run.nearby_waves].filter((words) => words);
+  const heard = others.map((words) => `<p class="small">${sentence(words)}</p>`).join("");
   $("checks").innerHTML = (rows.length ? `<h3>Design checks</h3><ul class="checks">${rows.join("")}</ul>` : "") + heard;
   const items = warnings.map(({ rule, message }) => `<li><b>${escape(rule)}</b>: ${escape(message)}</li>`);
   $("warnings").innerHTML = items.length ? `<h3>Warnings</h3><ul class="warnings">${items.join("")}</ul>` : "";

@@ -204,7 +204,7 @@ class Page {
       if (this.run.preview) await more({ whole: true });
       if (!current()) return;
       if (this.run.lasts_s <= LONGEST_WITH_NEIGHBOURS) await more({ whole: true, neighbours: true });
-      else $("preview").textContent = `Neighbours and other restitutions of so long a record are run by the command: ${this.run.shell}`;
+      else $("preview").textContent = `Neighbours, other restitutions and slightly other waves of so long a record are run by the command: ${this.run.shell}`;
       if (current() && state.elastic) await this.#computeElastic({ case: question.case, window: this.run.window }, abort);
     } catch (error) {
       if (error.name === "AbortError" || !current()) return;

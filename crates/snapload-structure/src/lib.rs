@@ -38,14 +38,16 @@ pub use physics::warnings::warnings;
 pub use physics::waterline::Waterline;
 pub use physics::wave::LinearWave;
 pub use report::{Verdict, VerdictKind, end_text};
-pub use runs::assess::{Assessment, ByRestitution, DEFAULT_NEIGHBOURS, NEIGHBOUR, assess};
+pub use runs::assess::{Assessment, DEFAULT_NEIGHBOURS, assess};
 pub use runs::design::{Answer, Check, Criterion, RecordsCheck};
 pub use runs::elastic_comparison::{ElasticComparison, Inextensible, compare_elastic};
+pub use runs::further::NEIGHBOUR;
 pub use runs::motion::MotionSi;
 pub use runs::outcome::{LineOutcome, Outcome};
 pub use runs::quantile::quantile;
 pub use runs::seas::{Failing, Lines, SeaOutcome, Seas, seas};
 pub use runs::three_hours::NoDistribution;
+pub use runs::variations::{ByRestitution, ByWave, VerdictNumbers};
 pub use schema::{STRUCTURE, is_structure};
 pub use snapload_hydro::wave_number;
 pub use structure::{

@@ -78,7 +78,7 @@ pub(crate) fn answer(
 pub(super) struct RunRequest {
     /// The beginning of a long record only.
     pub(super) preview: bool,
-    /// Also its neighbours and other restitutions.
+    /// Also its neighbours, other restitutions and slightly other waves.
     pub(super) neighbours: bool,
     /// Its time budget.
     pub(super) time: Duration,
@@ -152,6 +152,8 @@ struct Answer {
     standing: &'static str,
     /// The numbers behind it with other restitutions, if those are run.
     rebound: Option<String>,
+    /// The same in slightly other regular waves.
+    nearby_waves: Option<String>,
     /// Whether this is the beginning of a longer record, and the length of that \[s\].
     preview: bool,
     lasts_s: f64,
@@ -219,6 +221,7 @@ impl Answer {
             summary: assessment.summary(name),
             standing: assessment.verdict().standing.words(),
             rebound: (!assessment.restitutions.is_empty()).then(|| assessment.rebound_text()),
+            nearby_waves: assessment.waves_text(),
             preview,
             lasts_s: case.structure.duration_s,
             transient_s: prepared.structure.transient_s,

@@ -78,6 +78,10 @@ fn a_run_agrees_with_assess() {
     assert_eq!(answer["standing"], direct.verdict().standing.words());
     assert_eq!(answer["rebound"], direct.rebound_text());
     assert_eq!(
+        answer["nearby_waves"].as_str(),
+        direct.waves_text().as_deref()
+    );
+    assert_eq!(
         answer["shell"],
         "snapload assess cylinder.toml --set 'wave.height=2.5' --set 'line.2.length=6.01'"
     );

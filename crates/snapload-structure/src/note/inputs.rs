@@ -29,10 +29,18 @@ pub(super) fn resistance(structure: &Structure) -> Vec<String> {
     ];
     let afloat = structure.afloat.iter().flat_map(|afloat| {
         let damping = &afloat.body.damping;
+        let names = match afloat.makes_waves() {
+            true => [
+                "surge (besides radiation)",
+                "heave (besides radiation)",
+                "pitch (besides radiation)",
+            ],
+            false => ["surge", "heave", "pitch"],
+        };
         [
-            ("surge (besides radiation)", damping[(0, 0)], "N s/m"),
-            ("heave (besides radiation)", damping[(1, 1)], "N s/m"),
-            ("pitch (besides radiation)", damping[(2, 2)], "N m s"),
+            (names[0], damping[(0, 0)], "N s/m"),
+            (names[1], damping[(1, 1)], "N s/m"),
+            (names[2], damping[(2, 2)], "N m s"),
         ]
     });
     let given = parts.into_iter().chain(afloat);

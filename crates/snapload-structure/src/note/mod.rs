@@ -24,7 +24,6 @@ use crate::text_layout::{digits, kilo, kilo_or_not_known, ratio, tenths};
 use askama::Template;
 use inputs::resistance;
 use snapload_figures::{FigureError, Picture};
-use std::cmp::Ordering;
 use std::fmt;
 
 /// Readable on a phone, in print, in light and dark.
@@ -106,14 +105,7 @@ pub fn page(
     let verdict = assessment.verdict();
     let mut hardest: Vec<&Snap> = assessment.judged().collect();
     let all = hardest.len();
-    // Snaps are sorted by their peak, if it is known, and before that by its part of the line's own
-    // breaking load.
-    let severity = |snap: &Snap| (snap.utilisation, snap.peak_n, snap.effective_speed_m_s);
-    hardest.sort_by(|a, b| {
-        severity(b)
-            .partial_cmp(&severity(a))
-            .unwrap_or(Ordering::Equal)
-    });
+    hardest.sort_by(|a, b| b.by_hardness(a));
     let mut hardest = group_equal(&hardest);
     hardest.truncate(LISTED);
     hardest.sort_by(|(a, _), (b, _)| a.t_s.total_cmp(&b.t_s));

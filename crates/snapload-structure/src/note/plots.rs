@@ -71,7 +71,7 @@ pub fn window(assessment: &Assessment) -> [f64; 2] {
         Water::Sea(sea) => 2.0 * sea.peak_period_s,
     };
     let judged = assessment.judged();
-    let hardest = judged.max_by(|a, b| a.speed_m_s.total_cmp(&b.speed_m_s));
+    let hardest = judged.max_by(|a, b| a.by_hardness(b));
     let width = (CLOSE * period).min(end);
     let middle = hardest.map_or(end, |snap| snap.t_s);
     let from = (middle - width / 2.0).clamp(0.0, end - width);

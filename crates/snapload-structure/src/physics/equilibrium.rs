@@ -10,7 +10,7 @@
 //! energy is taken, which is the highest if buoyancy is the only force.
 
 use super::model::Model;
-use crate::structure::Structure;
+use crate::structure::{LineSi, Structure};
 use nalgebra::{DMatrix, DVector, Matrix3, Vector3};
 use snapload::{CaseError, State, System};
 use snapload_hydro::shortest_solution;
@@ -42,7 +42,7 @@ pub struct Equilibrium {
     pub taut: Vec<usize>,
     /// Whether more lines are taut than the body has degrees of freedom, so that the distribution
     /// of the load depends on their stiffness; if that is not known the tensions are those of the
-    /// least sum of squares.
+    /// least sum of squares. Equal lines with the same ends count as one, as they share evenly.
     pub indeterminate: bool,
     /// Set if the stretch of the lines changes the distribution of the load: `tension_n` are then
     /// the tensions by stiffness.
@@ -96,7 +96,7 @@ pub fn equilibrium(structure: &Structure) -> Result<Equilibrium, CaseError> {
         theta_rad: -best.theta,
         tension_n: of_all(&model, &taut, &tension),
         rests: true,
-        indeterminate: dependent(system, &taut, &best),
+        indeterminate: dependent(system, &one_of_each(structure, &taut), &best),
         by_stiffness: None,
         either_side: false,
         not_on_elastic_lines: false,
@@ -140,13 +140,14 @@ impl Equilibrium {
 
     /// Distributes the load of a floating body that is held by more lines than necessary with the
     /// least sum of squares, as for a submerged one.
-    pub(super) fn distribute_by_least_squares(&mut self, model: &Model) {
+    pub(super) fn distribute_by_least_squares(&mut self, structure: &Structure, model: &Model) {
         let at = model.at_rest(self.place_m, self.theta_rad);
         let taut = touching(&model.system, &at);
         if taut.len() > 1 && dependent(&model.system, &taut, &at) {
             let (tension, _) = tensions(&model.system, &taut, &at);
             self.tension_n = of_all(model, &taut, &tension);
-            (self.indeterminate, self.taut) = (true, taut);
+            self.indeterminate = dependent(&model.system, &one_of_each(structure, &taut), &at);
+            self.taut = taut;
         }
     }
 }
@@ -420,4 +421,24 @@ fn tensions(system: &System, taut: &[usize], at: &State) -> (Vec<f64>, f64) {
 fn dependent(system: &System, taut: &[usize], at: &State) -> bool {
     let matrix = DMatrix::from_fn(3, taut.len(), |k, i| row(system, taut[i], at)[k]);
     matrix.rank(1e-9) < taut.len()
+}
+
+/// The taut lines without those that pull as an earlier one does: with the same ends, length and
+/// stiffness they share evenly.
+fn one_of_each(structure: &Structure, taut: &[usize]) -> Vec<usize> {
+    let lines = &structure.lines;
+    let is_as = |line: &LineSi, other: &LineSi| {
+        let known = line.stiffness_n.is_some();
+        known && line.stiffness_n == other.stiffness_n && line.is_strand_with(other)
+    };
+    let mut different: Vec<usize> = Vec::new();
+    for &line in taut {
+        if !different
+            .iter()
+            .any(|&other| is_as(&lines[line], &lines[other]))
+        {
+            different.push(line);
+        }
+    }
+    different
 }

@@ -7,7 +7,7 @@ use super::equilibrium::{
 };
 use super::model::{CURRENT, Model};
 use super::rates::check_rates;
-use crate::structure::{IrregularSea, Structure, Water};
+use crate::structure::{Structure, Water};
 use snapload::{CaseError, Simulation, StartError, State, Stop};
 use snapload_hydro::{held_summary, periods_summary};
 
@@ -70,7 +70,7 @@ impl ModelAtRest {
         let model = model_about_rest(&structure, &rest)?;
         check_rates(&structure, &model)?;
         if structure.afloat.is_some() {
-            rest.distribute_by_least_squares(&model);
+            rest.distribute_by_least_squares(&structure, &model);
         }
         let mut prepared = Self {
             modes_on_taut_lines,
@@ -119,13 +119,13 @@ impl ModelAtRest {
         }
     }
 
-    /// The same structure in another sea; its position of rest does not change.
+    /// The same structure in other waves; its position of rest does not change.
     ///
     /// # Errors
-    /// A [`CaseError`] if a floating body has no coefficients for it.
-    pub fn in_sea(&self, sea: IrregularSea) -> Result<Self, CaseError> {
+    /// A [`CaseError`] if a floating body has no coefficients for them.
+    pub fn in_water(&self, water: Water) -> Result<Self, CaseError> {
         let structure = Structure {
-            water: Water::Sea(sea),
+            water,
             ..self.structure.clone()
         };
         Ok(Self {

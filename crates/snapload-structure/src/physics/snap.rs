@@ -35,6 +35,7 @@ use super::model_at_rest::ModelAtRest;
 use crate::structure::LineSi;
 use serde::{Serialize, Serializer};
 use snapload::{Impact, Simulation, Step};
+use std::cmp::Ordering;
 
 /// A slower snap is the settling of the line: it is neither counted nor listed, but its tension is
 /// one of those by which the line is judged \[m/s\].
@@ -86,6 +87,15 @@ impl Snap {
     /// Whether it is counted among those after the transient.
     pub fn is_judged(&self, transient_s: f64) -> bool {
         self.counts() && self.t_s >= transient_s
+    }
+
+    /// The order from the softest to the hardest: by the part of the line's breaking load if that
+    /// is known, else by the peak, else by the speed.
+    pub(crate) fn by_hardness(&self, other: &Self) -> Ordering {
+        let all = |snap: &Self| (snap.utilisation, snap.peak_n, snap.effective_speed_m_s);
+        all(self)
+            .partial_cmp(&all(other))
+            .unwrap_or(Ordering::Equal)
     }
 }
 

@@ -23,7 +23,7 @@ pub struct Warning {
 impl Warning {
     /// Whether it applies to elastic lines, too, and not only to the tensions of inextensible ones.
     pub(crate) fn is_of_all_lines(&self) -> bool {
-        !self.leaves_open || [HYDROSTATICS, COMPONENTS, EMERGENCE].contains(&self.rule)
+        self.decided_by.is_none() && self.rule != NO_ELASTIC_REST
     }
 }
 
@@ -33,12 +33,18 @@ pub(super) const HYDROSTATICS: &str = "hydrostatics";
 pub(super) const EMERGENCE: &str = "emergence";
 /// The rule on the number of sinusoids of a sea.
 pub(super) const COMPONENTS: &str = "few components";
+/// The rule on a body that no elastic lines hold.
+pub(super) const NO_ELASTIC_REST: &str = "rest on elastic lines";
+/// The rule on the mean density of a body.
+pub(super) const DENSITY: &str = "density";
+/// The rule on its radius of gyration.
+pub(super) const INERTIA: &str = "moment of inertia";
 
 /// Whether a rule is violated on which tensions depend, and the command that decides, if one does.
 fn decided_by(rule: &str) -> (bool, Option<&'static str>) {
     match rule {
         "instant snap" | "shared loads" => (true, Some("snapload elastic")),
-        "rest on elastic lines" | HYDROSTATICS | COMPONENTS => (true, None),
+        NO_ELASTIC_REST | HYDROSTATICS | COMPONENTS | DENSITY | INERTIA => (true, None),
         _ => (false, None),
     }
 }

@@ -2,15 +2,16 @@
 
 use super::afloat::{left_out, loaded};
 use super::equilibrium::Equilibrium;
+use super::implausible::implausible;
 use super::model_at_rest::ModelAtRest;
 use super::sea_records::few_components;
 use super::softness::soft_lines;
-use super::warning::{HYDROSTATICS, Warning, warning_if};
+use super::warning::{HYDROSTATICS, NO_ELASTIC_REST, Warning, warning_if};
 use super::waterline::{Waterline, rest_beyond_in_words};
 use super::wave::LinearWave;
-use crate::structure::{Afloat, LineSi, Structure, Water};
+use crate::structure::{Afloat, Structure, Water};
 use crate::text_layout::{digits, kilo};
-use snapload_hydro::{Format, LARGE_PITCH};
+use snapload_hydro::{Format, LARGE_PITCH, Report};
 use std::f64::consts::PI;
 
 /// The highest wave of a three-hour sea is near this many significant heights: sqrt(ln 1000 / 2)
@@ -25,16 +26,14 @@ const DIFFRACTION: f64 = 0.2;
 /// Lines with more than this part of the moving mass are not massless, and lines whose weight is
 /// more than this part of the net buoyancy are not weightless.
 const LIGHT: f64 = 0.1;
-/// The largest plausible ratio of the body's length across the plane and its width, or the reverse.
-const PROPORTION: f64 = 100.0;
-/// The largest plausible ratio of a line's length to the distance of its ends with the body at the
-/// case's position.
-const LONGEST_RATIO: f64 = 3.0;
 /// The rotation of a body beyond this would be resisted by the water \[degrees\].
 const FREE_TURN: f64 = 60.0;
 /// Where the tensions at rest on elastic lines differ from those on inextensible lines by more than
 /// this part, so may all others, as the water then carries part of what moves the body.
 const STRETCHED: f64 = 0.1;
+/// Where the memory of a floating body lacks more than this part of its largest value to be
+/// passive, tensions are not reliable.
+const NOT_PASSIVE: f64 = 0.1;
 /// A change of the wave's phase of this much is no longer small \[rad\].
 const MOST_PHASE: f64 = 0.3;
 
@@ -64,7 +63,7 @@ pub fn warnings(prepared: &ModelAtRest) -> Vec<Warning> {
     if let Some((highest, wave)) = governing_wave(structure, z) {
         found.extend(in_waves(prepared, top, highest, &wave));
     }
-    found.push(heavy_lines(structure));
+    found.push(heavy_lines(structure, rest));
     found.extend(implausible(structure));
     found.into_iter().flatten().collect()
 }
@@ -78,19 +77,33 @@ fn near_the_floor(structure: &Structure, rest: &Equilibrium) -> Option<Warning> 
     warning_if(is, "floor", [above_floor, 0.0], "")
 }
 
-/// The warning that the mass of lines, or their weight in air, is not negligible.
-fn heavy_lines(structure: &Structure) -> Option<Warning> {
+/// The warning that the mass of lines, or their weight in air, is not negligible: beside the net
+/// buoyancy, or, where that is less than the weight, beside the largest tension at rest.
+fn heavy_lines(structure: &Structure, rest: &Equilibrium) -> Option<Warning> {
     let lines = structure.lines.iter();
     let masses = lines.filter_map(|line| Some(line.mass_per_length_kg_m? * line.length_m));
     let mass = masses.sum::<f64>();
     let [along, up] = structure.body.moving_mass_kg();
     let of_mass = mass / along.min(up);
-    // A body that floats on its own leaves the lines slack at rest.
-    let buoyancy_n = Some(structure.net_buoyancy_n()).filter(|newtons| *newtons > 0.0);
-    let of_buoyancy =
-        buoyancy_n.map_or(0.0, |newtons| mass * structure.site.gravity_m_s2 / newtons);
-    let is = of_mass > LIGHT || of_buoyancy > LIGHT;
-    warning_if(is, "light lines", [of_mass, of_buoyancy], "")
+    let (weight_n, buoyancy_n) = (
+        mass * structure.site.gravity_m_s2,
+        structure.net_buoyancy_n(),
+    );
+    if weight_n <= buoyancy_n {
+        let of_buoyancy = weight_n / buoyancy_n;
+        let is = of_mass > LIGHT || of_buoyancy > LIGHT;
+        return warning_if(is, "light lines", [of_mass, of_buoyancy], "");
+    }
+    let tensions_n = rest.known_tensions_n();
+    let pull_n = tensions_n.iter().flatten().fold(0.0_f64, |a, b| a.max(*b));
+    let words = format!(
+        "{} kN, more than the net buoyancy of {} kN, and no line pulls by more than {} kN at rest",
+        kilo(&weight_n, 1),
+        kilo(&buoyancy_n, 1),
+        kilo(&pull_n, 1)
+    );
+    let is = of_mass > LIGHT || weight_n > LIGHT * pull_n;
+    warning_if(is, "light lines", [of_mass, 0.0], &words)
 }
 
 /// The rules of a floating body: those of its coefficients, of its position of rest, of the waves
@@ -107,7 +120,7 @@ fn warnings_afloat(prepared: &ModelAtRest, afloat: &Afloat) -> Vec<Warning> {
         rule: warning.what,
         message: warning.message.clone(),
         decided_by: None,
-        leaves_open: false,
+        leaves_open: warning.what == "passivity" && is_far_from_passive(report),
     });
     let body = &structure.body;
     let heave = rest.place_m[1] - body.position_m[1];
@@ -146,9 +159,23 @@ fn warnings_afloat(prepared: &ModelAtRest, afloat: &Afloat) -> Vec<Warning> {
                 .is_some_and(|w| textbook || w.rule != "diffraction")
         }));
     }
-    found.push(heavy_lines(structure));
+    found.push(heavy_lines(structure, rest));
     found.extend(implausible(structure));
     of_file.chain(found.into_iter().flatten()).collect()
+}
+
+/// Whether what a memory lacks to be passive is no longer small: where linear damping is added for
+/// it, which the waves do not have, motions and tensions are too small, and a given memory feeds
+/// energy into the motion.
+fn is_far_from_passive(report: &Report) -> bool {
+    let fit = &report.fit;
+    let fitted = fit.blocks.iter().map(|block| block.least);
+    let last = report.reading.hydro.range_rad_s()[1];
+    let given = fit
+        .blocks
+        .is_empty()
+        .then(|| fit.memory.least_eigenvalue(last));
+    fitted.chain(given).any(|least| least < -NOT_PASSIVE)
 }
 
 /// The warnings where the motion of a floating body left the range of linear theory; the verdict
@@ -215,7 +242,7 @@ fn distribution_warning(rest: &Equilibrium) -> Option<Warning> {
 /// The warning that elastic lines of the stiffness given hold the body nowhere at rest.
 fn no_elastic_rest(rest: &Equilibrium) -> Option<Warning> {
     let is = rest.not_on_elastic_lines;
-    warning_if(is, "rest on elastic lines", [0.0; 2], "")
+    warning_if(is, NO_ELASTIC_REST, [0.0; 2], "")
 }
 
 /// The warning that lines are too soft for a motion in still water, by the scale of its time, 2πT.
@@ -251,29 +278,6 @@ fn stretch_at_rest(rest: &Equilibrium) -> Option<Warning> {
 fn each_kilo(tensions_n: &[f64]) -> String {
     let each = tensions_n.iter().map(|pull| kilo(pull, 0));
     each.collect::<Vec<_>>().join("/")
-}
-
-/// The warnings of data that can be computed but are probably wrong.
-fn implausible(structure: &Structure) -> [Option<Warning>; 3] {
-    let body = &structure.body;
-    let (length, size) = (body.length_m(), body.width_m.max(body.height_m));
-    let odd = !(size / PROPORTION..=size * PROPORTION).contains(&length);
-    let numbered = || structure.lines.iter().zip(1..);
-    let listed = |numbers: Vec<String>| numbers.join(", ");
-    let outside = numbered().filter(|(line, _)| !body.reaches(line.fairlead_m));
-    let outside = listed(outside.map(|(_, number)| number.to_string()).collect());
-    let slack = |line: &LineSi| {
-        let [x, z] = [0, 1].map(|k| line.fairlead_m[k] - line.anchor_m[k]);
-        line.length_m / x.hypot(z)
-    };
-    let long = numbered().filter(|(line, _)| slack(line) > LONGEST_RATIO);
-    let long = long.map(|(line, number)| format!("line {number} {:.1} times", slack(line)));
-    let long = listed(long.collect());
-    [
-        warning_if(odd, "proportions", [length, size], ""),
-        warning_if(!outside.is_empty(), "fairleads", [0.0; 2], &outside),
-        warning_if(!long.is_empty(), "long lines", [0.0; 2], &long),
-    ]
 }
 
 /// The rules in waves, given the height of the highest one.

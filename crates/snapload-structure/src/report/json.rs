@@ -113,6 +113,7 @@ impl Assessment {
                 "peak_tension_quantiles_n": self.spread(),
             },
             "by_restitution": self.by_restitution(),
+            "by_wave": self.by_wave(),
             "checks": checks.collect::<Vec<_>>(),
             "warnings": self.warnings,
             "rest": position_of_rest(rest),

@@ -9,13 +9,14 @@ use crate::physics::periods::{NaturalPeriods, periods_text};
 use crate::physics::snap::{SLOWEST_M_S, Snap};
 use crate::physics::warning::Warning;
 use crate::physics::wave::LinearWave;
-use crate::runs::assess::{Assessment, ByRestitution};
+use crate::runs::assess::Assessment;
 use crate::runs::design::Check;
 use crate::runs::elastic_comparison::{ElasticComparison, Inextensible};
 use crate::runs::outcome::Outcome;
 use crate::runs::quantile::{quantile, slack_part};
 use crate::runs::seas::{Lines, Seas};
 use crate::runs::three_hours::NoDistribution;
+use crate::runs::variations::{ByWave, VerdictNumbers};
 use crate::structure::{Structure, Water};
 use crate::text_layout::{count, decimals, digits, kilo, lay_out, ratio, tenths};
 use askama::Template;
@@ -37,6 +38,7 @@ struct AssessText<'a> {
     utilisations: Vec<Option<f64>>,
     end: &'static str,
     rebound: String,
+    waves: Option<String>,
     checks: Vec<(Check, usize)>,
     neighbours: &'a usize,
     warnings: &'a [Warning],
@@ -91,6 +93,7 @@ impl Assessment {
             utilisations: self.outcome.utilisations(&prepared.structure),
             end: end_text(self.outcome.stop),
             rebound: self.rebound_text(),
+            waves: self.waves_text(),
             checks: self.checks(),
             neighbours: &self.neighbours.len(),
             warnings: &self.warnings,
@@ -102,31 +105,61 @@ impl Assessment {
     /// The numbers behind the verdict with less and with more restitution, in words.
     pub fn rebound_text(&self) -> String {
         let rows = self.by_restitution();
-        // Without a stiffness a utilisation is known only where nothing snaps: rows that can be
-        // compared show the speeds, which every judged run has.
-        let mut judged = rows.iter().filter(|row| row.fastest_snap_m_s.is_some());
-        let by_tension = judged.all(|row| row.largest_utilisation.is_some());
-        let what = match by_tension {
-            true => "largest utilisation",
-            false => "fastest snap (m/s)",
-        };
-        let value = |row: &ByRestitution| match by_tension {
-            true => row.largest_utilisation,
-            false => row.fastest_snap_m_s,
-        };
-        if rows.iter().all(|row| value(row).is_none()) {
+        let numbers: Vec<_> = rows.iter().map(|row| row.numbers).collect();
+        let Some((what, values)) = compared(&numbers) else {
             return "nothing is judged with a lower or higher restitution either".to_owned();
-        }
-        let in_words = |row: &ByRestitution| match value(row) {
-            Some(value) if row.cut_short => format!("at least {}", ratio(&value)),
-            Some(value) => ratio(&value),
-            None => "not judged".to_owned(),
         };
-        let values: Vec<_> = rows.iter().map(in_words).collect();
         let restitutions: Vec<_> = rows.iter().map(|row| ratio(&row.restitution)).collect();
         let [values, restitutions] = [values, restitutions].map(|all| all.join(", "));
         format!("{what} {values} with a restitution of {restitutions}")
     }
+
+    /// The numbers behind the verdict in slightly other regular waves, in words; none where these
+    /// are not run.
+    pub fn waves_text(&self) -> Option<String> {
+        let rows = self.by_wave();
+        let own = *rows.first()?;
+        let numbers: Vec<_> = rows.iter().map(|row| row.numbers).collect();
+        let Some((what, values)) = compared(&numbers) else {
+            return Some("nothing is judged in slightly other waves either".to_owned());
+        };
+        let group = |of: fn(&ByWave) -> f64, other: fn(&ByWave) -> f64| {
+            let all = rows.iter().zip(&values);
+            let mut all: Vec<_> = all.filter(|(row, _)| other(row) == other(&own)).collect();
+            all.sort_by(|(a, _), (b, _)| of(a).total_cmp(&of(b)));
+            let sizes: Vec<_> = all.iter().map(|(row, _)| of(row).to_string()).collect();
+            let values: Vec<_> = all.iter().map(|(_, value)| value.as_str()).collect();
+            (values.join(", "), sizes.join(", "))
+        };
+        let (by_height, heights) = group(|row| row.height_m, |row| row.period_s);
+        let (by_period, periods) = group(|row| row.period_s, |row| row.height_m);
+        Some(format!(
+            "{what} {by_height} with a height of {heights} m; {by_period} with a period of {periods} s"
+        ))
+    }
+}
+
+/// What verdicts are compared by, and its value in each, in words; none where nothing is judged.
+fn compared(numbers: &[VerdictNumbers]) -> Option<(&'static str, Vec<String>)> {
+    // Without a stiffness a utilisation is known only where nothing snaps: rows that can be
+    // compared show the speeds, which every judged run has.
+    let mut judged = numbers.iter().filter(|of| of.fastest_snap_m_s.is_some());
+    let by_tension = judged.all(|of| of.largest_utilisation.is_some());
+    let what = match by_tension {
+        true => "largest utilisation",
+        false => "fastest snap (m/s)",
+    };
+    let value = |of: &VerdictNumbers| match by_tension {
+        true => of.largest_utilisation,
+        false => of.fastest_snap_m_s,
+    };
+    let in_words = |of: &VerdictNumbers| match value(of) {
+        Some(value) if of.cut_short => format!("at least {}", ratio(&value)),
+        Some(value) => ratio(&value),
+        None => "not judged".to_owned(),
+    };
+    let known = numbers.iter().any(|of| value(of).is_some());
+    known.then(|| (what, numbers.iter().map(in_words).collect()))
 }
 
 impl Seas {

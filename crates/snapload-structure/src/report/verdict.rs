@@ -1,18 +1,17 @@
-//! The verdict in words, and how far it can be trusted.
+//! The verdict in words.
 
 use crate::physics::elastic::LEAST_RESTITUTION;
 use crate::physics::snap::SLOWEST_M_S;
 use crate::physics::warning::Warning;
-use crate::runs::assess::{Assessment, TOLERANCE};
+use crate::runs::assess::Assessment;
 use crate::runs::elastic_comparison::ElasticComparison;
 use crate::runs::outcome::{LineOutcome, Outcome};
 use crate::runs::three_hours::{NoDistribution, one_run_is_too_little};
-use crate::structure::{LineSi, Structure, Water};
+use crate::structure::{LineSi, Structure};
 use crate::text_layout::{digits, kilo, paragraph, ratio, tenths};
 use askama::Template;
 use serde::Serialize;
 use snapload::Stop;
-use snapload::analysis::{HorizonCause, Trust};
 use std::cmp::Ordering;
 
 /// The kind of verdict.
@@ -28,8 +27,9 @@ pub enum VerdictKind {
     /// A tension or a breaking load is not known.
     Unknown,
     /// A rule is violated on which the tensions depend, so that another command has to decide. Or a
-    /// line would break only before the judged time, or only in neighbours of the run. Or records
-    /// of a sea are too short or too few to tell whether one breaks in three hours.
+    /// line would break only before the judged time, or only in neighbours of the run or in waves
+    /// that differ by one percent. Or records of a sea are too short or too few to tell whether one
+    /// breaks in three hours.
     Open,
 }
 
@@ -75,9 +75,6 @@ pub fn end_text(stop: Stop) -> &'static str {
     }
 }
 
-/// With fewer neighbours, no statement about 90 % of them is made.
-const FEWEST_NEIGHBOURS: usize = 10;
-
 #[derive(Template)]
 #[template(path = "verdict.txt")]
 struct VerdictText<'a> {
@@ -109,24 +106,6 @@ struct VerdictText<'a> {
     stiffer: f64,
     /// Whether each line's stiffness is known.
     stiffness_known: bool,
-}
-
-#[derive(Template)]
-#[template(path = "trust.txt")]
-struct TrustText<'a> {
-    trust: &'a Trust,
-    horizon_s: Option<f64>,
-    /// The error up to which the run is certain.
-    error_m: f64,
-    /// The quantiles of the neighbours' largest tensions, as they are shown.
-    spread_kn: Option<[String; 3]>,
-    /// Whether no line snaps in any of the neighbours.
-    snapless: bool,
-    /// Whether the neighbours' peaks differ by more than rounding.
-    scattered: bool,
-    count: usize,
-    failing: usize,
-    irregular: bool,
 }
 
 /// The violated rules on which tensions depend.
@@ -378,71 +357,6 @@ impl Assessment {
         let early = Early::taut_or_snap(structure, outcome).chain(early);
         let early = Early::hardest(early, structure, outcome);
         let alone = verdict(structure, outcome, &self.warnings, early, None);
-        self.with_neighbours_in(alone)
-    }
-
-    /// A verdict that no line breaks does not stand if a line breaks in a neighbour, and any
-    /// verdict says with which restitution the answer would be another.
-    fn with_neighbours_in(&self, mut verdict: Verdict) -> Verdict {
-        let fails = match verdict.standing {
-            VerdictKind::Holds => false,
-            VerdictKind::Open if undecided_by(&self.warnings).is_none() => false,
-            VerdictKind::Breaks | VerdictKind::Exceeds => true,
-            VerdictKind::Open | VerdictKind::Unknown => return verdict,
-        };
-        let structure = &self.prepared.structure;
-        let otherwise = |outcome: &Outcome| outcome.fails_as_computed(structure) == Some(!fails);
-        let (in_neighbours, with_restitution) = match fails {
-            false => (
-                "a line would break or the mooring fail",
-                "a line would break or the mooring fail",
-            ),
-            true => (
-                "no line breaks and the mooring holds",
-                "no line would break and the mooring would hold",
-            ),
-        };
-        let differing = self.neighbours.iter().filter(|n| otherwise(n)).count();
-        if differing > 0 {
-            let so = match verdict.standing {
-                VerdictKind::Holds => {
-                    verdict.standing = VerdictKind::Open;
-                    ", so the verdict is open"
-                }
-                _ => "",
-            };
-            verdict.words += &format!(
-                " In {differing} of {} neighbours {in_neighbours}{so}.",
-                self.neighbours.len()
-            );
-        }
-        let others = self
-            .restitutions
-            .iter()
-            .filter(|(_, outcome)| otherwise(outcome));
-        let others: Vec<String> = others.map(|(e, _)| format!("{e:.2}")).collect();
-        if !others.is_empty() {
-            verdict.words += &format!(
-                " With a restitution of {} {with_restitution}; the restitution must be known.",
-                others.join(" or ")
-            );
-        }
-        verdict
-    }
-
-    /// How far the run can be trusted, with the numbers.
-    pub fn trust_text(&self) -> String {
-        let spread = self.spread();
-        paragraph(&TrustText {
-            scattered: spread.is_some_and(|[low, _, high]| high > 1.02 * low),
-            trust: &self.trust,
-            snapless: spread.is_some() && self.neighbours.iter().all(|n| n.peak_n().is_none()),
-            horizon_s: self.horizon_s(),
-            error_m: TOLERANCE * self.prepared.model.scales.length_m,
-            spread_kn: spread.map(|spread| spread.map(|newtons| kilo(&newtons, 0))),
-            count: self.neighbours.len(),
-            failing: self.neighbours.iter().filter(|n| n.stop.exceeds()).count(),
-            irregular: matches!(self.prepared.structure.water, Water::Sea(_)),
-        })
+        self.with_other_runs(alone)
     }
 }

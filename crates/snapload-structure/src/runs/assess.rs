@@ -1,20 +1,17 @@
 //! The assessment of one structure: do the lines go slack, how hard do they snap, do they break?
 
 use super::design::{Check, checks};
+use super::further::{FurtherOutcomes, FurtherRuns};
 use super::outcome::{Outcome, OutcomeCounter};
 use super::quantile::{quantile, sorted};
 use crate::options::{NEIGHBOURS, check};
 use crate::physics::model_at_rest::ModelAtRest;
 use crate::physics::periods::NaturalPeriods;
-use crate::physics::sea::uniform;
 use crate::physics::sea_records::short_run;
 use crate::physics::snap::Snap;
 use crate::physics::warning::Warning;
 use crate::physics::warnings::{limits_afloat, phase_warning, turning_warning, warnings};
-use crate::structure::Structure;
-use rand_chacha::ChaCha8Rng;
-use rand_chacha::rand_core::SeedableRng;
-use serde::Serialize;
+use crate::structure::{Structure, Wave};
 use snapload::analysis::{
     Counter, OnProgress, Trust, TrustMonitor, Unfinished, in_parallel, record,
 };
@@ -22,10 +19,6 @@ use snapload::{Playback, Trajectory};
 
 /// A state counts as known while its standard deviation is below this, in the engine's units.
 pub(crate) const TOLERANCE: f64 = 1e-3;
-/// The distance of neighbours from the run, as a part of the waves' height.
-pub const NEIGHBOUR: f64 = 1e-6;
-/// By this the restitution is varied, as it is rarely known more accurately.
-const RESTITUTION: f64 = 0.2;
 /// Times between the start and the end at which the position of the body is evaluated.
 const POSITION_SAMPLES: u32 = 20_000;
 
@@ -49,21 +42,11 @@ pub struct Assessment {
     /// The same with less and with more restitution, each with its coefficient; empty without
     /// neighbours.
     pub restitutions: Vec<(f64, Outcome)>,
+    /// The same in regular waves that are slightly lower, higher, shorter and longer; empty without
+    /// neighbours, in a sea and in still water.
+    pub waves: Vec<(Wave, Outcome)>,
     /// Neighbours of the run; empty in still water, where there are no waves to vary.
     pub neighbours: Vec<Outcome>,
-}
-
-/// The numbers behind the verdict for one coefficient of restitution.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
-pub struct ByRestitution {
-    /// e.
-    pub restitution: f64,
-    /// The largest utilisation of any line; none if that of one is not known.
-    pub largest_utilisation: Option<f64>,
-    /// The fastest snap of any line; none without judged time \[m/s\].
-    pub fastest_snap_m_s: Option<f64>,
-    /// Whether the run is cut short, so that both may be larger in full.
-    pub cut_short: bool,
 }
 
 /// The number of neighbours unless given.
@@ -97,13 +80,10 @@ pub fn assess(
             Run::Other(outcome) => outcomes.push(outcome),
         }
     }
-    let (restitutions, neighbours) = further.part(outcomes);
+    let further = further.sorted(outcomes);
     let recorded = recorded.expect("the first of the runs is followed");
-    Ok(Assessment {
-        restitutions,
-        neighbours,
-        ..Assessment::of_run(prepared, *recorded)
-    })
+    let alone = Assessment::of_run(prepared, *recorded);
+    Ok(alone.with_further(further))
 }
 
 /// One of the runs of an assessment.
@@ -139,66 +119,6 @@ impl RecordedRun {
     }
 }
 
-/// The runs besides that of the case: with less and with more restitution, and its neighbours.
-struct FurtherRuns<'a> {
-    prepared: &'a ModelAtRest,
-    restitutions: Vec<f64>,
-    /// Zero in still water, where there are no waves to vary.
-    neighbours: usize,
-}
-
-impl<'a> FurtherRuns<'a> {
-    fn new(prepared: &'a ModelAtRest, neighbours: u32) -> Self {
-        let waves = prepared.structure.has_waves();
-        Self {
-            prepared,
-            restitutions: restitutions_about(prepared.structure.restitution),
-            neighbours: if waves { neighbours as usize } else { 0 },
-        }
-    }
-
-    fn len(&self) -> usize {
-        self.restitutions.len() + self.neighbours
-    }
-
-    fn run(&self, index: usize, on_progress: OnProgress) -> Result<Outcome, Unfinished> {
-        match index.checked_sub(self.restitutions.len()) {
-            None => {
-                let other = self.prepared.with_restitution(self.restitutions[index]);
-                Outcome::of(&other, 1.0, on_progress)
-            }
-            Some(index) => {
-                let height = 1.0 + NEIGHBOUR * perturbation(index as u32);
-                Outcome::of(self.prepared, height, on_progress)
-            }
-        }
-    }
-
-    /// Separates the outcomes with another restitution, each with its coefficient, from those of
-    /// the neighbours.
-    fn part(&self, mut outcomes: Vec<Outcome>) -> (Vec<(f64, Outcome)>, Vec<Outcome>) {
-        let neighbours = outcomes.split_off(self.restitutions.len());
-        let restitutions = self.restitutions.iter().copied().zip(outcomes);
-        (restitutions.collect(), neighbours)
-    }
-}
-
-/// A smaller and a larger restitution than that of the case, within the values allowed.
-fn restitutions_about(restitution: f64) -> Vec<f64> {
-    let further = [-RESTITUTION, RESTITUTION].map(|more| (restitution + more).clamp(0.0, 1.0));
-    further
-        .into_iter()
-        .filter(|other| *other != restitution)
-        .collect()
-}
-
-/// A number, uniform in [−1, 1), for each neighbour.
-fn perturbation(index: u32) -> f64 {
-    let mut generator = ChaCha8Rng::seed_from_u64(1);
-    generator.set_stream(u64::from(index));
-    2.0 * uniform(&mut generator) - 1.0
-}
-
 impl Assessment {
     /// Runs a structure by itself: its verdict, without neighbours and without other restitutions.
     ///
@@ -225,6 +145,7 @@ impl Assessment {
             snaps,
             outcome,
             restitutions: Vec::new(),
+            waves: Vec::new(),
             neighbours: Vec::new(),
             prepared,
         };
@@ -250,12 +171,12 @@ impl Assessment {
         short.chain(phase).chain(turning).chain(limits).collect()
     }
 
-    /// The same with `count` neighbours, and with less and with more restitution.
+    /// The same with `count` neighbours, with less and with more restitution, and in other waves.
     ///
     /// # Errors
     /// Those of [`assess`].
     pub fn with_neighbours(
-        mut self,
+        self,
         neighbours: u32,
         on_progress: OnProgress,
     ) -> Result<Self, Unfinished> {
@@ -264,32 +185,21 @@ impl Assessment {
         let outcomes = in_parallel(further.len(), |index| {
             counter.part(|within| further.run(index, within))
         })?;
-        (self.restitutions, self.neighbours) = further.part(outcomes);
-        Ok(self)
+        let further = further.sorted(outcomes);
+        Ok(self.with_further(further))
+    }
+
+    fn with_further(mut self, further: FurtherOutcomes) -> Self {
+        self.restitutions = further.restitutions;
+        self.waves = further.waves;
+        self.neighbours = further.neighbours;
+        self
     }
 
     /// Time up to which the run can be trusted \[s\]; none if all of it.
     pub fn horizon_s(&self) -> Option<f64> {
         let time = self.prepared.model.scales.time_s;
         self.trust.horizon.map(|horizon| horizon.t * time)
-    }
-
-    /// The numbers behind the verdict with less and with more restitution, the least first.
-    pub fn by_restitution(&self) -> Vec<ByRestitution> {
-        let structure = &self.prepared.structure;
-        let of = |restitution: f64, outcome: &Outcome| {
-            let all: Option<Vec<f64>> = outcome.utilisations(structure).into_iter().collect();
-            ByRestitution {
-                restitution,
-                largest_utilisation: all.map(|all| all.into_iter().fold(0.0, f64::max)),
-                fastest_snap_m_s: (!outcome.is_unjudged()).then(|| outcome.speed_m_s()),
-                cut_short: outcome.stop.cuts_short(),
-            }
-        };
-        let mut rows = vec![of(structure.restitution, &self.outcome)];
-        rows.extend(self.restitutions.iter().map(|(e, outcome)| of(*e, outcome)));
-        rows.sort_by(|a, b| a.restitution.total_cmp(&b.restitution));
-        rows
     }
 
     /// The checks by the rule of the case, and the neighbours that agree with each.

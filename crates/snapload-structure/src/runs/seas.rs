@@ -103,7 +103,7 @@ pub fn seas(
     let counter = Counter::new("records", 0, count.into(), on_progress);
     let records = in_parallel(count as usize, |index| {
         let seed = sea.seed + index as u64;
-        let record = prepared.in_sea(IrregularSea { seed, ..sea })?;
+        let record = prepared.in_water(Water::Sea(IrregularSea { seed, ..sea }))?;
         let (record, outcome) = counter.part(|within| match lines {
             Lines::Inextensible => {
                 let outcome = Outcome::of(&record, 1.0, within)?;

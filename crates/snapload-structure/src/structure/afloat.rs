@@ -96,6 +96,11 @@ impl Afloat {
             constant_moment_n_m: fields.need("constant_moment")?,
         })
     }
+
+    /// Whether the body makes waves, which damp its motion; one without a file does not.
+    pub(crate) fn makes_waves(&self) -> bool {
+        !self.report.fit.memory.terms.is_empty()
+    }
 }
 
 /// The path of the file that a key names, if it names one.

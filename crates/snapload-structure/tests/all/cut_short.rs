@@ -23,9 +23,9 @@ fn what_is_cut_short_is_at_least_as_much() {
         };
         let outcome = Outcome::of(&ModelAtRest::new(changed).unwrap(), 1.0, &no_progress).unwrap();
         let cut_short = outcome.stop == Stop::ImpactLimit;
-        assert_eq!(row.cut_short, cut_short, "{}", row.restitution);
+        assert_eq!(row.numbers.cut_short, cut_short, "{}", row.restitution);
     }
-    let cut_short = rows.iter().filter(|row| row.cut_short).count();
+    let cut_short = rows.iter().filter(|row| row.numbers.cut_short).count();
     assert!(cut_short > 0);
     assert_eq!(
         assessment.rebound_text().matches("at least").count(),

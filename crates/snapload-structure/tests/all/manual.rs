@@ -160,6 +160,11 @@ fn errors_name_the_line_the_key_and_what_to_do() {
         twice.contains("[body] occurs twice; write all its keys below one"),
         "{twice}"
     );
+    let many = refusal("[body]", "[[body]]");
+    assert!(
+        many.contains("body (an array of tables, in double brackets) is not allowed"),
+        "{many}"
+    );
     let lines = refusal("[[line]]", "[line]");
     assert!(lines.contains("[[line]]"), "{lines}");
     let mut entries = read(example);

@@ -44,9 +44,11 @@ fn a_map_of_speeds_has_no_utilisations() {
 fn restitutions_are_compared_by_what_all_runs_have() {
     let assessment = assess(without_stiffness(0.95, 4.0), 0, &no_progress).unwrap();
     let rows = assessment.by_restitution();
-    let known = rows.iter().filter(|row| row.largest_utilisation.is_some());
+    let known = rows
+        .iter()
+        .filter(|row| row.numbers.largest_utilisation.is_some());
     assert!((1..rows.len()).contains(&known.count()), "{rows:?}");
-    let speeds = rows.iter().map(|row| row.fastest_snap_m_s.unwrap());
+    let speeds = rows.iter().map(|row| row.numbers.fastest_snap_m_s.unwrap());
     let speeds: Vec<String> = speeds.map(|speed| format!("{speed:.2}")).collect();
     let words = assessment.rebound_text();
     let told = format!("fastest snap (m/s) {} with", speeds.join(", "));

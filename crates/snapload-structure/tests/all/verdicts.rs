@@ -253,7 +253,8 @@ fn the_restitution_is_varied() {
     assert_eq!(es, [0.3, 0.5, 0.7]);
     let alone = text.replace("restitution = 0.5", "restitution = 0.7");
     let alone = assess(structure(&alone), 0, &no_progress).unwrap();
-    assert_eq!(rows[2].fastest_snap_m_s, Some(alone.outcome.speed_m_s()));
+    let fastest_m_s = rows[2].numbers.fastest_snap_m_s;
+    assert_eq!(fastest_m_s, Some(alone.outcome.speed_m_s()));
     let rigid = text.replace("restitution = 0.5", "restitution = 1");
     let rigid = assess(structure(&rigid), 0, &no_progress).unwrap();
     assert_eq!(rigid.by_restitution().len(), 2);

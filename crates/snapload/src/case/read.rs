@@ -191,8 +191,22 @@ fn tables<'a, 'i>(
     };
     tables.ok_or_else(|| {
         let allowed = format!("a line {} with its keys below it", table.header());
-        CaseError::value(table.name, "(something else)", allowed)
+        CaseError::value(table.name, in_place_of_a_table(value), allowed)
     })
+}
+
+/// What stands in a file in place of a table, in words or as it is written.
+fn in_place_of_a_table(value: &DeValue<'_>) -> String {
+    match value {
+        DeValue::Table(_) => "(one table)".to_owned(),
+        DeValue::Array(items) if items.iter().any(|item| item.get_ref().is_table()) => {
+            "(an array of tables, in double brackets)".to_owned()
+        }
+        other => match value_of(other) {
+            Ok(value) => value.to_string(),
+            Err(words) => words.into_owned(),
+        },
+    }
 }
 
 /// Adds to the error of a key above all headings the heading below which it belongs.
