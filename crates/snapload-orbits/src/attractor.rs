@@ -1,12 +1,13 @@
 //! Orbits found from long motions: on the attractor of one start, or from many random starts.
 
+use crate::exponents_text::exponent_text;
 use crate::hybrid::{Family, Point, distance};
 use crate::lap::SAME;
 use crate::moored::Moored;
 use crate::multipliers::Stability;
 use crate::orbit::{NoOrbit, Orbit, OrbitRequest};
 use crate::section::{LONGEST_PERIOD, Section, SectionOptions, period_of};
-use crate::summary::{exponent_text, periods};
+use crate::summary::periods;
 use snapload::analysis::{Counter, OnProgress, Progress, Unfinished, on_all_threads};
 use snapload::{Case, Limit, Parameters};
 

@@ -39,6 +39,7 @@ mod diagram;
 mod distances;
 mod erosion;
 mod exponents;
+mod exponents_text;
 mod follower;
 mod growth;
 mod half_branch;

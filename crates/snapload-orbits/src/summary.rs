@@ -3,6 +3,7 @@
 use crate::basin::Basin;
 use crate::diagram::DiagramPoint;
 use crate::erosion::{Erosion, KNEE};
+use crate::exponents_text::{exponent_text, exponents_text};
 use crate::orbit::Orbit;
 use crate::section::Section;
 use crate::sequence::Sequence;
@@ -102,41 +103,6 @@ fn events_text(sequence: &Sequence) -> String {
         true => "none".to_owned(),
         false => all.join(", "),
     }
-}
-
-/// An exponent with its standard error, which is rounded up so that the accuracy is not overstated.
-pub(crate) fn exponent_text([mean, error]: [f64; 2]) -> String {
-    let known = (error * 1e4).ceil().max(1.0) / 1e4;
-    match (mean.is_finite(), error.is_finite()) {
-        // Adding 0 makes 0 of -0.
-        (true, true) => format!("{:.4} +- {known:.4}", (mean * 1e4).round() / 1e4 + 0.0),
-        (true, false) if error.is_nan() => {
-            format!("{mean:.4} (too few periods for an error estimate)")
-        }
-        (true, false) => format!("{mean:.4} (not known: it grows as v_stick falls)"),
-        (false, _) => "-inf".to_owned(),
-    }
-}
-
-/// The exponents of a section in a line.
-fn exponents_text(section: &Section) -> String {
-    let exponents = &section.exponents;
-    let left = exponents.iter().filter(|[mean, _]| mean.is_finite());
-    let mut all: Vec<String> = left.map(|both| exponent_text(*both)).collect();
-    let closed = exponents.len() - all.len();
-    if closed > 0 {
-        // Each taut cable closes two directions, for good; what a snap closes is not counted.
-        let times = section.contacts.get(closed.div_ceil(2) - 1).copied();
-        let times = match times.unwrap_or(0) {
-            0 => String::new(),
-            1 => ", once".to_owned(),
-            n => format!(", {n} times"),
-        };
-        all.push(format!(
-            "{closed} of -inf (directions closed by contact{times})"
-        ));
-    }
-    all.join(", ")
 }
 
 /// A message if a motion stopped before the first point of its section; it continues "the motion of

@@ -1,6 +1,6 @@
 //! Every bad file is refused with a message that names the error, and none causes a panic.
 
-use crate::common::{Spoilt, bytes, dataset, path};
+use crate::common::{Spoilt, bytes, dataset, path, wamit_files};
 use nalgebra::Matrix3;
 use snapload_hydro::{
     Dataset, FirstColumn, Format, Given, Reading, Values, WamitText, from_dataset, from_wamit, read,
@@ -223,12 +223,7 @@ fn the_case_has_to_agree() {
 }
 
 fn wamit() -> (WamitText, Given) {
-    let text = |name: &str| String::from_utf8(bytes(name)).expect(name);
-    let files = WamitText {
-        radiation: text("pontoon-deep.1"),
-        excitation: text("pontoon-deep.3"),
-        hydrostatics: Some(text("pontoon-deep.hst")),
-    };
+    let files = wamit_files();
     let given = Given {
         density_kg_m3: Some(1025.0),
         gravity_m_s2: Some(9.81),

@@ -1,6 +1,6 @@
 //! Files and tables that several tests use.
 
-use snapload_hydro::{Dataset, Given, Hydrodynamics, Reading, Values, Variable, read};
+use snapload_hydro::{Dataset, Given, Hydrodynamics, Reading, Values, Variable, WamitText, read};
 use std::path::{Path, PathBuf};
 
 /// A file beside the tests.
@@ -62,6 +62,16 @@ impl Spoilt {
         variables
             .map(|(name, variable)| (name.clone(), variable.clone()))
             .collect()
+    }
+}
+
+/// The pontoon's files in the format of WAMIT.
+pub fn wamit_files() -> WamitText {
+    let text = |end: &str| String::from_utf8(bytes(&format!("pontoon-deep.{end}"))).expect("text");
+    WamitText {
+        radiation: text("1"),
+        excitation: text("3"),
+        hydrostatics: Some(text("hst")),
     }
 }
 

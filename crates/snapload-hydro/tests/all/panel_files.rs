@@ -1,7 +1,7 @@
 //! Files of panel codes with several bodies, with noise, with outlying frequencies, and with parts
 //! missing.
 
-use crate::common::{Spoilt, bytes, dataset};
+use crate::common::{Spoilt, dataset, wamit_files};
 use snapload_hydro::{
     Dataset, FitOptions, Format, Given, Hydrodynamics, Reading, Report, Request, Values, Variable,
     WamitText, from_dataset, from_wamit, page,
@@ -205,15 +205,6 @@ fn missing_damping_is_noticed() {
     assert!(warnings(none).contains(&"no damping"));
 }
 
-fn wamit() -> WamitText {
-    let text = |end: &str| String::from_utf8(bytes(&format!("pontoon-deep.{end}"))).expect("text");
-    WamitText {
-        radiation: text("1"),
-        excitation: text("3"),
-        hydrostatics: Some(text("hst")),
-    }
-}
-
 fn given() -> Given {
     Given {
         density_kg_m3: Some(1025.0),
@@ -233,7 +224,7 @@ fn given() -> Given {
 #[test]
 fn wamits_stiffness_has_the_centre_of_buoyancy() {
     let with = |entry: &str| {
-        let mut files = wamit();
+        let mut files = wamit_files();
         let hst = files.hydrostatics.take().expect("a file");
         let kept = hst
             .lines()
@@ -279,7 +270,7 @@ fn parts_of_wamits_files_that_are_missing_are_named() {
         let error = from_wamit(files, &given()).expect_err("a refusal");
         error.to_string()
     };
-    let mut files = wamit();
+    let mut files = wamit_files();
     files.hydrostatics = Some("3 3 80\n5 5 nan\n".to_owned());
     let message = refusal(&files);
     assert!(
@@ -287,7 +278,7 @@ fn parts_of_wamits_files_that_are_missing_are_named() {
         "{message}"
     );
 
-    let mut files = wamit();
+    let mut files = wamit_files();
     let mut of_pitch = 0;
     let kept = files.excitation.lines().filter(|line| {
         let is_pitch = line.split_whitespace().nth(2) == Some("5");
@@ -300,7 +291,7 @@ fn parts_of_wamits_files_that_are_missing_are_named() {
         assert!(message.contains(part), "{message}");
     }
 
-    let mut files = wamit();
+    let mut files = wamit_files();
     let lines: Vec<&str> = files.radiation.lines().collect();
     let cut = lines.len() - 3;
     let last: Vec<&str> = lines[cut].split_whitespace().collect();
@@ -316,7 +307,7 @@ fn parts_of_wamits_files_that_are_missing_are_named() {
 #[test]
 fn units_that_do_not_fit_are_noticed() {
     let said = |given: &Given| {
-        let hydro = from_wamit(&wamit(), given).expect("coefficients");
+        let hydro = from_wamit(&wamit_files(), given).expect("coefficients");
         let reading = Reading::new(Format::Wamit, hydro).expect("a reading");
         reading
             .warnings

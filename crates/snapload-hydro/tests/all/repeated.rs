@@ -1,16 +1,7 @@
 //! Lines of WAMIT's files that occur twice.
 
-use crate::common::bytes;
+use crate::common::wamit_files;
 use snapload_hydro::{Given, HydroError, Hydrodynamics, WamitText, from_wamit};
-
-fn files() -> WamitText {
-    let text = |end: &str| String::from_utf8(bytes(&format!("pontoon-deep.{end}"))).expect("text");
-    WamitText {
-        radiation: text("1"),
-        excitation: text("3"),
-        hydrostatics: Some(text("hst")),
-    }
-}
 
 fn given() -> Given {
     Given {
@@ -57,11 +48,11 @@ fn per_and_heading(excitation: &str) -> [String; 2] {
 /// of the two is right is not known.
 #[test]
 fn lines_that_contradict_each_other_are_refused() {
-    let plain = from_wamit(&files(), &given()).expect("coefficients");
-    let [per, heading] = per_and_heading(&files().excitation);
+    let plain = from_wamit(&wamit_files(), &given()).expect("coefficients");
+    let [per, heading] = per_and_heading(&wamit_files().excitation);
     let (per, heading) = (per.as_str(), heading.as_str());
     let more = |factor: f64| {
-        let own = files();
+        let own = wamit_files();
         let one = lines(&own.radiation, &[per, "3", "3"], &[], &[3], factor);
         let three = lines(
             &own.excitation,
@@ -75,7 +66,7 @@ fn lines_that_contradict_each_other_are_refused() {
         [one, three, hst]
     };
     let with = |[one, three, hst]: [&str; 3]| {
-        let mut files = files();
+        let mut files = wamit_files();
         files.radiation += one;
         files.excitation += three;
         *files.hydrostatics.as_mut().expect("a stiffness") += hst;
@@ -116,7 +107,7 @@ fn turned(excitation: &str, heading: &str, [forces, pitch]: [f64; 2]) -> String 
 fn with_excitation(excitation: String) -> Result<Hydrodynamics, HydroError> {
     let files = WamitText {
         excitation,
-        ..files()
+        ..wamit_files()
     };
     from_wamit(&files, &given())
 }
@@ -124,8 +115,8 @@ fn with_excitation(excitation: String) -> Result<Hydrodynamics, HydroError> {
 /// 360 degrees are 0 degrees: their forces may differ by rounding, and by no more.
 #[test]
 fn a_full_turn_is_the_same_heading() {
-    let plain = from_wamit(&files(), &given()).expect("coefficients");
-    let own = files().excitation;
+    let plain = from_wamit(&wamit_files(), &given()).expect("coefficients");
+    let own = wamit_files().excitation;
     let with = |factors: [f64; 2]| with_excitation(own.clone() + &turned(&own, "360.0", factors));
     assert_eq!(with([1.0 + 1e-6; 2]), Ok(plain));
     for factors in [[0.5; 2], [1.0, 0.5], [0.5, 1.0]] {
@@ -139,7 +130,7 @@ fn a_full_turn_is_the_same_heading() {
 /// not the same at both headings.
 #[test]
 fn a_moment_that_is_rounding_may_be_another_after_a_full_turn() {
-    let own = files().excitation;
+    let own = wamit_files().excitation;
     let round = turned(&own, "0.0", [1.0, 1e-9]);
     let plain = with_excitation(round.clone()).expect("coefficients");
     let other = turned(&own, "360.0", [1.0, -3e-9]);
