@@ -11,7 +11,7 @@ pub(crate) fn exponent_text([mean, error]: [f64; 2]) -> String {
         (true, false) if error.is_nan() => {
             format!("{mean:.4} (too few periods for an error estimate)")
         }
-        (true, false) => format!("{mean:.4} (not known: it grows as v_stick falls)"),
+        (true, false) => format!("{mean:.4} (not known: it depends on v_stick)"),
         (false, _) => "-inf".to_owned(),
     }
 }
@@ -48,7 +48,7 @@ mod tests {
         assert_eq!(text([-1e-9, 2.1e-4]), "0.0000 +- 0.0003");
         assert_eq!(
             text([0.5, f64::INFINITY]),
-            "0.5000 (not known: it grows as v_stick falls)"
+            "0.5000 (not known: it depends on v_stick)"
         );
         assert!(text([0.5, f64::NAN]).contains("too few periods"));
     }

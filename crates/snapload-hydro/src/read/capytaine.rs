@@ -166,10 +166,9 @@ fn freedoms(
             })
     };
     let mut planes = [Plane::X, Plane::Y];
-    if waves(dataset)?
-        .iter()
-        .all(|beta| Plane::X.direction(*beta).is_none())
-    {
+    let betas = waves(dataset)?;
+    let has_waves = |plane: Plane| betas.iter().any(|beta| plane.direction(*beta).is_some());
+    if has_waves(Plane::Y) && !has_waves(Plane::X) {
         planes.reverse();
     }
     for plane in planes {

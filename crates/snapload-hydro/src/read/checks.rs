@@ -1,6 +1,7 @@
 //! Whether coefficients follow the conventions of signs, phases and units, and how good they are.
 
 use super::Format;
+use super::table::length_of;
 use crate::coefficients::{Excitation, FREEDOMS, Hydrodynamics, UPPER};
 use crate::error::{HydroError, Warning};
 use crate::waves::wave_number;
@@ -129,9 +130,8 @@ fn size(format: Format, hydro: &Hydrodynamics, warnings: &mut Vec<Warning>) {
 /// Added mass varies with ω only as far as the body makes waves, which carry energy away (the
 /// Kramers-Kronig relations): where it does and the damping is zero, the damping is missing.
 fn no_damping(hydro: &Hydrodynamics, warnings: &mut Vec<Warning>) {
-    let largest_of = |i: usize| hydro.added_mass.iter().map(move |a| a[(i, i)].abs());
-    let force = largest_of(0).chain(largest_of(1)).fold(0.0, f64::max);
-    let length_m = (force / hydro.water.density_kg_m3).cbrt();
+    let length_m = length_of(&hydro.added_mass, hydro.water.density_kg_m3);
+    let force = hydro.water.density_kg_m3 * length_m.powi(3);
     for (i, freedom) in FREEDOMS.iter().enumerate() {
         let values = || hydro.added_mass.iter().map(|a| a[(i, i)]);
         let [least, most] = [

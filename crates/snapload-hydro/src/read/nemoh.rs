@@ -95,8 +95,9 @@ impl Zone<'_> {
             return Err(HydroError::layout(name, found, expected));
         }
         let mut pairs = self.rows.iter().zip(&first.rows);
-        let other =
-            pairs.find(|(own, first)| (own[0] - first[0]).abs() > SAME_FREQUENCY * first[0].abs());
+        // What is no number is another frequency, too.
+        let is_same = |own: f64, first: f64| (own - first).abs() <= SAME_FREQUENCY * first.abs();
+        let other = pairs.find(|(own, first)| !is_same(own[0], first[0]));
         match other {
             Some((own, first)) => {
                 let found = format!("{heading} has ω = {} rad/s", own[0]);

@@ -156,7 +156,7 @@ fn sum_of_sizes(matrices: impl Iterator<Item = Matrix3<f64>>) -> Matrix3<f64> {
 }
 
 /// A length of the body's size, the side of a cube of water with the mass that it moves \[m\].
-fn length_of(added_mass: &[Matrix3<f64>], density_kg_m3: f64) -> f64 {
+pub(super) fn length_of(added_mass: &[Matrix3<f64>], density_kg_m3: f64) -> f64 {
     let whole = added_mass.iter().map(|a| a[(0, 0)].max(a[(1, 1)]));
     let largest = whole.filter(|mass| mass.is_finite()).fold(0.0, f64::max);
     (largest / density_kg_m3).cbrt()

@@ -95,7 +95,10 @@ pub(super) fn lines<'a>(
             Err(_) if index == 0 => None,
             Ok(numbers) => {
                 let found = format!("line {} has {} numbers", index + 1, numbers.len());
-                let expected = format!("{} to {} are expected", counts.start(), counts.end());
+                let expected = match (counts.start(), counts.end()) {
+                    (least, most) if least == most => format!("{most} are expected"),
+                    (least, most) => format!("{least} or {most} are expected"),
+                };
                 Some(Err(HydroError::layout(name, found, expected)))
             }
             Err(_) => {

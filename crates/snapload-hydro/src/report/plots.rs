@@ -197,9 +197,9 @@ fn response(floating: &Floating, i: usize) -> Plot {
             (false, true) => ", to +*x*",
             (false, false) => ", to −*x*",
         };
-        let [of_file, of_memory] = match to.contains('−') {
-            true => [Colour::GREEN, Colour::PURPLE],
-            false => [Colour::BLUE, Colour::VERMILION],
+        let [of_file, of_memory] = match symmetric || file.direction > 0.0 {
+            true => [Colour::BLUE, Colour::VERMILION],
+            false => [Colour::GREEN, Colour::PURPLE],
         };
         [
             line(

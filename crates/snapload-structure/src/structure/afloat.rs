@@ -129,7 +129,7 @@ fn coefficients(
     let Some(file) = file else {
         return section(fields, site, body);
     };
-    let reading = read(file, &given(fields, site)?);
+    let reading = read(file, &given(fields, site, body)?);
     let mut reading = reading.map_err(|error| refused(fields, &error))?;
     same_volume(entries.table("body", 0), site, body, &mut reading)?;
     same_place(body, &reading.hydro)?;
@@ -207,16 +207,19 @@ fn section(fields: Fields<'_>, site: &Site, body: &BodySi) -> Result<Reading, Ca
 }
 
 /// The values of the case that are given to the reader of the file.
-fn given(fields: Fields<'_>, site: &Site) -> Result<Given, CaseError> {
+fn given(fields: Fields<'_>, site: &Site, body: &BodySi) -> Result<Given, CaseError> {
     let deep = fields.get("deep_water")?.unwrap_or(false);
+    let unit_length_m: Option<f64> = fields.get("unit_length")?;
+    // The files of WAMIT, which alone need a unit of length, have no volume of their own.
+    let displaced_mass_kg = site.water_density_kg_m3 * body.displaced_volume_m3;
     Ok(Given {
         density_kg_m3: Some(site.water_density_kg_m3),
         gravity_m_s2: Some(site.gravity_m_s2),
         depth_m: Some(if deep { f64::INFINITY } else { site.depth_m }),
         reference_m: fields.get("reference")?,
         centre_of_gravity_m: fields.get("file_centre_of_gravity")?,
-        displaced_mass_kg: None,
-        unit_length_m: fields.get("unit_length")?,
+        displaced_mass_kg: unit_length_m.map(|_| displaced_mass_kg),
+        unit_length_m,
         first_column: fields
             .given("first_column")
             .and_then(|word| FirstColumn::from_word(&String::from_value(word)?)),

@@ -399,3 +399,41 @@ fn the_limits_are_reported_for_elastic_lines() {
     assert!(least < -0.4, "{least}");
     assert!(seen("small heave"), "{:?}", result.warnings);
 }
+
+/// The pontoon of WAMIT's files with a centre of gravity 0.3 m beside that of buoyancy, which the
+/// entry 4,6 of their stiffness says: C(4,6) = V (x_G − x_B) in units of ρ g. The body of the case
+/// and its lines are symmetric, so that it rests upright. Without the entry buoyancy is taken to act
+/// below that centre of gravity, and the lines must hold it.
+#[test]
+fn the_buoyancy_of_a_file_of_wamit_acts_where_its_stiffness_has_it() {
+    let data = Path::new(env!("CARGO_MANIFEST_DIR")).join("../snapload-hydro/tests/data");
+    let name = format!("snapload-buoyancy-{}", std::process::id());
+    let folder = std::env::temp_dir().join(name);
+    std::fs::create_dir_all(&folder).unwrap();
+    for end in ["1", "3"] {
+        let name = format!("pontoon-deep.{end}");
+        std::fs::copy(data.join(&name), folder.join(&name)).unwrap();
+    }
+    let hst = std::fs::read_to_string(data.join("pontoon-deep.hst")).unwrap();
+    let is_roll_yaw = |line: &&str| line.split_whitespace().take(2).eq(["4", "6"]);
+    let without: Vec<&str> = hst.lines().filter(|line| !is_roll_yaw(line)).collect();
+    let given = "\"pontoon-deep.1\"\nreference = [0, 0]\nunit_length = 1";
+    let text = case(-0.2, 2.0, 9.666, "", "duration = 5")
+        .replace("\"pontoon.nc\"", given)
+        .replace(
+            "pairs = 6",
+            "pairs = 6\nfile_centre_of_gravity = [0.3, -0.2]",
+        );
+    let angle = |entry: &str| {
+        let hst = format!("{}\n{entry}\n", without.join("\n"));
+        std::fs::write(folder.join("pontoon-deep.hst"), hst).unwrap();
+        let entries = Entries::parse(&STRUCTURE, "case", &text).unwrap();
+        let structure = Structure::from_entries_beside(&entries, &folder).unwrap();
+        ModelAtRest::new(structure).unwrap().rest.theta_rad
+    };
+    let upright = angle(&format!("4 6 {}", 96.0 * 0.3));
+    assert!(upright.abs() < 1e-9, "{upright}");
+    let inclined = angle("");
+    assert!(inclined.abs() > 1e-3, "{inclined}");
+    std::fs::remove_dir_all(&folder).unwrap();
+}
