@@ -5,8 +5,8 @@ use crate::text_layout::decimals;
 use nalgebra::Vector3;
 use snapload::{CaseError, Entries, Fields, FromValue};
 use snapload_hydro::{
-    FirstColumn, FitOptions, Given, GivenMemory, GivenSource, HydroError, Hydrodynamics, Reading,
-    Report, Request, SectionBody, Shape, Water, Weight, read,
+    FirstColumn, FitOptions, Format, Given, GivenMemory, GivenSource, HydroError, Reading, Report,
+    Request, SectionBody, Shape, Water, Weight, read,
 };
 use std::path::{Path, PathBuf};
 
@@ -132,7 +132,7 @@ fn coefficients(
     let reading = read(file, &given(fields, site, body)?);
     let mut reading = reading.map_err(|error| refused(fields, &error))?;
     same_volume(entries.table("body", 0), site, body, &mut reading)?;
-    same_place(body, &reading.hydro)?;
+    same_place(body, &reading)?;
     Ok(reading)
 }
 
@@ -252,10 +252,13 @@ fn same_volume(
 
 /// Refuses a file that has the body elsewhere in x than the case, in which the lines are. The
 /// outline of the case is symmetric, so that its centre is above or below that of the file's
-/// buoyancy, or of its waterplane, C35 = −C33 x, if the file does not have the former.
-fn same_place(body: &BodySi, hydro: &Hydrodynamics) -> Result<(), CaseError> {
+/// buoyancy, or of its waterplane, C35 = −C33 x, if the file does not have the former. That of a file
+/// of WAMIT follows from a centre of gravity that is given, and says nothing of the hull.
+fn same_place(body: &BodySi, reading: &Reading) -> Result<(), CaseError> {
+    let hydro = &reading.hydro;
     let statics = &hydro.hydrostatics;
     let of_buoyancy = statics.centre_of_buoyancy_x_m;
+    let of_buoyancy = of_buoyancy.filter(|_| reading.format != Format::Wamit);
     let of_waterplane = || {
         let stiffness = statics.stiffness.as_ref()?;
         Some(hydro.reference_m[0] - stiffness[(1, 2)] / stiffness[(1, 1)])

@@ -418,12 +418,10 @@ fn the_buoyancy_of_a_file_of_wamit_acts_where_its_stiffness_has_it() {
     let is_roll_yaw = |line: &&str| line.split_whitespace().take(2).eq(["4", "6"]);
     let without: Vec<&str> = hst.lines().filter(|line| !is_roll_yaw(line)).collect();
     let given = "\"pontoon-deep.1\"\nreference = [0, 0]\nunit_length = 1";
+    let centres = "file_centre_of_gravity = [0.3, -0.2]\ncentre_of_gravity = [0, -0.2]";
     let text = case(-0.2, 2.0, 9.666, "", "duration = 5")
         .replace("\"pontoon.nc\"", given)
-        .replace(
-            "pairs = 6",
-            "pairs = 6\nfile_centre_of_gravity = [0.3, -0.2]",
-        );
+        .replace("pairs = 6", &format!("pairs = 6\n{centres}"));
     let angle = |entry: &str| {
         let hst = format!("{}\n{entry}\n", without.join("\n"));
         std::fs::write(folder.join("pontoon-deep.hst"), hst).unwrap();
