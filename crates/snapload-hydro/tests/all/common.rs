@@ -75,6 +75,20 @@ pub fn wamit_files() -> WamitText {
     }
 }
 
+/// What those files do not say of the pontoon.
+pub fn wamit_given() -> Given {
+    Given {
+        density_kg_m3: Some(1025.0),
+        gravity_m_s2: Some(9.81),
+        depth_m: Some(f64::INFINITY),
+        reference_m: Some([0.0, 0.0]),
+        centre_of_gravity_m: Some([0.0, -0.2]),
+        displaced_mass_kg: Some(98_400.0),
+        unit_length_m: Some(1.0),
+        ..Given::default()
+    }
+}
+
 /// A table of reference results.
 pub fn reference(name: &str) -> serde_json::Value {
     serde_json::from_slice(&bytes(name)).expect(name)

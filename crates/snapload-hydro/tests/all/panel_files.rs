@@ -1,7 +1,7 @@
 //! Files of panel codes with several bodies, with noise, with outlying frequencies, and with parts
 //! missing.
 
-use crate::common::{Spoilt, dataset, wamit_files};
+use crate::common::{Spoilt, dataset, wamit_files, wamit_given};
 use snapload_hydro::{
     Dataset, FitOptions, Format, Given, Hydrodynamics, Reading, Report, Request, Values, Variable,
     WamitText, from_dataset, from_wamit, page,
@@ -205,16 +205,11 @@ fn missing_damping_is_noticed() {
     assert!(warnings(none).contains(&"no damping"));
 }
 
+/// A centre of gravity 0.3 m beside that of buoyancy.
 fn given() -> Given {
     Given {
-        density_kg_m3: Some(1025.0),
-        gravity_m_s2: Some(9.81),
-        depth_m: Some(f64::INFINITY),
-        reference_m: Some([0.0, 0.0]),
         centre_of_gravity_m: Some([0.3, -0.2]),
-        displaced_mass_kg: Some(98_400.0),
-        unit_length_m: Some(1.0),
-        ..Given::default()
+        ..wamit_given()
     }
 }
 

@@ -1,6 +1,6 @@
 //! Files of three programs are read into one type, with one sign convention of time.
 
-use crate::common::{dataset, hydro, path, reading};
+use crate::common::{dataset, hydro, path, reading, wamit_given};
 use nalgebra::{Complex, Matrix3};
 use snapload_hydro::{
     FirstColumn, Format, Given, Values, WamitText, from_dataset, from_nemoh, from_wamit, read,
@@ -74,19 +74,6 @@ fn good_files_have_no_warning_of_signs() {
     let poor = reading("cylinder-poor.nc");
     let negative = poor.warnings.iter().find(|w| w.what == "negative damping");
     assert!(negative.is_some(), "{:?}", poor.warnings);
-}
-
-fn wamit_given() -> Given {
-    Given {
-        density_kg_m3: Some(1025.0),
-        gravity_m_s2: Some(9.81),
-        depth_m: Some(f64::INFINITY),
-        reference_m: Some([0.0, 0.0]),
-        centre_of_gravity_m: Some([0.0, -0.2]),
-        displaced_mass_kg: Some(98_400.0),
-        unit_length_m: Some(1.0),
-        ..Given::default()
-    }
 }
 
 /// The same body in WAMIT's format, which has seven digits, is the same body.

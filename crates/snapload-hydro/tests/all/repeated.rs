@@ -1,18 +1,7 @@
 //! Lines of WAMIT's files that occur twice.
 
-use crate::common::wamit_files;
-use snapload_hydro::{Given, HydroError, Hydrodynamics, WamitText, from_wamit};
-
-fn given() -> Given {
-    Given {
-        density_kg_m3: Some(1025.0),
-        gravity_m_s2: Some(9.81),
-        depth_m: Some(f64::INFINITY),
-        reference_m: Some([0.0, 0.0]),
-        unit_length_m: Some(1.0),
-        ..Given::default()
-    }
-}
+use crate::common::{wamit_files, wamit_given};
+use snapload_hydro::{HydroError, Hydrodynamics, WamitText, from_wamit};
 
 /// The lines that begin with some words, with a factor at some columns; the words may be replaced.
 fn lines(text: &str, from: &[&str], to: &[&str], columns: &[usize], factor: f64) -> String {
@@ -48,7 +37,7 @@ fn per_and_heading(excitation: &str) -> [String; 2] {
 /// of the two is right is not known.
 #[test]
 fn lines_that_contradict_each_other_are_refused() {
-    let plain = from_wamit(&wamit_files(), &given()).expect("coefficients");
+    let plain = from_wamit(&wamit_files(), &wamit_given()).expect("coefficients");
     let [per, heading] = per_and_heading(&wamit_files().excitation);
     let (per, heading) = (per.as_str(), heading.as_str());
     let more = |factor: f64| {
@@ -70,7 +59,7 @@ fn lines_that_contradict_each_other_are_refused() {
         files.radiation += one;
         files.excitation += three;
         *files.hydrostatics.as_mut().expect("a stiffness") += hst;
-        from_wamit(&files, &given())
+        from_wamit(&files, &wamit_given())
     };
     let copies = more(1.0);
     assert!(
@@ -109,13 +98,13 @@ fn with_excitation(excitation: String) -> Result<Hydrodynamics, HydroError> {
         excitation,
         ..wamit_files()
     };
-    from_wamit(&files, &given())
+    from_wamit(&files, &wamit_given())
 }
 
 /// 360 degrees are 0 degrees: their forces may differ by rounding, and by no more.
 #[test]
 fn a_full_turn_is_the_same_heading() {
-    let plain = from_wamit(&wamit_files(), &given()).expect("coefficients");
+    let plain = from_wamit(&wamit_files(), &wamit_given()).expect("coefficients");
     let own = wamit_files().excitation;
     let with = |factors: [f64; 2]| with_excitation(own.clone() + &turned(&own, "360.0", factors));
     assert_eq!(with([1.0 + 1e-6; 2]), Ok(plain));
