@@ -171,18 +171,24 @@ fn compare(
             Ok(end) => end_agrees(&end, certificate),
         }
     });
+    verdict(certificate, result.map(|((), limbs)| limbs))
+}
+
+/// What follows from a proof that agrees with the certificate, at this many limbs, or from its
+/// failure.
+fn verdict(certificate: &CertificateText, result: Result<usize, ProofFailure>) -> Verdict {
+    let claims = certificate.impacts.iter();
     let impacts = claims
-        .iter()
         .filter(|line| matches!(line, Line::Impact(..)))
         .count();
     match (result, Reason::named(&certificate.end.reason)) {
-        (Ok((_, limbs)), Some(reason)) => Verdict::Proved {
+        (Ok(limbs), Some(reason)) => Verdict::Proved {
             impacts,
             reason,
             t: certificate.end.t.clone().unwrap_or_default(),
             bits: 64 * limbs,
         },
-        (Ok((_, limbs)), None) => Verdict::ProvedInPart {
+        (Ok(limbs), None) => Verdict::ProvedInPart {
             impacts,
             bits: 64 * limbs,
         },

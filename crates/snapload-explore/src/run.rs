@@ -45,32 +45,38 @@ pub(crate) struct Request {
     window: Option<[f64; 2]>,
 }
 
+impl Request {
+    /// The times at which the motion is sent, once all but the values is known to be allowed.
+    fn times(&self) -> Result<Times, CaseError> {
+        let samples = self.samples.unwrap_or(3000);
+        if !SAMPLES.contains(&samples) {
+            let allowed = format!("{} <= samples <= {}", SAMPLES.start(), SAMPLES.end());
+            return Err(CaseError::value("samples", samples, allowed));
+        }
+        if let Some(by) = self.ghost.filter(|by| !(*by > 0.0 && *by <= FARTHEST)) {
+            let allowed = format!("a number, 0 < ghost <= {FARTHEST}, or null");
+            return Err(CaseError::value("ghost", Value::Number(by), allowed));
+        }
+        let window = self.window;
+        if let Some([from, to]) = window.filter(|[from, to]| !(0.0 <= *from && from < to)) {
+            let allowed = "two times, 0 <= from < to, or null";
+            return Err(CaseError::value(
+                "window",
+                format!("[{from}, {to}]"),
+                allowed,
+            ));
+        }
+        Ok(Times { samples, window })
+    }
+}
+
 /// The answer, as JSON.
 pub(crate) fn answer(request: Request, allowance: &Allowance) -> Result<Vec<u8>, Refusal> {
     let began = Instant::now();
-    let samples = request.samples.unwrap_or(3000);
-    if !SAMPLES.contains(&samples) {
-        let allowed = format!("{} <= samples <= {}", SAMPLES.start(), SAMPLES.end());
-        return Err(CaseError::value("samples", samples, allowed).into());
-    }
-    if let Some(by) = request.ghost.filter(|by| !(*by > 0.0 && *by <= FARTHEST)) {
-        let allowed = format!("a number, 0 < ghost <= {FARTHEST}, or null");
-        return Err(CaseError::value("ghost", Value::Number(by), allowed).into());
-    }
-    if let Some([from, to]) = request
-        .window
-        .filter(|[from, to]| !(0.0 <= *from && from < to))
-    {
-        let allowed = "two times, 0 <= from < to, or null";
-        return Err(CaseError::value("window", format!("[{from}, {to}]"), allowed).into());
-    }
+    let sampling = request.times()?;
     let case = case(request.values)?;
     let followed = follow(&case, allowance)?;
     let (parameters, run) = (case.parameters(), &followed.run);
-    let sampling = Times {
-        samples,
-        window: request.window,
-    };
     let ghost = request
         .ghost
         .map(|by| Ghost::of(&case, by, sampling, run, allowance));

@@ -28,32 +28,7 @@ pub fn of_attractor(
     request: &OrbitRequest,
     on_progress: OnProgress,
 ) -> Result<Result<Orbit, NoOrbit>, Unfinished> {
-    let options = SectionOptions {
-        phase: request.phase,
-        skip: TRANSIENT,
-        keep: SAMPLED_PERIODS,
-        exponents: true,
-        impacts: false,
-    };
-    let mut section = Section::of(parameters, &options, on_progress)?;
-    let mut followed = ATTRACTOR_PERIODS;
-    while followed < MOST_PERIODS && still_approaches(&section) {
-        let options = SectionOptions {
-            skip: followed - SAMPLED_PERIODS,
-            ..options
-        };
-        let (z, t) = section.end;
-        let share = |progress: Progress| {
-            let of = ATTRACTOR_PERIODS as f64;
-            on_progress(Progress::new(
-                progress.doing,
-                of * progress.done / progress.of,
-                of,
-            ))
-        };
-        section = Section::from(parameters, (t, &z), &options, &share)?;
-        followed *= 2;
-    }
+    let (section, followed) = long_section(parameters, request.phase, on_progress)?;
     if let Some(stop) = section.stop {
         let t = section.end.1;
         return Ok(Err(NoOrbit(format!(
@@ -94,6 +69,42 @@ pub fn of_attractor(
         Some(_) => Orbit::find,
     };
     Ok(find(&family, [0.0; 2], &last, &request))
+}
+
+/// The last periods of the motion of a case, and after how many it ends: twice as many, again and
+/// again, where it still approaches an orbit.
+fn long_section(
+    parameters: &Parameters,
+    phase: f64,
+    on_progress: OnProgress,
+) -> Result<(Section, u64), Unfinished> {
+    let options = SectionOptions {
+        phase,
+        skip: TRANSIENT,
+        keep: SAMPLED_PERIODS,
+        exponents: true,
+        impacts: false,
+    };
+    let mut section = Section::of(parameters, &options, on_progress)?;
+    let mut followed = ATTRACTOR_PERIODS;
+    while followed < MOST_PERIODS && still_approaches(&section) {
+        let options = SectionOptions {
+            skip: followed - SAMPLED_PERIODS,
+            ..options
+        };
+        let (z, t) = section.end;
+        let share = |progress: Progress| {
+            let of = ATTRACTOR_PERIODS as f64;
+            on_progress(Progress::new(
+                progress.doing,
+                of * progress.done / progress.of,
+                of,
+            ))
+        };
+        section = Section::from(parameters, (t, &z), &options, &share)?;
+        followed *= 2;
+    }
+    Ok((section, followed))
 }
 
 /// Whether a motion does not repeat itself yet, although deviations certainly shrink: it approaches

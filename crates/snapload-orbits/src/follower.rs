@@ -94,10 +94,7 @@ impl<'a> Follower<'a> {
         let mut closes_in = false;
         while half.end.because.is_empty() && !half.is_full(self.options.most) {
             let Some((there, found)) = self.next(&continuation, &here, &tangent, step) else {
-                step *= 0.5;
-                if step < self.options.step * SHORTEST_STEP {
-                    half.end.because = "Newton's method finds no further point".to_owned();
-                }
+                step = self.halved(step, &mut half);
                 continue;
             };
             let at = (&there.at, &there.direction);
@@ -137,6 +134,15 @@ impl<'a> Follower<'a> {
             at: here,
         });
         Ok(half)
+    }
+
+    /// Half of a step that is too long for Newton's method, and the end of the half where that is
+    /// too short.
+    fn halved(&self, step: f64, half: &mut HalfBranch) -> f64 {
+        if 0.5 * step < self.options.step * SHORTEST_STEP {
+            half.end.because = "Newton's method finds no further point".to_owned();
+        }
+        0.5 * step
     }
 
     /// The test functions at the start of a half; where one of them vanishes, the side behind it

@@ -236,6 +236,14 @@ pub fn basin_summary(basin: &Basin) -> String {
         let _ = writeln!(text, "Undecided {}", m.undecided);
     }
     text += &cut_short_text(m.cut_short);
+    text += &distances_text(basin);
+    text
+}
+
+/// How far from the equilibrium the safe basin reaches, and what limits that knowledge.
+fn distances_text(basin: &Basin) -> String {
+    let m = &basin.measures;
+    let mut text = String::new();
     let [unknown, limits] = match m.cut_short {
         0 => [
             "lie beyond the window's border",
@@ -308,22 +316,9 @@ pub fn erosion_summary(erosion: &Erosion) -> String {
         "{:<12} safe     undecided  of decided  nearest  disc\n",
         erosion.key
     );
-    let maybe = |value: Option<f64>| value.map_or("-".to_owned(), |value| format!("{value:.4}"));
     let some_undecided = erosion.neighbours_run() || erosion.is_cut_short();
     for (value, basin) in &erosion.points {
-        let m = &basin.measures;
-        let (lim, disc) = (maybe(m.lim), maybe(m.integrity_factor));
-        let safe = maybe((m.legal > 0).then_some(m.gim));
-        let undecided = match basin.neighbours_run {
-            true => m.undecided.to_string(),
-            false => "-".to_owned(),
-        };
-        let decided = maybe(m.decided_part().filter(|_| some_undecided));
-        let value = six_digits(*value);
-        let _ = writeln!(
-            text,
-            "{value:<12} {safe:<8} {undecided:<10} {decided:<11} {lim:<8} {disc}"
-        );
+        text += &erosion_row(*value, basin, some_undecided);
     }
     let part = |(value, basin): &(f64, Basin)| {
         let [low, high] = basin.measures.interval;
@@ -364,6 +359,20 @@ pub fn erosion_summary(erosion: &Erosion) -> String {
             .sum(),
     );
     text
+}
+
+fn erosion_row(value: f64, basin: &Basin, some_undecided: bool) -> String {
+    let maybe = |value: Option<f64>| value.map_or("-".to_owned(), |value| format!("{value:.4}"));
+    let m = &basin.measures;
+    let (lim, disc) = (maybe(m.lim), maybe(m.integrity_factor));
+    let safe = maybe((m.legal > 0).then_some(m.gim));
+    let undecided = match basin.neighbours_run {
+        true => m.undecided.to_string(),
+        false => "-".to_owned(),
+    };
+    let decided = maybe(m.decided_part().filter(|_| some_undecided));
+    let value = six_digits(value);
+    format!("{value:<12} {safe:<8} {undecided:<10} {decided:<11} {lim:<8} {disc}\n")
 }
 
 /// A value of a grid with at most six digits, as a third between two values has seventeen.

@@ -63,6 +63,20 @@ pub struct Survey {
 const ROUNDING: f64 = 1e-9;
 
 impl Survey {
+    /// Of no leg at all.
+    const EMPTY: Self = Self {
+        largest_gap: None,
+        corner_gap: None,
+        accumulated_gap: None,
+        least_tension: None,
+        slowest_release: None,
+        least_speed: None,
+        shortest: None,
+        y_max: f64::NEG_INFINITY,
+        theta_max: 0.0,
+        limits: [f64::NEG_INFINITY; Limit::ALL.len()],
+    };
+
     /// The least tension, or the slowest fall to a release if that is less: where it changes its
     /// sign a surface no longer holds as the lap has it.
     pub(crate) fn slackest(&self) -> Option<Extreme> {
@@ -127,18 +141,7 @@ impl Survey {
 
 /// Finds the extremes along the legs of a lap.
 pub fn survey<F: Family>(lap: &Lap<F>, system: &F::Plain, legs: &[Leg]) -> Survey {
-    let mut found = Survey {
-        largest_gap: None,
-        corner_gap: None,
-        accumulated_gap: None,
-        least_tension: None,
-        slowest_release: None,
-        least_speed: None,
-        shortest: None,
-        y_max: f64::NEG_INFINITY,
-        theta_max: 0.0,
-        limits: [f64::NEG_INFINITY; Limit::ALL.len()],
-    };
+    let mut found = Survey::EMPTY;
     let period = lap.family.forcing_period(lap.at).value;
     let sampler = Sampler {
         family: lap.family,

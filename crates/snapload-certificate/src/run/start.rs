@@ -50,37 +50,7 @@ impl<'a> Run<'a> {
             let number = Decimal::parse(number).map(|d| d.ball(fine.limbs));
             number.unwrap_or_else(Ball::zero)
         });
-        let part = &fine.r.squared() * &part;
-        let of_gap = match part.is_below(&tolerance) {
-            true => &part,
-            false => &tolerance,
-        };
-        for (which, event_value) in fine.event_values(&start).iter().enumerate() {
-            let clear = match which {
-                0..FIRST_TOP if at_origin => true,
-                0..FIRST_TOP if (&event_value.value + of_gap).is_negative() => true,
-                0..FIRST_TOP => {
-                    let speed = Impact::new(fine, which, &start)?.v_n;
-                    let moves =
-                        (&speed + &tolerance).is_negative() || (&speed - &tolerance).is_positive();
-                    moves && event_value.value.is_negative()
-                }
-                _ => event_value.value.is_negative(),
-            };
-            if !clear && (&event_value.value - of_gap).is_positive() {
-                let what = format!("the start is beyond {}", name(which));
-                return Err(ProofFailure::Refuted(what));
-            }
-            if !clear {
-                let what = format!(
-                    "the start: {} is {:.2e} away, where a run may move the state onto it by a \
-                     projection that the proof does not cover",
-                    name(which),
-                    event_value.value.to_f64()
-                );
-                return Err(ProofFailure::undecided(what).at(0.0));
-            }
-        }
+        is_clear(fine, &start, at_origin, [&tolerance, &part])?;
         if !start[2].abs().is_below(fine.functions.half_pi()) {
             return Err(
                 ProofFailure::undecided("the start: whether it is at the rotation limit").at(0.0),
@@ -115,4 +85,47 @@ impl<'a> Run<'a> {
         let [x, y, theta, vx, vy, spin] = self.set.hull();
         Set::of_box(&[x, y, theta, vx, vy, spin, Ball::zero()])
     }
+}
+
+/// That the start is beyond no surface, and so near to none that a run may project it there:
+/// `tolerance` and `part` are those of [`START_TOLERANCE`].
+fn is_clear(
+    fine: &Model,
+    start: &State,
+    at_origin: bool,
+    [tolerance, part]: [&Ball; 2],
+) -> Result<(), ProofFailure> {
+    let part = &fine.r.squared() * part;
+    let of_gap = match part.is_below(tolerance) {
+        true => &part,
+        false => tolerance,
+    };
+    for (which, event_value) in fine.event_values(start).iter().enumerate() {
+        let clear = match which {
+            0..FIRST_TOP if at_origin => true,
+            0..FIRST_TOP if (&event_value.value + of_gap).is_negative() => true,
+            0..FIRST_TOP => {
+                let speed = Impact::new(fine, which, start)?.v_n;
+                let moves =
+                    (&speed + tolerance).is_negative() || (&speed - tolerance).is_positive();
+                moves && event_value.value.is_negative()
+            }
+            _ => event_value.value.is_negative(),
+        };
+        if clear {
+            continue;
+        }
+        if (&event_value.value - of_gap).is_positive() {
+            let what = format!("the start is beyond {}", name(which));
+            return Err(ProofFailure::Refuted(what));
+        }
+        let what = format!(
+            "the start: {} is {:.2e} away, where a run may move the state onto it by a projection \
+             that the proof does not cover",
+            name(which),
+            event_value.value.to_f64()
+        );
+        return Err(ProofFailure::undecided(what).at(0.0));
+    }
+    Ok(())
 }

@@ -32,18 +32,7 @@ pub struct Reading {
 /// A [`CaseError`] that names line, object and column, what is allowed there and advice.
 pub fn read(name: &str, text: &str) -> Result<Reading, CaseError> {
     let sections = Sections::parse(name, text)?;
-    for (section, header) in [
-        (Section::LineTypes, "LINE TYPES"),
-        (Section::Points, "POINTS"),
-        (Section::Lines, "LINES"),
-    ] {
-        if !sections.has(section) {
-            let allowed = format!("a header line such as ---------- {header} ----------");
-            let error = CaseError::value(&format!("section {header}"), "(missing)", allowed);
-            let hint = "is this an input file of MoorDyn version 2?";
-            return Err(error.with_hint(hint).at(name));
-        }
-    }
+    refuse_incomplete(name, &sections)?;
     refuse_unsupported(&sections)?;
     let mut reader = Reader {
         tables: Tables {
@@ -99,6 +88,23 @@ pub fn read(name: &str, text: &str) -> Result<Reading, CaseError> {
         );
     }
     Ok(Reading { entries, notes })
+}
+
+/// Refuses a file without one of the sections that describe lines.
+fn refuse_incomplete(name: &str, sections: &Sections<'_>) -> Result<(), CaseError> {
+    for (section, header) in [
+        (Section::LineTypes, "LINE TYPES"),
+        (Section::Points, "POINTS"),
+        (Section::Lines, "LINES"),
+    ] {
+        if !sections.has(section) {
+            let allowed = format!("a header line such as ---------- {header} ----------");
+            let error = CaseError::value(&format!("section {header}"), "(missing)", allowed);
+            let hint = "is this an input file of MoorDyn version 2?";
+            return Err(error.with_hint(hint).at(name));
+        }
+    }
+    Ok(())
 }
 
 /// Notes on the columns of a type that a case can not represent. A restitution in the front matter

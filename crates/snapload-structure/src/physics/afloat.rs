@@ -258,12 +258,7 @@ pub(super) fn rest_afloat(
                 theta_rad: 0.0 - pitch,
                 tension_n: vec![0.0; lines.len()],
                 rests: adrift.is_some(),
-                taut: Vec::new(),
-                indeterminate: false,
-                by_stiffness: None,
-                either_side: false,
-                not_on_elastic_lines: false,
-                elastic_tension_n: None,
+                ..Equilibrium::default()
             };
             return Ok((equilibrium, Vec::new()));
         }
@@ -282,11 +277,7 @@ pub(super) fn rest_afloat(
         rests: true,
         taut: place.taut,
         tension_n: place.tension_n,
-        indeterminate: false,
-        by_stiffness: None,
-        either_side: false,
-        not_on_elastic_lines: false,
-        elastic_tension_n: None,
+        ..Equilibrium::default()
     };
     Ok((equilibrium, natural.into_iter().zip(modes).collect()))
 }

@@ -27,7 +27,7 @@ const STEPS: usize = 30;
 const DIFFERENCE: f64 = 1e-6;
 
 /// The position of rest.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct Equilibrium {
     /// Centre `[x, z]` \[m\].
     pub place_m: [f64; 2],
@@ -97,11 +97,8 @@ pub fn equilibrium(structure: &Structure) -> Result<Equilibrium, CaseError> {
         tension_n: of_all(&model, &taut, &tension),
         rests: true,
         indeterminate: dependent(system, &one_of_each(structure, &taut), &best),
-        by_stiffness: None,
-        either_side: false,
-        not_on_elastic_lines: false,
-        elastic_tension_n: None,
         taut,
+        ..Equilibrium::default()
     })
 }
 

@@ -168,36 +168,11 @@ pub(crate) fn prepare<T: Real>(
             Contact::evaluated(system, cable, &state).without_rounding()
         };
     }
-    // The water is taken as undisturbed, and its memory is zero.
-    let still = [T::ZERO; 3];
-    let around = system.surroundings(t);
-    let active = taut_next(system, &around, &state, still, resting);
-    let now = Instant {
-        system,
-        around: &around,
-        state: &state,
-        memory_force: still,
-    };
-    let loose = resting.iter().filter(|&cable| !active.taut.contains(cable));
-    let cables = now.unmoved(loose.collect(), active.carrying);
     let Decided {
         active,
         touching,
         undecided,
-    } = match cables.is_empty() {
-        true => Decided::known(active),
-        false => Tie {
-            system,
-            rules,
-            t,
-            state: &state,
-            contacts: &contacts,
-            resting,
-            active,
-            cables,
-        }
-        .decided(),
-    };
+    } = taut_at_start((system, rules), t, &state, &contacts, resting);
     let snaps = closed
         .iter()
         .any(|cable| !resting.contains(cable) && velocity(&state, cable) > T::ZERO);
@@ -211,6 +186,42 @@ pub(crate) fn prepare<T: Real>(
         undecided,
         stop: stop.or(settled),
     })
+}
+
+/// Which of the cables at rest are taut. The water is taken as undisturbed, and its memory is zero.
+#[inline(always)]
+fn taut_at_start<T: Real>(
+    (system, rules): (&System<T>, &Rules<T>),
+    t: T,
+    state: &State<T>,
+    contacts: &Contacts<T>,
+    resting: TautSet,
+) -> Decided {
+    let still = [T::ZERO; 3];
+    let around = system.surroundings(t);
+    let active = taut_next(system, &around, state, still, resting);
+    let now = Instant {
+        system,
+        around: &around,
+        state,
+        memory_force: still,
+    };
+    let loose = resting.iter().filter(|&cable| !active.taut.contains(cable));
+    let cables = now.unmoved(loose.collect(), active.carrying);
+    if cables.is_empty() {
+        return Decided::known(active);
+    }
+    let tie = Tie {
+        system,
+        rules,
+        t,
+        state,
+        contacts,
+        resting,
+        active,
+        cables,
+    };
+    tie.decided()
 }
 
 /// Checks that the system does not have too many cables, and that all numbers that determine the

@@ -221,16 +221,8 @@ impl<T: Real> Tie<'_, T> {
             cables,
             ..
         } = self;
-        let normals = system.normals(state, resting);
-        let w = |i: usize, j: usize| system.body.mass.coupling(&normals[i], &normals[j]);
-        let carrying = cables.iter().fold(active.carrying, |set, cable| {
-            let more = set.with(cable);
-            if independent(more, w) { more } else { set }
-        });
-        let held = ActiveSet {
-            taut: active.taut.union(cables),
-            carrying,
-        };
+        let held = self.held();
+        let carrying = held.carrying;
         let mut waves = Waves::new(system);
         waves.cover(t, t);
         let series = self.expanded(&waves, held);
@@ -272,6 +264,21 @@ impl<T: Real> Tie<'_, T> {
             } else {
                 cables
             },
+        }
+    }
+
+    /// The active set if all of its cables are held.
+    fn held(&self) -> ActiveSet {
+        let (system, active) = (self.system, self.active);
+        let normals = system.normals(self.state, self.resting);
+        let w = |i: usize, j: usize| system.body.mass.coupling(&normals[i], &normals[j]);
+        let carrying = self.cables.iter().fold(active.carrying, |set, cable| {
+            let more = set.with(cable);
+            if independent(more, w) { more } else { set }
+        });
+        ActiveSet {
+            taut: active.taut.union(self.cables),
+            carrying,
         }
     }
 

@@ -84,11 +84,8 @@ impl ModelAtRest {
             rests: true,
             taut: taut.collect(),
             tension_n,
-            indeterminate: false,
-            by_stiffness: None,
             either_side,
-            not_on_elastic_lines: false,
-            elastic_tension_n: None,
+            ..Equilibrium::default()
         };
         let structure = self.structure.clone();
         // With a start of the case the run is compared with inextensible lines, in the same
