@@ -160,3 +160,30 @@ fn a_memory_that_is_far_from_passive_leaves_the_verdict_open() {
         assert!(of_memory.decided_by.is_none());
     }
 }
+
+/// So it is where a given memory feeds energy into the motion. In heave
+/// Re K̂(iω) = A (1/(1 + ω²) − 0.1 c/(0.01 + ω²)), which at ω = 0 is A (1 − 10 c), while its largest
+/// magnitude is between 0.7 A and A.
+#[test]
+fn a_given_memory_that_is_far_from_passive_leaves_the_verdict_open() {
+    let wave = "[wave]\nheight = 0.2\nperiod = 5";
+    let text = afloat::case(0.0, 2.4, 9.666, wave, "duration = 60\ntransient = 0");
+    let path = std::env::temp_dir().join(format!("snapload-feeds-{}.json", std::process::id()));
+    let text = text.replace("pairs = 6", &format!("memory = {path:?}"));
+    for (c, is_open) in [(0.09, None), (0.105, Some(false)), (0.15, Some(true))] {
+        let heave = |pole: f64, residue: f64| {
+            let mut rows = [[[0.0; 2]; 3]; 3];
+            rows[1][1][0] = residue;
+            serde_json::json!({ "pole": [pole, 0.0], "residue": rows })
+        };
+        let memory = serde_json::json!({
+            "added_mass_inf": [[1e4, 0.0, 0.0], [0.0, 3e4, 0.0], [0.0, 0.0, 2e4]],
+            "memory": [heave(-1.0, 5e3), heave(-0.1, -5e3 * c)],
+        });
+        std::fs::write(&path, memory.to_string()).expect("a file");
+        let assessment = assess(afloat::structure(&text), 0, &no_progress);
+        let of_memory = warning(&assessment.expect("an assessment"), "passivity");
+        assert_eq!(of_memory.map(|warning| warning.leaves_open), is_open);
+    }
+    std::fs::remove_file(path).expect("the file");
+}
