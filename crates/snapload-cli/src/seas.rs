@@ -88,7 +88,7 @@ fn table(seas: &Seas, out: &mut dyn io::Write) -> io::Result<()> {
         let slack = outcome.lines.iter().map(|line| line.slack_fraction);
         let least = outcome.lines.iter().filter_map(|line| line.least_n);
         let least = least.reduce(f64::min);
-        let peak = outcome.peak_n().map(in_digits_with_fraction);
+        let text = |value: Option<f64>| value.map(in_digits_with_fraction).unwrap_or_default();
         // Of a record that ends before anything is judged there is nothing to tell.
         let judged = |text: String| match outcome.is_unjudged() {
             true => String::new(),
@@ -100,9 +100,9 @@ fn table(seas: &Seas, out: &mut dyn io::Write) -> io::Result<()> {
             end_text(outcome.stop).to_owned(),
             judged(outcome.snaps().to_string()),
             judged(in_digits_with_fraction(outcome.speed_m_s())),
-            peak.unwrap_or_default(),
-            judged(in_digits_with_fraction(outcome.largest_n())),
-            least.map(in_digits_with_fraction).unwrap_or_default(),
+            text(outcome.known_peak_n()),
+            text(outcome.known_largest_n()),
+            text(least),
             judged(in_digits_with_fraction(slack.fold(0.0, f64::max))),
         ])?;
     }

@@ -30,6 +30,12 @@ impl Structure {
         self.judged_periods().is_some_and(|periods| periods < 1.0)
     }
 
+    /// Whether a record judges three hours: what its start lacks of them, which is not judged, may be
+    /// a twentieth.
+    pub(crate) fn judges_three_hours(&self) -> bool {
+        self.judged_s() >= 0.95 * THREE_HOURS_S
+    }
+
     /// Whether so many records judge enough of a sea to tell without a distribution that no line
     /// breaks in nine of ten three-hour seas. In still water all records are equal.
     pub(crate) fn judges_enough(&self, records: usize) -> bool {

@@ -58,6 +58,12 @@ pub fn labelled_row(label: &str, text: &str) -> String {
     row
 }
 
+/// A number of snaps in three hours, which is not 0 if there are any.
+pub(crate) fn rate_text(snaps: f64) -> String {
+    let decimals = if snaps >= 9.5 { 0 } else { 2 };
+    format!("{snaps:.decimals$}")
+}
+
 /// Kilonewtons of a tension that is not always known.
 pub(crate) fn kilo_or_not_known(newtons: &Option<f64>) -> String {
     newtons.map_or("not known".to_owned(), |newtons| kilo(&newtons, 0))

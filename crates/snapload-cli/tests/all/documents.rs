@@ -179,7 +179,7 @@ fn the_printed_assessment_is_the_programs() {
 /// The same for the records of its sea.
 #[test]
 fn the_printed_records_are_the_programs() {
-    let command = "seas docs/examples/cylinder-sea.toml --seeds 16 --set run.duration=1800";
+    let command = "seas docs/examples/cylinder-sea.toml --seeds 8";
     let mut program = assert_cmd::Command::new(assert_cmd::cargo::cargo_bin!("snapload"));
     let program = program.current_dir(root()).args(command.split_whitespace());
     let output = program.output().expect("a run").stdout;

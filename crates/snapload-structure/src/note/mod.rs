@@ -20,7 +20,7 @@ use crate::runs::design::Check;
 use crate::runs::seas::{Lines, Seas};
 use crate::runs::three_hours::NoDistribution;
 use crate::structure::Structure;
-use crate::text_layout::{digits, kilo, kilo_or_not_known, ratio, tenths};
+use crate::text_layout::{digits, kilo, kilo_or_not_known, rate_text, ratio, tenths};
 use askama::Template;
 use inputs::resistance;
 use snapload_figures::{FigureError, Picture};
@@ -89,6 +89,12 @@ struct SeaPage<'a> {
     structure: &'a Structure,
     /// Part of the time that each line is slack.
     slack: Vec<f64>,
+    /// The largest tension of each line, where it is known.
+    largest_n: Vec<Option<f64>>,
+    /// Whether a record lasts until judging begins.
+    judged: bool,
+    /// Whether the plots are of tensions, and not of speeds.
+    tensions: bool,
     plots: [Picture; 2],
 }
 
@@ -180,6 +186,9 @@ pub fn seas_page(source: Source<'_>, seas: &Seas) -> Result<String, FigureError>
         seas,
         structure: &seas.prepared.structure,
         slack: seas.slack_fractions(),
+        largest_n: seas.largest_of_lines_n(),
+        judged: seas.judged_s() > 0.0,
+        tensions: seas.largest_n().is_some(),
         plots: plots::of_seas(seas)?,
     };
     Ok(page.to_string())

@@ -358,10 +358,8 @@ pub(super) fn of_seas(seas: &Seas) -> Result<[Picture; 2], FigureError> {
         Colour::BLUE,
         "records".to_owned(),
     )];
-    // The fit is for three hours; on this paper it is drawn for the duration of the records.
-    let structure = &seas.prepared.structure;
-    let judged = structure.duration_s - structure.transient_s;
-    if let Some(fit) = fit.map(|fit| fit.over_times(judged / THREE_HOURS_S)) {
+    // The fit is for three hours; on this paper it is drawn for the records.
+    if let Some(fit) = fit.map(|fit| fit.of_one()) {
         let ends = [0.01, 0.995].map(|p| [fit.quantile(p).value / unit, reduced_variate(p)]);
         layers.push(line(vec![ends.to_vec()], Stroke::default(), "Gumbel fit"));
     }
@@ -396,7 +394,11 @@ fn exceedance(seas: &Seas, all: &[f64], unit: f64, label: &str) -> Plot {
     let description = "Number of snaps above a value, in three hours";
     let mut plot = plot(description, axes, layers);
     if all.is_empty() {
-        plot.note = "no line snapped".to_owned();
+        let note = match three_hours > 0.0 {
+            true => "no line snapped",
+            false => "nothing is judged",
+        };
+        plot.note = note.to_owned();
     }
     plot
 }

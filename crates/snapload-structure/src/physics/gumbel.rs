@@ -111,6 +111,15 @@ impl Gumbel {
         self.at(EULER)
     }
 
+    /// The distribution that was fitted, of one value of the sample.
+    #[must_use]
+    pub fn of_one(&self) -> Self {
+        Self {
+            log_times: 0.0,
+            ..*self
+        }
+    }
+
     /// The distribution of the largest over `times` as long a time, taken as independent:
     /// ξ + α ln(times).
     #[must_use]

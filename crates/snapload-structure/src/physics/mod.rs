@@ -12,6 +12,7 @@ pub(crate) mod periods;
 pub(crate) mod rates;
 pub(crate) mod sea;
 pub(crate) mod sea_records;
+pub(crate) mod settling;
 pub(crate) mod snap;
 pub(crate) mod softness;
 pub(crate) mod warning;

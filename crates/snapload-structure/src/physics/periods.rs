@@ -11,12 +11,14 @@
 //! follow ω² and the mode v (L. Meirovitch, *Elements of Vibration Analysis* (1986), section 4.3).
 
 use super::afloat::TautMode;
-use super::elastic::{ElasticLine, undamped};
+use super::elastic::{ElasticLine, elastic_lines, undamped};
 use super::equilibrium::SmallMotions;
+use super::model::CURRENT;
 use super::model_at_rest::ModelAtRest;
 use crate::structure::Afloat;
 use nalgebra::{DMatrix, Matrix3};
 use serde::Serialize;
+use snapload::{CaseError, Harmonic};
 use snapload_hydro::{Body, HydroError, natural_of_the_file, natural_of_the_memory};
 
 /// Below this ω², in the engine's units, a degree of freedom counts as having no restoring force.
@@ -34,6 +36,13 @@ pub struct NaturalMode {
     /// Its surge \[m\], heave \[m\] and pitch \[rad\], the largest of the three numbers being 1.
     #[serde(rename = "surge_heave_pitch")]
     pub mode: [f64; 3],
+    /// The rate 2ζω at which its energy decays by drag and damping of the body, and by the dampers
+    /// of elastic lines \[1/s\].
+    #[serde(skip)]
+    pub energy_decay_1_s: f64,
+    /// The part of its kinetic energy that is not in rotation.
+    #[serde(skip)]
+    pub translation: f64,
 }
 
 /// The natural periods for both models of a line, the longest first.
@@ -66,11 +75,23 @@ impl NaturalPeriods {
 impl ModelAtRest {
     /// The small motions of a floating body on elastic lines, if their stiffness is known.
     pub fn modes_on_elastic_lines(&self) -> Vec<TautMode> {
+        self.afloat_modes(|prepared| undamped(prepared, 1.0))
+    }
+
+    /// The same with the dampers of the lines.
+    pub(super) fn modes_on_damped_lines(&self) -> Vec<TautMode> {
+        self.afloat_modes(|prepared| elastic_lines(prepared, 1.0))
+    }
+
+    fn afloat_modes(&self, lines: ElasticLinesOf) -> Vec<TautMode> {
         let afloat = self.structure.afloat.as_deref();
-        let found = afloat.map(|afloat| afloat_modes_on_elastic_lines(self, afloat));
+        let found = afloat.map(|afloat| afloat_modes_on_elastic_lines(self, afloat, lines));
         found.and_then(Result::ok).unwrap_or_default()
     }
 }
+
+/// Finds the elastic lines of a structure.
+type ElasticLinesOf = fn(&ModelAtRest) -> Result<Vec<ElasticLine>, CaseError>;
 
 /// Natural motions of a floating body on elastic lines: K of the springs and of the water
 /// together, with A(ω) of the file and with the memory. None where a stiffness is not known.
@@ -80,20 +101,26 @@ impl ModelAtRest {
 fn afloat_modes_on_elastic_lines(
     prepared: &ModelAtRest,
     afloat: &Afloat,
+    lines: ElasticLinesOf,
 ) -> Result<Vec<TautMode>, HydroError> {
-    let elastic_case = undamped(prepared, 1.0).and_then(|elastic_lines| {
+    let of_lines = lines(prepared).and_then(|elastic_lines| {
         let elastic_case = prepared.with_elastic_lines(&elastic_lines)?;
-        Ok(elastic_case.stiffness_on(&elastic_lines))
+        let stiffness = elastic_case.stiffness_on(&elastic_lines);
+        Ok((stiffness, elastic_case.damping_on(&elastic_lines)))
     });
-    let Ok(stiffness) = elastic_case else {
+    let Ok((stiffness, damping)) = of_lines else {
         return Ok(Vec::new());
     };
     // A factor of a length for each rotation, and y up.
     let scales = &prepared.model.scales;
     let unit = [1.0, -1.0, scales.length_m];
     let per = scales.force_n / scales.length_m;
+    let in_si = |matrix: &Matrix3<f64>, per: f64| {
+        Matrix3::from_fn(|i, j| matrix[(i, j)] * per * unit[i] * unit[j])
+    };
     let body = Body {
-        stiffness: Matrix3::from_fn(|i, j| stiffness[(i, j)] * per * unit[i] * unit[j]),
+        stiffness: in_si(&stiffness, per),
+        damping: afloat.body.damping + in_si(&damping, per * scales.time_s),
         ..afloat.body.clone()
     };
     let (hydro, fit) = (&afloat.report.reading.hydro, &afloat.report.fit);
@@ -102,7 +129,7 @@ fn afloat_modes_on_elastic_lines(
     Ok(natural.into_iter().zip(modes).collect())
 }
 
-fn modes_on_inextensible_lines(prepared: &ModelAtRest) -> Vec<NaturalMode> {
+pub(super) fn modes_on_inextensible_lines(prepared: &ModelAtRest) -> Vec<NaturalMode> {
     let (rest, model) = (&prepared.rest, &prepared.model);
     let at = model.at_rest(rest.place_m, rest.theta_rad);
     let pulls: Vec<f64> = rest
@@ -112,15 +139,42 @@ fn modes_on_inextensible_lines(prepared: &ModelAtRest) -> Vec<NaturalMode> {
         .collect();
     let lines: Vec<usize> = (0..pulls.len()).collect();
     let motions = SmallMotions::new(&model.system, &lines, &pulls, &at);
-    modes(prepared, &motions.curvature, &motions.basis())
+    let damping = damping_of_body(prepared);
+    modes(prepared, [&motions.curvature, &damping], &motions.basis())
 }
 
-fn modes_with_elastic_lines(
+pub(super) fn modes_with_elastic_lines(
     elastic_case: &ModelAtRest,
     elastic_lines: &[ElasticLine],
 ) -> Vec<NaturalMode> {
     let stiffness = elastic_case.stiffness_on(elastic_lines);
-    modes(elastic_case, &stiffness, &DMatrix::identity(3, 3))
+    let damping = damping_of_body(elastic_case) + elastic_case.damping_on(elastic_lines);
+    modes(
+        elastic_case,
+        [&stiffness, &damping],
+        &DMatrix::identity(3, 3),
+    )
+}
+
+/// Drag and damping of a submerged body over its velocity (x, y, θ), in the engine's units: with
+/// the quadratic drag D|u|u taken as sqrt(8/π) D σ u, which takes as much power at a normal
+/// distribution of u (L. E. Borgman, *J. Waterways Harbors Div. ASCE* 93 (1967) 129). Here σ is that
+/// of one component of the water's velocity.
+fn damping_of_body(prepared: &ModelAtRest) -> Matrix3<f64> {
+    let (body, scales) = (&prepared.structure.body, &prepared.model.scales);
+    let (m, l, t) = (scales.mass_kg, scales.length_m, scales.time_s);
+    let quadratic = prepared.model.system.drag.as_ref().map_or(0.0, |drag| {
+        let waves = drag.water.iter().filter(|wave| wave.omega != CURRENT);
+        let power = |wave: &Harmonic| {
+            let [cosine, sine] = [wave.cosine.length(), wave.sine.length()];
+            0.25 * (cosine * cosine + sine * sine)
+        };
+        let sigma = waves.map(power).sum::<f64>().sqrt();
+        (8.0 / std::f64::consts::PI).sqrt() * drag.quadratic * sigma
+    });
+    let linear = body.linear_damping_n_s_m * t / m + quadratic;
+    let turning = body.turning_damping_n_m_s * t / (m * l * l);
+    Matrix3::from_diagonal(&[linear, linear, turning].into())
 }
 
 /// The modes in words: `3.231 s (surge), 0.502 s (heave)`.
@@ -138,7 +192,7 @@ pub(crate) fn periods_text(modes: &[NaturalMode]) -> String {
 /// The modes of K within the motions that the columns of `basis` span, the slowest first.
 fn modes(
     prepared: &ModelAtRest,
-    stiffness: &Matrix3<f64>,
+    [stiffness, damping]: [&Matrix3<f64>; 2],
     basis: &DMatrix<f64>,
 ) -> Vec<NaturalMode> {
     if basis.ncols() == 0 {
@@ -158,7 +212,9 @@ fn modes(
     let mut order: Vec<usize> = (0..frame.eigenvalues.len()).collect();
     order.sort_by(|&i, &j| frame.eigenvalues[i].total_cmp(&frame.eigenvalues[j]));
     let one = |&index: &usize| {
+        // R⁻ᵀ makes vᵀMv = 1.
         let mode = basis * inverse.transpose() * frame.eigenvectors.column(index);
+        let of_mode = |matrix: &Matrix3<f64>| (mode.transpose() * matrix * &mode)[(0, 0)];
         let squared = frame.eigenvalues[index];
         let omega = (squared > LEAST_OMEGA_SQUARED).then(|| squared.sqrt());
         let scales = &prepared.model.scales;
@@ -166,6 +222,8 @@ fn modes(
             period_s: omega.map(|omega| std::f64::consts::TAU / omega * scales.time_s),
             motion: motion(&mass, [mode[0], mode[1], mode[2]]),
             mode: in_si([mode[0], mode[1], mode[2]], scales.length_m),
+            energy_decay_1_s: of_mode(damping) / scales.time_s,
+            translation: 1.0 - mass[(2, 2)] * mode[2] * mode[2],
         }
     };
     order.iter().map(one).collect()

@@ -23,7 +23,8 @@ const FEWEST_COMPONENTS: f64 = 100.0;
 pub(crate) fn short_records(structure: &Structure) -> Option<Warning> {
     let judged_s = structure.judged_s();
     let times = THREE_HOURS_S / judged_s;
-    warning_if(times > SHORT, "short records", [judged_s, times], "")
+    let is = structure.has_waves() && times > SHORT;
+    warning_if(is, "short records", [judged_s, times], "")
 }
 
 /// The warning that only few periods of the waves are judged, or of a sea, in which higher waves

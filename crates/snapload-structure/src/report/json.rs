@@ -157,6 +157,7 @@ impl Seas {
             })
         };
         let [crests, troughs] = self.crests_and_troughs_n();
+        let crests_known = self.crests_known();
         let quantiles = |sorted: &[f64]| {
             let at = |part| quantile(sorted, part);
             json!({
@@ -183,12 +184,13 @@ impl Seas {
             "breaking_only_before_judged": self.breaking_only_early(),
             "snaps_in_three_hours": (self.judged_s() > 0.0).then(|| self.snaps_in_three_hours()),
             "slack_fraction": (self.judged_s() > 0.0).then(|| self.slack_fractions()),
+            "largest_tension_of_lines_n": self.largest_of_lines_n(),
             "warnings": self.warnings,
             "checks": self.checks(),
-            "crests_n": quantiles(&crests),
+            "crests_n": crests_known.then(|| quantiles(&crests)),
             "troughs_n": troughs_row,
             "largest_tensions_n": self.largest_n(),
-            "peaks_n": self.records.iter().map(|record| record.outcome.peak_n()).collect::<Vec<_>>(),
+            "peaks_n": self.records.iter().map(|record| record.outcome.known_peak_n()).collect::<Vec<_>>(),
             "fastest_m_s": self.speeds_m_s(),
         })
     }

@@ -18,8 +18,9 @@ enum TooShort {
     PartOfAWave,
     /// Lines may snap that do not in the records, or there are too few.
     NoFit(NoDistribution),
-    /// The distribution of the largest ratio of tension to breaking load, which may reach one.
-    Overload(Gumbel),
+    /// The distribution of the largest ratio of tension to breaking load of a line, which may reach
+    /// one.
+    Overload(usize, Gumbel),
 }
 
 #[derive(Template)]
@@ -93,10 +94,14 @@ impl Seas {
         if structure.judges_too_little() {
             return Some(TooShort::PartOfAWave);
         }
-        match self.check_beyond() {
-            Err(_) if structure.judges_enough(self.records.len()) => None,
+        let known = self.check_beyond().and_then(|()| self.check_lines());
+        match known.and_then(|()| self.check_stationary()) {
+            Err(_) if self.judge_enough() => None,
             Err(reason) => Some(TooShort::NoFit(reason)),
-            Ok(()) => self.overload_in_three_hours().map(TooShort::Overload),
+            Ok(()) => {
+                let overload = self.overload_in_three_hours();
+                overload.map(|(line, fit)| TooShort::Overload(line, fit))
+            }
         }
     }
 

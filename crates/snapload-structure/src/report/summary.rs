@@ -18,7 +18,7 @@ use crate::runs::seas::{Lines, Seas};
 use crate::runs::three_hours::NoDistribution;
 use crate::runs::variations::{ByWave, VerdictNumbers};
 use crate::structure::{Structure, Water};
-use crate::text_layout::{count, decimals, digits, kilo, lay_out, ratio, tenths};
+use crate::text_layout::{count, decimals, digits, kilo, lay_out, rate_text, ratio, tenths};
 use askama::Template;
 
 /// The number of pulls and snaps that are listed; JSON has them all.
@@ -52,6 +52,8 @@ struct SeasText<'a> {
     name: &'a str,
     structure: &'a Structure,
     seas: &'a Seas,
+    /// The largest tension of each line, where it is known.
+    largest_n: Vec<Option<f64>>,
     speeds_m_s: [f64; 3],
 }
 
@@ -170,6 +172,7 @@ impl Seas {
             name,
             structure: &self.prepared.structure,
             seas: self,
+            largest_n: self.largest_of_lines_n(),
             speeds_m_s: [0.5, 0.99, 1.0].map(|part| quantile(&speeds, part).unwrap_or(0.0)),
         })
     }

@@ -42,6 +42,7 @@ impl Outcome {
             LineOutcome {
                 snaps: speeds().count() as u64,
                 speed_m_s: speeds().fold(0.0, f64::max),
+                snaps_at_all: beginning().any(|pull| pull.line == line),
                 impacts_while_taut: 0,
                 slower: beginning()
                     .filter(|pull| pull.line == line && pull.speed_m_s < SLOWEST_M_S)
@@ -66,7 +67,7 @@ impl Outcome {
             excursion_m: run.excursion_m,
             waterline: run.waterline,
             emergence: run.emergence,
-            peaks_n: judged().map(|pull| pull.peak_n).collect(),
+            peaks_n: snapping().map(|pull| pull.peak_n).collect(),
             speeds_m_s: snapping().map(|pull| pull.speed_m_s).collect(),
             waves_n: run.waves_n.clone(),
         }

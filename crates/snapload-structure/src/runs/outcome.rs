@@ -24,6 +24,10 @@ pub struct LineOutcome {
     /// Snaps and impacts while taut that are too slow to be counted.
     #[serde(skip)]
     pub slower: u64,
+    /// Whether it snaps, however slowly: impacts that are passed on to it while it is taut do not
+    /// tell that it would.
+    #[serde(skip)]
+    pub snaps_at_all: bool,
     /// The largest estimate of tension in a snap or an impact while
     /// taut, slower ones included \[N\].
     #[serde(rename = "peak_tension_n")]
@@ -87,7 +91,7 @@ pub struct Outcome {
     pub waterline: Option<Waterline>,
     /// How far a submerged body comes out of the water.
     pub emergence: Emergence,
-    /// Peak tensions of all counted snaps \[N\].
+    /// Peak tensions of all counted snaps, if they are known \[N\].
     pub peaks_n: Vec<f64>,
     /// Their speeds \[m/s\].
     pub speeds_m_s: Vec<f64>,
@@ -125,6 +129,21 @@ impl Outcome {
         held.fold(self.peak_n().unwrap_or(0.0), f64::max)
     }
 
+    /// The same; none if a tension is not known, or nothing is judged \[N\].
+    pub fn known_largest_n(&self) -> Option<f64> {
+        let of_lines = self.lines.iter().map(LineOutcome::largest_n);
+        let known: Option<Vec<f64>> = of_lines.collect();
+        known?.into_iter().reduce(f64::max)
+    }
+
+    /// The largest estimate of tension in a snap of any line; none if that of one that snaps is not
+    /// known \[N\].
+    pub fn known_peak_n(&self) -> Option<f64> {
+        let unknown =
+            |line: &LineOutcome| line.peak_n.is_none() && line.counted() + line.slower > 0;
+        self.peak_n().filter(|_| !self.lines.iter().any(unknown))
+    }
+
     /// The fastest snap of any line \[m/s\].
     pub fn speed_m_s(&self) -> f64 {
         let speeds = self.lines.iter().map(|line| line.speed_m_s);
@@ -143,7 +162,7 @@ impl Outcome {
 
     /// Whether a line snaps in the judged time, however slowly.
     pub(crate) fn has_snaps(&self) -> bool {
-        self.lines.iter().any(|line| line.snaps + line.slower > 0)
+        self.lines.iter().any(|line| line.snaps_at_all)
     }
 
     /// Whether snaps of other lines load a line while it is taut.
@@ -308,6 +327,7 @@ impl<'a> OutcomeCounter<'a> {
             if let Some(peak) = snap.peak_n {
                 line.peak_n = Some(line.peak_n.unwrap_or(0.0).max(peak));
             }
+            line.snaps_at_all |= !snap.is_impact_while_taut;
             match snap.counts() {
                 true => self.count(snap),
                 false => line.slower += 1,
@@ -379,10 +399,10 @@ impl<'a> OutcomeCounter<'a> {
             line.snaps += 1;
             line.speed_m_s = line.speed_m_s.max(snap.speed_m_s);
             self.speeds_m_s.push(snap.speed_m_s);
+            self.peaks_n.extend(snap.peak_n);
         }
         if let Some(peak) = snap.peak_n {
             self.waves_n.extend(self.waves[snap.line].add([peak; 2]));
-            self.peaks_n.push(peak);
         }
     }
 

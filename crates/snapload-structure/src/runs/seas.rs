@@ -1,6 +1,6 @@
 //! Many records of one sea: the distribution of the lines' loads in it.
 
-use super::design::{Check, RecordsCheck, record_checks};
+use super::design::{Check, RecordsCheck, checks, record_checks};
 use super::outcome::Outcome;
 use super::quantile::sorted;
 use crate::options::{SEEDS, check};
@@ -8,6 +8,7 @@ use crate::physics::elastic::elastic_lines;
 use crate::physics::emergence::Emergence;
 use crate::physics::model_at_rest::ModelAtRest;
 use crate::physics::sea_records::short_records;
+use crate::physics::settling::Settling;
 use crate::physics::warning::Warning;
 use crate::physics::warnings::{limits_afloat, phase_warning, turning_warning, warnings};
 use crate::schema::LAST_SEED;
@@ -38,6 +39,8 @@ pub struct Seas {
     pub lines: Lines,
     /// The outcomes in the order of the seeds.
     pub records: Vec<SeaOutcome>,
+    /// The motion that becomes stationary last, if the waves have the period of any.
+    pub(crate) settling: Option<Settling>,
 }
 
 /// The numbers of records that fail, and of which that is not known.
@@ -112,14 +115,25 @@ pub fn seas(
             Lines::Elastic => Outcome::with_elastic_lines(&record, within),
         })?;
         let open = open || outcome.depends_on_hydrostatics(&record.structure);
+        let checks = match count {
+            1 => checks(&record, &outcome, open),
+            _ => record_checks(&record, &outcome, open),
+        };
         Ok::<_, Unfinished>(SeaOutcome {
-            checks: record_checks(&record, &outcome, open),
+            checks,
             seed,
             outcome,
         })
     })?;
     warnings.extend(warnings_of_records(&reported, &records));
+    let settling = Settling::of(&reported, lines == Lines::Elastic);
+    warnings.extend(
+        settling
+            .as_ref()
+            .and_then(|settling| settling.warning(&reported)),
+    );
     Ok(Seas {
+        settling,
         records,
         lines,
         warnings,
@@ -263,6 +277,19 @@ impl Seas {
             .collect()
     }
 
+    /// The largest tension of each line in all judged records, in a snap or while taut; none if that
+    /// is not known of one of them, or nothing is judged \[N\].
+    pub fn largest_of_lines_n(&self) -> Vec<Option<f64>> {
+        let largest = |line: usize| {
+            let judged = self.outcomes().filter(|one| !one.is_unjudged());
+            let of_records = judged.map(|outcome| outcome.lines[line].largest_n());
+            let known: Option<Vec<f64>> = of_records.collect();
+            known?.into_iter().reduce(f64::max)
+        };
+        let lines = 0..self.prepared.structure.lines.len();
+        lines.map(largest).collect()
+    }
+
     /// Snaps of all lines in three hours, the mean over records.
     pub fn snaps_in_three_hours(&self) -> f64 {
         let snaps: u64 = self.outcomes().map(Outcome::snaps).sum();
@@ -283,6 +310,14 @@ impl Seas {
             self.outcomes()
                 .flat_map(|outcome| outcome.speeds_m_s.iter().copied()),
         )
+    }
+
+    /// Whether the crests of all waves of tension are known, those in snaps too.
+    pub(crate) fn crests_known(&self) -> bool {
+        let judged = |outcome: &&Outcome| !outcome.is_unjudged();
+        self.outcomes()
+            .filter(judged)
+            .all(|outcome| outcome.known_largest_n().is_some())
     }
 
     /// Crests and troughs of all waves of tension, each sorted \[N\].

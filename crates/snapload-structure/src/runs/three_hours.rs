@@ -24,6 +24,10 @@ pub enum NoDistribution {
     CutShort(usize, usize, u64),
     /// Tensions of snaps are not known.
     TensionsUnknown,
+    /// The motion is not stationary in the larger part of records that are shorter.
+    NotStationary,
+    /// The line, by number from 1, snaps in so many of the records only.
+    LineSnapsInSome(usize, usize, usize),
     /// A line snaps in some of the records, and in so many of them none does.
     SomeWithoutSnaps(usize, usize),
     /// The same of snaps that are counted.
@@ -34,11 +38,12 @@ pub enum NoDistribution {
     PartOfAWave,
     /// No snap is counted in any of the records.
     NoSnaps,
-    /// No line snaps in the records, but one may go slack within three hours, and then snap.
-    MaySnap,
-    /// No line snaps in the records, but one that is slack at rest may become taut within three
+    /// The line, by number from 1, does not snap in the records, but it may go slack within three
     /// hours, and then snap.
-    MayBecomeTaut,
+    MaySnap(usize),
+    /// The line, by number from 1, is slack at rest and does not snap in the records, but it may
+    /// become taut within three hours, and then snap.
+    MayBecomeTaut(usize),
     /// All records have the same largest value.
     AllEqual,
 }
@@ -72,14 +77,23 @@ impl fmt::Display for NoDistribution {
             Self::NoSnaps => {
                 f.write_str("no line snaps at 1 cm/s or more in any of the records")
             },
-            Self::MaySnap => write!(
+            Self::MaySnap(line) => write!(
                 f,
-                "no line snaps in the records, but within three hours one may go slack and snap: {longer}"
-            ),
-            Self::MayBecomeTaut => write!(
-                f,
-                "no line snaps in the records, but within three hours one that is slack at rest may become taut and \
+                "line {line} does not snap at 1 cm/s or more in the records, but within three hours it may go slack and \
                  snap: {longer}"
+            ),
+            Self::MayBecomeTaut(line) => write!(
+                f,
+                "line {line}, which is slack at rest, does not snap at 1 cm/s or more in the records, but within \
+                 three hours it may become taut and snap: {longer}"
+            ),
+            Self::NotStationary => f.write_str(
+                "the motion grows for longer than the records last (see settling): run records of three hours \
+                 (run.duration)",
+            ),
+            Self::LineSnapsInSome(line, count, of) => write!(
+                f,
+                "line {line} snaps at 1 cm/s or more in {count} of {of} records only: {longer}"
             ),
             Self::AllEqual => f.write_str("all records have the same largest value"),
         }
@@ -95,6 +109,7 @@ impl Seas {
         self.check_whole()?;
         let largest = self.largest_n().ok_or(NoDistribution::TensionsUnknown)?;
         self.check_beyond()?;
+        self.check_stationary()?;
         self.fit(&known(&largest))
     }
 
@@ -109,21 +124,25 @@ impl Seas {
         if without == self.records.len() {
             return Err(NoDistribution::NoSnaps);
         }
+        self.check_stationary()?;
         self.fit(&known(&self.speeds_m_s()))
     }
 
-    /// The distribution of the largest ratio of a tension to the breaking load of its line in three
-    /// hours, if that may reach one: the value that 90 % stay below is not less than one with
-    /// 97.7 % confidence ([`Gumbel::at_most`]). Each line is compared with its own breaking load.
-    pub(crate) fn overload_in_three_hours(&self) -> Option<Gumbel> {
+    /// The first line, by number from 1, that may break in three hours, with the distribution of its
+    /// largest ratio of tension to breaking load: the value that 90 % stay below is not less than one
+    /// with 97.7 % confidence ([`Gumbel::at_most`]).
+    pub(crate) fn overload_in_three_hours(&self) -> Option<(usize, Gumbel)> {
         let structure = &self.prepared.structure;
-        let of_record = |outcome: &Outcome| {
-            let known: Option<Vec<f64>> = outcome.utilisations(structure).into_iter().collect();
-            known?.into_iter().reduce(f64::max)
+        let utilisations = self
+            .outcomes()
+            .map(|outcome| outcome.utilisations(structure));
+        let utilisations: Vec<_> = utilisations.collect();
+        let overload = |line: usize| {
+            let parts: Option<Vec<f64>> = utilisations.iter().map(|of| of[line]).collect();
+            let fit = self.fit(&parts?).ok()?;
+            may_reach_one(&fit, 0.9).then_some((line + 1, fit))
         };
-        let largest: Option<Vec<f64>> = self.outcomes().map(of_record).collect();
-        let fit = self.fit(&largest?).ok()?;
-        may_reach_one(&fit, 0.9).then_some(fit)
+        (0..structure.lines.len()).find_map(overload)
     }
 
     /// Records that ended early would be records of a shorter time.
@@ -169,42 +188,94 @@ impl Seas {
     pub(crate) fn check_beyond(&self) -> Result<(), NoDistribution> {
         let without = self.without_snaps();
         self.check_snaps(without, NoDistribution::SomeWithoutSnaps)?;
-        if without < self.records.len() {
-            return Ok(());
+        match without < self.records.len() {
+            true => Ok(()),
+            false => self.lines().try_for_each(|line| self.check_slack(line)),
         }
-        let rest_n = self.prepared.rest.inextensible_tensions_n();
-        let lost = |index: usize, line: &LineOutcome| {
-            let least_n = line.least_n.filter(|_| rest_n[index] > 0.0)?;
-            Some(1.0 - least_n / rest_n[index])
+    }
+
+    /// The same of every line by itself, as the snaps of one say nothing of those of another. Only
+    /// those that are counted show how hard a line snaps: slower ones are its settling, also after
+    /// the snap of another.
+    pub(crate) fn check_lines(&self) -> Result<(), NoDistribution> {
+        let records = self.records.len();
+        self.lines().try_for_each(|line| {
+            let snaps = |outcome: &&Outcome| outcome.lines[line].snaps > 0;
+            match self.outcomes().filter(snaps).count() {
+                0 => self.check_slack(line),
+                some if some < records => {
+                    Err(NoDistribution::LineSnapsInSome(line + 1, some, records))
+                }
+                _ => Ok(()),
+            }
+        })
+    }
+
+    /// A line that does not snap in the records may not do so within three hours either.
+    fn check_slack(&self, line: usize) -> Result<(), NoDistribution> {
+        let rest_n = self.prepared.rest.inextensible_tensions_n()[line];
+        let lost = |line: &LineOutcome| {
+            let least_n = line.least_n.filter(|_| rest_n > 0.0)?;
+            Some(1.0 - least_n / rest_n)
         };
-        if self.part_may_reach_one(lost) {
-            return Err(NoDistribution::MaySnap);
+        if self.part_may_reach_one(line, lost) {
+            return Err(NoDistribution::MaySnap(line + 1));
         }
-        match self.part_may_reach_one(|_, line| line.slack_used) {
-            true => Err(NoDistribution::MayBecomeTaut),
+        match self.part_may_reach_one(line, |line| line.slack_used) {
+            true => Err(NoDistribution::MayBecomeTaut(line + 1)),
             false => Ok(()),
         }
     }
 
-    /// Whether the largest part that a line of a record loses or uses up may reach one within three
+    /// Whether the largest part that a line loses or uses up in a record may reach one within three
     /// hours, in more than one of a hundred seas.
-    fn part_may_reach_one(&self, part: impl Fn(usize, &LineOutcome) -> Option<f64>) -> bool {
-        let of_record = |outcome: &Outcome| {
-            let lines = outcome.lines.iter().enumerate();
-            let parts = lines.filter_map(|(index, line)| part(index, line));
-            parts.fold(0.0, f64::max)
-        };
-        let parts: Vec<f64> = self.outcomes().map(of_record).collect();
+    fn part_may_reach_one(&self, line: usize, part: impl Fn(&LineOutcome) -> Option<f64>) -> bool {
+        let parts = self.outcomes().map(|outcome| part(&outcome.lines[line]));
+        let parts: Vec<f64> = parts.map(|part| part.unwrap_or(0.0)).collect();
         match self.fit(&parts) {
             Ok(fit) => may_reach_one(&fit, 0.99),
             Err(_) => parts.iter().any(|part| *part >= 1.0),
         }
     }
 
+    fn lines(&self) -> std::ops::Range<usize> {
+        0..self.prepared.structure.lines.len()
+    }
+
+    /// Records of less than three hours have the distribution of a longer sea only if the motion is
+    /// stationary in their larger part.
+    pub(crate) fn check_stationary(&self) -> Result<(), NoDistribution> {
+        let structure = &self.prepared.structure;
+        let is_short = structure.has_waves() && !structure.judges_three_hours();
+        match is_short && 2.0 * self.stationary_s() < structure.judged_s() {
+            true => Err(NoDistribution::NotStationary),
+            false => Ok(()),
+        }
+    }
+
+    /// The part of the judged time of a record in which the motion is stationary \[s\].
+    fn stationary_s(&self) -> f64 {
+        let settling = self.settling.as_ref();
+        settling.map_or(self.prepared.structure.judged_s(), |settling| {
+            settling.stationary_s(&self.prepared)
+        })
+    }
+
+    /// Whether the records judge enough of a sea to tell without a distribution that no line breaks.
+    pub(crate) fn judge_enough(&self) -> bool {
+        let structure = &self.prepared.structure;
+        structure.judges_enough(self.records.len()) && self.check_stationary().is_ok()
+    }
+
+    /// The largest of three hours from that of a record. Of a shorter record only the stationary
+    /// part counts, which is a little on the safe side.
     fn fit(&self, largest: &[f64]) -> Result<Gumbel, NoDistribution> {
-        let judged_s = self.prepared.structure.judged_s();
+        let (structure, stationary_s) = (&self.prepared.structure, self.stationary_s());
+        let judged_s = structure.judged_s();
         let fit = Gumbel::fit(largest).ok_or(NoDistribution::AllEqual)?;
-        Ok(fit.over_times(THREE_HOURS_S / judged_s))
+        let counts = !structure.judges_three_hours() && 2.0 * stationary_s >= judged_s;
+        let counted_s = if counts { stationary_s } else { judged_s };
+        Ok(fit.over_times(THREE_HOURS_S / counted_s))
     }
 }
 

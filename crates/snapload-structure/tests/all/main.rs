@@ -32,6 +32,7 @@ mod physics;
 mod progress;
 mod rates;
 mod scale;
+mod sea_extrapolation;
 mod sea_verdicts;
 mod shares;
 mod short_run;

@@ -1,5 +1,6 @@
 //! What is said of many records of a sea: distributions, probabilities, and what is not known.
 
+use crate::sea_extrapolation::damped;
 use crate::verdicts::{source, structure};
 use snapload::Stop;
 use snapload::analysis::no_progress;
@@ -90,11 +91,11 @@ fn records_without_snaps_are_not_extrapolated_to_snaps() {
             .iter()
             .all(|record| record.outcome.snaps() == 0)
     );
-    assert_eq!(short.peak_in_three_hours(), Err(NoDistribution::MaySnap));
+    assert_eq!(short.peak_in_three_hours(), Err(NoDistribution::MaySnap(1)));
     assert_eq!(short.standing(), VerdictKind::Open);
     let words = short.words();
     assert!(
-        words.contains("within three hours one may go slack and snap"),
+        words.contains("within three hours it may go slack and snap"),
         "{words}"
     );
     let long = records(0.15, 10_860.0, "transient = 60", 1);
@@ -122,7 +123,7 @@ fn fewer_records_do_not_make_a_sea_safe() {
         let reason = if count < 3 {
             "too few: run more"
         } else {
-            "one may go slack and snap"
+            "it may go slack and snap"
         };
         for seas in [&few, &without] {
             assert_eq!(seas.to_json("case")["standing"], "open");
@@ -144,7 +145,10 @@ fn fewer_records_do_not_make_a_sea_safe() {
 /// compared with its own breaking load.
 #[test]
 fn a_sea_is_open_in_which_a_tension_above_the_breaking_load_is_expected() {
-    let mut seas = records(1.2, 300.0, "", 20);
+    let text = damped(SEA)
+        .replace("[run]", "[run]\nduration = 300")
+        .replace("hs = 1.2", "hs = 2.5");
+    let mut seas = seas_of(structure(&text), 20);
     let mut with_loads = |margins: [f64; 2]| {
         for (index, margin) in margins.into_iter().enumerate() {
             let lines = seas.records.iter().map(|r| &r.outcome.lines[index]);
@@ -188,7 +192,7 @@ fn records_in_which_a_slack_line_stays_slack_are_not_extrapolated_to_snaps() {
         assert!(outcome.lines[1..].iter().all(|l| l.slack_fraction == 1.0));
         assert!(outcome.lines[0].least_n.unwrap() > 0.9 * short.prepared.rest.tension_n[0]);
     }
-    let reason = NoDistribution::MayBecomeTaut;
+    let reason = NoDistribution::MayBecomeTaut(2);
     assert_eq!(short.peak_in_three_hours(), Err(reason));
     assert_eq!(short.standing(), VerdictKind::Open);
     let words = short.words();

@@ -112,6 +112,22 @@ impl ModelAtRest {
         let at = self.model.at_rest(self.rest.place_m, self.rest.theta_rad);
         curvature(&body, &at)
     }
+
+    /// The same with respect to its velocity: Σ c_i (n_i, s_i)ᵀ(n_i, s_i) over the stretched lines.
+    pub(in crate::physics) fn damping_on(&self, elastic_lines: &[ElasticLine]) -> Matrix3<f64> {
+        let body = BodyOnElasticLines::new(&self.model.system, elastic_lines);
+        let at = self.model.at_rest(self.rest.place_m, self.rest.theta_rad);
+        let rows = elastic_lines
+            .iter()
+            .enumerate()
+            .filter_map(|(line, elastic_line)| {
+                let (row, elongation) = body.row(line, &at);
+                (elongation > 0.0).then(|| (Vector3::from(row), elastic_line.damping))
+            });
+        rows.fold(Matrix3::zeros(), |sum, (row, damping)| {
+            sum + row * row.transpose() * damping
+        })
+    }
 }
 
 /// V at a position, and ∇V.
