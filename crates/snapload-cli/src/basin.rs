@@ -11,8 +11,8 @@ use crate::orbit_picture::{PlotArgs, PlotFile};
 use crate::outputs::{Outputs, TABLE};
 use crate::table::{axis, names, numbers};
 use serde::Serialize;
-use snapload::Parameters;
 use snapload::analysis::Progress;
+use snapload::{CaseError, Parameters};
 use snapload_orbits::{
     AttractedCell, Attraction, AttractionRow, BASIN_TRANSIENT, Basin, BasinRow, CellOutcome,
     Erosion, ErosionRow, Window, attraction_summary, basin_summary, erosion_summary,
@@ -37,6 +37,10 @@ Examples:
       --plot erosion.svg
       how the safe part shrinks as the force grows";
 
+/// Forcing periods that are skipped before attractors are identified, unless another number is
+/// given.
+const TRANSIENT: u64 = 300;
+
 /// Which case, and which window.
 #[derive(clap::Args)]
 #[command(after_help = EXAMPLES)]
@@ -46,9 +50,9 @@ pub(crate) struct Args {
     /// What to compute for each cell: whether it is safe, or which attractor its motion reaches
     #[arg(long, default_value = "safe", value_parser = ["safe", "attractor"])]
     kind: String,
-    /// Forcing periods to skip before attractors are identified
-    #[arg(long, value_name = "N", default_value_t = 300, value_parser = whole_number::<u64>(BASIN_TRANSIENT))]
-    transient: u64,
+    /// Forcing periods to skip before attractors are identified [default: 300]
+    #[arg(long, value_name = "N", value_parser = whole_number::<u64>(BASIN_TRANSIENT))]
+    transient: Option<u64>,
     /// Write a table with one row per cell, FILE.parquet or FILE.csv
     #[arg(long, value_name = "FILE")]
     out: Option<PathBuf>,
@@ -124,6 +128,10 @@ struct Answer<'a, T> {
 /// Runs a window.
 pub(crate) fn run(args: &Args) -> Result<(), Failure> {
     let (name, base, window) = args.window.read()?;
+    if let (Some(transient), "safe") = (args.transient, args.kind.as_str()) {
+        let allowed = "--transient only with --kind attractor: a safe basin follows each start from its beginning";
+        return Err(CaseError::value("--transient", transient, allowed).into());
+    }
     let mut outputs = Outputs::open(&args.json)?;
     let table = outputs.file("--out", args.out.as_deref(), &TABLE)?;
     let plot = PlotFile::open(&mut outputs, args.plot.as_deref(), window.keys)?;
@@ -131,7 +139,8 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
     let bar = Bar::new();
     let on_progress = |progress: Progress| bar.show(progress);
     if args.kind == "attractor" {
-        let found = Attraction::of(window, args.transient, !args.window.no_trust, &on_progress)?;
+        let transient = args.transient.unwrap_or(TRANSIENT);
+        let found = Attraction::of(window, transient, !args.window.no_trust, &on_progress)?;
         drop(bar);
         outputs.table(table, &base, &outcome_columns(&found))?;
         if let Some(plot) = plot {

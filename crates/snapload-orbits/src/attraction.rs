@@ -8,7 +8,7 @@ use crate::orbit::{Orbit, OrbitRequest};
 use crate::section::{LAPS, Section, SectionOptions, start_of};
 use crate::window::Window;
 use snapload::analysis::{Counter, OnProgress, Progress, Unfinished, in_parallel};
-use snapload::{Case, Parameters, Stop};
+use snapload::{Case, CaseError, Parameters, Stop};
 use std::ops::ControlFlow;
 
 /// The long-term behaviour of a start.
@@ -123,7 +123,14 @@ impl Attraction {
         on_progress: OnProgress,
     ) -> Result<Self, Unfinished> {
         window.check()?;
-        crate::section::period_of(&window.base)?;
+        if window.keys.contains(&"t_end") {
+            let allowed =
+                "a key on which attractors depend: they are followed for as long as it takes";
+            return Err(CaseError::value("vary", "t_end", allowed).into());
+        }
+        if !window.keys.contains(&"omega") {
+            crate::section::period_of(&window.base)?;
+        }
         let options = SectionOptions {
             phase: 0.0,
             skip: transient,

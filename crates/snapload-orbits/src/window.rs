@@ -104,11 +104,20 @@ impl Window {
                 return Err(CaseError::value(key, format!("{values:?}"), allowed));
             }
         }
-        for value in &self.values[0] {
-            self.parameters([*value, self.values[1][0]]).check()?;
+        // Allowed values of two keys are a convex set: within it are all cells if its edges are.
+        let ends = |axis: usize| {
+            self.values[axis]
+                .first()
+                .into_iter()
+                .chain(self.values[axis].last())
+        };
+        for second in ends(1) {
+            let mut first = self.values[0].iter();
+            first.try_for_each(|first| self.parameters([*first, *second]).check())?;
         }
-        for value in &self.values[1] {
-            self.parameters([self.values[0][0], *value]).check()?;
+        for first in ends(0) {
+            let mut second = self.values[1].iter();
+            second.try_for_each(|second| self.parameters([*first, *second]).check())?;
         }
         Ok(())
     }
