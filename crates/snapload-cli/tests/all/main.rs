@@ -19,3 +19,4 @@ mod sweep;
 mod sweep_errors;
 mod system;
 mod trust;
+mod windows;

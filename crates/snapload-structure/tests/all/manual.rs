@@ -1,5 +1,6 @@
 //! The manual's tables are those of the schema.
 
+use crate::implausible::PONTOON;
 use proptest::prelude::*;
 use snapload::analysis::no_progress;
 use snapload::{Bounds, DefaultValue, Entries, Kind};
@@ -90,50 +91,57 @@ pub fn values(kind: Kind) -> Vec<String> {
 /// `max_snaps` if that ended the run.
 const TOLD_ELSEWHERE: [&str; 3] = ["project", "design", "float"];
 
-/// No key is ignored: with another value the structure is another, or is refused, and the inputs
-/// that a note lists are others.
+/// No key is ignored: with another value that is accepted the structure is another, and so are the
+/// inputs that a note lists. Those that need other keys are refused without them.
 #[test]
 fn every_key_makes_a_difference() {
     let wave = include_str!("../../../../docs/examples/cylinder.toml");
     let sea = include_str!("../../../../docs/examples/cylinder-sea.toml");
     let afloat = include_str!("../../../../docs/examples/pontoon.toml");
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../docs/examples");
+    let structure = |entries: &Entries| Structure::from_entries_beside(entries, &folder);
+    let with_structure = |text| (text, structure(&read(text)).expect("an example"));
+    let [wave, sea, afloat, pontoon] = [wave, sea, afloat, PONTOON].map(with_structure);
     for table in STRUCTURE.tables {
-        let text = match table.name {
-            "sea" => sea,
-            "float" => afloat,
-            _ => wave,
-        };
-        let structure = |entries: &Entries| Structure::from_entries_beside(entries, &folder);
-        let before = structure(&read(text)).expect("an example");
-        let path = if table.name == "line" {
-            "line.1"
-        } else {
-            table.name
+        let path = match table.name {
+            "line" => "line.1",
+            name => name,
         };
         for key in table.keys {
-            let changed = |value: &String| {
-                let mut entries = read(text);
-                let set = entries.set(&format!("{path}.{}={value}", key.name));
-                set.expect("a value of its kind");
-                structure(&entries).ok()
-            };
+            let key_path = format!("{path}.{}", key.name);
             let elsewhere = TOLD_ELSEWHERE.contains(&table.name) || key.name == "max_snaps";
-            let (mut differs, mut shown) = (false, false);
-            for value in values(key.kind) {
-                let changed = changed(&value);
-                differs |= changed.as_ref() != Some(&before);
-                shown |= changed.is_none_or(|after| inputs(&after) != inputs(&before));
-                if differs && (shown || elsewhere) {
+            // These need other keys, without which they are refused.
+            let is_refused = ["float", "design"].contains(&table.name)
+                || ["shape", "current"].contains(&key.name);
+            // Some keys are of a body that floats, and some of one that does not.
+            let texts = match table.name {
+                "float" => vec![&afloat],
+                "sea" => vec![&sea],
+                _ => vec![&wave, &pontoon],
+            };
+            let (mut differs, mut shown) = (false, elsewhere);
+            let tried = texts.into_iter().flat_map(|(text, before)| {
+                let own = read(text).table(table.name, 0).given(key.name).cloned();
+                let near = own.and_then(|own| Some(format!("{}", 1.01 * own.number()?)));
+                let values = values(key.kind).into_iter().chain(near);
+                values.map(move |value| (text, before, value))
+            });
+            for (text, before, value) in tried {
+                let mut entries = read(text);
+                let set = entries.set(&format!("{key_path}={value}"));
+                set.expect("a value of its kind");
+                let Ok(after) = structure(&entries) else {
+                    (differs, shown) = (differs || is_refused, shown || is_refused);
+                    continue;
+                };
+                differs |= after != *before;
+                shown |= inputs(&after) != inputs(before);
+                if differs && shown {
                     break;
                 }
             }
-            assert!(differs, "{path}.{}", key.name);
-            assert!(
-                shown || elsewhere,
-                "inputs.html is without {path}.{}",
-                key.name
-            );
+            assert!(differs, "{key_path}");
+            assert!(shown, "inputs.html is without {key_path}");
         }
     }
 }

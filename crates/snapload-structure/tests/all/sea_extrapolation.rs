@@ -8,8 +8,6 @@ use snapload_structure::{
     seas,
 };
 
-const SEA: &str = include_str!("../../../../docs/examples/cylinder-sea.toml");
-
 /// A cylinder of 217356 kg with its added mass that swings on one line of 4.6 m between its centre
 /// and the floor: surge has a period of the waves, and rotation is free.
 const PENDULUM: &str = "[body]\nshape = \"circle\"\nwidth = 3\ndisplaced_volume = 141.37\nmass = 72452\n\
