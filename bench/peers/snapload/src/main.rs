@@ -34,7 +34,7 @@ fn main() -> Result<(), Box<dyn Error>> {
         (rows, run.end().reason, run.end().t, Some(best))
     };
     let report = serde_json::json!({
-        "version": "0.2.0",
+        "version": "0.3.0",
         "impacts": rows,
         "end": { "kind": kind.name(), "t": t },
         "seconds": seconds,
