@@ -30,8 +30,8 @@ impl Structure {
         self.judged_periods().is_some_and(|periods| periods < 1.0)
     }
 
-    /// Whether a record judges three hours: what its start lacks of them, which is not judged, may be
-    /// a twentieth.
+    /// Whether a record judges three hours: what its start lacks of them, which is not judged, may
+    /// be a twentieth.
     pub(crate) fn judges_three_hours(&self) -> bool {
         self.judged_s() >= 0.95 * THREE_HOURS_S
     }

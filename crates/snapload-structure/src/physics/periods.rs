@@ -158,8 +158,8 @@ pub(super) fn modes_with_elastic_lines(
 
 /// Drag and damping of a submerged body over its velocity (x, y, θ), in the engine's units: with
 /// the quadratic drag D|u|u taken as sqrt(8/π) D σ u, which takes as much power at a normal
-/// distribution of u (L. E. Borgman, *J. Waterways Harbors Div. ASCE* 93 (1967) 129). Here σ is that
-/// of one component of the water's velocity.
+/// distribution of u (L. E. Borgman, *J. Waterways Harbors Div. ASCE* 93 (1967) 129). Here σ is
+/// that of one component of the water's velocity.
 fn damping_of_body(prepared: &ModelAtRest) -> Matrix3<f64> {
     let (body, scales) = (&prepared.structure.body, &prepared.model.scales);
     let (m, l, t) = (scales.mass_kg, scales.length_m, scales.time_s);

@@ -2,8 +2,9 @@
 //!
 //! An oscillator of frequency ω and damping ratio ζ that is at rest when noise begins has reached
 //! about the part 1 − exp(−2ζωt) of its variance after the time t (T. K. Caughey and H. J. Stumpf,
-//! *J. Appl. Mech.* 28 (1961) 563). Without damping its variance grows in proportion to the time, as
-//! long as the waves have its frequency: then no record shows the largest tension of a longer one.
+//! *J. Appl. Mech.* 28 (1961) 563). Without damping its variance grows in proportion to the time,
+//! as long as the waves have its frequency: then no record shows the largest tension of a longer
+//! one.
 //!
 //! The small motions about the place of rest are taken as such oscillators, without the energy that
 //! is lost in snaps, as motions that are not harder than others need not snap.
@@ -33,8 +34,8 @@ pub(crate) struct Settling {
 }
 
 impl Settling {
-    /// Of a structure in a sea, on elastic lines or not; none if no small motion has a frequency of the
-    /// waves.
+    /// Of a structure in a sea, on elastic lines or not; none if no small motion has a frequency of
+    /// the waves.
     pub(crate) fn of(prepared: &ModelAtRest, elastic: bool) -> Option<Self> {
         let structure = &prepared.structure;
         let Water::Sea(sea) = structure.water else {

@@ -103,8 +103,33 @@ pub fn seas(
     // Rules that are decided by elastic lines do not apply to them.
     warnings.retain(|warning| lines == Lines::Inextensible || warning.is_of_all_lines());
     let open = warnings.iter().any(|warning| warning.leaves_open);
+    let records = run_records(&prepared, (sea, count), lines, open, on_progress)?;
+    warnings.extend(warnings_of_records(&reported, &records));
+    let settling = Settling::of(&reported, lines == Lines::Elastic);
+    warnings.extend(
+        settling
+            .as_ref()
+            .and_then(|settling| settling.warning(&reported)),
+    );
+    Ok(Seas {
+        settling,
+        records,
+        lines,
+        warnings,
+        prepared: reported,
+    })
+}
+
+/// Runs the records side by side; `open` says that a rule is violated on which tensions depend.
+fn run_records(
+    prepared: &ModelAtRest,
+    (sea, count): (IrregularSea, u32),
+    lines: Lines,
+    open: bool,
+    on_progress: OnProgress,
+) -> Result<Vec<SeaOutcome>, Unfinished> {
     let counter = Counter::new("records", 0, count.into(), on_progress);
-    let records = in_parallel(count as usize, |index| {
+    in_parallel(count as usize, |index| {
         let seed = sea.seed + index as u64;
         let record = prepared.in_water(Water::Sea(IrregularSea { seed, ..sea }))?;
         let (record, outcome) = counter.part(|within| match lines {
@@ -119,25 +144,11 @@ pub fn seas(
             1 => checks(&record, &outcome, open),
             _ => record_checks(&record, &outcome, open),
         };
-        Ok::<_, Unfinished>(SeaOutcome {
+        Ok(SeaOutcome {
             checks,
             seed,
             outcome,
         })
-    })?;
-    warnings.extend(warnings_of_records(&reported, &records));
-    let settling = Settling::of(&reported, lines == Lines::Elastic);
-    warnings.extend(
-        settling
-            .as_ref()
-            .and_then(|settling| settling.warning(&reported)),
-    );
-    Ok(Seas {
-        settling,
-        records,
-        lines,
-        warnings,
-        prepared: reported,
     })
 }
 
@@ -277,8 +288,8 @@ impl Seas {
             .collect()
     }
 
-    /// The largest tension of each line in all judged records, in a snap or while taut; none if that
-    /// is not known of one of them, or nothing is judged \[N\].
+    /// The largest tension of each line in all judged records, in a snap or while taut; none if
+    /// that is not known of one of them, or nothing is judged \[N\].
     pub fn largest_of_lines_n(&self) -> Vec<Option<f64>> {
         let largest = |line: usize| {
             let judged = self.outcomes().filter(|one| !one.is_unjudged());

@@ -128,9 +128,9 @@ impl Seas {
         self.fit(&known(&self.speeds_m_s()))
     }
 
-    /// The first line, by number from 1, that may break in three hours, with the distribution of its
-    /// largest ratio of tension to breaking load: the value that 90 % stay below is not less than one
-    /// with 97.7 % confidence ([`Gumbel::at_most`]).
+    /// The first line, by number from 1, that may break in three hours, with the distribution of
+    /// its largest ratio of tension to breaking load: the value that 90 % stay below is not less
+    /// than one with 97.7 % confidence ([`Gumbel::at_most`]).
     pub(crate) fn overload_in_three_hours(&self) -> Option<(usize, Gumbel)> {
         let structure = &self.prepared.structure;
         let utilisations = self
@@ -261,7 +261,8 @@ impl Seas {
         })
     }
 
-    /// Whether the records judge enough of a sea to tell without a distribution that no line breaks.
+    /// Whether the records judge enough of a sea to tell without a distribution that no line
+    /// breaks.
     pub(crate) fn judge_enough(&self) -> bool {
         let structure = &self.prepared.structure;
         structure.judges_enough(self.records.len()) && self.check_stationary().is_ok()
