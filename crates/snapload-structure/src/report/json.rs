@@ -12,7 +12,7 @@ use crate::runs::elastic_comparison::ElasticComparison;
 use crate::runs::outcome::Outcome;
 use crate::runs::quantile::{quantile, slack_part};
 use crate::runs::seas::Seas;
-use crate::structure::Structure;
+use crate::structure::{Structure, Water};
 use serde_json::{Value, json};
 use snapload::Stop;
 use snapload_hydro::{FREEDOMS, Mode, Natural};
@@ -172,6 +172,16 @@ impl Seas {
             "body": body(&self.prepared.structure),
             "afloat": afloat(&self.prepared, None),
             "lines": self.lines,
+            "sea": match self.prepared.structure.water {
+                Water::Sea(sea) => Some(json!({
+                    "significant_height_m": sea.significant_height_m,
+                    "peak_period_s": sea.peak_period_s, "components": sea.components,
+                    "first_seed": sea.seed,
+                })),
+                _ => None,
+            },
+            "duration_s": self.prepared.structure.duration_s,
+            "transient_s": self.prepared.structure.transient_s,
             "records": self.records.len(),
             "standing": self.standing(),
             "words": self.words(),

@@ -48,6 +48,9 @@ struct SeasVerdictText {
     too_plastic: bool,
     /// What leaves it open for three hours.
     too_short: Option<TooShort>,
+    /// Whether it is firm in waves, and if so, whether by distributions and not by the number of
+    /// records.
+    by_distributions: Option<bool>,
     standing: VerdictKind,
 }
 
@@ -94,8 +97,7 @@ impl Seas {
         if structure.judges_too_little() {
             return Some(TooShort::PartOfAWave);
         }
-        let known = self.check_beyond().and_then(|()| self.check_lines());
-        match known.and_then(|()| self.check_stationary()) {
+        match self.check_extrapolation() {
             Err(_) if self.judge_enough() => None,
             Err(reason) => Some(TooShort::NoFit(reason)),
             Ok(()) => {
@@ -129,7 +131,16 @@ impl Seas {
             open,
             too_plastic: structure.restitution < LEAST_RESTITUTION,
             too_short: self.too_short().filter(|_| standing == VerdictKind::Open),
+            by_distributions: (standing == VerdictKind::Holds && structure.has_waves())
+                .then(|| self.check_extrapolation().is_ok()),
             standing,
         })
+    }
+
+    /// Whether the records of every line have one distribution, which is that of longer ones, too.
+    fn check_extrapolation(&self) -> Result<(), NoDistribution> {
+        self.check_beyond()?;
+        self.check_lines()?;
+        self.check_stationary()
     }
 }

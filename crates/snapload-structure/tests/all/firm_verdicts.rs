@@ -72,6 +72,9 @@ fn a_sea_of_a_hundred_hours_holds_without_a_distribution() {
         twelve.prepared.structure.duration_s = 60.0 + judged_s;
         assert_eq!(twelve.standing(), standing, "{judged_s}");
     }
+    let words = twelve.words();
+    let firm = "As the records judge 36 times three hours or more, the lines hold in nine of ten";
+    assert!(words.contains(firm), "{words}");
 }
 
 /// One record has the same verdict from each command: open unless a line breaks in it, whether

@@ -172,6 +172,17 @@ fn a_sea_is_open_in_which_a_tension_above_the_breaking_load_is_expected() {
     let strong = with_loads([100.0; 2]);
     assert_eq!(strong.standing(), VerdictKind::Holds);
     assert!(!strong.words().contains("open"));
+    let firm = "By Gumbel distributions of its tensions in the records each line holds in nine of ten seas";
+    assert!(strong.words().contains(firm), "{}", strong.words());
+    let json = strong.to_json("case");
+    assert_eq!(
+        [
+            &json["sea"]["first_seed"],
+            &json["sea"]["significant_height_m"]
+        ],
+        [1.0, 2.5]
+    );
+    assert_eq!([&json["duration_s"], &json["transient_s"]], [300.0, 60.0]);
     // Guys that never become taut do not have to bear what the line between them bears.
     let mut guys = guyed(960.0, 1);
     for line in &mut guys.lines[1..] {
