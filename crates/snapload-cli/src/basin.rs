@@ -50,8 +50,8 @@ pub(crate) struct Args {
     /// What to compute for each cell: whether it is safe, or which attractor its motion reaches
     #[arg(long, default_value = "safe", value_parser = ["safe", "attractor"])]
     kind: String,
-    /// Forcing periods to skip before attractors are identified [default: 300]
     #[arg(long, value_name = "N", value_parser = whole_number::<u64>(BASIN_TRANSIENT))]
+    #[arg(help = format!("Forcing periods to skip before attractors are identified [default: {TRANSIENT}]"))]
     transient: Option<u64>,
     /// Write a table with one row per cell, FILE.parquet or FILE.csv
     #[arg(long, value_name = "FILE")]

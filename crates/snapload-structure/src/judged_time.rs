@@ -6,6 +6,9 @@ use crate::structure::{Structure, THREE_HOURS_S, Water};
 /// below a tenth, whatever the distribution, with 97.5 % confidence: 0.9^36 = 0.0225.
 const ENOUGH: f64 = 36.0;
 
+/// A record whose judged time is so large a part of three hours counts as one of three hours.
+const WHOLE: f64 = 0.95;
+
 impl Structure {
     /// The time that is judged: what follows the transient, which is
     /// shorter than the duration \[s\].
@@ -30,10 +33,9 @@ impl Structure {
         self.judged_periods().is_some_and(|periods| periods < 1.0)
     }
 
-    /// Whether a record judges three hours: what its start lacks of them, which is not judged, may
-    /// be a twentieth.
+    /// Whether a record judges three hours, except for its beginning.
     pub(crate) fn judges_three_hours(&self) -> bool {
-        self.judged_s() >= 0.95 * THREE_HOURS_S
+        self.judged_s() >= WHOLE * THREE_HOURS_S
     }
 
     /// Whether so many records judge enough of a sea to tell without a distribution that no line
