@@ -37,9 +37,11 @@ pub use case::Case;
 pub use case::entries::{Entries, Fields, FromValue};
 pub use case::error::{CaseError, Fault};
 pub use case::key::{Bounds, DefaultValue, Key, Kind};
-pub use case::keys::{CASE, CASE_KEYS, KEYS, check_entry, key_named};
+pub use case::keys::{CASE, CASE_KEYS, check_entry, key_named};
 pub use case::named::{NamedCase, named_case, named_cases, series_of, table_6_1};
-pub use case::parameters::{Get, Parameters, ROTATION_LIMIT, SETTLING_HEIGHT, natural_inertia};
+pub use case::parameters::{
+    Get, KEYS, Parameters, ROTATION_LIMIT, SETTLING_HEIGHT, natural_inertia,
+};
 #[cfg(feature = "toml")]
 pub use case::read::{parse_value, table_names};
 pub use case::schema::{Heading, Schema, Table};

@@ -158,6 +158,18 @@ impl Key {
         self
     }
 
+    /// The same in a group of keys.
+    pub const fn in_group(mut self, group: &'static str) -> Self {
+        self.group = group;
+        self
+    }
+
+    /// The same with a default that these words describe.
+    pub const fn default_in_words(mut self, words: &'static str) -> Self {
+        self.default = DefaultValue::Derived(words);
+        self
+    }
+
     /// The same with a symbol.
     pub const fn symbol(mut self, symbol: &'static str) -> Self {
         self.symbol = symbol;

@@ -3,6 +3,7 @@
 
 pub(crate) mod entries;
 pub(crate) mod error;
+mod fields;
 pub(crate) mod key;
 pub(crate) mod keys;
 pub(crate) mod named;
@@ -15,8 +16,7 @@ pub(crate) mod value;
 
 use crate::arithmetic::real::Real;
 use crate::case::error::CaseError;
-use crate::case::keys::LARGEST;
-use crate::case::parameters::{Parameters, natural_inertia};
+use crate::case::parameters::{LARGEST, Parameters, natural_inertia};
 use crate::case::value::Value;
 use crate::model::body::{Body, Shape};
 use crate::model::forcing::Harmonic;

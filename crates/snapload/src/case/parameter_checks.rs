@@ -2,8 +2,8 @@
 
 use crate::case::error::CaseError;
 use crate::case::key::Key;
-use crate::case::keys::{KEYS, check_entry};
-use crate::case::parameters::{BODIES, FIELDS, Get, Parameters, natural_inertia};
+use crate::case::keys::check_entry;
+use crate::case::parameters::{BODIES, FIELDS, Get, KEYS, Parameters, natural_inertia};
 use crate::case::value::Value;
 
 /// The least moment of inertia that may be given, as a part of a^2 + b^2: a lighter body would turn
@@ -58,7 +58,7 @@ impl Parameters {
 
     /// All keys, in the order of the schema, with how the value of each is read.
     pub fn keys() -> impl Iterator<Item = (&'static Key, Get)> {
-        KEYS.iter().zip(FIELDS.iter().map(|(_, get, _)| *get))
+        KEYS.iter().zip(FIELDS.iter().map(|(get, _)| *get))
     }
 
     /// The names of all keys with their values, in the order of the schema.

@@ -1,6 +1,8 @@
-//! The values that make a case: a plain struct and its defaults.
+//! The values that make a case: its keys, a struct of their values, and their defaults.
 
 use crate::arithmetic::real::Real;
+use crate::case::fields::{case_keys, field};
+use crate::case::key::{DefaultValue, Key, Kind};
 use crate::case::value::Value;
 use crate::model::rules::{Limit, LimitBounds, Rules};
 use crate::model::system::anchor_height;
@@ -13,80 +15,110 @@ pub const ROTATION_LIMIT: f64 = std::f64::consts::FRAC_PI_2;
 /// The kinds of body: one with size and rotation, or a point mass without.
 pub(crate) const BODIES: [&str; 2] = ["rigid", "point"];
 
-/// The values of all keys of a case, in nondimensional units (length L, mass m, force F, time T of
-/// the model), with numbers of type `T`.
-///
-/// [`Parameters::from_entries`] fills in the values that are left out, and checks all. A struct
-/// that is filled in by hand is checked by [`Parameters::check`].
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Parameters<T = f64> {
-    /// Length of the cables.
-    pub r: T,
-    /// Coefficient of restitution.
-    pub e: T,
-    /// Half-width of the body.
-    pub a: T,
-    /// Half-height of the body; 0 for a circle.
-    pub b: T,
-    /// Moment of inertia I of a rigid body; without one the body is a point mass, a = b = 0.
-    pub inertia: Option<T>,
-    /// Force amplitude.
-    pub f_o: T,
-    /// Axis ratio ν of the forcing ellipse.
-    pub nu: T,
-    /// Frequency Ω of the forcing.
-    pub omega: T,
-    /// Start: horizontal position.
-    pub x: T,
-    /// Start: vertical position.
-    pub y: T,
-    /// Start: rotation θ.
-    pub theta: T,
-    /// Start: horizontal velocity.
-    pub vx: T,
-    /// Start: vertical velocity.
-    pub vy: T,
-    /// Start: angular velocity.
-    pub vtheta: T,
-    /// End of the run.
-    pub t_end: T,
-    /// Normal velocity below which a cable under tension sticks.
-    pub v_stick: T,
-    /// Whether a run stops where it settles.
-    pub stop_when_settled: bool,
-    /// Whether a run stops where it begins to slide.
-    pub stop_when_sliding: bool,
-    /// Most impacts of a run.
-    pub max_impacts: u64,
+/// Largest magnitude of a number in a case; all relevant quantities are of order 1 in its units.
+pub(crate) const LARGEST: f64 = 1e3;
+const ANY: Kind = Kind::number(-LARGEST, LARGEST);
+const SIZE: Kind = Kind::number(0.0, LARGEST);
+const POSITIVE: Kind = Kind::positive(LARGEST);
+/// The upper bound is a^2 at the largest a, so that each derived value may also be given.
+const INERTIA: Kind = Kind::number(1e-12, 1e6);
+
+case_keys! {
+    /// The values of all keys of a case, in nondimensional units (length L, mass m, force F, time T
+    /// of the model), with numbers of type `T`.
+    ///
+    /// [`Parameters::from_entries`] fills in the values that are left out, and checks all. A struct
+    /// that is filled in by hand is checked by [`Parameters::check`].
+    #[derive(Clone, Copy, Debug, PartialEq)]
+    struct Parameters;
+
+    "cables" r: T = 1.5, "L", POSITIVE, "length of the cables"
+        .also("and r > |1 - a|").usual(0.95, 3.0);
+    "cables" e: T = 0.9, "1", Kind::number(0.0, 1.0),
+        "coefficient of restitution of a snap: v_n after = -e v_n before".usual(0.0, 1.0);
+    "body" a: T = 0.1, "L", SIZE, "half-width of the body"
+        .default_in_words("0.1; 0 for a point mass").usual(0.02, 0.5);
+    "body" b: T = 0.0, "L", SIZE, "half-height of the body; 0 is the circle"
+        .default_in_words("0").usual(0.0, 0.5);
+    /// None for a point mass, which has no size either: a = b = 0.
+    "body" inertia: Option<T> = Some(0.1 * 0.1), "m L^2", INERTIA, "moment of inertia"
+        .default_in_words("a^2 if b = 0 (ring), (a^2 + b^2)/3 if b > 0 (rectangle)")
+        .symbol("I").also("at least 1e-6 (a^2 + b^2); never given for a point mass")
+        .usual(1e-3, 0.2);
+    "forcing" f_o: T = 0.3, "F", ANY, "force amplitude: f_x = f_o cos(omega t)"
+        .usual(0.0, 1.0);
+    "forcing" nu: T = 0.5, "1", ANY,
+        "axis ratio of the forcing ellipse: f_y = nu f_o sin(omega t)".symbol("ν").usual(-1.0, 1.0);
+    "forcing" omega: T = 0.9, "rad/T", ANY, "frequency of the forcing"
+        .symbol("Ω").usual(0.1, 3.0);
+    "start" x: T = 0.0, "L", ANY, "start: horizontal position of the centre".usual(-0.5, 0.5);
+    "start" y: T = 0.1, "L", ANY,
+        "start: vertical position, towards the anchors; 0 with both cables taut".usual(0.0, 1.0);
+    "start" theta: T = 0.0, "rad", ANY, "start: rotation"
+        .symbol("θ").also("and |theta| <= pi/2; 0 for a point mass").usual(-1.5, 1.5);
+    "start" vx: T = 0.0, "L/T", ANY, "start: horizontal velocity".symbol("ẋ").usual(-1.0, 1.0);
+    "start" vy: T = 0.0, "L/T", ANY, "start: vertical velocity".symbol("ẏ").usual(-1.0, 1.0);
+    "start" vtheta: T = 0.0, "rad/T", ANY, "start: angular velocity"
+        .symbol("θ̇").also("0 for a point mass").usual(-3.0, 3.0);
+    "stops" t_end: T = 100.0, "T", Kind::positive(1e6), "the run ends here at the latest"
+        .usual(5.0, 200.0);
+    "cables" v_stick: T = 1e-6, "L/T", Kind::number(1e-9, 1e-2),
+        "a slower snap makes the cable stay taut if its tension would be positive";
+    "stops" stop_when_settled: bool = true, "", Kind::Flag,
+        "stop where a cable sticks, or both are taut, below y = 0.05";
+    "stops" stop_when_sliding: bool = false, "", Kind::Flag,
+        "stop where a cable sticks at y = 0.05 or above";
+    "stops" max_impacts: u64 = 1_000_000, "", Kind::Count(1, 10_000_000),
+        "the run ends at more impacts than this";
+
+    without a field: BODY, Get::Word(|p| BODIES[usize::from(p.is_point())]);
+}
+
+const BODY: Key = Key::new(
+    "body",
+    "",
+    Kind::Choice(&BODIES),
+    DefaultValue::Word(BODIES[0]),
+    "a rigid body that turns, or a point mass (a = b = 0) that does not",
+)
+.in_group("body");
+
+/// How the value of a key is read from a case.
+#[derive(Clone, Copy, Debug)]
+pub enum Get {
+    /// A number; none where the case has none, as for the inertia of a point mass or a limit that
+    /// is off.
+    Number(fn(&Parameters) -> Option<f64>),
+    /// A whole number.
+    Count(fn(&Parameters) -> u64),
+    /// Yes or no.
+    Flag(fn(&Parameters) -> bool),
+    /// One of a few words.
+    Word(fn(&Parameters) -> &'static str),
+}
+
+impl Get {
+    /// The value; none where the case has none.
+    pub fn value(self, p: &Parameters) -> Option<Value> {
+        Some(match self {
+            Self::Number(of) => Value::Number(of(p)?),
+            Self::Count(of) => Value::Integer(i64::try_from(of(p)).unwrap_or(i64::MAX)),
+            Self::Flag(of) => Value::Bool(of(p)),
+            Self::Word(of) => Value::Text(of(p).to_owned()),
+        })
+    }
+}
+
+/// How the value of a key is stored in its own field; none if it has no field.
+#[derive(Clone, Copy)]
+pub(crate) enum Store {
+    Number(fn(&mut Parameters, f64)),
+    Count(fn(&mut Parameters, u64)),
+    Flag(fn(&mut Parameters, bool)),
+    None,
 }
 
 impl<T: Copy> Parameters<T> {
-    /// The same case with its numbers in another arithmetic; `number` converts each number and
-    /// receives its key.
-    pub fn map<U>(&self, mut number: impl FnMut(&'static str, T) -> U) -> Parameters<U> {
-        Parameters {
-            r: number("r", self.r),
-            e: number("e", self.e),
-            a: number("a", self.a),
-            b: number("b", self.b),
-            inertia: self.inertia.map(|inertia| number("inertia", inertia)),
-            f_o: number("f_o", self.f_o),
-            nu: number("nu", self.nu),
-            omega: number("omega", self.omega),
-            x: number("x", self.x),
-            y: number("y", self.y),
-            theta: number("theta", self.theta),
-            vx: number("vx", self.vx),
-            vy: number("vy", self.vy),
-            vtheta: number("vtheta", self.vtheta),
-            t_end: number("t_end", self.t_end),
-            v_stick: number("v_stick", self.v_stick),
-            stop_when_settled: self.stop_when_settled,
-            stop_when_sliding: self.stop_when_sliding,
-            max_impacts: self.max_impacts,
-        }
-    }
-
     /// Whether the body is a point mass.
     pub fn is_point(&self) -> bool {
         self.inertia.is_none()
@@ -116,119 +148,11 @@ impl Default for Parameters {
     }
 }
 
-/// How the value of a key is read from a case.
-#[derive(Clone, Copy, Debug)]
-pub enum Get {
-    /// A number; none where the case has none, as for the inertia of a point mass or a limit that
-    /// is off.
-    Number(fn(&Parameters) -> Option<f64>),
-    /// A whole number.
-    Count(fn(&Parameters) -> u64),
-    /// Yes or no.
-    Flag(fn(&Parameters) -> bool),
-    /// One of a few words.
-    Word(fn(&Parameters) -> &'static str),
-}
-
-impl Get {
-    /// The value; none for the inertia of a point mass.
-    pub fn value(self, p: &Parameters) -> Option<Value> {
-        Some(match self {
-            Self::Number(of) => Value::Number(of(p)?),
-            Self::Count(of) => Value::Integer(i64::try_from(of(p)).unwrap_or(i64::MAX)),
-            Self::Flag(of) => Value::Bool(of(p)),
-            Self::Word(of) => Value::Text(of(p).to_owned()),
-        })
-    }
-}
-
-/// How the value of a key is stored in its own field; none if it has no field.
-#[derive(Clone, Copy)]
-pub(crate) enum Store {
-    Number(fn(&mut Parameters, f64)),
-    Count(fn(&mut Parameters, u64)),
-    Flag(fn(&mut Parameters, bool)),
-    None,
-}
-
-/// The field in which a key is kept.
-macro_rules! field {
-    (Number $field:ident) => {
-        (
-            stringify!($field),
-            Get::Number(|p| Some(p.$field)),
-            Store::Number(|p, value| p.$field = value),
-        )
-    };
-    ($kind:ident $field:ident) => {
-        (
-            stringify!($field),
-            Get::$kind(|p| p.$field),
-            Store::$kind(|p, value| p.$field = value),
-        )
-    };
-}
-
-/// The accessors of each key, in the order of the schema.
-pub(crate) static FIELDS: &[(&str, Get, Store)] = &[
-    field!(Number r),
-    field!(Number e),
-    field!(Number a),
-    field!(Number b),
-    (
-        "inertia",
-        Get::Number(|p| p.inertia),
-        Store::Number(|p, value| p.inertia = p.inertia.and(Some(value))),
-    ),
-    field!(Number f_o),
-    field!(Number nu),
-    field!(Number omega),
-    field!(Number x),
-    field!(Number y),
-    field!(Number theta),
-    field!(Number vx),
-    field!(Number vy),
-    field!(Number vtheta),
-    field!(Number t_end),
-    field!(Number v_stick),
-    field!(Flag stop_when_settled),
-    field!(Flag stop_when_sliding),
-    field!(Count max_impacts),
-    (
-        "body",
-        Get::Word(|p| BODIES[usize::from(p.is_point())]),
-        Store::None,
-    ),
-];
-
 impl Parameters {
     /// Whether the inertia is the natural one of the size, and so follows it.
     pub fn inertia_follows(&self) -> bool {
         self.inertia.is_some() && self.inertia == natural_inertia(self.a, self.b)
     }
-
-    /// The standard case of the chapter (1910001000-359), which also holds the defaults.
-    pub const STANDARD: Self = Self {
-        r: 1.5,
-        e: 0.9,
-        a: 0.1,
-        b: 0.0,
-        inertia: Some(0.1 * 0.1),
-        f_o: 0.3,
-        nu: 0.5,
-        omega: 0.9,
-        x: 0.0,
-        y: 0.1,
-        theta: 0.0,
-        vx: 0.0,
-        vy: 0.0,
-        vtheta: 0.0,
-        t_end: 100.0,
-        v_stick: 1e-6,
-        stop_when_settled: true,
-        stop_when_sliding: false,
-        max_impacts: 1_000_000,
-    };
 
     /// Whether a small change of a key that holds a number changes the motion smoothly. A point
     /// mass has no size and no rotation, and a circle no half-height.
@@ -242,8 +166,8 @@ impl Parameters {
 
     /// Stores the checked value of a key.
     pub(crate) fn store(&mut self, name: &str, value: &Value) {
-        let field = FIELDS.iter().find(|(key, ..)| *key == name);
-        match (field.map_or(Store::None, |(_, _, put)| *put), value) {
+        let store = Self::field(name).map_or(Store::None, |(_, store)| *store);
+        match (store, value) {
             (Store::Number(put), value) => _ = value.number().map(|number| put(self, number)),
             (Store::Count(put), value) => _ = value.count().map(|count| put(self, count)),
             (Store::Flag(put), Value::Bool(flag)) => put(self, *flag),
@@ -251,10 +175,14 @@ impl Parameters {
         }
     }
 
-    /// The value of a key; none for an unknown key, and for the inertia of a point mass.
+    /// The value of a key; none for an unknown key, and where the case has none.
     pub fn get(&self, name: &str) -> Option<Value> {
-        let (_, get, _) = FIELDS.iter().find(|(key, ..)| *key == name)?;
+        let (get, _) = Self::field(name)?;
         get.value(self)
+    }
+
+    fn field(name: &str) -> Option<&'static (Get, Store)> {
+        FIELDS.get(KEYS.iter().position(|key| key.name == name)?)
     }
 }
 
@@ -267,16 +195,4 @@ pub fn natural_inertia<T: Real>(a: T, b: T) -> Option<T> {
         (a * a + b * b) / 3.0
     };
     (inertia > T::ZERO).then_some(inertia)
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::case::keys::KEYS;
-
-    #[test]
-    fn fields_stand_in_the_order_of_the_schema() {
-        let kept = FIELDS.iter().map(|(name, ..)| *name);
-        assert!(kept.eq(KEYS.iter().map(|key| key.name)));
-    }
 }

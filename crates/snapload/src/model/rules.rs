@@ -39,75 +39,60 @@ impl<T: Real> Rules<T> {
     }
 }
 
-/// Why a run stopped.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
-pub enum Stop {
-    /// A cable stuck, or two are taut, below the settling height.
-    Settled,
-    /// |θ| reached the rotation limit.
-    RotationLimit,
-    /// The highest point of the body reached the upper bound.
-    UpperBound,
-    /// A cable stuck at or above the settling height.
-    SlidingStart,
-    /// The end of the requested time.
-    EndTime,
-    /// More impacts than allowed.
-    ImpactLimit,
-    /// The time no longer increases, and no cable snaps: the computation can not go on.
-    Standstill,
+/// An enum, with the list of its variants and the texts of each.
+macro_rules! listed {
+    (
+        $(#[$of_enum:meta])*
+        pub enum $Enum:ident: $Texts:ty {
+            $($(#[$of_variant:meta])* $Variant:ident = $texts:expr;)*
+        }
+    ) => {
+        $(#[$of_enum])*
+        pub enum $Enum { $($(#[$of_variant])* $Variant,)* }
+
+        impl $Enum {
+            /// All variants.
+            pub const ALL: [Self; [$(stringify!($Variant)),*].len()] = [$(Self::$Variant),*];
+
+            const fn texts(self) -> $Texts {
+                match self { $(Self::$Variant => $texts,)* }
+            }
+        }
+    };
+}
+
+listed! {
+    /// Why a run stopped. In tables of numbers each is stored as its index in [`Stop::ALL`], so
+    /// that a new one has to come last. Its texts are its name in files and in programs, the same
+    /// for people, and the end of a sentence about it.
+    #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+    pub enum Stop: [&'static str; 3] {
+        /// A cable stuck, or two are taut, below the settling height.
+        Settled = [
+            "settled", "settled", "a cable stuck, or two were taut, below the settling height",
+        ];
+        /// |θ| reached the rotation limit.
+        RotationLimit = ["rotation_limit", "rotation limit", "the rotation reached its limit"];
+        /// The highest point of the body reached the upper bound.
+        UpperBound = [
+            "upper_bound", "upper bound", "the highest point of the body reached the upper bound",
+        ];
+        /// A cable stuck at or above the settling height.
+        SlidingStart = [
+            "sliding_start", "sliding start", "a cable stuck at or above the settling height",
+        ];
+        /// The end of the requested time.
+        EndTime = ["end_time", "end time", "the requested time was over"];
+        /// More impacts than allowed.
+        ImpactLimit = ["impact_limit", "impact limit", "there were more impacts than allowed"];
+        /// The time no longer increases, and no cable snaps: the computation can not go on.
+        Standstill = [
+            "standstill", "standstill", "the computation stood still: its time no longer increased",
+        ];
+    }
 }
 
 impl Stop {
-    /// All variants. In tables of numbers each is stored as its index here, so that a new one has
-    /// to come last.
-    pub const ALL: [Self; 7] = [
-        Self::Settled,
-        Self::RotationLimit,
-        Self::UpperBound,
-        Self::SlidingStart,
-        Self::EndTime,
-        Self::ImpactLimit,
-        Self::Standstill,
-    ];
-
-    /// Its name in files and in programs; its name for people; the end of a sentence about it.
-    const fn texts(self) -> [&'static str; 3] {
-        match self {
-            Self::Settled => [
-                "settled",
-                "settled",
-                "a cable stuck, or two were taut, below the settling height",
-            ],
-            Self::RotationLimit => [
-                "rotation_limit",
-                "rotation limit",
-                "the rotation reached its limit",
-            ],
-            Self::UpperBound => [
-                "upper_bound",
-                "upper bound",
-                "the highest point of the body reached the upper bound",
-            ],
-            Self::SlidingStart => [
-                "sliding_start",
-                "sliding start",
-                "a cable stuck at or above the settling height",
-            ],
-            Self::EndTime => ["end_time", "end time", "the requested time was over"],
-            Self::ImpactLimit => [
-                "impact_limit",
-                "impact limit",
-                "there were more impacts than allowed",
-            ],
-            Self::Standstill => [
-                "standstill",
-                "standstill",
-                "the computation stood still: its time no longer increased",
-            ],
-        }
-    }
-
     /// Its name in files and in programs.
     pub const fn name(self) -> &'static str {
         self.texts()[0]
@@ -151,60 +136,60 @@ pub(crate) const LIMIT_FUNCTIONS: usize = {
     sum
 };
 
-/// A limit of the motion: a run ends where the quantity that it bounds reaches its bound. If
-/// several are reached at one instant, the first in this order counts.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Limit {
-    /// |θ| stays below the rotation limit \[rad\].
-    Rotation,
-    /// The highest point of the body stays below the upper bound \[L\].
-    UpperBound,
+listed! {
+    /// A limit of the motion: a run ends where the quantity that it bounds reaches its bound. If
+    /// several are reached at one instant, the first in the order of [`Limit::ALL`] counts.
+    #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+    pub enum Limit: LimitTexts {
+        /// |θ| stays below the rotation limit \[rad\].
+        Rotation = LimitTexts {
+            stop: Stop::RotationLimit,
+            bounded: "rotation",
+            bound: "the rotation reaches this angle in either direction [rad]",
+            functions: 2,
+        };
+        /// The highest point of the body stays below the upper bound \[L\].
+        UpperBound = LimitTexts {
+            stop: Stop::UpperBound,
+            bounded: "highest point",
+            bound: "the highest point of the body reaches this height",
+            functions: 4,
+        };
+    }
+}
+
+/// What describes a limit.
+struct LimitTexts {
+    /// The reason for which a run stops that reaches it; its name is also the limit's.
+    stop: Stop,
+    /// The quantity that it bounds.
+    bounded: &'static str,
+    /// The end of a sentence about its bound: "the run ends where ...".
+    bound: &'static str,
+    /// The largest number of its event functions: one for either direction of the rotation, one for
+    /// each corner below the upper bound.
+    functions: usize,
 }
 
 impl Limit {
-    /// All of them.
-    pub const ALL: [Self; 2] = [Self::Rotation, Self::UpperBound];
-
     /// The reason for which a run stops that reaches it; its name is also the limit's.
     pub const fn stop(self) -> Stop {
-        match self {
-            Self::Rotation => Stop::RotationLimit,
-            Self::UpperBound => Stop::UpperBound,
-        }
+        self.texts().stop
     }
 
-    /// The largest number of its event functions: one for either direction of the rotation, one for
-    /// each corner below the upper bound.
+    /// The largest number of its event functions.
     const fn functions(self) -> usize {
-        match self {
-            Self::Rotation => 2,
-            Self::UpperBound => 4,
-        }
-    }
-
-    /// The quantity that it bounds; and the end of a sentence about its bound: "the run ends where
-    /// ...".
-    const fn texts(self) -> [&'static str; 2] {
-        match self {
-            Self::Rotation => [
-                "rotation",
-                "the rotation reaches this angle in either direction [rad]",
-            ],
-            Self::UpperBound => [
-                "highest point",
-                "the highest point of the body reaches this height",
-            ],
-        }
+        self.texts().functions
     }
 
     /// The quantity that it bounds, in words.
     pub const fn bounded(self) -> &'static str {
-        self.texts()[0]
+        self.texts().bounded
     }
 
     /// The end of a sentence about its bound: "the run ends where ...".
     pub const fn bound_text(self) -> &'static str {
-        self.texts()[1]
+        self.texts().bound
     }
 }
 
@@ -264,29 +249,11 @@ impl LimitSet {
 mod tests {
     use super::*;
 
-    /// A new variant does not compile here until it has an index, and the test fails if it is not
-    /// in the lists.
+    /// Where only the name is known, as in files, people read it with blanks instead of underscores.
     #[test]
-    fn the_lists_are_complete() {
-        let stop = |stop| match stop {
-            Stop::Settled => 0,
-            Stop::RotationLimit => 1,
-            Stop::UpperBound => 2,
-            Stop::SlidingStart => 3,
-            Stop::EndTime => 4,
-            Stop::ImpactLimit => 5,
-            Stop::Standstill => 6,
-        };
-        assert!(Stop::ALL.into_iter().map(stop).eq(0..7));
-        // Where only the name is known, as in files, people read it with blanks instead of
-        // underscores.
+    fn labels_are_names_with_blanks() {
         for stop in Stop::ALL {
             assert_eq!(stop.label(), stop.name().replace('_', " "));
         }
-        let limit = |limit| match limit {
-            Limit::Rotation => 0,
-            Limit::UpperBound => 1,
-        };
-        assert!(Limit::ALL.into_iter().map(limit).eq(0..2));
     }
 }

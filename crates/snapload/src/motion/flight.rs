@@ -11,7 +11,8 @@ use crate::model::taut_set::TautSet;
 use crate::motion::attachment::{Attachment, GapJet, Instant};
 use crate::motion::contact::{Contact, Contacts};
 use crate::motion::events::{EventFunction, HasEvents, Jet, Jets};
-use crate::motion::limits::{Flying, Limits};
+use crate::motion::limits::Limits;
+use crate::motion::limits::law::Flying;
 
 /// The free motion from a state, with no cable taut (docs/model.md section 4; any sum of
 /// sinusoids).

@@ -7,7 +7,7 @@ use crate::arithmetic::processor::apart;
 use crate::model::forcing::Harmonic;
 use crate::model::state::State;
 use crate::motion::attachment::{Attachment, GapJet, INFLATION, Instant, advanced};
-use crate::motion::limits::NEVER;
+use crate::motion::limits::law::NEVER;
 use crate::motion::two_cables::{AfterImpact, TwoCableSystem};
 
 /// The most trials of one search; usually one is enough.

@@ -12,7 +12,7 @@ use crate::model::mass::Mass;
 use crate::model::rules::Rules;
 use crate::model::state::State;
 use crate::model::system::System;
-use crate::motion::limits::LaneLimits;
+use crate::motion::limits::law::LaneLimits;
 
 /// The numbers that are constant along a run.
 #[derive(Clone, Copy, Debug, Default)]

@@ -97,6 +97,50 @@ fn the_upper_bound_of_a_throw() {
     }
 }
 
+/// A rectangle with a mass matrix, or one that a floating body has, is followed by series. Thrown
+/// upwards with much spin and with its cables at its centre, where they show nothing of the
+/// rotation, it reaches the upper bound where its highest corner does in closed form.
+#[test]
+fn the_upper_bound_of_a_throw_with_spin() {
+    let (g, v, [a, b]) = (2.0, 3.0, [0.4_f64, 0.1]);
+    let mut system = string(9.0, g, 0.5);
+    let masses = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 0.06]];
+    let shape = Shape::of_half_sizes(a, b);
+    system.body = Body::with_mass_matrix(shape, masses).expect("positive definite");
+    for (spin, bound) in [(3.0, 2.0), (-40.0, 1.9), (300.0, 2.3), (2000.0, 2.4)] {
+        let highest = |t: f64| {
+            let theta = spin * t;
+            v * t - g * t * t / 2.0 + a * theta.sin().abs() + b * theta.cos().abs()
+        };
+        let width = 1e-2 / f64::abs(spin);
+        let beyond = (0..)
+            .map(|k| width * f64::from(k))
+            .find(|&t| highest(t) >= bound);
+        let mut after = beyond.expect("the bound is below the peak");
+        let mut before = after - width;
+        for _ in 0..60 {
+            let middle = f64::midpoint(before, after);
+            if highest(middle) < bound {
+                before = middle;
+            } else {
+                after = middle;
+            }
+        }
+        let rules = Rules {
+            limits: LimitBounds::none().with(Limit::UpperBound, bound),
+            ..Rules::until(3.0)
+        };
+        let start = State {
+            vy: v,
+            vtheta: spin,
+            ..State::default()
+        };
+        let end = *record(&system, rules, start).end();
+        assert_eq!(end.reason, Stop::UpperBound, "{spin}");
+        assert!((end.t - after).abs() < 1e-13, "{spin}: {} {after}", end.t);
+    }
+}
+
 /// The kinds of motion that are calculated in different ways.
 const KINDS: [&str; 4] = ["two cables", "three cables", "full mass", "afloat"];
 

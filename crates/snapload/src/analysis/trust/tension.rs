@@ -7,7 +7,9 @@
 //! with ∇T = ∂T/∂(x, y, θ, ẋ, ẏ, θ̇) while the same cables are taut, at the start and at the end of
 //! a step; a step is about half a radian of the motion, within which this hardly changes. An
 //! uncertain parameter also changes T itself, which its own run with derivatives contains.
-//! Deviations of a floating body's memory are left out.
+//! Deviations of a floating body's memory are left out, and so is, at the start of a step, what the
+//! forcing changes between the neighbours' own times there, (∂T/∂t) τ, except after a snap, where
+//! it decides whether a cable leaves at once.
 //!
 //! A step may end, as its series does, shortly before a tension is lost that all neighbours lose.
 //! So a tension that is near zero and still falls is decided by a later step: it is lost there, or

@@ -11,6 +11,7 @@ use crate::model::rules::Limit;
 use crate::model::state::State;
 use crate::model::taut_set::{MAX_CABLES, PerCable};
 use crate::motion::active_set::normal_acceleration;
+use crate::motion::limits::law::FlightChange;
 use crate::motion::simulation::{Simulation, Step};
 use crate::motion::step_map::{Deviation, StepMap};
 
@@ -146,7 +147,7 @@ impl UncertainKey {
     pub(super) fn of_gap_between(&self, cable: usize, parts: usize) -> f64 {
         let tether = &self.simulation.system().cables[cable];
         self.step.as_deref().map_or(0.0, |step| {
-            let change = Change::along(&self.simulation, step);
+            let change = FlightChange::along(&self.simulation, step);
             self.between(step, change.of_gap(tether), parts)
         })
     }
@@ -171,11 +172,21 @@ impl UncertainKey {
     pub(super) fn of_limit_within(&self, limit: Limit) -> f64 {
         self.step.as_deref().map_or(0.0, |step| {
             let state = self.simulation.state_along(step);
-            let change = Change::along(&self.simulation, step);
-            let reach = self.simulation.system().body.reach();
+            let change = FlightChange::along(&self.simulation, step);
             let most = self.largest(step, |s| self.over_limit(limit, &state(s)));
-            let bound = change.of_limit(limit, [reach.value, reach.slope[0]]);
+            let bound = limit.change_in_flight(&change, self.outline());
             most + self.between(step, bound, EVALUATIONS)
+        })
+    }
+
+    /// The largest distance of a point of the outline from the centre, and by how much such a point
+    /// moves in the body's frame with the parameter.
+    fn outline(&self) -> [f64; 2] {
+        let (outline, _) = self.simulation.system().body.outline();
+        let points = outline.points().iter();
+        let sizes = points.map(|&p| [p.length().value, length_of_slope(p)]);
+        sizes.fold([0.0; 2], |[far, moved], [length, slope]| {
+            [far.max(length), moved.max(slope)]
         })
     }
 
@@ -214,18 +225,7 @@ impl UncertainKey {
     }
 }
 
-/// Bounds on what of a flight a parameter changes: for each the quantity itself and
-/// its derivative by the parameter.
-struct Change {
-    force: [f64; 2],
-    speed: [f64; 2],
-    spin: [f64; 2],
-    /// Of the place and of the rotation the derivatives alone.
-    place: f64,
-    turn: f64,
-}
-
-impl Change {
+impl FlightChange {
     /// By each neighbour's own time, so that the force is also that at another time.
     fn along(simulation: &Simulation<Dual<f64, 1>>, step: &Step<Dual<f64, 1>>) -> Self {
         let (forcing, start) = (&simulation.system().forcing, &step.start);
@@ -249,22 +249,6 @@ impl Change {
         }
     }
 
-    /// Of the acceleration of a point of the body at a distance from its centre, f(t) − θ̇²Rρ.
-    fn of_acceleration(&self, [reach, reach_slope]: [f64; 2]) -> f64 {
-        let [spin, spin_slope] = self.spin;
-        let centripetal = spin * spin * (reach_slope + reach * self.turn);
-        self.force[1] + 2.0 * spin * spin_slope * reach + centripetal
-    }
-
-    /// Of the second derivative of a limit's quantity; a flight does not change the rate of
-    /// rotation.
-    fn of_limit(&self, limit: Limit, reach: [f64; 2]) -> f64 {
-        match limit {
-            Limit::Rotation => 0.0,
-            Limit::UpperBound => self.of_acceleration(reach),
-        }
-    }
-
     /// Of g̈ = 2 (Ṗ² + d·P̈), where |d| ≤ r.
     fn of_gap(&self, tether: &Cable<Dual<f64, 1>>) -> f64 {
         let fairlead = tether.fairlead();
@@ -283,4 +267,89 @@ impl Change {
 /// The length of the derivative of a vector.
 fn length_of_slope(vector: Vector2<Dual<f64, 1>>) -> f64 {
     vector.map(|component| component.slope[0]).length()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::case::parameters::Parameters;
+
+    /// The largest second derivative, by divided differences, of the derivative by a key of a
+    /// limit's quantity along a first flight, and the bound on it. Where the highest corner or the
+    /// sign of the rotation changes, the quantity is not smooth, and nothing is compared.
+    fn second_derivative(case: &Parameters, key: &'static str, limit: Limit) -> [f64; 2] {
+        let case = Case::new(*case).expect("a legal case");
+        let mut key = UncertainKey::new(&case, key, 1e-6).expect("an uncertain key");
+        let step = key.simulation.step().expect("a flight");
+        assert!(step.taut.is_empty());
+        let change = FlightChange::along(&key.simulation, &step);
+        let bound = limit.change_in_flight(&change, key.outline());
+        let state = key.simulation.state_along(&step);
+        let s = (step.t_end - step.t_start).value;
+        let h = 1e-3 * s;
+        let mut largest = 0.0_f64;
+        for k in 1..=99 {
+            let at =
+                [-1.0, 0.0, 1.0].map(|side| state(Dual::constant(0.01 * s * k as f64 + side * h)));
+            let branch = at.map(|state| {
+                let (sine, cosine) = state.theta.value.sin_cos();
+                [sine > 0.0, cosine > 0.0]
+            });
+            if branch[0] == branch[2] {
+                let [left, middle, right] = at.map(|state| key.over_limit(limit, &state).slope[0]);
+                largest = largest.max((left - 2.0 * middle + right).abs() / (h * h));
+            }
+        }
+        [largest, bound]
+    }
+
+    /// Each term of the bound counts alone in one of the first cases, which come close to it: the
+    /// force, the spin, the rotation and the size.
+    #[test]
+    fn the_derivative_of_a_quantity_by_a_key_changes_within_its_bound() {
+        let p = Parameters {
+            a: 0.3,
+            b: 0.3,
+            nu: 1.0,
+            omega: 1.5,
+            y: 0.8,
+            ..Parameters::STANDARD
+        };
+        let spinning = Parameters {
+            y: 0.6,
+            theta: 0.2,
+            vtheta: 9.0,
+            t_end: 0.05,
+            ..p
+        };
+        for (case, key) in [
+            (p, "f_o"),
+            (
+                Parameters {
+                    t_end: 0.005,
+                    ..spinning
+                },
+                "vtheta",
+            ),
+            (spinning, "theta"),
+            (spinning, "a"),
+        ] {
+            let [largest, bound] = second_derivative(&case, key, Limit::UpperBound);
+            assert!(largest > 0.5 * bound, "{key}: {largest} {bound}");
+        }
+        for limit in Limit::ALL {
+            for case in [p, spinning] {
+                for key in [
+                    "r", "a", "b", "inertia", "f_o", "nu", "omega", "x", "y", "theta", "vx", "vy",
+                    "vtheta",
+                ] {
+                    let [largest, bound] = second_derivative(&case, key, limit);
+                    assert!(
+                        largest <= bound * (1.0 + 1e-5) + 1e-5,
+                        "{limit:?}, {key}: {largest} {bound}"
+                    );
+                }
+            }
+        }
+    }
 }

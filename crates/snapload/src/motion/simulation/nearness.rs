@@ -8,7 +8,7 @@ use crate::motion::events::{EventFunction, HasEvents, Jets};
 use crate::motion::extremes::{
     first_above_zero, first_above_zero_before_last_rise, first_above_zero_between,
 };
-use crate::motion::limits::Along;
+use crate::motion::limits::law::Along;
 use crate::motion::simulation::within::{LatestStep, SegmentMotion};
 use crate::motion::simulation::{Simulation, Step};
 use crate::motion::taut_series::STILL;

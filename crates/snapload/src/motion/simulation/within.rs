@@ -11,7 +11,7 @@ use crate::model::taut_set::TautSet;
 use crate::motion::contact::Contact;
 use crate::motion::events::{EventFunction, HasEvents, Jet, Jets};
 use crate::motion::flight::Flight;
-use crate::motion::limits::Along;
+use crate::motion::limits::law::Along;
 use crate::motion::simulation::{Simulation, Step};
 use crate::motion::taut_series::Series;
 use std::borrow::Cow;

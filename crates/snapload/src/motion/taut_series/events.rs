@@ -8,7 +8,7 @@ use crate::model::system::System;
 use crate::model::taut_set::MAX_CABLES;
 use crate::motion::active_set::ActiveSet;
 use crate::motion::events::{EventFunction, HasEvents, Jet, Jets};
-use crate::motion::limits::{EventSeries, TautMotion};
+use crate::motion::limits::law::{EventSeries, TautMotion};
 use crate::motion::sizes::negligible_tensions;
 use crate::motion::taut_series::Series;
 
@@ -86,6 +86,7 @@ impl<T: Real> Series<T> {
             circle: &self.body.circle,
             step,
             left_out: self.left_out_of_motion(step),
+            circle_left_out: self.left_out_of_circle(system, step),
         };
         self.limits
             .add_event_series(&motion, &mut self.event_series);

@@ -54,8 +54,9 @@ impl<T: Real> Series<T> {
         self.place(k + 1).map(|next| next * (k + 1) as f64)
     }
 
-    /// The longest part of a step, found by repeated division by √2, on which the truncation error
-    /// of the gaps is below a part of a rounding of the displacements of the cables' ends.
+    /// The longest part of a step, found by repeated division by √2, on which the truncation errors
+    /// of the gaps and of the body's outline are below a part of a rounding of the displacements of
+    /// the cables' ends.
     #[inline(always)]
     pub(super) fn shortened(&self, system: &System<T>, mut step: T) -> T {
         if self.is_followed_by_its_terms(system) {
@@ -68,7 +69,8 @@ impl<T: Real> Series<T> {
         let longest = system.cables.iter().map(Cable::length);
         let longest = longest.fold(T::ONE, T::max) * (T::EPSILON * 0.1);
         while step > T::EPSILON {
-            let mut left_out = self.left_out_of_motion(step);
+            let of_outline = system.body.reach() * self.left_out_of_circle(system, step);
+            let mut left_out = self.left_out_of_motion(step).max(of_outline);
             let of_gaps = self.left_out_of_gaps(system, step);
             for of_gap in &of_gaps[..system.cables.len()] {
                 left_out = left_out.max(*of_gap);
@@ -108,12 +110,27 @@ impl<T: Real> Series<T> {
         }
     }
 
+    /// Bound on the truncation error of (cos θ, sin θ) up to a time `s`. These solve ċ = −θ̇ s,
+    /// ṡ = θ̇ c up to the products beyond the last order, and a rotation does not let an error
+    /// grow; an error of θ̇ turns them by that of θ.
+    #[inline(always)]
+    pub(super) fn left_out_of_circle(&self, system: &System<T>, s: T) -> T {
+        if self.is_followed_by_its_terms(system) {
+            return T::ZERO;
+        }
+        let mut power = s;
+        for _ in 0..ORDER {
+            power = power * s;
+        }
+        let [cosine, sine] = self.body.spin.beyond_product(&self.body.circle, s);
+        (cosine + sine) * power + self.left_out_of_motion(s)
+    }
+
     /// Bound on the truncation error of each gap up to a time `s`:
     ///
     /// - for |d|², the products beyond the last order;
-    /// - for d, |ρ| times the error of (cos θ, sin θ). These solve ċ = −θ̇ s, ṡ = θ̇ c up to the
-    ///   products beyond the last order, and a rotation does not let an error grow;
-    /// - for position and rotation, the error of the motion.
+    /// - for d, |ρ| times the error of (cos θ, sin θ);
+    /// - for the position, the error of the motion.
     ///
     /// An error of d changes the gap by 2r times that error, as |d| ≤ r up to the first closing.
     #[inline(always)]
@@ -126,9 +143,8 @@ impl<T: Real> Series<T> {
         for _ in 0..ORDER {
             power = power * s;
         }
-        let [cosine, sine] = self.body.spin.beyond_product(&self.body.circle, s);
         let of_motion = self.left_out_of_motion(s);
-        let turned = (cosine + sine) * power + of_motion;
+        let turned = self.left_out_of_circle(system, s);
         for (pair, tethers) in system.cables.chunks(2).enumerate() {
             let beyond = self.pairs.beyond_gaps(pair, s);
             for (place, tether) in tethers.iter().enumerate() {
