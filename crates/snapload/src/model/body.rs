@@ -116,19 +116,24 @@ impl<T: Real> Body<T> {
     /// The points of the outline, in the body's frame, one of which is the highest at any rotation,
     /// and the radius of the disc about each.
     pub fn outline(&self) -> (Outline<T>, T) {
-        match self.shape {
-            Shape::Point => (Outline::centre(), T::ZERO),
-            Shape::Circle { radius } => (Outline::centre(), radius),
+        let outline = match self.shape {
+            Shape::Point | Shape::Circle { .. } => Outline::centre(),
             Shape::Rectangle {
                 half_width: a,
                 half_height: b,
-            } => (
-                Outline {
-                    points: [[a, b], [-a, b], [-a, -b], [a, -b]].map(Vector2::from),
-                    count: 4,
-                },
-                T::ZERO,
-            ),
+            } => Outline {
+                points: [[a, b], [-a, b], [-a, -b], [a, -b]].map(Vector2::from),
+                count: 4,
+            },
+        };
+        (outline, self.disc_radius())
+    }
+
+    /// The radius of the disc about each point of the outline.
+    pub(crate) fn disc_radius(&self) -> T {
+        match self.shape {
+            Shape::Circle { radius } => radius,
+            Shape::Point | Shape::Rectangle { .. } => T::ZERO,
         }
     }
 

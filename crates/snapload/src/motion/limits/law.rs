@@ -108,9 +108,9 @@ pub(crate) struct LaneLimits<T> {
 /// What the limits need to know of a system.
 #[derive(Clone, Debug)]
 pub(super) struct LimitedSystem<T> {
+    pub(super) body: Body<T>,
+    /// Its outline.
     pub(super) outline: Outline<T>,
-    /// Radius of the disc about each point of the outline.
-    pub(super) radius: T,
     /// How far the points of the outline are from the centre.
     pub(super) reach: T,
     /// Bounds on the force and its derivatives.
@@ -119,11 +119,11 @@ pub(super) struct LimitedSystem<T> {
 
 impl<T: Real> LimitedSystem<T> {
     pub(super) fn of(system: &System<T>) -> Self {
-        let (outline, radius) = system.body.outline();
+        let (outline, _) = system.body.outline();
         Self {
+            body: system.body,
             reach: outline.points()[0].length(),
             outline,
-            radius,
             force: system.forcing.bounds(),
         }
     }

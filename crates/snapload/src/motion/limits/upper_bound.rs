@@ -66,7 +66,7 @@ impl LimitLaw for UpperBound {
                 noise: (bound.abs() + state.y.abs() + height.abs()) * T::EPSILON * 4.0,
                 ..Jet::new(
                     EventFunction::Limit(Limit::UpperBound),
-                    state.y + height + system.radius - bound,
+                    state.y + height + system.body.disc_radius() - bound,
                     state.vy + state.vtheta * swing,
                     push.force.y - state.vtheta.squared() * height,
                 )
@@ -89,7 +89,7 @@ impl LimitLaw for UpperBound {
                 let [cosine, sine] = motion.circle[k];
                 top[k] = y[k] + px * sine + py * cosine;
             }
-            top[0] = top[0] + system.radius - bound;
+            top[0] = top[0] + system.body.disc_radius() - bound;
             motion.add(Limit::UpperBound, top, left_out, events);
         }
     }
