@@ -154,7 +154,7 @@ fn follow_taut(
                 return Ok(Some(ProvedEnd { reason, t, state }));
             }
             Event::Released(cable) => {
-                run.slow.clear();
+                run.slow_row.end();
                 now.taut.retain(|other| *other != cable);
                 TautState {
                     taut: now.taut,
@@ -190,8 +190,8 @@ fn snapped(
     let (state, t) = hull_of(&instants);
     let pair = Pair::new(run.fine, &state, &t, [struck, taut])?;
     run.impacts += 1;
-    let may_stick = run.is_slow(&pair.struck.v_n, struck)? || run.fine.e.is_zero();
-    let snap = pair.after(may_stick, run.alternates_slowly())?;
+    let may_stick = run.is_slow(&pair.struck.v_n, struck, &t)? || run.fine.e.is_zero();
+    let snap = pair.after(may_stick, run.slow_row.alternates())?;
     let impact = ProvedImpact {
         cable: struck,
         t: t.clone(),

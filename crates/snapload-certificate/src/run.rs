@@ -1,5 +1,6 @@
 //! Slack flight from impact to impact, for a set of states that contains the true one.
 
+mod slow_row;
 mod start;
 
 use crate::arithmetic::ball::Ball;
@@ -17,12 +18,11 @@ use crate::taut::law::Law;
 use crate::taut::start::{Instants, Started, start_motion};
 use crate::taut::step::Equations;
 use crate::verdict::ProofFailure;
+use slow_row::SlowRow;
 use snapload::Stop;
 
 /// A cable that sticks below this height settles the run.
 const SETTLING_HEIGHT: &str = "0.05";
-/// After this many slow snaps in a row the two cables may come to rest together.
-const SLOW_IN_A_ROW: usize = 5;
 
 /// A run in progress: the flight after an impact, continued to a number T next to the impact's
 /// time.
@@ -39,8 +39,7 @@ pub(crate) struct Run<'a> {
     /// The cables that are closed where it begins.
     zeros: Zeros,
     pub(crate) impacts: u64,
-    /// The cables of the latest snaps, all of them slower than `v_stick`.
-    pub(crate) slow: Vec<usize>,
+    pub(crate) slow_row: SlowRow,
 }
 
 /// A cable that sticks, and the states at that instant, just before the impact.
@@ -235,7 +234,7 @@ impl<'a> Run<'a> {
         let t = &self.t + &root.whole;
         let (next, jacobian) = self.carry(root, &state, &force, &impact)?;
         self.impacts += 1;
-        let reason = self.rules(cable, &state, &force, &impact)?;
+        let reason = self.rules((cable, &t), &state, &force, &impact)?;
         let stick = match reason {
             Some(Reason::Sticks) => Some(Stick {
                 cable,
@@ -363,15 +362,15 @@ impl<'a> Run<'a> {
     /// The reason for which an impact ends the flight, if any (docs/model.md, sections 6 and 7).
     fn rules(
         &mut self,
-        cable: usize,
+        (cable, t): (usize, &Ball),
         state: &State,
         force: &Force,
         impact: &Impact,
     ) -> Result<Option<Reason>, ProofFailure> {
-        let slow = self.is_slow(&impact.v_n, cable)?;
+        let slow = self.is_slow(&impact.v_n, cable, t)?;
         let sticks = (slow || self.case.number("e").is_zero())
             && self.sign(&impact.pull(state, force), "the tension")?;
-        if !sticks && self.alternates_slowly() {
+        if !sticks && self.slow_row.alternates() {
             // The model takes the remaining normal velocity away although the cable has no tension,
             // which is not proved here.
             return Err(ProofFailure::not_covered(format!(
@@ -400,20 +399,19 @@ impl<'a> Run<'a> {
 
     /// Whether a snap is slower than `v_stick`; it then extends the row of slow snaps, and else
     /// ends it.
-    pub(crate) fn is_slow(&mut self, v_n: &Ball, cable: usize) -> Result<bool, ProofFailure> {
+    pub(crate) fn is_slow(
+        &mut self,
+        v_n: &Ball,
+        cable: usize,
+        t: &Ball,
+    ) -> Result<bool, ProofFailure> {
         let fast = self.sign(&(v_n - &self.coarse.v_stick), "v_n - v_stick")?;
         if fast {
-            self.slow.clear();
+            self.slow_row.end();
         } else {
-            self.slow.push(cable);
+            self.slow_row.add(cable, t, self.case, self.coarse)?;
         }
         Ok(!fast)
-    }
-
-    /// Whether the latest snaps are a row of slow ones that includes both cables.
-    pub(crate) fn alternates_slowly(&self) -> bool {
-        let both = self.slow.contains(&0) && self.slow.contains(&1);
-        both && self.slow.len() >= SLOW_IN_A_ROW
     }
 
     /// The stop rules that apply at impacts, at the height `y`, with `taut` cables taut from now

@@ -54,7 +54,7 @@ pub use model::floating_units::FloatingUnits;
 pub use model::forcing::{Forcing, Harmonic};
 pub use model::mass::Matrix3;
 pub use model::quantity::{QUANTITIES, Quantity, quantity, title_of};
-pub use model::rules::{Limit, LimitBounds, Rules, Stop};
+pub use model::rules::{Limit, LimitBounds, MOST_HALTED, Rules, SLOW_FLIGHT, SLOW_SNAPS, Stop};
 pub use model::state::State;
 pub use model::surroundings::Surroundings;
 pub use model::system::{System, anchor_height};

@@ -6,6 +6,7 @@ use crate::arithmetic::radius::Radius;
 use crate::case::ExactCase;
 use crate::model::{FIRST_TOP, Model, State};
 use crate::run::Run;
+use crate::run::slow_row::SlowRow;
 use crate::slack::impact::Impact;
 use crate::slack::search::{Zero, Zeros, name};
 use crate::slack::set::Set;
@@ -33,7 +34,7 @@ impl<'a> Run<'a> {
             slack: Radius::ZERO,
             zeros: Zeros::new(),
             impacts: 0,
-            slow: Vec::new(),
+            slow_row: SlowRow::empty(),
         }
     }
 

@@ -7,6 +7,7 @@ use crate::slack::impact::Impact;
 use crate::slack::search::{Zero, Zeros};
 use crate::taut::law::{Law, after};
 use crate::verdict::ProofFailure;
+use snapload::MOST_HALTED;
 
 /// The motion after a snap while another cable is taut.
 pub(crate) struct After {
@@ -71,13 +72,15 @@ impl<'a> Pair<'a> {
         } else {
             self.keeping_taut(all)
         };
-        if alternating && self.leaves_slowly(unloads)? {
+        let both = alternating && self.leaves_slowly(unloads)?;
+        let at_once = alternating && (!both || self.halts_slowly(unloads)?);
+        if both && at_once {
             let halted = self.keeping_taut(Ball::integer(1));
             let carries = self.carrying(&self.velocity(&halted)?, true)?;
             return Ok(self.at_rest(rebound, halted, carries));
         }
         if unloads {
-            return self.unloading(rebound, may_stick, alternating);
+            return self.unloading(rebound, may_stick, at_once);
         }
         let halted = if may_stick {
             self.keeping_taut(Ball::integer(1))
@@ -112,18 +115,42 @@ impl<'a> Pair<'a> {
         Ok(!unloads || sign(&(&self.model.v_stick - &speed), what)?)
     }
 
+    /// Whether rest of both cables takes no more from the velocity of their ends than slow snaps
+    /// do, beside what rest of the struck one takes. The two ends are equally far from the centre.
+    fn halts_slowly(&self, unloads: bool) -> Result<bool, ProofFailure> {
+        if !unloads {
+            // The taut cable is at rest after the impact, and nothing more is taken.
+            return Ok(true);
+        }
+        let [moving, halted] = [
+            self.velocity(&self.without_taut(Ball::integer(1)))?,
+            self.velocity(&self.keeping_taut(Ball::integer(1)))?,
+        ];
+        let [x, y, spin] = [0, 1, 2].map(|k: usize| &moving[k] - &halted[k]);
+        let model = self.model;
+        let what = "how much rest of both cables takes from the body's velocity";
+        let root = |square: Ball| square.sqrt().ok_or_else(|| ProofFailure::undecided(what));
+        let arm = match model.a.is_zero() && model.b.is_zero() {
+            true => Ball::zero(),
+            false => root(model.a.squared() + model.b.squared())?,
+        };
+        let taken = root(x.squared() + y.squared())? + spin.abs() * arm;
+        let most = &model.v_stick * &Ball::double(MOST_HALTED);
+        sign(&(most - taken), what)
+    }
+
     /// The case in which the impact opens the taut cable; the struck one may stick.
     fn unloading(
         &self,
         rebound: Law,
         may_stick: bool,
-        alternating: bool,
+        at_once: bool,
     ) -> Result<After, ProofFailure> {
         let [struck, taut] = self.cables;
         let leaves = (taut, Zero::Opening);
         let sticks = may_stick && sign(&self.struck.pull(self.state, &self.force), "the tension")?;
         let halted = self.without_taut(Ball::integer(1));
-        let (continuing_laws, set, zeros) = match (sticks, alternating) {
+        let (continuing_laws, set, zeros) = match (sticks, at_once) {
             (true, _) => (halted, vec![struck], vec![leaves]),
             (false, true) => (
                 halted,

@@ -2,6 +2,17 @@
 
 use crate::arithmetic::real::Real;
 
+/// Two cables that snap in turn come to rest together after so many snaps in a row that are slower
+/// than `v_stick` (docs/model.md section 6).
+pub const SLOW_SNAPS: u32 = 5;
+/// Such snaps belong to one row if the flight between them takes no longer than this many times
+/// `v_stick` over the largest constant force and waves' force together: they follow each other in
+/// 2 v/α, and α may be a 50th of it.
+pub const SLOW_FLIGHT: f64 = 100.0;
+/// The largest velocity of an end of a cable, in multiples of `v_stick`, that is taken away where
+/// they come to rest. For two cables at a right angle it is √2.
+pub const MOST_HALTED: f64 = 16.0;
+
 /// The rules that end a run, each on or off (docs/model.md section 7), and the speed below which a
 /// cable sticks.
 ///

@@ -5,7 +5,7 @@ use snapload::analysis::{
     Horizon, HorizonCause, TrustMonitor, Uncertainty, Unfinished, no_progress, record, trusted_run,
 };
 use snapload::{
-    Case, Harmonic, Limit, LimitBounds, Parameters, Rules, Simulation, State, Stop, System,
+    Cable, Case, Harmonic, Limit, LimitBounds, Parameters, Rules, Simulation, State, Stop, System,
 };
 
 /// The horizon of a run whose start may be off by `doubts`.
@@ -87,6 +87,36 @@ fn a_limit_that_is_nearly_reached_before_it_is_reached_ends_trust() {
             assert_eq!(cause(found), expected, "{turn} {part}");
             assert!(found.is_none_or(|found| t - 0.1 < found.t && found.t <= t + 1e-6));
         }
+    }
+}
+
+/// Thrown up at v from 1/2 below a bound a mass is v²/2 higher at t = v. What comes later, here two
+/// cables that snap at one instant or the end of time, does not hide that neighbours reach the
+/// bound.
+#[test]
+fn a_graze_of_a_limit_is_not_hidden_by_a_later_event() {
+    let mut system = string(1.25, 1.0, 0.5);
+    system.cables = [-1.0, 1.0]
+        .map(|side| Cable::new([side, 0.75], [0.0, 0.0], 1.25))
+        .into();
+    for (v, doubt, t_end) in [(1.0 - 1e-5, 1e-4, 3.0), (1.0, 0.0, 3.0), (1.0, 0.0, 2.0)] {
+        let rules = Rules {
+            limits: LimitBounds::none().with(Limit::UpperBound, 0.75),
+            ..Rules::until(t_end)
+        };
+        let start = State {
+            y: 0.25,
+            vy: v,
+            ..State::default()
+        };
+        let found = horizon(&system, rules, start, [0.0, 0.0, 0.0, 0.0, doubt, 0.0]);
+        let found = found.expect("neighbours that reach the bound");
+        assert_eq!(found.cause, HorizonCause::StopRule, "{v} {t_end}");
+        assert!(
+            (0.9..1.0 + 1e-6).contains(&found.t),
+            "{v} {t_end}: {}",
+            found.t
+        );
     }
 }
 

@@ -12,7 +12,7 @@ use crate::motion::active_set::normal_acceleration;
 use crate::motion::events::Reached;
 use crate::motion::simulation::{Progress, Simulation, Step};
 
-/// Why, and when, neighbours may leave the run's sequence of events at this step, if they may.
+/// Why, and when first, neighbours may leave the run's sequence of events at this step, if they may.
 #[inline(always)]
 pub(super) fn cause(
     simulation: &Simulation,
@@ -21,25 +21,13 @@ pub(super) fn cause(
     neighbours: &Neighbours,
     closing: Option<Closing>,
 ) -> Option<(HorizonCause, f64)> {
-    if let Some(cause) = tie(simulation.system(), step) {
-        return Some((cause, step.t_end));
-    }
-    // Not by `Option::filter`, as its closure would not have the processor's own instructions.
-    if let Some(closing) = &closing {
-        let cable = closing.cable;
-        if may_miss(approach, neighbours, closing) || may_not_have_opened(simulation, step, closing)
-        {
-            return Some((HorizonCause::Graze { cable }, step.t_end));
-        }
-        if may_or_may_not_stick(simulation, step, neighbours, closing) {
-            return Some((HorizonCause::Sticking { cable }, step.t_end));
-        }
-    }
+    let mut first = cause_at_event(simulation, step, approach, neighbours, closing)
+        .map(|cause| (cause, step.t_end));
     for cable in 0..simulation.system().cables.len() {
         if !step.taut.contains(cable)
             && let Some(t) = may_snap(simulation, step, approach, neighbours, cable)
         {
-            return Some((HorizonCause::NearMiss { cable }, t));
+            first = earlier(first, (HorizonCause::NearMiss { cable }, t));
         }
     }
     let stop = may_stop(simulation, step, neighbours).or_else(|| {
@@ -47,7 +35,42 @@ pub(super) fn cause(
             || may_run_out_of_time(simulation, step, &neighbours.met);
         may.then_some(step.t_end)
     });
-    stop.map(|t| (HorizonCause::StopRule, t))
+    match stop {
+        Some(t) => earlier(first, (HorizonCause::StopRule, t)),
+        None => first,
+    }
+}
+
+/// The earlier of two causes; at one instant the first.
+fn earlier(
+    first: Option<(HorizonCause, f64)>,
+    other: (HorizonCause, f64),
+) -> Option<(HorizonCause, f64)> {
+    match first {
+        Some(first) if first.1 <= other.1 => Some(first),
+        _ => Some(other),
+    }
+}
+
+/// Why the event at the end of the step may be another one for neighbours, if it may.
+#[inline(always)]
+fn cause_at_event(
+    simulation: &Simulation,
+    step: &Step,
+    approach: &Approach,
+    neighbours: &Neighbours,
+    closing: Option<Closing>,
+) -> Option<HorizonCause> {
+    if let Some(cause) = tie(simulation.system(), step) {
+        return Some(cause);
+    }
+    let closing = closing.as_ref()?;
+    let cable = closing.cable;
+    if may_miss(approach, neighbours, closing) || may_not_have_opened(simulation, step, closing) {
+        return Some(HorizonCause::Graze { cable });
+    }
+    may_or_may_not_stick(simulation, step, neighbours, closing)
+        .then_some(HorizonCause::Sticking { cable })
 }
 
 /// Whether several events come at one instant whose order may differ for neighbours and decides

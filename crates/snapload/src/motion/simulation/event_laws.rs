@@ -2,6 +2,7 @@
 
 use crate::arithmetic::processor::apart;
 use crate::arithmetic::real::Real;
+use crate::model::rules::{MOST_HALTED, SLOW_FLIGHT, SLOW_SNAPS};
 use crate::model::rules::{Rules, Stop};
 use crate::model::state::State;
 use crate::model::system::System;
@@ -14,14 +15,6 @@ use crate::motion::impact::{ImpactResult, impact};
 use crate::motion::projection::project_velocity;
 use crate::motion::simulation::{CONVERGING, Event, LastImpacts, MOST_IDLE, Simulation};
 use crate::motion::ties::{Instant, first_clear};
-
-/// Slow snaps belong to one row if the flight between them takes no longer than this many times
-/// `v_stick` over the largest constant force and waves' force together: they follow each other in
-/// 2 v/α, and α may be a 50th of it.
-const SLOW_FLIGHT: f64 = 100.0;
-/// The largest velocity, in multiples of `v_stick`, that cables take away which come to rest at
-/// once. For two at a right angle it is √2.
-const MOST_HALTED: f64 = 16.0;
 
 /// Snaps in a row that were slower than `v_stick`.
 #[derive(Clone, Copy, Debug)]
@@ -159,7 +152,7 @@ impl<T: Real> Simulation<T> {
         closed: TautSet,
         others: TautSet,
     ) -> Option<TautSet> {
-        if self.slow_row.snaps < CONVERGING || self.slow_row.cables.len() < 2 {
+        if self.slow_row.snaps < SLOW_SNAPS || self.slow_row.cables.len() < 2 {
             return None;
         }
         let slow = |&cable: &usize| result.v_after[cable].abs() < self.rules.v_stick;

@@ -231,8 +231,9 @@ impl<T: Real> Simulation<T> {
         (speed * speed + tether.length() * accel) * 2.0
     }
 
-    /// How long after its start the quantity of a limit first came within `margin` > 0 of its bound
-    /// in the latest step, if it did; if the limit ends the step, before the last rise to it.
+    /// How long after its start the quantity of a limit first came within `margin` > 0 and rounding
+    /// of its bound in the latest step, if it did; if the limit ends the step, before the last rise
+    /// to it.
     pub(crate) fn comes_near_limit(&self, step: &Step<T>, limit: Limit, margin: T) -> Option<T> {
         let s = step.t_end - step.t_start;
         let motion = self.motion(step.taut);
@@ -257,7 +258,9 @@ impl<T: Real> Simulation<T> {
             let nearness = |s: T| {
                 let jets = jets_at(s);
                 let jet = jets.iter().filter(|jet| jet.function == function).nth(k);
-                jet.map_or((-T::ONE, T::ZERO), |jet| (jet.value + margin, jet.rate))
+                jet.map_or((-T::ONE, T::ZERO), |jet| {
+                    (jet.value + jet.noise + margin, jet.rate)
+                })
             };
             if step.event.reached.limits.contains(limit) {
                 first_above_zero_before_last_rise(&nearness, s, acceleration)
