@@ -6,6 +6,7 @@ pub(crate) mod emergence;
 pub(crate) mod equilibrium;
 pub(crate) mod gumbel;
 pub(crate) mod implausible;
+pub(crate) mod mean_drag;
 pub(crate) mod model;
 pub(crate) mod model_at_rest;
 pub(crate) mod periods;
