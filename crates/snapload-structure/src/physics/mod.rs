@@ -4,7 +4,6 @@ pub(crate) mod afloat;
 pub(crate) mod elastic;
 pub(crate) mod emergence;
 pub(crate) mod equilibrium;
-pub(crate) mod gumbel;
 pub(crate) mod implausible;
 pub(crate) mod mean_drag;
 pub(crate) mod model;
