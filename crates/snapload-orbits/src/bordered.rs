@@ -1,4 +1,4 @@
-//! Singular matrices with a border: where they are singular, and their null vectors.
+//! Singular matrices: with a border, where they are singular and their null vectors; their range.
 //!
 //! Source: W. J. F. Govaerts, *Numerical Methods for Bifurcations of Dynamical Equilibria* (2000),
 //! ch. 3. In
@@ -11,7 +11,8 @@
 //! g is smooth and zero where A is singular, and v is then its null vector. The whole matrix is
 //! regular although A is not, so that v is known to rounding. The vectors of nalgebra's singular
 //! value decomposition are not: in version 0.35 the left ones are wrong by a rounding over the
-//! least value, by which `compute_2x2_uptrig_svd` divides a difference.
+//! least value, by which `compute_2x2_uptrig_svd` divides a difference. So the range is not taken
+//! from it either.
 
 use nalgebra::{DMatrix, DVector, RowDVector};
 
@@ -63,6 +64,14 @@ fn first_borders(matrix: &DMatrix<f64>) -> Option<[DVector<f64>; 2]> {
     lu.q().permute_columns(&mut columns);
     let unit = |place: usize| DVector::from_fn(n, |i, _| if i == place { 1.0 } else { 0.0 });
     Some([unit(rows[last]), unit(columns[last])])
+}
+
+/// An orthonormal basis of a space of so many dimensions that contains the range of a matrix of at
+/// most this rank, by elimination of the longest column that is left with reflections (G. H. Golub
+/// and C. F. Van Loan, *Matrix Computations* (2013), section 5.4.2).
+pub(crate) fn range(matrix: &DMatrix<f64>, rank: usize) -> DMatrix<f64> {
+    let q = matrix.clone().col_piv_qr().q();
+    q.columns(0, rank).into_owned()
 }
 
 #[cfg(test)]
@@ -120,6 +129,35 @@ mod tests {
                     assert!(along(&q, &right) > 1.0 - 1e-10 && along(&p, &left) > 1.0 - 1e-10);
                 }
             }
+        }
+    }
+
+    /// A Bᵀ with r columns each leads to the range of A, in which its r eigenvalues that are not zero
+    /// are those of BᵀA; entries that differ by rounding change them by rounding. A matrix of less
+    /// than the rank that is given has zeros among them.
+    #[test]
+    fn the_range_has_the_eigenvalues_that_are_not_zero() {
+        let mut numbers = Numbers(88_172_645_463_325_252);
+        for (n, r) in [(2, 1), (3, 1), (3, 2), (4, 3), (6, 2), (6, 5)] {
+            for least in [0.0, 1e-16, 3e-15, 1e-14, 1e-13] {
+                for _ in 0..200 {
+                    let [a, b] = [numbers.orthogonal(n), numbers.orthogonal(n)];
+                    let [a, b] = [a, b].map(|all| all.columns(0, r).into_owned());
+                    let rounding = DMatrix::from_fn(n, n, |_, _| least * numbers.next());
+                    let matrix = &a * b.transpose() + rounding;
+                    let basis = range(&matrix, r);
+                    let within = basis.transpose() * &matrix * &basis;
+                    let expected = b.transpose() * &a;
+                    let off = (within.trace() - expected.trace()).abs();
+                    assert!(off < 1e-11, "{n} {r} {least}: {off}");
+                    let off = (within.determinant() - expected.determinant()).abs();
+                    assert!(off < 1e-11, "{n} {r} {least}: {off}");
+                }
+            }
+            let one = DMatrix::from_fn(n, n, |i, j| if i == 1 && j == 1 { 0.5 } else { 0.0 });
+            let basis = range(&one, r);
+            let off = (basis.transpose() * &one * &basis).trace() - 0.5;
+            assert!(off.abs() < 1e-15 && (basis.transpose() * &basis).trace() > r as f64 - 1e-9);
         }
     }
 }

@@ -6,6 +6,7 @@
 //! there. A snap without rebound stops a surface even if it is let go at once, and closes its gap;
 //! where that closes more directions, the problem is solved in those that the whole lap leaves.
 
+use crate::bordered::range;
 use crate::hybrid::{DURATION, Family, Hybrid, Jet, Point, constant, variable};
 use crate::lap::{Lap, Leg};
 use crate::newton::Closed;
@@ -157,10 +158,7 @@ fn within_range(matrix: DMatrix<f64>, rank: usize) -> DMatrix<f64> {
     if matrix.nrows() <= rank || !matrix.iter().all(|entry| entry.is_finite()) {
         return matrix;
     }
-    let Some(directions) = matrix.clone().svd(true, false).u else {
-        return matrix;
-    };
-    let range = directions.columns(0, rank);
+    let range = range(&matrix, rank);
     range.transpose() * matrix * range
 }
 

@@ -27,7 +27,6 @@ pub use physics::elastic::{
 };
 pub use physics::emergence::Emergence;
 pub use physics::equilibrium::{Equilibrium, equilibrium};
-pub use physics::gumbel::{Estimate, Gumbel, reduced_variate};
 pub use physics::model::{Groups, Model, Scales, force_per_acceleration};
 pub use physics::model_at_rest::ModelAtRest;
 pub use physics::periods::{NaturalMode, NaturalPeriods};
@@ -42,6 +41,7 @@ pub use runs::assess::{Assessment, DEFAULT_NEIGHBOURS, assess};
 pub use runs::design::{Answer, Check, Criterion, RecordsCheck};
 pub use runs::elastic_comparison::{ElasticComparison, Inextensible, compare_elastic};
 pub use runs::further::NEIGHBOUR;
+pub use runs::gumbel::{Estimate, Gumbel, reduced_variate};
 pub use runs::motion::MotionSi;
 pub use runs::outcome::{LineOutcome, Outcome};
 pub use runs::quantile::quantile;

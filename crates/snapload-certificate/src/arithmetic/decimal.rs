@@ -42,7 +42,7 @@ impl Decimal {
     /// A decimal as it is written, such as `-0.25` or `1e-6`; none if it is written otherwise, is
     /// longer than 400 characters or has a power of ten beyond ±400.
     pub fn parse(text: &str) -> Option<Self> {
-        if text.len() >= LONGEST {
+        if text.len() > LONGEST {
             return None;
         }
         let (sign, whole, fraction, power) = parts(text)?;

@@ -153,7 +153,8 @@ impl Radius {
         (self.mantissa, self.exponent)
     }
 
-    /// A double next to it; proofs do not use it.
+    /// The double nearest to it: it is exact except beyond the range of doubles, where it is 0, a
+    /// subnormal or infinite. Proofs use the doubles next to it as bounds.
     pub(crate) fn to_f64(self) -> f64 {
         let exponent = i32::try_from(self.exponent).unwrap_or(if self.exponent > 0 {
             i32::MAX

@@ -179,3 +179,9 @@ fn decimals_are_read_as_people_write_them() {
         assert!(Decimal::typed(text).is_none(), "{text}");
     }
 }
+
+#[test]
+fn the_longest_decimal_has_400_characters() {
+    let ones = |count: usize| Decimal::parse(&"1".repeat(count));
+    assert!(ones(400).is_some() && ones(401).is_none());
+}

@@ -57,8 +57,8 @@ impl Impact {
         std::array::from_fn(|i| &state[3 + i] - &(&impulse * &self.u[i]))
     }
 
-    /// T r/w for a cable that stays taut at this state, which has the sign of its tension T: |Ṗ|² +
-    /// D·(f − θ̇² ρ) with the normal velocity set to zero.
+    /// T r w for a cable that stays taut at this state, which has the sign of its tension T: r b
+    /// with the normal velocity set to zero, as g̈/(2r) = b − w T = 0.
     pub(crate) fn pull(&self, state: &State, force: &Force) -> Ball {
         self.load(&self.velocity(state, &Ball::integer(1)), force)
     }

@@ -10,7 +10,7 @@ use crate::taut::law::Law;
 use crate::taut::rocking::Rocking;
 use crate::taut::sliding::Sliding;
 use crate::taut::start::{Instants, Started, hull_of, start_motion};
-use crate::taut::step::{Equations, Place, Step};
+use crate::taut::step::{Equations, Step, TwoPrecisions};
 use crate::verdict::ProofFailure;
 use snapload::Stop;
 
@@ -70,7 +70,7 @@ fn follow<const N: usize>(
     on_step: &mut dyn FnMut(&Ball) -> Result<(), ProofFailure>,
 ) -> Result<TautEnd, ProofFailure> {
     let equations = Equations::of(chart, model);
-    let place = Place::of(chart.place(model));
+    let place = TwoPrecisions::of(chart.place(model));
     let Started {
         mut t,
         mut set,
@@ -132,7 +132,7 @@ struct StepStart<'a, const N: usize> {
 fn ending<const N: usize>(
     step: &Step<'_, N>,
     now: &StepStart<'_, N>,
-    place: &Place,
+    place: &TwoPrecisions,
 ) -> Result<Option<TautEnd>, ProofFailure> {
     let (limit, left) = (&step.length, now.left);
     let latest_start = &now.from.1;

@@ -24,12 +24,12 @@ pub(crate) struct Equations<'a> {
 }
 
 /// A program at full precision and in intervals of doubles.
-pub(crate) struct Place {
+pub(crate) struct TwoPrecisions {
     pub(crate) exact: Program,
     pub(crate) few: Program<Interval>,
 }
 
-impl Place {
+impl TwoPrecisions {
     pub(crate) fn of(exact: Program) -> Self {
         Self {
             few: exact.map(Interval::of),
@@ -193,7 +193,7 @@ impl<'a, const N: usize> Step<'a, N> {
         which: usize,
         time: &Ball,
         [centre, whole]: [&Ball; 2],
-        place: &Place,
+        place: &TwoPrecisions,
     ) -> Option<([Ball; 7], [[Ball; N]; 7])> {
         let rate = Interval::of(&self.event_value(which, whole).rate).reciprocal()?;
         let slope = slopes_of(&self.whole.outputs[which], Interval::of(whole));
@@ -207,7 +207,7 @@ impl<'a, const N: usize> Step<'a, N> {
         time: &Ball,
         [centre, whole]: [&Ball; 2],
         instant: [Interval; N],
-        place: &Place,
+        place: &TwoPrecisions,
     ) -> Option<([Ball; 7], [[Ball; N]; 7])> {
         let over = Interval::of(whole);
         let at = self.at(whole);
@@ -237,7 +237,7 @@ impl<'a, const N: usize> Step<'a, N> {
         &self,
         time: &Ball,
         tau: &Ball,
-        place: &Place,
+        place: &TwoPrecisions,
         set: &Set<N>,
     ) -> Result<Set<7>, ProofFailure> {
         let fixed = [Interval::zero(); N];

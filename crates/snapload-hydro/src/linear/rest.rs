@@ -11,10 +11,13 @@ use std::f64::consts::FRAC_PI_2;
 
 /// The most lines that can be taut at once: there are three degrees of freedom.
 const MOST_TAUT: usize = 3;
-/// The steps of Newton's method, and the factors of its starting points.
+/// The most steps of Newton's method.
 const STEPS: usize = 60;
+/// A step of less than this part of the unit of length is rounding; the second one in turn is the
+/// last.
 const ROUNDING: f64 = 1e-13;
-/// An eigenvalue of NᵀHN below this part of the largest counts as no stiffness.
+/// An eigenvalue of NᵀHN below this part of the unit of force over that of length counts as no
+/// stiffness.
 const SINGULAR: f64 = 1e-9;
 
 /// An inextensible line from an anchor to a point of the body.
@@ -121,12 +124,13 @@ pub fn rest(hydro: &Hydrodynamics, body: &Body, lines: &[Line]) -> Result<Rest, 
         length = length.max(line.length_m);
     }
     let weight = body.mass_kg * hydro.water.gravity_m_s2;
+    let [along, up, moment] = body.constant_force.abs().into();
     let problem = RestProblem {
         lines,
         reference: hydro.reference_m,
         body,
         length,
-        force: weight.max(body.constant_force.amax()),
+        force: weight.max(along).max(up).max(moment / length),
     };
     let mut best: Option<(f64, Rest)> = None;
     for taut in sets(lines.len()) {
@@ -265,7 +269,7 @@ impl RestProblem<'_> {
     }
 
     /// Newton's matrix and right side, lengths in units of the longest line (the rotation in
-    /// radians), forces in units of the weight.
+    /// radians), forces in their unit.
     fn newton(
         &self,
         taut: &[usize],

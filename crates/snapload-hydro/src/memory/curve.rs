@@ -106,8 +106,9 @@ impl DampingCurve {
         let sum: f64 = points
             .map(|[nu, weight, value]| {
                 let apart = (nu - omega) * (nu + omega);
-                // Where a point of the rule is exactly ω the quotient is the slope there over 2ω,
-                // whose contribution is no more than a rounding of the sum.
+                // Where a point of the rule is exactly ω the quotient is 0/0, and its limit, the
+                // slope there over 2ω, is left out. The points lie between the file's frequencies,
+                // at which this is asked for, so that it does not happen with them.
                 match apart == 0.0 {
                     true => 0.0,
                     false => weight * (value - here) / apart,

@@ -130,8 +130,9 @@ pub(super) struct Nearest<'a> {
 pub(super) struct Passive {
     /// The z of each entry.
     pub z: Vec<DVector<f64>>,
-    /// The least eigenvalue over the largest, before and after.
+    /// The least eigenvalue over the largest, before the memory was made passive.
     pub least_before: f64,
+    /// The same of the passive memory.
     pub least: f64,
     /// The largest eigenvalue.
     pub largest: f64,

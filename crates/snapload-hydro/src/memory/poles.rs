@@ -50,7 +50,8 @@ pub(super) fn basis(s: Complex<f64>, poles: &Poles) -> Vec<Complex<f64>> {
     functions
 }
 
-/// The first poles: pairs −0.2 b − 0.05 ± ib, b evenly spaced from 0.5 to 0.8 ω_max.
+/// The first poles \[rad/s\]: pairs −0.2 b − 0.05 ± ib, b evenly spaced from 0.5, or 0.4 ω_max if
+/// that is less, to 0.8 ω_max.
 pub(super) fn first_guess(pairs: usize, omega_max: f64) -> Poles {
     let b = |k: usize| {
         let part = k as f64 / (pairs.max(2) - 1) as f64;

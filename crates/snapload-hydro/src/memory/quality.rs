@@ -57,14 +57,13 @@ pub struct BlockQuality {
     pub freedoms: Vec<usize>,
     /// Pairs of poles; two real poles count as a pair.
     pub pairs: usize,
-    /// The root mean square of the difference over all entries, before and after the memory was
-    /// made passive.
+    /// The root mean square of the difference over all entries, before the memory was made passive.
     pub rms_before: f64,
-    /// After.
+    /// The same of the memory that is used.
     pub rms: f64,
-    /// The least eigenvalue of Re K̂ over the largest, before and after.
+    /// The least eigenvalue of Re K̂ over the largest, before the memory was made passive.
     pub least_before: f64,
-    /// After.
+    /// The same of the memory that is used.
     pub least: f64,
     /// Whether passivity would have increased the error too much: the memory is unchanged, and
     /// linear damping is added.

@@ -3,7 +3,7 @@
 
 use crate::common::{hydro, reference};
 use crate::linear::{body, file, given, near};
-use nalgebra::{Complex, Vector3};
+use nalgebra::{Complex, Matrix3, Vector3};
 use serde_json::Value;
 use snapload_hydro::{Body, Hydrodynamics, Line, Rest, Weight, rest};
 
@@ -162,6 +162,26 @@ fn a_missing_place_of_rest_is_reported() {
         .expect_err("a refusal")
         .to_string();
     assert!(message.contains("length of line 1"), "{message}");
+}
+
+/// A line from the side, of a kilometre, holds a push of half a newton, whatever constant moment the
+/// body resists by its own stiffness: that is no force beside which the push would be rounding.
+#[test]
+fn a_moment_does_not_hide_the_pull_of_a_line() {
+    let hydro = hydro("pontoon-deep.nc");
+    let mut body = Body::new(&hydro, &Weight::default()).expect("a body");
+    (body.mass_kg, body.stiffness) = (1e3, Matrix3::zeros());
+    (body.stiffness[(1, 1)], body.stiffness[(2, 2)]) = (1e6, 1e12);
+    body.constant_force = Vector3::new(0.5, 0.0, 1e9);
+    let [x, z] = hydro.reference_m;
+    let line = Line {
+        anchor_m: [x - 1000.0, z],
+        fairlead_m: [0.0, 0.0],
+        length_m: 1000.0,
+    };
+    let found = rest(&hydro, &body, &[line]).expect("a place of rest");
+    near(found.tension_n[0], 0.5, 1e-6, "the tension");
+    near(found.q[2], 1e-3, 1e-6, "the pitch");
 }
 
 /// The moment of inertia of the file is that about the body's centre of gravity: it stays the same

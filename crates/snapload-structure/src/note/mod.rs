@@ -9,7 +9,6 @@ pub use crate::runs::scan::{LENGTH, Scan, ScanCell, scan};
 pub use inputs::inputs;
 pub use plots::window;
 
-use crate::physics::gumbel::{Estimate, Gumbel};
 use crate::physics::model_at_rest::ModelAtRest;
 use crate::physics::periods::periods_text;
 use crate::physics::snap::Snap;
@@ -17,6 +16,7 @@ use crate::physics::warning::Warning;
 use crate::report::{Verdict, end_text};
 use crate::runs::assess::Assessment;
 use crate::runs::design::Check;
+use crate::runs::gumbel::{Estimate, Gumbel};
 use crate::runs::seas::{Lines, Seas};
 use crate::runs::three_hours::NoDistribution;
 use crate::structure::Structure;

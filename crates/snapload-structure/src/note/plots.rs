@@ -1,9 +1,9 @@
 //! The plots of a note, in SI.
 
-use crate::physics::gumbel::reduced_variate;
 use crate::physics::snap::Snap;
 use crate::physics::wave::LinearWave;
 use crate::runs::assess::Assessment;
+use crate::runs::gumbel::reduced_variate;
 use crate::runs::quantile::sorted;
 use crate::runs::scan::{Scan, ScanCell};
 use crate::runs::seas::Seas;

@@ -35,8 +35,8 @@ pub struct Equilibrium {
     pub theta_rad: f64,
     /// Tension of each line, 0 where it is slack \[N\].
     pub tension_n: Vec<f64>,
-    /// Whether it is one: where no place of rest is known it is where the case starts, without
-    /// tension.
+    /// False if no place of rest is known; the place is then that of the case's start, without
+    /// tensions.
     pub rests: bool,
     /// The lines that are just taut, by index, a slack one that touches included.
     pub taut: Vec<usize>,

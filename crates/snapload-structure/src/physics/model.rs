@@ -1,4 +1,4 @@
-//! From SI to the engine's units and back (docs/model.md section 10, docs/structures.md).
+//! From SI to the engine's units and back (docs/structures.md).
 //!
 //! The engine's y points down: x_e = (x − x_0)/L, y_e = −(z − z_0)/L, and, as this is a reflection,
 //! θ_e = −θ. The origin (x_0, z_0) of the engine's axes is the position of rest in still water.

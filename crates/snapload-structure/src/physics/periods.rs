@@ -13,12 +13,12 @@
 use super::afloat::TautMode;
 use super::elastic::{ElasticLine, elastic_lines, undamped};
 use super::equilibrium::SmallMotions;
-use super::model::CURRENT;
+use super::mean_drag::damping_by_drag;
 use super::model_at_rest::ModelAtRest;
 use crate::structure::Afloat;
 use nalgebra::{DMatrix, Matrix3};
 use serde::Serialize;
-use snapload::{CaseError, Harmonic};
+use snapload::CaseError;
 use snapload_hydro::{Body, HydroError, natural_of_the_file, natural_of_the_memory};
 
 /// Below this ω², in the engine's units, a degree of freedom counts as having no restoring force.
@@ -156,25 +156,15 @@ pub(super) fn modes_with_elastic_lines(
     )
 }
 
-/// Drag and damping of a submerged body over its velocity (x, y, θ), in the engine's units: with
-/// the quadratic drag D|u|u taken as sqrt(8/π) D σ u, which takes as much power at a normal
-/// distribution of u (L. E. Borgman, *J. Waterways Harbors Div. ASCE* 93 (1967) 129). Here σ is
-/// that of one component of the water's velocity.
+/// Drag and damping of a submerged body over its velocity (x, y, θ), in the engine's units.
 fn damping_of_body(prepared: &ModelAtRest) -> Matrix3<f64> {
     let (body, scales) = (&prepared.structure.body, &prepared.model.scales);
     let (m, l, t) = (scales.mass_kg, scales.length_m, scales.time_s);
-    let quadratic = prepared.model.system.drag.as_ref().map_or(0.0, |drag| {
-        let waves = drag.water.iter().filter(|wave| wave.omega != CURRENT);
-        let power = |wave: &Harmonic| {
-            let [cosine, sine] = [wave.cosine.length(), wave.sine.length()];
-            0.25 * (cosine * cosine + sine * sine)
-        };
-        let sigma = waves.map(power).sum::<f64>().sqrt();
-        (8.0 / std::f64::consts::PI).sqrt() * drag.quadratic * sigma
-    });
-    let linear = body.linear_damping_n_s_m * t / m + quadratic;
+    let drag = prepared.model.system.drag.as_ref();
+    let [along, up] = drag.map_or([0.0; 2], damping_by_drag);
+    let linear = body.linear_damping_n_s_m * t / m;
     let turning = body.turning_damping_n_m_s * t / (m * l * l);
-    Matrix3::from_diagonal(&[linear, linear, turning].into())
+    Matrix3::from_diagonal(&[linear + along, linear + up, turning].into())
 }
 
 /// The modes in words: `3.231 s (surge), 0.502 s (heave)`.

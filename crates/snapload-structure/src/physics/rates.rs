@@ -3,10 +3,10 @@
 use super::model::Model;
 use crate::structure::Structure;
 use crate::text_layout::{in_full, rounded_down};
-use snapload::{Body, CaseError, Harmonic, Value};
+use snapload::{Body, CaseError, Harmonic, System, Value};
 
-/// A run follows so many radians of the fastest oscillation, or times in which the strongest
-/// damping would stop the body: the steps are parts of these, and so many take some minutes.
+/// The longest run takes so many times 1/ω of the fastest oscillation, or times in which the
+/// strongest damping would stop the body. A longer one takes hours, as its steps are parts of these.
 const MOST: f64 = 3e6;
 /// On elastic lines, of which a step is cheaper.
 const MOST_ON_ELASTIC_LINES: f64 = 3e7;
@@ -76,7 +76,8 @@ pub(super) fn check_rates(structure: &Structure, model: &Model) -> Result<(), Ca
     rates.try_for_each(|rate| rate.check(structure, model, MOST))
 }
 
-/// The same of its motion on elastic lines, given the largest rate of its oscillations on them.
+/// The same of its motion on elastic lines, given a bound on the rates of its oscillations on
+/// them and of their damping.
 pub(super) fn check_rate_on_elastic_lines(
     structure: &Structure,
     model: &Model,
@@ -90,8 +91,7 @@ pub(super) fn check_rate_on_elastic_lines(
 /// Swinging and turning under the loads at the fairleads.
 fn forced(model: &Model) -> [Rate; 2] {
     let system = &model.system;
-    let weight = if system.floating.is_some() { 1.0 } else { 0.0 };
-    let load = weight + system.forcing.constant.length() + together(&system.forcing.harmonics);
+    let load = load(system);
     let shortest = system.cables.iter().map(|cable| cable.length());
     let arms = system.cables.iter().map(|cable| cable.fairlead().length());
     let (shortest, arm) = (
@@ -120,8 +120,8 @@ fn damped(structure: &Structure, model: &Model) -> Vec<Rate> {
     };
     let body = &structure.body;
     let (mobility, _) = mobilities(&model.system.body);
-    // By its loads alone a body with drag moves no faster than this.
-    let own = 1.0_f64.min(1.0 / drag.quadratic.max(f64::MIN_POSITIVE).sqrt());
+    // By its loads alone a body moves no faster past the water: there its drag is as large as they.
+    let own = (load(&model.system) / drag.quadratic.max(f64::MIN_POSITIVE)).sqrt();
     let speed = own + together(&drag.water);
     let of = |per_time: f64, keys: &'static str, damping: (&'static str, f64)| Rate {
         damping: Some(damping),
@@ -180,6 +180,12 @@ fn mobilities(body: &Body) -> (f64, f64) {
         mobility,
         body.largest_inverse_effective_mass(1.0) - mobility,
     )
+}
+
+/// The size of all loads but those of lines and drag: of weight, buoyancy, constant forces and waves.
+fn load(system: &System) -> f64 {
+    let weight = if system.floating.is_some() { 1.0 } else { 0.0 };
+    weight + system.forcing.constant.length() + together(&system.forcing.harmonics)
 }
 
 /// The size of sinusoids of different frequencies together.

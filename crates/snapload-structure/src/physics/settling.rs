@@ -6,8 +6,8 @@
 //! as long as the waves have its frequency: then no record shows the largest tension of a longer
 //! one.
 //!
-//! The small motions about the place of rest are taken as such oscillators, without the energy that
-//! is lost in snaps, as motions that are not harder than others need not snap.
+//! The small motions about the place of rest are taken as such oscillators. The energy that is lost
+//! in snaps is left out, as a motion may grow without a snap.
 
 use super::elastic::elastic_lines;
 use super::model_at_rest::ModelAtRest;

@@ -21,7 +21,7 @@
 //! as they share the impulse. A line that was taut, v_i = 0, and has an impact passed on to it
 //! takes up the energy that J_i alone would give it, up to the energy available.
 //!
-//! The spring is that of docs/model.md section 10 under the load P, exact for a mass on a spring;
+//! The spring is that of docs/structures.md, "How hard a snap pulls", under the load P, exact for a mass on a spring;
 //! the front is the momentum balance of an elastic bar struck at its end (K. F. Graff, *Wave Motion
 //! in Elastic Solids* (1975), section 2.4). The peak is the sum of both, with the line's own mass
 //! added to the mass that it stops. Compared with the exact elastic line, fixed at one end and

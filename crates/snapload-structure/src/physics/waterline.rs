@@ -23,8 +23,9 @@ pub struct Waterline {
     pub deck_m: f64,
     /// The highest position of a lower edge \[m\].
     pub bilge_m: f64,
-    /// How far the whole deck is under the surface of the waves, and the whole body above it, where
-    /// a line pulls more than before; below zero where its sides pierce the surface \[m\].
+    /// How far the whole deck is under the surface of the waves, and the whole body above it, at
+    /// most; below zero where its sides pierce the surface. Only those positions count at which a
+    /// line pulls more than its largest reliable tension until then \[m\].
     #[serde(skip)]
     pub beyond_m: [f64; 2],
 }

@@ -22,7 +22,7 @@ pub struct LinearWave {
 
 impl LinearWave {
     /// The wave of phase 0, an amplitude and a frequency ω > 0, at the level `z_m` < 0:
-    /// docs/model.md section 10 with A = H/2.
+    /// the formulas of docs/structures.md, "From SI to the units of the computation", with A = H/2.
     pub fn new(site: &Site, amplitude_m: f64, omega_rad_s: f64, z_m: f64) -> Self {
         let k = wave_number(omega_rad_s, site.depth_m, site.gravity_m_s2);
         let wave = [amplitude_m, omega_rad_s];

@@ -3,12 +3,12 @@
 use super::verdict::end_text;
 use crate::physics::elastic::damping_ratio;
 use crate::physics::equilibrium::Equilibrium;
-use crate::physics::gumbel::Gumbel;
 use crate::physics::model_at_rest::ModelAtRest;
 use crate::physics::snap::Snap;
 use crate::physics::waterline::Waterline;
 use crate::runs::assess::Assessment;
 use crate::runs::elastic_comparison::ElasticComparison;
+use crate::runs::gumbel::Gumbel;
 use crate::runs::outcome::Outcome;
 use crate::runs::quantile::{quantile, slack_part};
 use crate::runs::seas::Seas;

@@ -2,7 +2,7 @@
 
 use super::verdict::{OpenRules, VerdictKind, undecided_by};
 use crate::physics::elastic::LEAST_RESTITUTION;
-use crate::physics::gumbel::Gumbel;
+use crate::runs::gumbel::Gumbel;
 use crate::runs::outcome::Outcome;
 use crate::runs::quantile::{quantile, sorted};
 use crate::runs::seas::{Failing, Seas};

@@ -122,8 +122,12 @@ pub(super) struct OpenRules {
 pub(super) fn undecided_by(warnings: &[Warning]) -> Option<OpenRules> {
     let open = || warnings.iter().filter(|warning| warning.leaves_open);
     // A rule may be violated at rest and again in the motion.
-    let mut rules: Vec<_> = open().map(|warning| warning.rule).collect();
-    rules.dedup();
+    let mut rules: Vec<&str> = Vec::new();
+    for warning in open() {
+        if !rules.contains(&warning.rule) {
+            rules.push(warning.rule);
+        }
+    }
     let commands: Option<Vec<_>> = open().map(|warning| warning.decided_by).collect();
     (!rules.is_empty()).then(|| OpenRules {
         rules: rules.join(" and "),
@@ -358,5 +362,25 @@ impl Assessment {
         let early = Early::hardest(early, structure, outcome);
         let alone = verdict(structure, outcome, &self.warnings, early, None);
         self.with_other_runs(alone)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::undecided_by;
+    use crate::physics::warning::Warning;
+
+    /// A rule that is violated at rest and again in the motion is named once.
+    #[test]
+    fn each_rule_is_named_once() {
+        let violated = |rule| Warning {
+            rule,
+            message: String::new(),
+            decided_by: None,
+            leaves_open: true,
+        };
+        let all = ["hydrostatics", "few components", "hydrostatics"].map(violated);
+        let rules = undecided_by(&all).map(|open| open.rules);
+        assert_eq!(rules.as_deref(), Some("hydrostatics and few components"));
     }
 }

@@ -6,6 +6,7 @@ pub(crate) mod design;
 pub(crate) mod elastic_comparison;
 pub(crate) mod elastic_outcome;
 pub(crate) mod further;
+pub(crate) mod gumbel;
 pub(crate) mod motion;
 pub(crate) mod outcome;
 pub(crate) mod quantile;

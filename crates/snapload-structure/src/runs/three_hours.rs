@@ -2,7 +2,7 @@
 
 use super::outcome::{LineOutcome, Outcome};
 use super::seas::Seas;
-use crate::physics::gumbel::Gumbel;
+use crate::runs::gumbel::Gumbel;
 use crate::structure::{Structure, THREE_HOURS_S};
 use snapload::Stop;
 use std::fmt;

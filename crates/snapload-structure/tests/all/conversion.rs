@@ -8,7 +8,7 @@ const RHO: f64 = 1025.0;
 const G: f64 = 9.806_65;
 
 /// The thesis's standard case as a structure: half the anchors' distance L, a net buoyancy and a
-/// mass are chosen, and all other values follow from r, a, f_o, ν and Ω (docs/model.md section 10).
+/// mass are chosen, and all other values follow from r, a, f_o, ν and Ω (docs/structures.md).
 fn disguised(p: &Parameters) -> String {
     let (l, volume, mass, depth) = (15.0, 10.0, 4000.0, 40.0);
     let force = (RHO * volume - mass) * G;

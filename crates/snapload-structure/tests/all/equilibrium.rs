@@ -290,3 +290,30 @@ fn a_line_that_stays_slack_does_not_go_slack() {
         .words;
     assert!(words.starts_with("Lines go slack and snap"), "{words}");
 }
+
+/// The tension at rest on one line is the length of all forces together, however stiff the line is,
+/// or the line is too stiff for its stretch to be known: without tension the body does not rest.
+#[test]
+fn a_line_of_any_stiffness_carries_the_load() {
+    let text = "[body]\nmass = 500\ndisplaced_volume = 0.8\nwidth = 1\nposition = [0, -5]\n\
+                constant_force = [300, 0]\n[[line]]\nanchor = [0, -20]\nfairlead = [0, -5]\n\
+                length = 15\nstiffness = 1e13\n[site]\ndepth = 21\n[run]\nrestitution = 0.5\n";
+    let prepared = ModelAtRest::for_elastic_lines(structure(text)).unwrap();
+    let pull_n = prepared.structure.net_buoyancy_n().hypot(300.0);
+    for stiffer in [1.0, 1e2, 1e3, 1e4, 1e6, 1e9] {
+        let lines = elastic_lines(&prepared, stiffer).unwrap();
+        match prepared.with_elastic_lines(&lines) {
+            Ok(elastic) => {
+                let found_n = elastic.rest.tension_n[0];
+                assert!(
+                    (found_n / pull_n - 1.0).abs() < 2e-3,
+                    "{stiffer}: {found_n}"
+                );
+            }
+            Err(error) => {
+                assert!(stiffer > 1e2, "{stiffer}: {error}");
+                assert!(error.to_string().contains("line.stiffness"), "{error}");
+            }
+        }
+    }
+}

@@ -91,3 +91,31 @@ fn elastic_lines_too_stiff_for_the_duration_are_refused() {
     assert!(error.contains("oscillates on its elastic lines"), "{error}");
     assert!(of("duration = 0.001", 1e8).is_ok());
 }
+
+/// A body moves past still water by at most the speed sqrt(P/D) at which its drag D u² is as large
+/// as the load P: its buoyancy, and a constant force of nine times that. Its drag then slows it
+/// down at the rate D u/m.
+#[test]
+fn drag_is_bounded_by_all_loads() {
+    let buoyancy_n: f64 = 9.80665 * (1025.0 * 141.37 - 72_452.0);
+    let text = EXAMPLE
+        .replace("height = 2\n", "height = 0\n")
+        .replace(
+            "[body]",
+            &format!(
+                "[body]\ndrag_area = 1e6\nconstant_force = [0, {}]",
+                9.0 * buoyancy_n
+            ),
+        )
+        .replace("[run]", "[run]\nduration = 20000");
+    let error = refused(structure(&text));
+    assert!(error.contains("slowed down by its drag"), "{error}");
+    let shown = error.split("allowed: at most ").nth(1);
+    let shown = shown.and_then(|rest| rest.split(' ').next());
+    let shown: f64 = shown
+        .and_then(|number| number.parse().ok())
+        .expect("a time");
+    let rate = f64::sqrt(0.5 * 1025.0 * 1e6 * 10.0 * buoyancy_n) / (72_452.0 + 144_904.0);
+    let most = 3e6 / rate;
+    assert!(shown <= most && shown > 0.99 * most, "{error} {most}");
+}

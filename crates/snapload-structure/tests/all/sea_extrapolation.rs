@@ -109,6 +109,25 @@ fn a_damped_motion_is_extrapolated_once_it_is_stationary() {
     );
 }
 
+/// A current U damps motions along it by ρ C_d A |U|, twice the drag over U, as much as the linear
+/// damping that needs 890 s, above. It leans the line by little, and the waves are small beside it.
+#[test]
+fn drag_in_a_current_damps_as_much_as_linear_damping() {
+    let text = PENDULUM
+        .replace("[[line]]", "drag_area = 0.7151\n[[line]]")
+        .replace("[site]", "[site]\ncurrent = 1");
+    for lines in [Lines::Inextensible, Lines::Elastic] {
+        let short = records(structure(&text), 3, lines);
+        let words = settling(&short).expect("a warning");
+        let time = words
+            .split("only ")
+            .nth(1)
+            .and_then(|rest| rest.split(' ').next());
+        let time_s: f64 = time.and_then(|time| time.parse().ok()).expect("a time");
+        assert!((time_s / 890.0 - 1.0).abs() < 0.01, "{words}");
+    }
+}
+
 /// The snaps of one line say nothing of those of another. Line 2 snaps in every record. Line 1,
 /// which breaks in a quarter of all seas of three hours, only settles after them, at less than 1
 /// cm/s and just above twice its tension at rest.

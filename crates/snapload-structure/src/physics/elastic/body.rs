@@ -98,16 +98,17 @@ impl<'a> BodyOnElasticLines<'a> {
         })
     }
 
-    /// A bound on the rates at which it oscillates or is damped while any lines pull.
+    /// A bound on the rates at which the lines let it oscillate and damp it: all of them pull, in
+    /// the same direction, each with its longest arm.
     pub(super) fn quickest_of_all(&self) -> f64 {
-        let lines = self.system.cables.iter().zip(self.elastic_lines);
-        let quickest = lines.map(|(cable, line)| {
+        let mut sums = [0.0; 2];
+        for (cable, line) in self.system.cables.iter().zip(self.elastic_lines) {
             let arm = cable.fairlead().length();
             let inverse_mass = self.system.body.largest_inverse_effective_mass(arm);
-            let damping = line.damping * inverse_mass;
-            (line.rate * inverse_mass).sqrt().max(damping)
-        });
-        quickest.fold(0.0, f64::max)
+            sums[0] += line.rate * inverse_mass;
+            sums[1] += line.damping * inverse_mass;
+        }
+        sums[0].sqrt().max(sums[1])
     }
 
     /// The accelerations, including the force of the water's memory.
