@@ -5,6 +5,7 @@ mod checks;
 mod dataset;
 mod nemoh;
 mod netcdf;
+mod plane;
 mod table;
 mod wamit;
 mod wamit_hydrostatics;

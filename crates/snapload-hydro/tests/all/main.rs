@@ -6,6 +6,7 @@ mod decay;
 mod given;
 mod linear;
 mod memory;
+mod nemoh;
 mod panel_files;
 mod places;
 mod readers;
