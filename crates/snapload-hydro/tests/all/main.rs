@@ -17,3 +17,4 @@ mod rest;
 mod seas;
 mod sections;
 mod textbook;
+mod wamit_folder;
