@@ -100,8 +100,8 @@ class Hydro(Result):
         Parameters
         ----------
         path : str or os.PathLike
-            Capytaine file (``.nc``), one of the WAMIT files ``.1``, ``.3`` and ``.hst`` with the others in the same
-            folder, or Nemoh folder (for its memory alone, as it has no hydrostatic stiffness).
+            Capytaine file (``.nc``), one of the WAMIT files ``.1``, ``.2``, ``.3`` and ``.hst`` with the others in the
+            same folder, or Nemoh folder (for its memory alone, as it has no hydrostatic stiffness).
         **options
             Options of the analysis. By default each has the value of the file, or is not used:
 
@@ -209,9 +209,14 @@ class Hydro(Result):
         corresponding ``added_mass_inf`` and ``added_damping``. Phases are those of a wave with its crest over the
         reference point.
 
+        The coordinates ``rho``, ``g``, ``water_depth``, ``rotation_center`` (the reference point) and ``crest_x``
+        (that of the phases) are what :meth:`from_dataset` needs to read the same coefficients from it. Mass, centre
+        of gravity and hydrostatic stiffness are not in it.
+
         See Also
         --------
         Hydro.kernel : The memory as a function of time.
+        Hydro.from_dataset : Reads it, without options for the water or the reference point.
 
         Examples
         --------
@@ -346,5 +351,20 @@ def _dataset(answer: dict[str, Any]) -> xarray.Dataset:
             [0.0 if each["direction"] > 0 else np.pi for each in excitation],
             {"units": "rad"},
         ),
+        **_place(answer),
     }
     return xarray.Dataset(variables, coords=coordinates)
+
+
+def _place(answer: dict[str, Any]) -> dict[str, Any]:
+    """The water and the reference point as Capytaine has them, and where the crest of the phases is."""
+    water, (x, z) = answer["water"], answer["reference_m"]
+    depth = water["depth_m"]
+    return {
+        "rho": ((), water["density_kg_m3"], {"units": "kg m-3"}),
+        "g": ((), water["gravity_m_s2"], {"units": "m s-2"}),
+        "water_depth": ((), np.inf if depth is None else depth, {"units": "m"}),
+        "space_coordinate": ["x", "y", "z"],
+        "rotation_center": ("space_coordinate", [x, 0.0, z], {"units": "m"}),
+        "crest_x": ((), x, {"units": "m", "long_name": "crest of the incident wave at t = 0"}),
+    }

@@ -218,7 +218,7 @@ class KeyValues:
 
     @property
     def body(self) -> Literal["rigid", "point"]:
-        """A rigid body that turns, or a point mass (a = b = 0) that does not."""
+        """Kind of body: a rigid one that turns, or a point mass (a = b = 0) that does not."""
         value: Literal["rigid", "point"] = self.keys()["body"]
         return value
 
@@ -270,6 +270,6 @@ PARAMETERS = """
         The run ends at more impacts than this; allowed: ``a whole number, 1 <= max_impacts <= 1e7``; default
         1000000.
     body : {"rigid", "point"}, optional
-        A rigid body that turns, or a point mass (a = b = 0) that does not; allowed: ``"rigid" or "point"``;
-        default "rigid".
+        Kind of body: a rigid one that turns, or a point mass (a = b = 0) that does not; allowed: ``"rigid" or
+        "point"``; default "rigid".
 """

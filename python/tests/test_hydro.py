@@ -103,6 +103,26 @@ def test_deep_water_can_be_given(depth: float) -> None:
         assert mode["period_s"] == pytest.approx(same["period_s"], rel=1e-6)
 
 
+def test_dataset_is_read_again() -> None:
+    """The phases of a body away from the origin, whose file has the crest there, are not shifted twice."""
+    options = {"density": 1025, "gravity": 9.81, "unit_length": 1, "depth": 12, "reference": (3.5, -1), "pairs": 4}
+    first = snapload.Hydro.from_file(TESTED / "pontoon-deep.1", **options)  # type: ignore[arg-type]
+    again = snapload.Hydro.from_dataset(first.dataset, pairs=4)
+    for key in ("omega_rad_s", "added_mass", "radiation_damping", "excitation", "water", "reference_m"):
+        assert again.answer[key] == first.answer[key], key
+    data = first.dataset
+    assert data["rotation_center"].values.tolist() == [3.5, 0, -1]
+    assert [float(data[name]) for name in ("rho", "g", "water_depth", "crest_x")] == [1025, 9.81, 12, 3.5]
+    # Beside the reference point the file's phases are those of a crest at x = 0, k x later (deep-water k at 12 m
+    # is exact to 1e-9 for the last frequency).
+    here = {**options, "reference": (0, -1)}
+    origin = snapload.Hydro.from_file(TESTED / "pontoon-deep.1", **here)  # type: ignore[arg-type]
+    number = data["omega"].values[-1] ** 2 / 9.81
+    phase = np.exp(-1j * number * 3.5)
+    found, expected = (each.dataset["excitation_force"].values[0, -1, :2] for each in (first, origin))
+    assert np.abs(found - expected * phase).max() < 1e-6 * np.abs(found).max()
+
+
 def test_copies_are_equal() -> None:
     pontoon = snapload.Hydro.from_file(PONTOON, pairs=4)
     assert pontoon.dataset.sizes["omega"] > 0
@@ -113,6 +133,13 @@ def test_copies_are_equal() -> None:
     ):
         assert other == pontoon and not other != pontoon and repr(other) == repr(pontoon)
     assert pontoon != snapload.Hydro.from_file(PONTOON, pairs=4, mass=80000) and pontoon != 1
+
+
+def test_one_direction_may_be_selected() -> None:
+    with xarray.open_dataset(PONTOON) as pontoon:
+        whole = snapload.Hydro.from_dataset(pontoon, pairs=4)
+        selected = snapload.Hydro.from_dataset(pontoon.isel(wave_direction=0), pairs=4)
+    assert selected.answer["excitation"] == whole.answer["excitation"][:1]
 
 
 def test_bad_datasets_are_refused() -> None:

@@ -13,7 +13,7 @@ use std::path::{Path, PathBuf};
 /// The file of a panel code, the body's weight, and the memory.
 #[derive(clap::Args)]
 pub(crate) struct HydroArgs {
-    /// Capytaine file (.nc), WAMIT file (.1, .3 or .hst) with the others in the same folder, or
+    /// Capytaine file (.nc), WAMIT file (.1, .2, .3 or .hst) with the others in the same folder, or
     /// Nemoh folder of results (for its memory alone, as it has no hydrostatic stiffness)
     #[arg(value_name = "FILE")]
     file: PathBuf,

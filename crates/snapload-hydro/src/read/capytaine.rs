@@ -3,69 +3,23 @@
 //! Source: the documentation of Capytaine, sections "Conventions" and "Export".
 
 use super::dataset::Dataset;
+use super::plane::{IN_PLANE, Plane};
 use super::table::{Row, Table};
-use super::{Format, Given, agreed, agreed_point, agreed_water};
+use super::{Format, Given, agreed, agreed_point, agreed_water, within};
 use crate::coefficients::{Hydrodynamics, Hydrostatics};
 use crate::error::HydroError;
 use nalgebra::{Complex, Matrix3, Vector3};
-use std::f64::consts::{FRAC_PI_2, PI};
+use std::f64::consts::PI;
 
-/// The largest difference of a wave direction from 0 or π that is still in the plane \[rad\].
-const IN_PLANE: f64 = 1e-6;
 /// The names of the frequency dimension in different versions of Capytaine.
 const FREQUENCIES: [&str; 5] = ["omega", "freq", "period", "wavenumber", "wavelength"];
 /// The dimension of values that a file with several bodies has for each of them.
 const BODY: &str = "body";
 const ROW: &str = "influenced_dof";
 const COLUMN: &str = "radiating_dof";
-
-/// The plane that the body moves in: x–z with surge, heave and pitch, or y–z with sway, heave and
-/// −roll, which is taken for x–z.
-#[derive(Clone, Copy, PartialEq)]
-enum Plane {
-    X,
-    Y,
-}
-
-impl Plane {
-    fn freedoms(self) -> [&'static str; 3] {
-        match self {
-            Self::X => ["Surge", "Heave", "Pitch"],
-            Self::Y => ["Sway", "Heave", "Roll"],
-        }
-    }
-
-    /// The sign of each degree of freedom: roll turns y to z, where pitch turns z to x.
-    fn signs(self) -> [f64; 3] {
-        match self {
-            Self::X => [1.0; 3],
-            Self::Y => [1.0, 1.0, -1.0],
-        }
-    }
-
-    fn axis(self) -> usize {
-        match self {
-            Self::X => 0,
-            Self::Y => 1,
-        }
-    }
-
-    /// +1 or −1 if a wave of direction β travels in the plane.
-    fn direction(self, beta: f64) -> Option<f64> {
-        let turn = match self {
-            Self::X => beta,
-            Self::Y => beta - FRAC_PI_2,
-        };
-        let from_zero = turn.rem_euclid(2.0 * PI);
-        if from_zero.min(2.0 * PI - from_zero) < IN_PLANE {
-            Some(1.0)
-        } else if (from_zero - PI).abs() < IN_PLANE {
-            Some(-1.0)
-        } else {
-            None
-        }
-    }
-}
+const WAVES: &str = "wave_direction";
+/// Where the crest of the waves is at t = 0, if not at x = 0. Capytaine's own datasets do not have it.
+const CREST: &str = "crest_x";
 
 /// The coefficients of a dataset as Capytaine's `assemble_dataset` makes it, with complex values
 /// separated (`export_dataset`, `separate_complex_values`).
@@ -76,7 +30,7 @@ pub fn from_dataset(dataset: &Dataset, given: &Given) -> Result<Hydrodynamics, H
     given.refuse_those_of_wamit(Format::Capytaine)?;
     refuse_speed(dataset)?;
     let body = chosen_body(dataset.words(ROW)?, given)?;
-    let dataset = &values_of(dataset, body.as_deref())?;
+    let dataset = &values_of(dataset, body.as_deref())?.with_dimension(WAVES);
     let (plane, rows) = freedoms(dataset, ROW, body.as_deref())?;
     let (_, columns) = freedoms(dataset, COLUMN, body.as_deref())?;
     let dim = frequency_dimension(dataset)?;
@@ -111,6 +65,7 @@ pub fn from_dataset(dataset: &Dataset, given: &Given) -> Result<Hydrodynamics, H
         directions,
         water,
         reference_m: reference(reference_m, given)?,
+        crest_m: within(CREST, dataset.scalar(CREST)?.unwrap_or(0.0), -1e6..=1e6)?,
         hydrostatics,
     };
     table.into_hydrodynamics()
@@ -145,7 +100,7 @@ fn names(dataset: &Dataset, dim: &str) -> Result<usize, HydroError> {
 
 /// The directions β of the waves \[rad\].
 fn waves(dataset: &Dataset) -> Result<Vec<f64>, HydroError> {
-    dataset.arranged("wave_direction", &["wave_direction"])
+    dataset.arranged(WAVES, &[WAVES])
 }
 
 /// The indices in the file of surge, heave and pitch, or of sway, heave and roll: the latter where
@@ -290,7 +245,7 @@ fn excitation(
     let betas = waves(dataset)?;
     if let Some(beta) = betas.iter().find(|beta| beta.abs() > 2.0 * PI + IN_PLANE) {
         let expected = "radians are expected, at most 2π; is it in degrees?";
-        return Err(HydroError::value("wave_direction", *beta, expected));
+        return Err(HydroError::value(WAVES, *beta, expected));
     }
     let parts: Vec<&str> = match dataset.has("diffraction_force") {
         true => vec!["diffraction_force", "Froude_Krylov_force"],
@@ -336,7 +291,7 @@ fn excitation(
         };
         let found = format!("{betas:?} rad");
         let expected = format!("waves in the plane of motion are required, {in_plane} within 1e-6");
-        return Err(HydroError::layout("wave_direction", found, expected));
+        return Err(HydroError::layout(WAVES, found, expected));
     }
     Ok((directions, forces))
 }
@@ -350,7 +305,7 @@ fn complex(dataset: &Dataset, name: &str, dim: &str) -> Result<Vec<Complex<f64>>
         let found = format!("its dimensions are {}", variable.dims.join(", "));
         return Err(HydroError::layout(name, found, advice));
     }
-    let order = ["complex", dim, "wave_direction", ROW];
+    let order = ["complex", dim, WAVES, ROW];
     let values = dataset.arranged(name, &order)?;
     let labels = dataset.words("complex")?;
     let place = |label: &str| {

@@ -88,6 +88,22 @@ impl Dataset {
         }
     }
 
+    /// The dataset with a dimension again of which one place was selected, as by xarray's `isel`: its
+    /// variable then is one number, and the others no longer are along it.
+    pub(super) fn with_dimension(mut self, dim: &str) -> Self {
+        if self
+            .variables
+            .get(dim)
+            .is_some_and(|own| own.dims.is_empty())
+        {
+            for variable in self.variables.values_mut() {
+                variable.dims.insert(0, dim.to_owned());
+                variable.shape.insert(0, 1);
+            }
+        }
+        self
+    }
+
     /// All variables with their names.
     pub fn variables(&self) -> impl Iterator<Item = (&String, &Variable)> {
         self.variables.iter()

@@ -5,6 +5,7 @@ mod checks;
 mod dataset;
 mod nemoh;
 mod netcdf;
+mod plane;
 mod table;
 mod wamit;
 mod wamit_hydrostatics;
@@ -130,18 +131,7 @@ pub fn read(path: &Path, given: &Given) -> Result<Reading, HydroError> {
             Reading::new(Format::Capytaine, from_dataset(&dataset, given)?)
         }
         Some("1" | "2" | "3" | "hst") => {
-            let files = WamitText {
-                radiation: text(path, &path.with_extension("1"))?,
-                excitation: match path.with_extension("3") {
-                    third if third.exists() => text(path, &third)?,
-                    _ => text(path, &path.with_extension("2"))?,
-                },
-                hydrostatics: match path.with_extension("hst") {
-                    hst if hst.exists() => Some(text(path, &hst)?),
-                    _ => None,
-                },
-            };
-            Reading::new(Format::Wamit, from_wamit(&files, given)?)
+            Reading::new(Format::Wamit, from_wamit(&wamit_text(path)?, given)?)
         }
         _ if path.is_dir() || extension.as_deref() == Some("tec") => {
             let folder = if path.is_dir() {
@@ -159,6 +149,36 @@ pub fn read(path: &Path, given: &Given) -> Result<Reading, HydroError> {
                 .to_owned(),
         )),
     }
+}
+
+/// The files of WAMIT that belong to one of them: that one, and the others of its name. Of `.3` and
+/// `.2`, which both have the wave forces, it is the one that was asked for, else `.3`.
+fn wamit_text(asked: &Path) -> Result<WamitText, HydroError> {
+    let is_asked = |ending: &str| {
+        asked
+            .extension()
+            .is_some_and(|own| own.eq_ignore_ascii_case(ending))
+    };
+    let with = |ending: &str| {
+        if is_asked(ending) {
+            return asked.to_owned();
+        }
+        let beside =
+            [ending.to_owned(), ending.to_uppercase()].map(|end| asked.with_extension(end));
+        let there = beside.iter().find(|path| path.exists());
+        there.unwrap_or(&beside[0]).clone()
+    };
+    let (third, hst) = (with("3"), with("hst"));
+    let takes_third = !is_asked("2") && (is_asked("3") || third.exists());
+    let excitation = if takes_third { third } else { with("2") };
+    Ok(WamitText {
+        radiation: text(asked, &with("1"))?,
+        excitation: text(asked, &excitation)?,
+        hydrostatics: match is_asked("hst") || hst.exists() {
+            true => Some(text(asked, &hst)?),
+            false => None,
+        },
+    })
 }
 
 /// Nemoh writes its results into a folder `results` or `Results`.

@@ -6,9 +6,10 @@
 //! ExcitationForce.tec          a zone for each β in degrees; its rows are ω, and |F| and arg F of each force
 //! ```
 //!
-//! arg F is in radians. The phase is that of e^{−iωt}: at low frequency arg F1 → −π/2 for
-//! β = 0, and arg F3 → 0. Source: Nemoh v2, `Solver/Main.f90`, which writes these files,
-//! and the files that come with it.
+//! The first line of a file says what stands for ω: `w (rad/s)`, or in Nemoh v3 by choice `f (Hz)`
+//! or `T (s)`. arg F is in radians. The phase is that of e^{−iωt}: at low frequency arg F1 → −π/2
+//! for β = 0, and arg F3 → 0. Source: Nemoh v2, `Solver/Main.f90`, and v3, `Common/Results.f90`,
+//! which write these files, and the files that come with them.
 
 use super::table::{Row, Table};
 use super::{Format, Given, agreed_water};
@@ -25,6 +26,16 @@ const SAME_FREQUENCY: f64 = 1e-5;
 const SIX: usize = 6;
 /// The indices of surge, heave and pitch.
 const PLACES: [usize; 3] = [0, 2, 4];
+
+/// ω from a first column.
+type Omega = fn(f64) -> f64;
+
+/// What the first column may hold, as the first line of a file names it.
+const FIRST_COLUMNS: [(&str, Omega); 3] = [
+    ("w (rad/s)", |omega| omega),
+    ("f (Hz)", |frequency| TAU * frequency),
+    ("T (s)", |period| TAU / period),
+];
 
 /// A part of a file: its heading, and its rows of numbers.
 struct Zone<'a> {
@@ -73,6 +84,7 @@ pub fn from_nemoh(
         directions,
         water,
         reference_m,
+        crest_m: 0.0,
         hydrostatics: Hydrostatics {
             displaced_mass_kg: given.displaced_mass_kg,
             centre_of_mass_m: given.centre_of_gravity_m,
@@ -172,8 +184,9 @@ fn row(motions: &[Zone], waves: &[&Zone], step: usize) -> Row {
     }
 }
 
-/// The zones of a file. Lines before the first, which name the columns, are skipped.
+/// The zones of a file, with ω in the first column. Lines before the first zone name the columns.
 fn zones<'a>(name: &'static str, text: &'a str, width: usize) -> Result<Vec<Zone<'a>>, HydroError> {
+    let omega = first_column(name, text)?;
     let mut zones: Vec<Zone<'a>> = Vec::new();
     for (index, line) in text.lines().enumerate() {
         if line.trim().is_empty() {
@@ -191,10 +204,12 @@ fn zones<'a>(name: &'static str, text: &'a str, width: usize) -> Result<Vec<Zone
         };
         let numbers: Result<Vec<f64>, _> = line.split_whitespace().map(str::parse::<f64>).collect();
         match numbers {
-            Ok(numbers) if numbers.len() == width => zone.rows.push(numbers),
+            Ok(mut numbers) if numbers.len() == width => {
+                numbers[0] = omega(numbers[0]);
+                zone.rows.push(numbers);
+            }
             _ => {
-                let start: String = line.trim().chars().take(60).collect();
-                let found = format!("line {} is {start:?}", index + 1);
+                let found = format!("line {} is {:?}", index + 1, start_of(line));
                 let expected =
                     format!("{width} numbers are expected, for one body's six degrees of freedom");
                 return Err(HydroError::layout(name, found, expected));
@@ -202,6 +217,40 @@ fn zones<'a>(name: &'static str, text: &'a str, width: usize) -> Result<Vec<Zone
         }
     }
     Ok(zones)
+}
+
+/// What a file says of its first column.
+fn first_column(name: &'static str, text: &str) -> Result<Omega, HydroError> {
+    let line = text.lines().find(|line| !line.trim().is_empty());
+    let line = line.unwrap_or_default();
+    // VARIABLES="w (rad/s)"
+    let mut quoted = line.split('"');
+    let is_list = |before: &str| {
+        let words: String = before.split_whitespace().collect();
+        words.eq_ignore_ascii_case("variables=")
+    };
+    let named = match quoted.next() {
+        Some(before) if is_list(before) => quoted.next(),
+        _ => None,
+    };
+    let known = FIRST_COLUMNS
+        .iter()
+        .find(|(words, _)| Some(*words) == named);
+    known.map(|(_, omega)| *omega).ok_or_else(|| {
+        let found = format!("it begins with {:?}", start_of(line));
+        let words = FIRST_COLUMNS.map(|(words, _)| format!("VARIABLES=\"{words}\""));
+        let expected = format!(
+            "one of {} is expected, which says what the first column holds; of Capytaine use the \
+             .nc file",
+            words.join(", ")
+        );
+        HydroError::layout(name, found, expected)
+    })
+}
+
+/// As much of a line as a message shows.
+fn start_of(line: &str) -> String {
+    line.trim().chars().take(60).collect()
 }
 
 /// +1 or −1, if the zone's heading says `beta = 0` or 180 degrees.

@@ -14,8 +14,8 @@ pub(super) struct Row {
     pub added_mass: Matrix3<f64>,
     /// B; it has no meaning at 0 and at infinity.
     pub damping: Matrix3<f64>,
-    /// X of each direction, in the order of [`Table::directions`], with the crest at x = 0 at t =
-    /// 0, as all panel codes have it.
+    /// X of each direction, in the order of [`Table::directions`], with the crest at
+    /// [`Table::crest_m`] at t = 0.
     pub excitation: Vec<Vector3<Complex<f64>>>,
 }
 
@@ -26,6 +26,8 @@ pub(super) struct Table {
     pub directions: Vec<f64>,
     pub water: Water,
     pub reference_m: [f64; 2],
+    /// 0 in the files of all panel codes \[m\].
+    pub crest_m: f64,
     pub hydrostatics: Hydrostatics,
 }
 
@@ -79,7 +81,7 @@ impl Table {
         let asymmetry = asymmetric_part(&added_mass, length_m);
         let damping_asymmetry = asymmetric_part(&damping, length_m);
         let excitation = self.directions.iter().enumerate();
-        let (ahead_m, water) = (self.reference_m[0], self.water);
+        let (ahead_m, water) = (self.reference_m[0] - self.crest_m, self.water);
         let excitation = excitation.map(|(index, direction)| {
             let here = |row: &Row| {
                 let force = row.excitation[index];

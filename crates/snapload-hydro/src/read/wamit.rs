@@ -54,6 +54,7 @@ pub fn from_wamit(files: &WamitText, given: &Given) -> Result<Hydrodynamics, Hyd
         directions,
         water,
         reference_m,
+        crest_m: 0.0,
         hydrostatics: hydrostatics(files.hydrostatics.as_deref(), &units, given)?,
     };
     table.into_hydrodynamics()

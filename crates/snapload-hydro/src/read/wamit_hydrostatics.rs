@@ -8,8 +8,8 @@
 //! Source: WAMIT user manual, chapter "Output files".
 
 use super::Given;
-use super::wamit_text::{Units, differ, lines, mode, place, rotation, twice};
-use crate::coefficients::Hydrostatics;
+use super::wamit_text::{MODES, Units, differ, lines, mode, place, rotation, twice};
+use crate::coefficients::{Hydrostatics, UPPER};
 use crate::error::HydroError;
 use nalgebra::Matrix3;
 
@@ -84,14 +84,22 @@ fn entries(text: &str, units: &Units) -> Result<(Matrix3<f64>, Option<f64>), Hyd
             return Err(twice(NAME, format!("{force},{motion}")));
         }
     }
-    if !has[(1, 1)] {
-        let advice = "the .hst file must have the line 3 3 C";
-        return Err(HydroError::missing("the mode 3,3", advice));
+    for i in [1, 2] {
+        let mode = MODES[i];
+        if !has[(i, i)] {
+            let advice = "the .hst file must have the lines 3 3 C and 5 5 C (heave, pitch)";
+            return Err(HydroError::missing(
+                format!("the mode {mode},{mode}"),
+                advice,
+            ));
+        }
     }
-    // Some files have only the upper triangle.
-    for (i, j) in [(0, 1), (0, 2), (1, 2)] {
-        if stiffness[(j, i)] == 0.0 {
-            stiffness[(j, i)] = stiffness[(i, j)];
+    // Some files have only one of the two triangles.
+    for (i, j) in UPPER.into_iter().filter(|(i, j)| i != j) {
+        for (i, j) in [(i, j), (j, i)] {
+            if stiffness[(i, j)] == 0.0 {
+                stiffness[(i, j)] = stiffness[(j, i)];
+            }
         }
     }
     Ok((stiffness, roll_yaw))

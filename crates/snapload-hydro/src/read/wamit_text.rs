@@ -76,38 +76,54 @@ impl Units {
     }
 }
 
-/// The number of each line, from 1 on, and its numbers. One header line is skipped.
+/// The number of each line, from 1 on, and its numbers. Lines before the first line of numbers are
+/// skipped.
 pub(super) fn lines<'a>(
     name: &'static str,
     text: &'a str,
     counts: std::ops::RangeInclusive<usize>,
 ) -> impl Iterator<Item = Result<(usize, Vec<f64>), HydroError>> + 'a {
     let lines = text.lines().enumerate();
+    let lines = lines.skip_while(|(_, line)| !begins_with_two_numbers(line));
     let lines = lines.filter(|(_, line)| !line.trim().is_empty());
-    lines.filter_map(move |(index, line)| {
-        let words = line.split_whitespace();
-        // Fortran writes exponents with D, too.
-        let numbers: Result<Vec<f64>, _> = words
-            .map(|word| word.replace(['d', 'D'], "e").parse::<f64>())
-            .collect();
+    lines.map(move |(index, line)| {
+        let numbers: Option<Vec<f64>> = line.split_whitespace().map(number).collect();
         match numbers {
-            Ok(numbers) if counts.contains(&numbers.len()) => Some(Ok((index + 1, numbers))),
-            Err(_) if index == 0 => None,
-            Ok(numbers) => {
+            Some(numbers) if counts.contains(&numbers.len()) => Ok((index + 1, numbers)),
+            Some(numbers) => {
                 let found = format!("line {} has {} numbers", index + 1, numbers.len());
                 let expected = match (counts.start(), counts.end()) {
                     (least, most) if least == most => format!("{most} are expected"),
                     (least, most) => format!("{least} or {most} are expected"),
                 };
-                Some(Err(HydroError::layout(name, found, expected)))
+                Err(HydroError::layout(name, found, expected))
             }
-            Err(_) => {
+            None => {
                 let beginning: String = line.trim().chars().take(60).collect();
                 let found = format!("line {} is {beginning:?}", index + 1);
-                Some(Err(HydroError::layout(name, found, "numbers are expected")))
+                Err(HydroError::layout(name, found, "numbers are expected"))
             }
         }
     })
+}
+
+/// A number as Fortran writes it, whose exponents have D, too.
+fn number(word: &str) -> Option<f64> {
+    word.replace(['d', 'D'], "e").parse().ok()
+}
+
+/// Whether a line begins as all lines of numbers do, with a value and a mode or with two modes,
+/// even if what follows can not be read: then it is no heading.
+fn begins_with_two_numbers(line: &str) -> bool {
+    let mut words = line.split_whitespace();
+    let mut next = || words.next().is_some_and(is_like_a_number);
+    next() && next()
+}
+
+/// Whether a word is a number, begins as one, or is what Fortran writes where it does not fit.
+fn is_like_a_number(word: &str) -> bool {
+    let begins = |word: &str| word.starts_with(|c: char| c.is_ascii_digit() || c == '*');
+    number(word).is_some() || begins(word.trim_start_matches(['+', '-', '.']))
 }
 
 /// A mode, 1 to 6; those of further bodies are refused.

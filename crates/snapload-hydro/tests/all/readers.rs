@@ -1,9 +1,9 @@
 //! Files of three programs are read into one type, with one sign convention of time.
 
-use crate::common::{dataset, hydro, path, reading, wamit_given};
+use crate::common::{bytes, dataset, hydro, path, reading, wamit_given};
 use nalgebra::{Complex, Matrix3};
 use snapload_hydro::{
-    FirstColumn, Format, Given, Values, WamitText, from_dataset, from_nemoh, from_wamit, read,
+    Dataset, FirstColumn, Format, Given, Values, WamitText, from_dataset, from_wamit, read,
     wave_number,
 };
 
@@ -50,6 +50,81 @@ fn capytaine_is_read() {
         assert!((a[2] + b[2]).norm() < 1e-3 * scale);
     }
     assert!(hydro.asymmetry < 0.01);
+}
+
+/// The same numbers as integers with a factor, an offset and a value for missing ones, and strings
+/// as arrays of letters, as xarray packs them for the classic model: equal to half a step.
+#[test]
+fn packed_numbers_and_arrays_of_letters_are_read() {
+    let (packed, plain) = (hydro("pontoon-packed.nc"), hydro("pontoon-deep.nc"));
+    let half = 0.5e-3 * (1.0 + 1e-6);
+    let matrices = [
+        (&packed.added_mass, &plain.added_mass),
+        (&packed.damping, &plain.damping),
+    ];
+    for (packed, plain) in matrices {
+        assert_eq!(packed.len(), plain.len());
+        for (a, b) in packed.iter().zip(plain) {
+            assert!((a - b).amax() <= half, "{a}{b}");
+        }
+    }
+    let stiffness = [&packed, &plain].map(|h| h.hydrostatics.stiffness.expect("a stiffness"));
+    // Single numbers of four bytes have 24 bits.
+    assert!((stiffness[0] - stiffness[1]).amax() < 1e-7 * stiffness[1].amax());
+    // A(∞) is marked as missing.
+    assert!(packed.added_mass_inf.is_none() && plain.added_mass_inf.is_some());
+    assert_eq!(packed.excitation, plain.excitation);
+    let file = Dataset::from_netcdf(&bytes("pontoon-packed.nc")).expect("a dataset");
+    let name = file.variable("body").expect("a name");
+    assert_eq!(name.values, Values::Words(vec!["pontoon-deep".to_owned()]));
+    assert_eq!(
+        file.words("complex"),
+        Ok(&["re", "im"].map(str::to_owned)[..])
+    );
+}
+
+/// A dataset of which one direction of the waves was selected, as by xarray's `isel`.
+#[test]
+fn one_direction_may_be_selected() {
+    let plain = hydro("pontoon-deep.nc");
+    let selected = dataset("pontoon-deep.nc").0.at("wave_direction", 1);
+    let read = from_dataset(&selected, &Given::default()).expect("coefficients");
+    assert_eq!(read.excitation, plain.excitation[1..]);
+    assert_eq!(read.added_mass, plain.added_mass);
+}
+
+/// A wave whose crest is at x = c at t = 0 has the complex amplitude e^{−ikc} at x = 0 (to +x; its
+/// conjugate to −x): a force for that wave is the one with the crest over a reference point at c,
+/// and divided by that amplitude the one with the crest over x = 0.
+#[test]
+fn a_dataset_may_say_where_the_crest_is() {
+    let at = |name: &str, x: f64| {
+        let point = |index: usize, value: f64| if index == 0 { x } else { value };
+        let moved = dataset("pontoon-deep.nc").numbers(name, point);
+        let crest = snapload_hydro::Variable {
+            dims: Vec::new(),
+            shape: Vec::new(),
+            values: Values::Numbers(vec![3.5]),
+        };
+        let all = moved
+            .all()
+            .into_iter()
+            .chain([("crest_x".to_owned(), crest)]);
+        let with_crest = Dataset::new(all).expect("a dataset");
+        from_dataset(&with_crest, &Given::default()).expect("coefficients")
+    };
+    let plain = hydro("pontoon-deep.nc");
+    assert_eq!(at("rotation_center", 3.5).excitation, plain.excitation);
+    let away = at("rotation_center", 0.0);
+    for (moved, own) in away.excitation.iter().zip(&plain.excitation) {
+        for (step, omega) in plain.omega_rad_s.iter().enumerate() {
+            // Deep water.
+            let k = omega * omega / 9.81;
+            let amplitude = Complex::from_polar(1.0, -own.direction * k * 3.5);
+            let apart = moved.force[step] - own.force[step] / amplitude;
+            assert!(apart.norm() < 1e-9 * own.force[step].norm(), "{omega}");
+        }
+    }
 }
 
 /// Good files pass all checks of signs and phases; a poor one does not.
@@ -232,116 +307,6 @@ fn a_section_along_y_is_turned_round() {
     let read = from_dataset(&turned.0, &Given::default()).expect("coefficients");
     assert_eq!(read.added_mass, plain.added_mass);
     assert_eq!(read.excitation, plain.excitation);
-}
-
-/// Nemoh's files, as its own Fortran writes them: the cylinder of its verification cases, of which
-/// two frequencies are copied; the others are added, as four are the minimum.
-#[test]
-fn nemoh_is_read() {
-    let rows = [
-        (
-            0.1,
-            "0.5841456E+06 0.4911802E-01",
-            "0.2777910E+06 0.3014295E+03",
-            0.1353778E+05,
-            -0.1570795E+01,
-            0.7512185E+06,
-            -0.4013285E-04,
-        ),
-        (
-            0.2,
-            "0.58E+06 0.5E-01",
-            "0.27E+06 0.31E+03",
-            0.2706E+05,
-            -0.15708,
-            0.7510E+06,
-            -0.5E-04,
-        ),
-        (
-            0.3,
-            "0.57E+06 0.6E-01",
-            "0.26E+06 0.32E+03",
-            0.4059E+05,
-            -0.15709,
-            0.7508E+06,
-            -0.6E-04,
-        ),
-        (
-            2.0,
-            "0.2391126E+06 0.3558177E+06",
-            "0.2365571E+06 0.3732594E+03",
-            0.4083025E+06,
-            -0.1703013E+01,
-            0.4223298E+04,
-            -0.1596240E+01,
-        ),
-    ];
-    let mut radiation = "VARIABLES=\"w (rad/s)\"\n\"A   1   1\" \"B   1   1\"\n".to_owned();
-    for motion in 1..=6 {
-        radiation +=
-            &format!("Zone t=\"Motion of body    1 in DoF   {motion}\",I=     4,F=POINT\n");
-        for (omega, surge, heave, ..) in &rows {
-            radiation += &format!("  {omega} ");
-            for force in 1..=6 {
-                radiation += match (force, motion) {
-                    (1, 1) | (2, 2) => surge,
-                    (3, 3) => heave,
-                    (5, 5) | (4, 4) => "8.1E+06 0.47",
-                    (1, 5) | (5, 1) => "1.78E+06 0.15",
-                    _ => "0.0 0.0",
-                };
-                radiation += " ";
-            }
-            radiation += "\n";
-        }
-    }
-    let mut excitation = "VARIABLES=\"w (rad/s)\"\n".to_owned();
-    excitation += "Zone t=\"Diffraction force - beta =   0.000 deg\",I=     4,F=POINT\n";
-    for (omega, _, _, surge, phase, heave, heave_phase) in &rows {
-        excitation +=
-            &format!("{omega} {surge} {phase} 0 0 {heave} {heave_phase} 0 0 1e4 -1.57 0 0\n");
-    }
-    let given = Given {
-        density_kg_m3: Some(1000.0),
-        gravity_m_s2: Some(9.81),
-        depth_m: Some(f64::INFINITY),
-        reference_m: Some([0.0, 0.0]),
-        ..Given::default()
-    };
-    let hydro = from_nemoh(&radiation, &excitation, &given).expect("coefficients");
-    assert_eq!(hydro.omega_rad_s, [0.1, 0.2, 0.3, 2.0]);
-    assert_eq!(hydro.added_mass[3][(0, 0)], 0.2391126e6);
-    assert_eq!(hydro.damping[0][(1, 1)], 0.3014295e3);
-    assert_eq!(hydro.added_mass[0][(0, 2)], 1.78e6);
-    let force = hydro.excitation_to(1.0).expect("+x").force[0];
-    assert!((force[0] - Complex::new(0.0, -13537.78)).norm() < 0.1);
-    assert!((force[1] - Complex::new(751_218.5, 0.0)).norm() < 40.0);
-
-    // The same phase in degrees, and without the headings of Nemoh, as Capytaine writes it.
-    let degrees = excitation.replace("-1.570795", "-90.0");
-    let error = from_nemoh(&radiation, &degrees, &given).expect_err("a refusal");
-    let message = error.to_string();
-    assert!(
-        message.contains("at ω = 0.1 rad/s = -90") && message.contains("radians"),
-        "{message}"
-    );
-    // Frequencies of another run, in one zone or in all of the other file.
-    let other_waves = excitation.replace("2 408302.5", "2.6 408302.5");
-    let other_motion = radiation
-        .replacen("  0.3 ", "  0.39 ", 3)
-        .replacen("  0.39 ", "  0.3 ", 2);
-    for (radiation, excitation, file) in [
-        (&radiation, &other_waves, "ExcitationForce.tec"),
-        (&other_motion, &excitation, "RadiationCoefficients.tec"),
-    ] {
-        let error = from_nemoh(radiation, excitation, &given).expect_err("a refusal");
-        let message = error.to_string();
-        let parts = [file, "rad/s", "is expected in that row"];
-        assert!(parts.iter().all(|part| message.contains(part)), "{message}");
-    }
-    let no_zones = radiation.replace("Zone", "Surge");
-    let error = from_nemoh(&no_zones, &excitation, &given).expect_err("a refusal");
-    assert!(error.to_string().contains("Capytaine"), "{error}");
 }
 
 /// Another reference point: the power of damping is the same for the same motion of the body, the

@@ -79,7 +79,7 @@ const BODY: Key = Key::new(
     "",
     Kind::Choice(&BODIES),
     DefaultValue::Word(BODIES[0]),
-    "a rigid body that turns, or a point mass (a = b = 0) that does not",
+    "kind of body: a rigid one that turns, or a point mass (a = b = 0) that does not",
 )
 .in_group("body");
 
