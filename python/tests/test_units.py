@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 import snapload
 import xarray
-from snapload._schema import units
+from snapload._schema import attributes, units
 
 SCALES = snapload.Scales(length=5.0, mass=800.0, force=1000.0)
 #: A point mass with an orbit of one period, and a body that reaches its rotation limit.
@@ -339,3 +339,8 @@ def test_pictures_of_converted_results_have_their_units():
         assert ax.get_xlabel() == f"$f_o$ [{force}]"
         right = [axes for axes in ax.figure.axes if axes is not ax]
         assert [axes.get_ylabel() for axes in right] == [f"distance in the window [{length}]"]
+
+
+def test_the_long_name_of_body_is_of_both_kinds():
+    long_name = attributes()["body"]["long_name"]
+    assert long_name == "kind of body"
