@@ -132,9 +132,9 @@ mod tests {
         }
     }
 
-    /// A Bᵀ with r columns each leads to the range of A, in which its r eigenvalues that are not zero
-    /// are those of BᵀA; entries that differ by rounding change them by rounding. A matrix of less
-    /// than the rank that is given has zeros among them.
+    /// A Bᵀ with r columns each leads to the range of A, in which its r eigenvalues that are not
+    /// zero are those of BᵀA; entries that differ by rounding change them by rounding. A matrix of
+    /// less than the rank that is given has zeros among them.
     #[test]
     fn the_range_has_the_eigenvalues_that_are_not_zero() {
         let mut numbers = Numbers(88_172_645_463_325_252);

@@ -1,8 +1,8 @@
 //! Properties of lines by type and diameter.
 //!
 //! Mass and axial stiffness of chains: Orcina, *OrcaFlex documentation*, page "Chain", for d in
-//! metres there in te/m and kN, here in kg/m and N. Ropes have the values of its page "Rope/wire" as
-//! MoorPy prints them (docs/structures.md). Strength of chains:
+//! metres there in te/m and kN, here in kg/m and N. Ropes have the values of its page "Rope/wire"
+//! as MoorPy prints them (docs/structures.md). Strength of chains:
 //! c d² (44 − 80 d) with d in metres; the coefficients c of the offshore grades R3, R3S and R4 give
 //! the breaking loads that makers of chain print (38 mm: 1319, 1473 and 1621 kN), which a test
 //! checks. They are typical values for a first design, not those of a product.

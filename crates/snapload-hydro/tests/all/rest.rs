@@ -164,8 +164,8 @@ fn a_missing_place_of_rest_is_reported() {
     assert!(message.contains("length of line 1"), "{message}");
 }
 
-/// A line from the side, of a kilometre, holds a push of half a newton, whatever constant moment the
-/// body resists by its own stiffness: that is no force beside which the push would be rounding.
+/// A line from the side, of a kilometre, holds a push of half a newton, whatever constant moment
+/// the body resists by its own stiffness: that is no force beside which the push would be rounding.
 #[test]
 fn a_moment_does_not_hide_the_pull_of_a_line() {
     let hydro = hydro("pontoon-deep.nc");

@@ -6,7 +6,7 @@ use crate::text_layout::{in_full, rounded_down};
 use snapload::{Body, CaseError, Harmonic, System, Value};
 
 /// The longest run takes so many times 1/ω of the fastest oscillation, or times in which the
-/// strongest damping would stop the body. A longer one takes hours, as its steps are parts of these.
+/// strongest damping would stop the body. A longer one takes hours, as its steps are parts of them.
 const MOST: f64 = 3e6;
 /// On elastic lines, of which a step is cheaper.
 const MOST_ON_ELASTIC_LINES: f64 = 3e7;
@@ -182,7 +182,7 @@ fn mobilities(body: &Body) -> (f64, f64) {
     )
 }
 
-/// The size of all loads but those of lines and drag: of weight, buoyancy, constant forces and waves.
+/// The size of all loads but those of lines and drag: weight, buoyancy, constant forces and waves.
 fn load(system: &System) -> f64 {
     let weight = if system.floating.is_some() { 1.0 } else { 0.0 };
     weight + system.forcing.constant.length() + together(&system.forcing.harmonics)

@@ -21,15 +21,15 @@
 //! as they share the impulse. A line that was taut, v_i = 0, and has an impact passed on to it
 //! takes up the energy that J_i alone would give it, up to the energy available.
 //!
-//! The spring is that of docs/structures.md, "How hard a snap pulls", under the load P, exact for a mass on a spring;
-//! the front is the momentum balance of an elastic bar struck at its end (K. F. Graff, *Wave Motion
-//! in Elastic Solids* (1975), section 2.4). The peak is the sum of both, with the line's own mass
-//! added to the mass that it stops. Compared with the exact elastic line, fixed at one end and
-//! pulled at the other by a moving mass and by a load, its error is at most 6 % if the mass is
-//! three times that of the line or more, and at most −19 % and +13 % down to a tenth of it. This
-//! was found by following the waves along the line in ten thousand cases (a test), with the method
-//! by which S. Timoshenko & J. N. Goodier, *Theory of Elasticity*, treat the longitudinal impact of
-//! bars.
+//! The spring is that of docs/structures.md, "How hard a snap pulls", under the load P, exact for a
+//! mass on a spring; the front is the momentum balance of an elastic bar struck at its end (K. F.
+//! Graff, *Wave Motion in Elastic Solids* (1975), section 2.4). The peak is the sum of both, with
+//! the line's own mass added to the mass that it stops. Compared with the exact elastic line, fixed
+//! at one end and pulled at the other by a moving mass and by a load, its error is at most 6 % if
+//! the mass is three times that of the line or more, and at most −19 % and +13 % down to a tenth of
+//! it. This was found by following the waves along the line in ten thousand cases (a test), with
+//! the method by which S. Timoshenko & J. N. Goodier, *Theory of Elasticity*, treat the
+//! longitudinal impact of bars.
 
 use super::model_at_rest::ModelAtRest;
 use crate::structure::LineSi;
