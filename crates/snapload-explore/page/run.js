@@ -140,6 +140,16 @@ export class Run {
   /** The next stop after t, or the end; the one before t, or the start. */
   nextStop(t) {
     return this.stops[Math.min(this.stopBefore(t, true) + 1, this.stops.length - 1)];
+  /** The interval that is shown, which may be chosen. */
+  interval(chosen) {
+    return chosen ?? [0, this.tEnd];
+  }
+
+  /** Whether the answer lists all events up to a time; of a long run it lists only the first. */
+  listed(t) {
+    return !this.cut || t < this.cut.until;
+  }
+
   }
 
   previousStop(t) {

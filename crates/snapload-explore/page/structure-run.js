@@ -128,6 +128,21 @@ export class StructureRun {
   beyond(t) {
     return this.horizon.t !== null && t > this.horizon.t;
   }
+  /** The interval that is shown. */
+  interval() {
+    return this.window;
+  }
+
+  /** Whether the answer has the neighbours of the run. */
+  get hasNeighbours() {
+    return this.assessment.trust.neighbours > 0;
+  }
+
+  /** Whether a time is in the part of a record that is not run yet. */
+  isBeyond(t) {
+    return this.preview && t > this.tEnd;
+  }
+
 
   nextStop(t) {
     return this.stops.find((stop) => stop > t) ?? this.tEnd;

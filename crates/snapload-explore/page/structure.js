@@ -49,6 +49,8 @@ class Page {
     this.background = null;
     this.link = new Link(this.state, {
       onBroken: (parts) => note(brokenLinkWords(parts)),
+    /** The time cursor of a part of the record that is not run yet. */
+    this.keptTime = null;
     });
     this.playback = new Playback(this.state, () => this.run);
     this.sceneView = new StructureSceneView(this.state, this.playback);
@@ -95,7 +97,7 @@ class Page {
     this.runner = new Runner({
       path: "api/structure/run",
       onAnswer: (answer, since, question) => this.receive(answer, since, question),
-      onError: (error) => this.fail(error),
+      onError: (error, question) => this.fail(error, question),
     });
     this.state.listen((changed) => this.follow(changed));
     new Keyboard({ playback: this.playback }, [
@@ -141,9 +143,11 @@ class Page {
   }
 
   receive(answer, since, question) {
+    $("elastic-message").textContent = "";
     const before = this.run;
     this.run = new StructureRun(answer, question.case);
     // Results for elastic lines stay valid for another interval of the same run.
+    this.stopBackground();
     this.sameCase = before !== null && keyOf(before.ofCase) === keyOf(question.case);
     const latest = this.asked === JSON.stringify(question);
     this.show(latest);
@@ -155,8 +159,13 @@ class Page {
     this.controls.clearError();
     this.controls.show(this.run.effective(this.state));
     this.#showProgress(this.#toCome());
-    this.resting = setTimeout(() => this.computeFurther(), this.sameCase ? 0 : REST_MS);
+    this.resting = setTimeout(() => this.computeFurther(), after_ms);
   }
+    this.#goOn(this.sameCase ? 0 : REST_MS);
+  }
+
+  /** Completes the answer that is shown, if no other takes its place before. */
+  #goOn(after_ms) {
 
   /** Shows the current run; latest: that of the current values, and not of earlier ones while others are on their way. */
   show(latest = true) {
@@ -164,12 +173,14 @@ class Page {
     this.sceneView.setRun(run);
     this.playbackControls.setRun(run);
     const [from, to] = run.window;
-    const t = state.t >= from && state.t <= to ? state.t : from;
+    const kept = this.keptTime ?? state.t;
+    const t = kept >= from && kept <= to ? kept : from;
     if (latest) this.#keepWindow();
     state.set({ t });
     showLines(run);
     showChecks(run);
     showSnaps(run);
+    this.keptTime = run.isBeyond(kept) ? kept : null;
     this.exports.setRun(run);
     this.#legend();
     this.drawAll();
@@ -181,6 +192,8 @@ class Page {
     const chosen = state.window === null;
     this.asked = JSON.stringify({ case: state.asked, window: run.window });
     state.set({ window: run.window });
+    // An interval that is not run yet comes back with the whole record.
+    if (state.window && run.isBeyond(state.window[1])) return;
     // It belongs to the entry of the history that was made without an interval.
     if (chosen) this.link.write({ now: true, sameEntry: true });
   }
@@ -189,23 +202,25 @@ class Page {
   async computeFurther() {
     this.stopBackground();
     this.#showProgress(this.#toCome());
-    const { question, state } = this;
+    const { state } = this;
+    // Of the run that is shown: other values may be refused.
+    const question = { case: this.run.ofCase, window: state.window };
     const abort = (this.background = new AbortController());
     const current = () => this.background === abort;
     const more = async (how) => {
       const onProgress = ({ doing, percent }) => current() && this.#showProgress(`${doing}, ${percent} %`);
       const text = await fetchWithProgress("api/structure/run", { ...question, ...how }, abort.signal, onProgress);
       if (!current()) return;
-      this.#showProgress(how.neighbours ? "" : this.#toCome());
       this.run = new StructureRun(JSON.parse(text), question.case);
       this.show();
     };
     try {
+      this.#showProgress(this.#toCome());
       if (this.run.preview) await more({ whole: true });
       if (!current()) return;
-      if (this.run.lasts_s <= LONGEST_WITH_NEIGHBOURS) await more({ whole: true, neighbours: true });
-      else $("preview").textContent = `Neighbours, other restitutions and slightly other waves of so long a record are run by the command: ${this.run.shell}`;
-      if (current() && state.elastic) await this.#computeElastic({ case: question.case, window: this.run.window }, abort);
+      if (this.#toCome()) await more({ whole: true, neighbours: true });
+      else if (!this.run.hasNeighbours) $("preview").textContent = `Neighbours, other restitutions and slightly other waves of so long a record are run by the command: ${this.run.shell}`;
+      if (current() && state.elastic && !this.run.elastic) await this.#computeElastic({ case: question.case, window: this.run.window }, abort);
     } catch (error) {
       if (error.name === "AbortError" || !current()) return;
       this.#showProgress("");
@@ -215,7 +230,8 @@ class Page {
 
   /** What may still change the verdict. */
   #toCome() {
-    return this.run.lasts_s <= LONGEST_WITH_NEIGHBOURS ? "neighbours to come" : "";
+    const { lasts_s, hasNeighbours } = this.run;
+    return lasts_s <= LONGEST_WITH_NEIGHBOURS && !hasNeighbours ? "neighbours to come" : "";
   }
 
   /** Shows the progress of the work after the picture. */
@@ -243,7 +259,7 @@ class Page {
     }
   }
 
-  fail(error) {
+  fail(error, question) {
     this.controls.showError(error);
     const shown = this.run ? "\nThe page shows the last values that could be run." : "";
     $("failed").textContent = `Not run: ${error.message}${shown}`;
@@ -251,10 +267,12 @@ class Page {
   }
 
   /** Redraws what depends on a change of the state. */
+    if (this.run && this.asked === JSON.stringify(question)) this.#goOn(REST_MS);
   follow(changed) {
     if (changed.has("values") || changed.has("water")) {
       this.controls.show(this.run?.effective(this.state));
       queueMicrotask(() => this.ask());
+    if (changed.has("t")) this.keptTime = null;
     }
     if (changed.has("window")) queueMicrotask(() => this.ask());
     if (changed.has("elastic")) {

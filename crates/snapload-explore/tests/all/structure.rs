@@ -207,7 +207,7 @@ fn another_water_takes_the_place_of_that_of_the_file() {
     assert_eq!(first["assessment"]["end"]["t_s"], 300.0);
     assert_eq!(
         first["shell"],
-        "snapload assess case.toml  # saved by Export"
+        "snapload assess case.toml  # save case.toml first, with Export"
     );
     let whole = ask(
         &server,
@@ -236,6 +236,11 @@ fn another_water_takes_the_place_of_that_of_the_file() {
         (&still["waves"], &still["snaps"]["all"]),
         (&json!([]), &json!(0))
     );
+    // Once it is known, another interval of it is not that of its beginning.
+    let later = json!({ "case": sea, "window": [320.0, 390.0] });
+    let later = ask(&server, "/api/structure/run", later);
+    assert_eq!(later["preview"], false);
+    assert_eq!(numbers(&later["window"]), [320.0, 390.0]);
 }
 
 #[test]
