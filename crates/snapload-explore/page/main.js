@@ -58,6 +58,7 @@ class Page {
       onBroken: (parts) => note(`Not understood in the link, and ignored: ${parts.join(", ")}`),
     });
     this.playback = new Playback(this.state, () => this.run);
+      onTravel: () => this.controls.endTyping(),
     this.sceneView = new SceneView(this.state, this.playback);
     this.handles = new Handles(this.sceneView, this.state, {
       onChange: (change) => this.changed(change),

@@ -51,6 +51,9 @@ class Page {
       onBroken: (parts) => note(brokenLinkWords(parts)),
     /** The time cursor of a part of the record that is not run yet. */
     this.keptTime = null;
+    this.link = new Link(this.state, {
+      onBroken: (parts) => note(brokenLinkWords(parts)),
+      onTravel: () => this.controls.endTyping(),
     });
     this.playback = new Playback(this.state, () => this.run);
     this.sceneView = new StructureSceneView(this.state, this.playback);
