@@ -15,7 +15,10 @@ export function number(value, digits = 4) {
 
 /** A number with a fixed number of decimals, for readings that must not change their width. */
 export function fixed(value, decimals) {
-  return value === null || value === undefined ? "–" : value.toFixed(decimals).replace("-", MINUS);
+  if (value === null || value === undefined) return "–";
+  const text = value.toFixed(decimals);
+  // What is rounded to zero has no sign.
+  return Number(text) === 0 ? text.replace("-", "") : text.replace("-", MINUS);
 }
 
 /** A number with some digits as engineers write it: a large one as a whole number, without a power of ten. */

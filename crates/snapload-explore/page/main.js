@@ -38,7 +38,7 @@ const TABLES_MS = 100;
 /** The longest time without a description of the picture. */
 const DESCRIBE_MS = 250;
 /** The elements that describe the run. */
-const DESCRIPTIONS = ["summary", "message", "outcome", "seal", "prove-message", "section-plot", "section-message", "question-words"];
+const DESCRIPTIONS = ["summary", "message", "outcome", "seal", "prove-message"];
 
 chooseTheme(chosenTheme());
 
@@ -197,8 +197,6 @@ class Page {
     this.sceneView.describe();
     this.outcome.setRun(run, question.values);
     this.proof.setValues(question.values);
-    this.longRun.setValues(question.values);
-    this.questions.setValues(question.values);
     this.#markStale();
     this.map.runChanged();
     this.basin.runChanged();
@@ -291,6 +289,11 @@ class Page {
     if (changed.has("t")) this.keptTime = null;
     if (changed.has("values") || changed.has("ghost")) {
       this.controls.show(this.run?.values);
+    if (changed.has("values")) {
+      // They are about the values of the fields, which may be refused, and not about the run that is shown.
+      this.longRun.setValues(this.state.values);
+      this.questions.setValues(this.state.values);
+    }
       this.showCase();
       // The controls request the run of their own changes, with the time of the event.
       queueMicrotask(() => this.ask());

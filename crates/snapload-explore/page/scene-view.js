@@ -78,14 +78,17 @@ export class SceneView {
   }
 
   #summarise() {
-    const { norms, snaps, timeTaut } = this.run;
+    const { norms, snaps, timeTaut, geometry } = this.run;
+    // A point mass has no rotation.
+    const turns = geometry.body.kind !== "point";
+    const theta = ["|<i>θ</i>|<sub>max</sub>", `${number(norms.theta_max, 5)} rad`, "theta_max"];
     const rows = [
       ["Impacts", String(snaps), "impacts"],
       ["ρ<sub>1</sub> = max <i>v</i><sub>n</sub>", number(norms.rho1, 5), "rho1"],
       ["ρ<sub>2</sub> to t = 10", number(norms.rho2, 5), "rho2"],
       ["ρ<sub>3</sub> = Σ <i>v</i><sub>n</sub>", number(norms.rho3, 5), "rho3"],
       ["<i>y</i><sub>max</sub>", `${number(norms.y_max, 5)} L`, "y_max"],
-      ["|<i>θ</i>|<sub>max</sub>", `${number(norms.theta_max, 5)} rad`, "theta_max"],
+      ...(turns ? [theta] : []),
       ["Largest impulse", `${number(this.run.hardest, 5)} m L/T`, "impulse"],
       ["Time taut", `${number(timeTaut, 4)} T`, "taut"],
     ];
