@@ -68,9 +68,14 @@ export function withSymbols(text) {
 
 export const unitText = (unit) => (unit === "1" ? "" : unit.replaceAll("^2", "²").replaceAll(" ", "\u2009"));
 
+/** Marks what is read between the rows of a motion as approximate. */
+export const about = (moment) => (moment.rough ? "about " : "");
+
 const MODES = ["slack", "sliding", "rocking", "locked"];
 
+/** The name of a mode; `taut` is null where it is not known which cables are taut. */
 export function modeName(taut) {
+  if (taut === null) return "mode not known";
   return MODES[Math.min(taut.length, MODES.length - 1)];
 }
 

@@ -82,7 +82,7 @@ export class PlaybackControls {
     return {
       value: `${fixed(t, 3)} of ${fixed(run.tEnd, 3)} T, ${modeName(run.tautAt(t))}`,
       clock: `t = ${fixed(t, 4)} T`,
-      counted: `impact ${run.snapsUntil(t)} of ${run.snaps}`,
+      counted: `${run.listed(t) ? "" : "past "}impact ${run.snapsUntil(t)} of ${run.snaps}`,
     };
   }
 

@@ -7,7 +7,7 @@ import { readValue } from "./state.js";
 import { paint } from "./shapes.js";
 import { camera, sceneShapes, sceneWords } from "./scene.js";
 import { colours, reducedMotion } from "./theme.js";
-import { modeName, number, fieldText, withSymbols, sentence } from "./formatting.js";
+import { about, modeName, number, fieldText, withSymbols, sentence } from "./formatting.js";
 
 /** The delay of texts for screen readers, so that a dragged slider causes one text only. */
 const REST_MS = 900;
@@ -73,7 +73,10 @@ export class SceneView {
       if (ghost.end.reason !== end.reason) parts.push(`It ends otherwise: ${withSymbols(ghost.end.words)}.`);
     }
     if (this.run.ghost_error) parts.push(sentence(`no ghost: ${this.run.ghost_error}`));
-    if (cut) parts.push(`Only the first ${cut.shown} of ${cut.impacts} rows of impacts are shown.`);
+    if (cut) {
+      const rows = `${cut.shown} of ${cut.impacts} rows of impacts`;
+      parts.push(`Events are shown up to t = ${number(cut.until, 6)}, ${rows}; after that only the mode where the time cursor rests.`);
+    }
     return parts.join(" ");
   }
 
@@ -138,8 +141,8 @@ export class SceneView {
     const t = Math.min(this.state.t, this.run.tEnd);
     const moment = this.run.at(t);
     const past = this.run.beyond(t) ? ", past the horizon" : "";
-    const taut = moment.taut.length
-      ? `, ${moment.taut.map((cable) => number(moment.tensions[cable - 1], 3)).join(" and ")} F`
+    const taut = moment.taut?.length
+      ? `, ${about(moment)}${moment.taut.map((cable) => number(moment.tensions[cable - 1], 3)).join(" and ")} F`
       : "";
     const happens = this.playback.playing ? "" : eventWords(this.run, t);
     setProperties($("caption"), { textContent: `${happens ? `${happens}; ` : ""}${modeName(moment.taut)}${taut}${past}` });

@@ -29,6 +29,7 @@ import { StructureState, caseOfLink } from "./structure-state.js";
 import { showChecks, showLines, showSnaps } from "./structure-tables.js";
 import { StructurePlaybackControls } from "./structure-playback-controls.js";
 import { StructureWaves } from "./structure-waves.js";
+import { ExactInstants } from "./exact-instants.js";
 import { ExportPanel } from "./export.js";
 import { fixed, round } from "./formatting.js";
 
@@ -45,10 +46,9 @@ class Page {
     this.state = new StructureState(schema, opened, file);
     this.run = null;
     this.moment = new FramedPicture(() => this.#paintMoment());
+    this.instants = new ExactInstants("api/structure/instant", { onArrival: () => this.drawMoment() });
     this.hover = null;
     this.background = null;
-    this.link = new Link(this.state, {
-      onBroken: (parts) => note(brokenLinkWords(parts)),
     /** The time cursor of a part of the record that is not run yet. */
     this.keptTime = null;
     this.link = new Link(this.state, {
@@ -143,14 +143,14 @@ class Page {
     this.background?.abort();
     this.background = null;
     this.#showProgress("");
+    $("elastic-message").textContent = "";
   }
 
   receive(answer, since, question) {
-    $("elastic-message").textContent = "";
+    this.stopBackground();
     const before = this.run;
     this.run = new StructureRun(answer, question.case);
     // Results for elastic lines stay valid for another interval of the same run.
-    this.stopBackground();
     this.sameCase = before !== null && keyOf(before.ofCase) === keyOf(question.case);
     const latest = this.asked === JSON.stringify(question);
     this.show(latest);
@@ -161,14 +161,14 @@ class Page {
     $("failed").hidden = true;
     this.controls.clearError();
     this.controls.show(this.run.effective(this.state));
-    this.#showProgress(this.#toCome());
-    this.resting = setTimeout(() => this.computeFurther(), after_ms);
-  }
     this.#goOn(this.sameCase ? 0 : REST_MS);
   }
 
   /** Completes the answer that is shown, if no other takes its place before. */
   #goOn(after_ms) {
+    this.#showProgress(this.#toCome());
+    this.resting = setTimeout(() => this.computeFurther(), after_ms);
+  }
 
   /** Shows the current run; latest: that of the current values, and not of earlier ones while others are on their way. */
   show(latest = true) {
@@ -180,10 +180,10 @@ class Page {
     const t = kept >= from && kept <= to ? kept : from;
     if (latest) this.#keepWindow();
     state.set({ t });
+    this.keptTime = run.isBeyond(kept) ? kept : null;
     showLines(run);
     showChecks(run);
     showSnaps(run);
-    this.keptTime = run.isBeyond(kept) ? kept : null;
     this.exports.setRun(run);
     this.#legend();
     this.drawAll();
@@ -192,11 +192,11 @@ class Page {
   /** Keeps the interval chosen by the server while values change, so that only one thing changes at a time. */
   #keepWindow() {
     const { run, state } = this;
+    // An interval that is not run yet comes back with the whole record.
+    if (state.window && run.isBeyond(state.window[1])) return;
     const chosen = state.window === null;
     this.asked = JSON.stringify({ case: state.asked, window: run.window });
     state.set({ window: run.window });
-    // An interval that is not run yet comes back with the whole record.
-    if (state.window && run.isBeyond(state.window[1])) return;
     // It belongs to the entry of the history that was made without an interval.
     if (chosen) this.link.write({ now: true, sameEntry: true });
   }
@@ -215,10 +215,10 @@ class Page {
       const text = await fetchWithProgress("api/structure/run", { ...question, ...how }, abort.signal, onProgress);
       if (!current()) return;
       this.run = new StructureRun(JSON.parse(text), question.case);
+      this.#showProgress(this.#toCome());
       this.show();
     };
     try {
-      this.#showProgress(this.#toCome());
       if (this.run.preview) await more({ whole: true });
       if (!current()) return;
       if (this.#toCome()) await more({ whole: true, neighbours: true });
@@ -267,15 +267,15 @@ class Page {
     const shown = this.run ? "\nThe page shows the last values that could be run." : "";
     $("failed").textContent = `Not run: ${error.message}${shown}`;
     $("failed").hidden = false;
+    if (this.run && this.asked === JSON.stringify(question)) this.#goOn(REST_MS);
   }
 
   /** Redraws what depends on a change of the state. */
-    if (this.run && this.asked === JSON.stringify(question)) this.#goOn(REST_MS);
   follow(changed) {
+    if (changed.has("t")) this.keptTime = null;
     if (changed.has("values") || changed.has("water")) {
       this.controls.show(this.run?.effective(this.state));
       queueMicrotask(() => this.ask());
-    if (changed.has("t")) this.keptTime = null;
     }
     if (changed.has("window")) queueMicrotask(() => this.ask());
     if (changed.has("elastic")) {
@@ -363,6 +363,9 @@ class Page {
   }
 
   #paintMoment() {
+    const { run } = this;
+    const read = Math.min(this.hover?.t ?? this.state.t, run.tEnd);
+    this.instants.follow(run, { case: run.ofCase, whole: !run.preview }, read);
     this.sceneView.draw();
     this.charts.cursor(this.state.t, this.hover);
     this.playbackControls.show();
