@@ -367,8 +367,11 @@ def test_past_the_listed_events_nothing_is_said_of_them(open_page):
 
 
 def test_what_is_rounded_to_zero_has_no_sign(code):
-    fixed = "async () => { const { fixed } = await import('./formatting.js'); return [fixed(-1e-9, 5), fixed(-0.1, 1)]; }"
-    assert code.evaluate(fixed) == ["0.00000", "\u22120.1"]
+    texts = """async () => {
+        const { fixed } = await import('./formatting.js');
+        return [fixed(-1e-9, 5), fixed(-0.1, 1)];
+    }"""
+    assert code.evaluate(texts) == ["0.00000", "\u22120.1"]
 
 
 def test_the_time_at_which_impacts_accumulate_is_told(open_page, command):
