@@ -387,6 +387,26 @@ def test_back_and_forward_go_through_the_values(open_page):
     expect(page.locator("#field-f_o")).to_have_value("0.4")
 
 
+def test_back_takes_the_place_of_what_is_typed_and_of_a_slider(open_page):
+    page = open_page("t=0")
+    field, slider = page.locator("#field-f_o"), page.locator("#slider-f_o")
+    # Both keep the focus.
+    field.fill("0.45")
+    comes_true(page, lambda: "f_o=0.45" in page.url)
+    page.go_back()
+    expect(field).to_have_value("0.3")
+    slider.focus()
+    slider.press("ArrowRight")
+    expect(field).not_to_have_value("0.3")
+    stepped = field.input_value()
+    comes_true(page, lambda: f"f_o={stepped}" in page.url)
+    page.go_back()
+    expect(field).to_have_value("0.3")
+    expect(slider).to_have_value("0.3")
+    slider.press("ArrowRight")
+    expect(field).to_have_value(stepped)
+
+
 def test_the_link_to_the_scene_leaves_the_state_alone(open_page):
     page = open_page("f_o=0.31&t=1.5")
     page.keyboard.press("Tab")

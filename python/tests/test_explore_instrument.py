@@ -329,3 +329,55 @@ def test_the_end_and_the_outcome_are_those_of_the_command(open_page, command, ke
     expect(page.locator("#message")).to_contain_text(end[0].upper() + end[1:])
     words = re.sub(r"\n +", ", ", outcome)
     expect(page.locator("#outcome")).to_have_text(f"Outcome: {words}.", timeout=60_000)
+
+
+def test_a_reading_at_rest_is_that_of_the_command(open_page, command_json):
+    # A light body that rocks quickly: the rows of the first answer are far too few for its tensions.
+    values = {"b": "0.1", "e": "0.3", "inertia": "0.001", "stop_when_settled": "false", "t_end": "100"}
+    at = 94.97
+    page = open_page("&".join(f"{key}={value}" for key, value in values.items()) + f"&t={at}", refused=1)
+    options = [text for pair in values.items() for text in ("--set", "=".join(pair))]
+    motion = command_json("run", "--ensemble", "0", *options, "--sample", "0.01")["motion"]
+    exact = min(motion, key=lambda row: abs(row["t"] - at))
+    readings = page.locator("#charts .reading")
+    tensions, energy, caption = readings.nth(2), readings.nth(3), page.locator("#caption")
+    expect(tensions).not_to_contain_text("about")
+    shown = [read(text.removeprefix("T₁ ")) for text in re.split("T₂ ", tensions.inner_text())]
+    assert shown == pytest.approx([exact["T1"], exact["T2"]], abs=6e-4)
+    assert read(energy.inner_text()) == pytest.approx(exact["energy"], abs=6e-6)
+    expect(caption).to_have_text(re.compile(r"^rocking, [\d.]+ and [\d.]+ F"))
+    # Without an answer everything that is read there stays approximate.
+    page.route("**/api/instant", lambda route: route.abort())
+    page.keyboard.press("Shift+ArrowRight")
+    for text in [tensions, energy, caption]:
+        expect(text).to_contain_text("about")
+    page.unroute("**/api/instant")
+
+
+def test_past_the_listed_events_nothing_is_said_of_them(open_page):
+    # Without loss and forcing the body bounces for ever.
+    page = open_page("body=point&e=1&f_o=0&y=1e-4&t_end=200&t=199.5")
+    expect(page.locator("#message")).to_contain_text("Events are shown up to t = ")
+    expect(page.locator("#counted")).to_have_text(re.compile(r"^past impact 10000 of \d+$"))
+    expect(page.locator("#charts .reading").nth(1)).to_have_text("latest not known")
+    # What is taut at an instant is known there.
+    expect(page.locator("#caption")).to_have_text(re.compile("^slack"))
+    # A point mass has no rotation.
+    expect(page.locator('[data-norm="theta_max"]')).to_have_count(0)
+
+
+def test_what_is_rounded_to_zero_has_no_sign(code):
+    texts = """async () => {
+        const { fixed } = await import('./formatting.js');
+        return [fixed(-1e-9, 5), fixed(-0.1, 1)];
+    }"""
+    assert code.evaluate(texts) == ["0.00000", "\u22120.1"]
+
+
+def test_the_time_at_which_impacts_accumulate_is_told(open_page, command):
+    values = {"e": "0.7", "f_o": "0.1"}
+    page = open_page("&".join(f"{key}={value}" for key, value in values.items()) + "&t=0")
+    options = [text for pair in values.items() for text in ("--set", "=".join(pair))]
+    told = re.search(r"the impacts accumulate at t = \S+", command("run", *options))
+    assert told
+    expect(page.locator("#message")).to_contain_text(told[0].replace("the", "The", 1))

@@ -35,7 +35,7 @@ RECORD_NOTES = """() => {
     window.notes = [];
     const note = () => window.notes.push({
         words: document.getElementById('message').textContent,
-        stale: ['summary', 'message', 'seal', 'section-message']
+        stale: ['summary', 'message', 'seal', 'prove-message']
             .map(id => document.getElementById(id).classList.contains('stale')),
     });
     new MutationObserver(note).observe(document.getElementById('summary'), { attributes: true, childList: true });

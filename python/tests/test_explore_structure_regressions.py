@@ -5,7 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 from urllib.parse import urljoin
 
-from explore import CYLINDER, ROOT, comes_true
+from explore import CYLINDER, ROOT, comes_true, exact_time
 from playwright.sync_api import expect
 
 SHORT = "run.duration=60&run.transient=10&elastic=false"
@@ -133,3 +133,74 @@ def test_elastic_lines_of_a_long_record_are_left_to_the_command(open_structure):
     words = page.locator("#elastic-words")
     expect(words).to_contain_text("are run by the command: snapload elastic", timeout=60_000)
     expect(page.locator("#elastic-message")).to_be_empty()
+
+
+def test_all_of_a_long_sea_can_be_shown(open_structure):
+    sea = "water=sea&sea.hs=1.1&sea.tp=6&run.duration=345&run.transient=20&elastic=false"
+    page = open_structure(f"{sea}&window=310,330&t=320")
+    words, slider = page.locator("#window-words"), page.locator("#interval-start")
+    # Its first minutes are shown before, with an interval of their own.
+    expect(words).to_have_text("310.0 to 330.0 s", timeout=60_000)
+    assert exact_time(page) == 320
+    slider.evaluate("one => { one.value = 320; one.dispatchEvent(new Event('input')); }")
+    expect(words).to_have_text("320.0 to 340.0 s")
+    rows = page.locator("#events-body tr").evaluate_all(
+        "all => all.map(row => [Number(row.dataset.t), Number(row.cells[3].textContent)])"
+    )
+    page.locator("#zoom-all").click()
+    hardest = max((row for row in rows if row[0] >= 20), key=lambda row: row[1])[0]
+    comes_true(page, lambda: contains(words.inner_text(), hardest))
+    slider.evaluate("one => { one.value = 305; one.dispatchEvent(new Event('input')); }")
+    comes_true(page, lambda: contains(words.inner_text(), 306))
+    chosen = words.inner_text()
+    page.locator('[id="field-run.restitution"]').fill("0.52")
+    expect(page.locator("#shell")).to_contain_text("case.toml")
+    expect(slider).to_be_disabled()
+    expect(page.locator("#preview")).to_contain_text("the choice of an interval")
+    expect(slider).to_be_enabled(timeout=60_000)
+    expect(words).to_have_text(chosen)
+
+
+def contains(interval: str, t: float) -> bool:
+    start, end = (float(text) for text in interval.removesuffix(" s").split(" to "))
+    return start <= t <= end
+
+
+def test_a_refused_value_leaves_no_verdict_without_its_neighbours(open_structure):
+    page = open_structure("run.duration=12&run.transient=2&elastic=false&t=0", refused=1)
+    expect(page.locator("#coming")).to_be_empty(timeout=60_000)
+    page.evaluate(
+        """() => {
+            const ask = window.fetch;
+            const wait = new Promise(done => (window.goOn = done));
+            window.fetch = async (path, options) => {
+                if (options?.body?.includes('"neighbours":true')) await wait;
+                return ask(path, options);
+            };
+        }"""
+    )
+    page.locator('[id="field-run.restitution"]').fill("0.52")
+    expect(page.locator("#coming")).to_have_text("neighbours to come")
+    page.locator("#pin").click()
+    page.locator('[id="field-wave.period"]').fill("abc")
+    page.locator('[id="field-wave.period"]').press("Enter")
+    expect(page.locator("#failed")).to_contain_text('wave.period = "abc" is not allowed')
+    expect(page.locator("#coming")).to_have_text("neighbours to come")
+    expect(page.locator("#pins li")).to_contain_text(", without neighbours,")
+    page.evaluate("() => window.goOn()")
+    expect(page.locator("#trust")).to_contain_text("neighbours", timeout=60_000)
+    expect(page.locator("#coming")).to_be_empty()
+    expect(page.locator("#pins li")).not_to_contain_text("without neighbours")
+
+
+def test_what_is_read_between_rows_is_exact_once_the_cursor_rests(open_structure):
+    page = open_structure("run.duration=60&run.transient=10&elastic=false&window=0,60&t=41.3", refused=1)
+    reading = page.locator("#charts .reading").last
+    expect(reading).not_to_contain_text("about")
+    wide = reading.inner_text()
+    # The rows of a short interval are so close that its readings are exact to the digits shown.
+    page.route("**/api/structure/instant", lambda route: route.abort())
+    page.evaluate("() => (location.hash = location.hash.replace('window=0,60', 'window=41.29,41.31'))")
+    expect(page.locator("#window-words")).to_have_text("41.3 to 41.3 s")
+    assert reading.inner_text().removeprefix("about ") == wide
+    page.unroute("**/api/structure/instant")

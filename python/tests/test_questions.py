@@ -129,3 +129,23 @@ def test_what_only_neighbours_have_is_refused_where_none_are_run(option):
     with pytest.raises(ValueError, match=f"^over runs no neighbours; leave out members and {name}, or over"):
         snapload.critical_force(snapload.Case(), over={"e": [0.5]}, members=2, **option)
     assert snapload.critical_force(snapload.Case(), largest=0.1, tolerance=1e-3, seed=1).f_cr is None
+
+
+def test_an_answer_belongs_to_the_values_that_were_asked_about(open_page):
+    page = open_page("f_o=0.31&t=0", refused=1)
+    page.locator("#question-box summary").click()
+    page.locator("#question").select_option("sensitivities")
+    # A run that the page refuses, perhaps for its time, can be asked about.
+    page.route("**/api/run", lambda route: route.fulfill(status=400, json={"message": "this takes too long"}))
+    page.locator("#field-f_o").fill("0.32")
+    expect(page.locator("#failed")).to_contain_text("this takes too long")
+    page.unroute("**/api/run")
+    page.locator("#question-ask").click()
+    expect(page.locator("#question-words")).to_be_visible(timeout=20_000)
+    page.locator("#field-f_o").fill("0.31")
+    expect(page.locator("#failed")).to_be_hidden()
+    expect(page.locator("#question-words")).to_be_hidden()
+    # Its options are written as all numbers of the page are.
+    page.locator("#question-impacts").fill("0x10")
+    page.locator("#question-ask").click()
+    expect(page.locator("#question-message")).to_contain_text("0x10")

@@ -2,12 +2,10 @@
 
 import { drawColumn, drawMarks, label, span } from "./plot.js";
 import { TimeCharts, above, rows } from "./time-charts.js";
-import { fixed, number } from "./formatting.js";
-
-/** Marks a reading between rows that are far apart as approximate. */
-export const about = (moment) => (moment.rough ? "about " : "");
+import { about, fixed, number } from "./formatting.js";
 
 function latestSnap(run, t) {
+  if (!run.listed(t)) return "latest not known";
   const i = run.latestImpact(t);
   return i < 0 ? "none yet" : `${number(run.impacts.v_n[i], 4)} L/T, latest`;
 }
@@ -108,7 +106,7 @@ const CHARTS = [
     range: (run, seen, pins) =>
       above(span(all(run, pins).flatMap(({ motion }) => [seen(motion, motion.T1), seen(motion, motion.T2)]))),
     draw: drawTensions,
-    read: (run, moment) => moment.tensions.map((T, i) => `T${"₁₂"[i]} ${number(T, 3)}`).join("  ") + " F",
+    read: (run, moment) => about(moment) + moment.tensions.map((T, i) => `T${"₁₂"[i]} ${number(T, 3)}`).join("  ") + " F",
     words: (run) => (run.timeTaut > 0 ? `up to about ${number(run.mostTension, 2)} F` : "no interval with a taut cable"),
   },
   {

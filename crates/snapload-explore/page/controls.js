@@ -232,6 +232,11 @@ export class Controls {
     this.onChange({ since: event.timeStamp, settled, gesture: this.gesture });
   }
 
+  /** Ends what is being typed, so that the values of the state take its place. */
+  endTyping() {
+    this.typing = null;
+  }
+
   /** Shows the values of the state; text that is being typed stays. `effective` has the derived values. */
   show(effective = {}) {
     for (const [name, { key, field, slider, ranged, reset, why }] of this.rows) {
@@ -246,7 +251,7 @@ export class Controls {
       if (reset) setProperties(reset, { hidden: !(name in this.state.values) });
       // A slider has one value; three numbers have none that it could show.
       if (ranged) setProperties(ranged, { hidden: text.startsWith("[") });
-      if (slider && document.activeElement !== slider) setProperties(slider, { value: String(value ?? slider.min) });
+      if (slider) setProperties(slider, { value: String(value ?? slider.min) });
       if (slider) setAttributes(slider, { "aria-valuetext": `${text} ${unitText(key.unit)}`.trim() });
       // An unavailable key that is given is refused by the server; its field stays enabled so that it can be corrected.
       const reason = given === undefined ? this.reasonUnavailable(name, this.state) : undefined;

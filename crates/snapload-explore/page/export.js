@@ -131,7 +131,7 @@ export class ExportPanel {
 
   async #animation() {
     const run = this.currentRun();
-    const [from, to] = this.state.window ?? [0, run.tEnd];
+    const [from, to] = run.interval(this.state.window);
     const recording = (this.recording = new AnimationRecording({
       run,
       picture: this.picture,

@@ -15,7 +15,10 @@ export function number(value, digits = 4) {
 
 /** A number with a fixed number of decimals, for readings that must not change their width. */
 export function fixed(value, decimals) {
-  return value === null || value === undefined ? "–" : value.toFixed(decimals).replace("-", MINUS);
+  if (value === null || value === undefined) return "–";
+  const text = value.toFixed(decimals);
+  // What is rounded to zero has no sign.
+  return Number(text) === 0 ? text.replace("-", "") : text.replace("-", MINUS);
 }
 
 /** A number with some digits as engineers write it: a large one as a whole number, without a power of ten. */
@@ -65,9 +68,14 @@ export function withSymbols(text) {
 
 export const unitText = (unit) => (unit === "1" ? "" : unit.replaceAll("^2", "²").replaceAll(" ", "\u2009"));
 
+/** Marks what is read between the rows of a motion as approximate. */
+export const about = (moment) => (moment.rough ? "about " : "");
+
 const MODES = ["slack", "sliding", "rocking", "locked"];
 
+/** The name of a mode; `taut` is null where it is not known which cables are taut. */
 export function modeName(taut) {
+  if (taut === null) return "mode not known";
   return MODES[Math.min(taut.length, MODES.length - 1)];
 }
 

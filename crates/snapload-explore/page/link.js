@@ -6,19 +6,25 @@ const PACE_MS = 350;
 const timeless = (fragment) => fragment.replace(/(^|&)t=[^&]*/, "");
 
 export class Link {
-  constructor(state, { onBroken }) {
+  /** `onBroken` receives what could not be read; `onTravel` is called before another entry of the history is read. */
+  constructor(state, { onBroken, onTravel }) {
     this.state = state;
     this.onBroken = onBroken;
     this.timer = null;
     this.held = false;
     this.written = "";
     this.gesture = null;
-    addEventListener("popstate", () => this.read());
+    addEventListener("popstate", () => {
+      onTravel();
+      this.read();
+    });
   }
 
   read() {
     const broken = this.state.readFragment(location.hash.slice(1));
     this.written = this.state.toFragment();
+    // What changes from now on is an entry of its own.
+    this.gesture = null;
     if (broken.length) this.onBroken(broken);
   }
 

@@ -9,6 +9,7 @@ import { Keyboard } from "./keyboard.js";
 import { SafeBasin } from "./basin.js";
 import { SweepMap } from "./map.js";
 import { ExportPanel } from "./export.js";
+import { ExactInstants } from "./exact-instants.js";
 import { Controls, caseGroups, notOfAPoint } from "./controls.js";
 import { Link } from "./link.js";
 import { LongRun } from "./long-run.js";
@@ -38,7 +39,7 @@ const TABLES_MS = 100;
 /** The longest time without a description of the picture. */
 const DESCRIBE_MS = 250;
 /** The elements that describe the run. */
-const DESCRIPTIONS = ["summary", "message", "outcome", "seal", "prove-message", "section-plot", "section-message", "question-words"];
+const DESCRIPTIONS = ["summary", "message", "outcome", "seal", "prove-message"];
 
 chooseTheme(chosenTheme());
 
@@ -47,6 +48,7 @@ class Page {
     this.state = new State(schema);
     this.run = null;
     this.moment = new FramedPicture(() => this.#paintMoment());
+    this.instants = new ExactInstants("api/instant", { onArrival: () => this.drawMoment() });
     /** The requests of the run that is shown, of the run of the descriptions, and of that in the table of events. */
     this.shown = this.described = this.tabled = null;
     this.hover = null;
@@ -56,6 +58,7 @@ class Page {
     this.refusal = "";
     this.link = new Link(this.state, {
       onBroken: (parts) => note(`Not understood in the link, and ignored: ${parts.join(", ")}`),
+      onTravel: () => this.controls.endTyping(),
     });
     this.playback = new Playback(this.state, () => this.run);
     this.sceneView = new SceneView(this.state, this.playback);
@@ -196,8 +199,6 @@ class Page {
     this.sceneView.describe();
     this.outcome.setRun(run, question.values);
     this.proof.setValues(question.values);
-    this.longRun.setValues(question.values);
-    this.questions.setValues(question.values);
     this.#markStale();
     this.map.runChanged();
     this.basin.runChanged();
@@ -288,6 +289,11 @@ class Page {
   /** Redraws what depends on a change of the state. */
   follow(changed) {
     if (changed.has("t")) this.keptTime = null;
+    if (changed.has("values")) {
+      // They are about the values of the fields, which may be refused, and not about the run that is shown.
+      this.longRun.setValues(this.state.values);
+      this.questions.setValues(this.state.values);
+    }
     if (changed.has("values") || changed.has("ghost")) {
       this.controls.show(this.run?.values);
       this.showCase();
@@ -297,7 +303,7 @@ class Page {
     if (changed.has("pins")) this.pins.follow();
     if (["picture", "view", "zoom", "window", "plane"].some((name) => changed.has(name))) this.drawAll();
     else if (changed.has("t") || changed.has("speed")) this.drawMoment();
-    if (this.run && (changed.has("window") || (changed.has("t") && this.run.at(this.state.t).rough))) this.#refine();
+    if (this.run && (changed.has("window") || (changed.has("t") && this.run.at(this.state.t).far))) this.#refine();
     if (changed.has("values") || changed.has("map")) this.map.follow();
     if (changed.has("values") || changed.has("basin")) this.basin.follow();
     setProperties($("axes"), { value: this.state.plane });
@@ -333,6 +339,8 @@ class Page {
   }
 
   #paintMoment() {
+    const read = Math.min(this.hover?.t ?? this.state.t, this.run.tEnd);
+    this.instants.follow(this.run, { values: this.question.values }, read);
     this.sceneView.draw();
     this.charts.cursor(this.state.t, this.hover);
     this.trajectory.cursor(this.state.t, this.hover);

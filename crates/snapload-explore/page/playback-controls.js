@@ -43,7 +43,7 @@ export class PlaybackControls {
   /** Multiplies the length of the time window about the cursor. */
   zoom(factor) {
     const end = this.run.tEnd;
-    const [from, to] = this.state.window ?? [0, end];
+    const [from, to] = this.run.interval(this.state.window);
     const length = (to - from) * factor;
     if (length >= end) return this.state.set({ window: null });
     const least = Math.max(length, 1e-6);
@@ -63,7 +63,7 @@ export class PlaybackControls {
   show() {
     if (!this.run) return;
     const { t, speed, window } = this.state;
-    const [from, to] = window ?? [0, this.run.tEnd];
+    const [from, to] = this.run.interval(window);
     setProperties($("scrub"), { min: String(from), max: String(to) });
     setProperties($("scrub"), { value: String(t) });
     const words = this.words(t, this.run);
@@ -82,7 +82,7 @@ export class PlaybackControls {
     return {
       value: `${fixed(t, 3)} of ${fixed(run.tEnd, 3)} T, ${modeName(run.tautAt(t))}`,
       clock: `t = ${fixed(t, 4)} T`,
-      counted: `impact ${run.snapsUntil(t)} of ${run.snaps}`,
+      counted: `${run.listed(t) ? "" : "past "}impact ${run.snapsUntil(t)} of ${run.snaps}`,
     };
   }
 

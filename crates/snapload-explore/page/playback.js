@@ -79,11 +79,10 @@ export class Playback {
   }
 
   get #first() {
-    return this.state.window?.[0] ?? 0;
+    return this.run.interval(this.state.window)[0];
   }
 
   get #last() {
-    const end = this.run.tEnd;
-    return Math.min(this.state.window?.[1] ?? end, end);
+    return Math.min(this.run.interval(this.state.window)[1], this.run.tEnd);
   }
 }

@@ -3,6 +3,7 @@
 import { fetchAnswer } from "./api.js";
 import { $ } from "./dom.js";
 import { CancellableRequest } from "./long-run.js";
+import { finite } from "./state.js";
 import { fieldText, withSymbols, sentence, unitText } from "./formatting.js";
 
 export class Questions {
@@ -71,6 +72,5 @@ function field({ name, unit, meaning, kind, default: usual }) {
 
 /** A number, the text if it is none, or null for nothing. */
 function typed(text) {
-  const number = Number(text);
-  return text === "" ? null : Number.isFinite(number) ? number : text;
+  return text === "" ? null : (finite(text) ?? text);
 }

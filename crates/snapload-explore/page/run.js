@@ -20,8 +20,8 @@ export function hermite(p0, v0, p1, v1, d, u) {
   return [value, rate];
 }
 
-/** Between rows that are further apart than this [T] the cubic is only approximate. */
-const ROUGH_T = 0.25;
+/** Rows that are further apart than this [T] do not show the motion: more are asked for. */
+const FAR_T = 0.25;
 
 /** Two runs have separated if they differ by this. */
 const SEPARATED = 1e-3;
@@ -45,7 +45,8 @@ export class Motion {
     const j = Math.min(i + 1, this.t.length - 1);
     const d = this.t[j] - this.t[i];
     const u = d > 0 ? Math.min((t - this.t[i]) / d, 1) : 0;
-    const moment = { t, rough: d > ROUGH_T && u > 0 && u < 1 };
+    const rough = u > 0 && u < 1;
+    const moment = { t, rough, far: rough && d > FAR_T };
     for (const [place, speed] of COORDINATES) {
       const known = u === 0;
       [moment[place], moment[speed]] = known
@@ -92,6 +93,8 @@ export class Run {
   python = "";
   /** The times of all events, computed when they are first needed. @type {number[] | undefined} */
   eventTimes;
+  /** The motion at exactly some times, as it was asked for. @type {Map<number, any>} */
+  instants = new Map();
   /** The number of impacts up to each row, computed when it is first needed. @type {number[] | undefined} */
   snapCounts;
 
@@ -115,7 +118,8 @@ export class Run {
   }
 
   at(t) {
-    const moment = this.motionAt.at(t);
+    const exact = this.instants.get(t);
+    const moment = exact ? new Motion(exact.motion).at(t) : this.motionAt.at(t);
     moment.taut = this.tautAt(t);
     moment.force = this.forceAt(t);
     return moment;
@@ -127,10 +131,23 @@ export class Run {
     return [f_o * Math.cos(omega * t), nu * f_o * Math.sin(omega * t)];
   }
 
-  /** Which cables are taut, counted from 1. */
+  /** Which cables are taut, counted from 1; null where that is not known. */
   tautAt(t) {
+    const exact = this.instants.get(t);
+    if (exact) return exact.taut;
+    if (!this.listed(t)) return null;
     const { taut, t_start } = this.modes;
     return taut[lastAtOrBefore(t_start, t)] ?? [];
+  }
+
+  /** The interval that is shown, which may be chosen. */
+  interval(chosen) {
+    return chosen ?? [0, this.tEnd];
+  }
+
+  /** Whether the answer lists all events up to a time; of a long run it lists only the first. */
+  listed(t) {
+    return !this.cut || t < this.cut.until;
   }
 
   beyond(t) {

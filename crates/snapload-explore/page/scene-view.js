@@ -7,7 +7,7 @@ import { readValue } from "./state.js";
 import { paint } from "./shapes.js";
 import { camera, sceneShapes, sceneWords } from "./scene.js";
 import { colours, reducedMotion } from "./theme.js";
-import { modeName, number, fieldText, withSymbols, sentence } from "./formatting.js";
+import { about, modeName, number, fieldText, withSymbols, sentence } from "./formatting.js";
 
 /** The delay of texts for screen readers, so that a dragged slider causes one text only. */
 const REST_MS = 900;
@@ -73,19 +73,25 @@ export class SceneView {
       if (ghost.end.reason !== end.reason) parts.push(`It ends otherwise: ${withSymbols(ghost.end.words)}.`);
     }
     if (this.run.ghost_error) parts.push(sentence(`no ghost: ${this.run.ghost_error}`));
-    if (cut) parts.push(`Only the first ${cut.shown} of ${cut.impacts} rows of impacts are shown.`);
+    if (cut) {
+      const rows = `${cut.shown} of ${cut.impacts} rows of impacts`;
+      parts.push(`Events are shown up to t = ${number(cut.until, 6)}, ${rows}; after that only the mode where the time cursor rests.`);
+    }
     return parts.join(" ");
   }
 
   #summarise() {
-    const { norms, snaps, timeTaut } = this.run;
+    const { norms, snaps, timeTaut, geometry } = this.run;
+    // A point mass has no rotation.
+    const turns = geometry.body.kind !== "point";
+    const theta = ["|<i>θ</i>|<sub>max</sub>", `${number(norms.theta_max, 5)} rad`, "theta_max"];
     const rows = [
       ["Impacts", String(snaps), "impacts"],
       ["ρ<sub>1</sub> = max <i>v</i><sub>n</sub>", number(norms.rho1, 5), "rho1"],
       ["ρ<sub>2</sub> to t = 10", number(norms.rho2, 5), "rho2"],
       ["ρ<sub>3</sub> = Σ <i>v</i><sub>n</sub>", number(norms.rho3, 5), "rho3"],
       ["<i>y</i><sub>max</sub>", `${number(norms.y_max, 5)} L`, "y_max"],
-      ["|<i>θ</i>|<sub>max</sub>", `${number(norms.theta_max, 5)} rad`, "theta_max"],
+      ...(turns ? [theta] : []),
       ["Largest impulse", `${number(this.run.hardest, 5)} m L/T`, "impulse"],
       ["Time taut", `${number(timeTaut, 4)} T`, "taut"],
     ];
@@ -135,8 +141,8 @@ export class SceneView {
     const t = Math.min(this.state.t, this.run.tEnd);
     const moment = this.run.at(t);
     const past = this.run.beyond(t) ? ", past the horizon" : "";
-    const taut = moment.taut.length
-      ? `, ${moment.taut.map((cable) => number(moment.tensions[cable - 1], 3)).join(" and ")} F`
+    const taut = moment.taut?.length
+      ? `, ${about(moment)}${moment.taut.map((cable) => number(moment.tensions[cable - 1], 3)).join(" and ")} F`
       : "";
     const happens = this.playback.playing ? "" : eventWords(this.run, t);
     setProperties($("caption"), { textContent: `${happens ? `${happens}; ` : ""}${modeName(moment.taut)}${taut}${past}` });

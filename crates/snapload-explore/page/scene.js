@@ -6,7 +6,7 @@ import { magnifier } from "./magnifier.js";
 import { SimplifiedLine } from "./simplified-line.js";
 import { arrow } from "./shapes.js";
 import { mix } from "./theme.js";
-import { fixed, modeName, number } from "./formatting.js";
+import { about, fixed, modeName, number } from "./formatting.js";
 
 /** How long a snap stays visible during playback, in seconds of real time. */
 const AFTERGLOW_S = 0.45;
@@ -269,7 +269,7 @@ function cableShapes(run, i, moment, cam, { colours, picture }, snaps) {
   const from = cam.place(cable.anchor);
   const anchor = { points: anchorMark(from, cam.up), closed: true, fill: colours.floor };
   const snap = snaps.find((one) => run.impacts.cable[one.i] === i + 1);
-  if (moment.taut.includes(i + 1)) {
+  if (moment.taut?.includes(i + 1) ?? moment.tensions[i] > 0) {
     const tension = moment.tensions[i] ?? 0;
     const part = run.mostTension > 0 ? Math.sqrt(Math.max(tension, 0) / run.mostTension) : 0;
     const to = cam.place(turned(cable.arm, moment));
@@ -424,11 +424,12 @@ function scaleBar(run, cam, { width, height, colours }) {
 export function sceneWords(run, t) {
   const moment = run.at(t);
   const [x, y, theta] = [moment.x, moment.y, moment.theta].map((value) => fixed(value, 3));
-  const taut = moment.taut.map((cable) => `cable ${cable} taut, tension ${number(moment.tensions[cable - 1], 3)} F`);
-  const lines = taut.length ? taut.join("; ") : "both cables slack";
+  const tension = (cable) => about(moment) + number(moment.tensions[cable - 1], 3);
+  const taut = moment.taut?.map((cable) => `cable ${cable} taut, tension ${tension(cable)} F`);
+  const lines = !taut ? "" : taut.length ? `: ${taut.join("; ")}` : ": both cables slack";
   const happens = eventWords(run, t);
   return (
-    `At t = ${fixed(t, 3)} T the body is at x = ${x}, y = ${y}, θ = ${theta}; ${modeName(moment.taut)}: ${lines}` +
+    `At t = ${fixed(t, 3)} T the body is at ${about(moment)}x = ${x}, y = ${y}, θ = ${theta}; ${modeName(moment.taut)}${lines}` +
     `${happens ? `; at this instant: ${happens}` : ""}.`
   );
 }

@@ -3,7 +3,7 @@
 import { drawColumn, drawMarks, span } from "./plot.js";
 import { TimeCharts, above, rows } from "./time-charts.js";
 import { lineColour } from "./theme.js";
-import { fixed, number, ratio, round } from "./formatting.js";
+import { about, fixed, number, ratio, round } from "./formatting.js";
 
 const DEGREES = 180 / Math.PI;
 /** The breaking load is drawn if tensions reach this part of it. */
@@ -131,7 +131,7 @@ const CHARTS = [
     range: (run) => atLeast(0.01, span(both(run, "x"))),
     draw: line("x"),
     value: (moment) => moment.x,
-    read: (run, moment) => `${fixed(moment.x, 3)} m`,
+    read: (run, moment) => `${about(moment)}${fixed(moment.x, 3)} m`,
     words: (run) => `from ${reach(run.motion.x)} m`,
   },
   {
@@ -142,7 +142,7 @@ const CHARTS = [
     range: (run) => atLeast(0.01, span(both(run, "z"))),
     draw: line("z"),
     value: (moment) => moment.y,
-    read: (run, moment) => `${fixed(moment.y, 3)} m`,
+    read: (run, moment) => `${about(moment)}${fixed(moment.y, 3)} m`,
     words: (run) => `from ${reach(run.motion.z)} m`,
   },
   {
@@ -153,7 +153,7 @@ const CHARTS = [
     range: (run) => atLeast(0.1, span(both(run, "theta")).map((v) => v * DEGREES)),
     draw: line("theta", DEGREES),
     value: (moment) => moment.theta * DEGREES,
-    read: (run, moment) => `${fixed(moment.theta * DEGREES, 2)}°`,
+    read: (run, moment) => `${about(moment)}${fixed(moment.theta * DEGREES, 2)}°`,
     words: (run) => `from ${reach(run.motion.theta, DEGREES)} degrees`,
   },
   {
@@ -164,9 +164,10 @@ const CHARTS = [
     range: tensionRange,
     draw: drawTensions,
     read: (run, moment) =>
-      run.lines.length > 3
+      about(moment) +
+      (run.lines.length > 3
         ? `at most ${round(Math.max(...moment.tensions))} kN`
-        : moment.tensions.map((T, i) => `${i + 1}: ${round(T)}`).join("  ") + " kN",
+        : moment.tensions.map((T, i) => `${i + 1}: ${round(T)}`).join("  ") + " kN"),
     marks: ({ snaps }) => ({ t: snaps.t, y: snaps.peak }),
     markWords: snapWords,
     words: (run) => `at most ${round(run.mostTension)} kN while taut; ${run.snapsInWords}`,

@@ -5,6 +5,9 @@ import { changesText } from "./structure-key-groups.js";
 import { escape, fixed, number, ratio } from "./formatting.js";
 
 const MOST_PINS = 5;
+/** What may still change an answer, by how far it is computed. */
+const STAGES = [", first minutes only", ", without neighbours", ""];
+const stage = (run) => (run.preview ? 0 : run.hasNeighbours ? 2 : 1);
 
 /** The outcome of an answer, in the order in which it is shown. */
 function outcome(run) {
@@ -15,6 +18,9 @@ function outcome(run) {
   const slack = Math.max(...run.lines.map((line) => line.slack_fraction));
   return { standing: run.standing, judged, largest, fastest, slack };
 }
+
+/** What a pin keeps of an answer. */
+const kept = (run) => ({ of: JSON.stringify(run.ofCase), stage: stage(run), outcome: outcome(run) });
 
 export class PinnedAnswers {
   /** `currentRun` returns the run that is shown; `onBack` receives a pin that is to be shown again. */
@@ -39,15 +45,21 @@ export class PinnedAnswers {
     // The values of the run; those of the fields may be refused, or on their way.
     const { set, water } = run.ofCase;
     const values = this.state.valuesOf(set);
-    this.kept.push({ values, water, outcome: outcome(run), preview: run.preview });
+    this.kept.push({ values, water, ...kept(run) });
     this.show();
   }
 
   show() {
     $("pin").disabled = this.kept.length >= MOST_PINS;
     const run = this.currentRun();
+    if (run) this.#complete(kept(run));
     const html = run ? this.kept.map((pin, i) => line(pin, i, outcome(run))).join("") : "";
     replaceButtons($("pins"), html, $("pin"));
+  }
+
+  /** Gives the pins of a case what was computed of it since. */
+  #complete(now) {
+    for (const pin of this.kept) if (pin.of === now.of && pin.stage < now.stage) Object.assign(pin, now);
   }
 }
 
@@ -61,18 +73,17 @@ function compared(value, now, written) {
   return Number(far) === 0 ? "the same as now" : `${far} ${value > now ? "more" : "less"} than now`;
 }
 
-function line({ values, water, outcome: of, preview }, i, shown) {
+function line({ values, water, outcome: of, stage: reached }, i, shown) {
   const waters = water === null ? "" : `water: ${water}`;
   const what = escape([waters, changesText(values)].filter(Boolean).join(", ")) || "the case, unchanged";
   const more = of.largest === null ? compared(of.fastest, shown.fastest, speed) : compared(of.largest, shown.largest, ratio);
   const much = of.largest === null ? `fastest snap ${speed(of.fastest)} m/s` : `utilisation ${ratio(of.largest)}`;
-  const first = preview ? ", first minutes only" : "";
   const comes = of.judged
     ? `${much} (${more}), fastest snap ${number(of.fastest, 3)} m/s, slack at most ${fixed(100 * of.slack, 1)} % of the whole time`
     : "nothing judged";
   return (
     `<li><button type="button" class="back" data-pin="${i}" title="Show this again">${what}</button>: <b>${of.standing}</b>` +
-    `${first}, ${comes} ` +
+    `${STAGES[reached]}, ${comes} ` +
     `<button type="button" class="unpin" data-pin="${i}" aria-label="Unpin ${what}">×</button></li>`
   );
 }

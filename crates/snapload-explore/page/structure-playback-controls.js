@@ -40,10 +40,12 @@ export class StructurePlaybackControls extends PlaybackControls {
     const [from, to] = this.run.window;
     // Over the whole record, as it is drawn above it.
     const most = Math.max(this.run.lasts_s - (to - from), 0);
-    Object.assign($("interval-start"), { min: 0, max: most, value: from, disabled: most === 0 });
+    // Before the whole record is run there is nothing to choose from.
+    const { preview } = this.run;
+    Object.assign($("interval-start"), { min: 0, max: most, value: from, disabled: most === 0 || preview });
     $("interval-start").setAttribute("aria-valuetext", `from ${round(from)} to ${round(to)} of ${round(this.run.tEnd)} s`);
     $("window-words").value = `${fixed(from, 1)} to ${fixed(to, 1)} s`;
-    $("zoom-all").disabled = false;
+    $("zoom-all").disabled = preview;
   }
 
   draw() {

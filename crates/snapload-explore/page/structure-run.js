@@ -24,7 +24,7 @@ export class StructureMotion {
     const d = c.t[j] - c.t[i];
     const u = d > 0 ? Math.min(Math.max((t - c.t[i]) / d, 0), 1) : 0;
     /** @type {any} */
-    const moment = { t };
+    const moment = { t, rough: u > 0 && u < 1 };
     for (const [place, speed, name] of COORDINATES) {
       moment[name] =
         u === 0 ? c[place][i] : hermite(c[place][i], c[speed][i], c[place][j], c[speed][j], d, u)[0];
@@ -69,6 +69,8 @@ export class StructureRun {
   lasts_s = 0;
   transient_s = 0;
   shell = "";
+  /** The motion at exactly some times, as it was asked for. @type {Map<number, any>} */
+  instants = new Map();
   python = "";
   /** The run on elastic lines, once it is computed. @type {any} */
   elastic = null;
@@ -104,7 +106,8 @@ export class StructureRun {
   }
 
   at(t) {
-    const moment = this.motionAt.at(t);
+    const exact = this.instants.get(t);
+    const moment = exact ? new StructureMotion(exact.motion).at(t) : this.motionAt.at(t);
     moment.taut = this.tautAt(t);
     moment.surface = this.surface(this.geometry.rest[0], t);
     return moment;
@@ -123,6 +126,21 @@ export class StructureRun {
       sum += amplitude * Math.sin(omega * t - k * (x - this.geometry.rest[0]) + phase);
     }
     return sum;
+  }
+
+  /** The interval that is shown. */
+  interval() {
+    return this.window;
+  }
+
+  /** Whether the answer has the neighbours of the run. */
+  get hasNeighbours() {
+    return this.assessment.trust.neighbours > 0;
+  }
+
+  /** Whether a time is in the part of a record that is not run yet. */
+  isBeyond(t) {
+    return this.preview && t > this.tEnd;
   }
 
   beyond(t) {

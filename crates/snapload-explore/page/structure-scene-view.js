@@ -27,7 +27,7 @@ export class StructureSceneView {
     $("standing").textContent = run.standing;
     $("message").textContent = verdict.words;
     $("trust").textContent = trust.words;
-    const whole = `the whole record of ${round(run.lasts_s)} s follows when the values stop changing`;
+    const whole = `the whole record of ${round(run.lasts_s)} s, and with it the choice of an interval, follows when the values stop changing`;
     $("preview").textContent = run.preview ? `These results are for the first ${round(run.tEnd)} s; ${whole}.` : "";
     clearTimeout(this.announceTimer);
     const words = sentence(run.standing) + ` ${verdict.words}`;

@@ -4,7 +4,7 @@ import { slackLine } from "./slack-line.js";
 import { turned } from "./scene.js";
 import { arrow } from "./shapes.js";
 import { lineColour, mix } from "./theme.js";
-import { fixed, number, round } from "./formatting.js";
+import { about, fixed, number, round } from "./formatting.js";
 
 /** How long a snap stays visible during playback, in seconds of real time. */
 const AFTERGLOW_S = 0.45;
@@ -234,7 +234,7 @@ function labelShapes(run, i, moment, cam, { colours, height }) {
   const taut = moment.taut.includes(i + 1);
   const text = { size: 12, align: "center", fill: lineColour(colours, i + 1) };
   // With many lines there is only room for their numbers.
-  const carries = run.geometry.lines.length > 4 ? "" : taut ? `${round(moment.tensions[i])} kN` : "slack";
+  const carries = run.geometry.lines.length > 4 ? "" : taut ? `${about(moment)}${round(moment.tensions[i])} kN` : "slack";
   return [
     { ...text, text: `line ${i + 1}`, at: [x, y + 22] },
     { ...text, text: carries, at: [x, y + 36], size: 11, fill: colours.muted },
@@ -267,8 +267,8 @@ export function structureWords(run, t) {
   const moment = run.at(t);
   const degrees = fixed((moment.theta * 180) / Math.PI, 1);
   const lines = run.lines.map((_, i) =>
-    moment.taut.includes(i + 1) ? `line ${i + 1} taut, ${round(moment.tensions[i])} kN` : `line ${i + 1} slack`,
+    moment.taut.includes(i + 1) ? `line ${i + 1} taut, ${about(moment)}${round(moment.tensions[i])} kN` : `line ${i + 1} slack`,
   );
-  const place = `x = ${fixed(moment.x, 2)} m, z = ${fixed(moment.y, 2)} m, turned by ${degrees} degrees`;
+  const place = `${about(moment)}x = ${fixed(moment.x, 2)} m, z = ${fixed(moment.y, 2)} m, turned by ${degrees} degrees`;
   return `At t = ${fixed(t, 2)} s the body is at ${place}; ${lines.join("; ")}.`;
 }

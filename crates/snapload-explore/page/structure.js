@@ -29,6 +29,7 @@ import { StructureState, caseOfLink } from "./structure-state.js";
 import { showChecks, showLines, showSnaps } from "./structure-tables.js";
 import { StructurePlaybackControls } from "./structure-playback-controls.js";
 import { StructureWaves } from "./structure-waves.js";
+import { ExactInstants } from "./exact-instants.js";
 import { ExportPanel } from "./export.js";
 import { fixed, round } from "./formatting.js";
 
@@ -45,10 +46,14 @@ class Page {
     this.state = new StructureState(schema, opened, file);
     this.run = null;
     this.moment = new FramedPicture(() => this.#paintMoment());
+    this.instants = new ExactInstants("api/structure/instant", { onArrival: () => this.drawMoment() });
     this.hover = null;
     this.background = null;
+    /** The time cursor of a part of the record that is not run yet. */
+    this.keptTime = null;
     this.link = new Link(this.state, {
       onBroken: (parts) => note(brokenLinkWords(parts)),
+      onTravel: () => this.controls.endTyping(),
     });
     this.playback = new Playback(this.state, () => this.run);
     this.sceneView = new StructureSceneView(this.state, this.playback);
@@ -95,7 +100,7 @@ class Page {
     this.runner = new Runner({
       path: "api/structure/run",
       onAnswer: (answer, since, question) => this.receive(answer, since, question),
-      onError: (error) => this.fail(error),
+      onError: (error, question) => this.fail(error, question),
     });
     this.state.listen((changed) => this.follow(changed));
     new Keyboard({ playback: this.playback }, [
@@ -138,9 +143,11 @@ class Page {
     this.background?.abort();
     this.background = null;
     this.#showProgress("");
+    $("elastic-message").textContent = "";
   }
 
   receive(answer, since, question) {
+    this.stopBackground();
     const before = this.run;
     this.run = new StructureRun(answer, question.case);
     // Results for elastic lines stay valid for another interval of the same run.
@@ -154,8 +161,13 @@ class Page {
     $("failed").hidden = true;
     this.controls.clearError();
     this.controls.show(this.run.effective(this.state));
+    this.#goOn(this.sameCase ? 0 : REST_MS);
+  }
+
+  /** Completes the answer that is shown, if no other takes its place before. */
+  #goOn(after_ms) {
     this.#showProgress(this.#toCome());
-    this.resting = setTimeout(() => this.computeFurther(), this.sameCase ? 0 : REST_MS);
+    this.resting = setTimeout(() => this.computeFurther(), after_ms);
   }
 
   /** Shows the current run; latest: that of the current values, and not of earlier ones while others are on their way. */
@@ -164,9 +176,11 @@ class Page {
     this.sceneView.setRun(run);
     this.playbackControls.setRun(run);
     const [from, to] = run.window;
-    const t = state.t >= from && state.t <= to ? state.t : from;
+    const kept = this.keptTime ?? state.t;
+    const t = kept >= from && kept <= to ? kept : from;
     if (latest) this.#keepWindow();
     state.set({ t });
+    this.keptTime = run.isBeyond(kept) ? kept : null;
     showLines(run);
     showChecks(run);
     showSnaps(run);
@@ -178,6 +192,8 @@ class Page {
   /** Keeps the interval chosen by the server while values change, so that only one thing changes at a time. */
   #keepWindow() {
     const { run, state } = this;
+    // An interval that is not run yet comes back with the whole record.
+    if (state.window && run.isBeyond(state.window[1])) return;
     const chosen = state.window === null;
     this.asked = JSON.stringify({ case: state.asked, window: run.window });
     state.set({ window: run.window });
@@ -189,23 +205,25 @@ class Page {
   async computeFurther() {
     this.stopBackground();
     this.#showProgress(this.#toCome());
-    const { question, state } = this;
+    const { state } = this;
+    // Of the run that is shown: other values may be refused.
+    const question = { case: this.run.ofCase, window: state.window };
     const abort = (this.background = new AbortController());
     const current = () => this.background === abort;
     const more = async (how) => {
       const onProgress = ({ doing, percent }) => current() && this.#showProgress(`${doing}, ${percent} %`);
       const text = await fetchWithProgress("api/structure/run", { ...question, ...how }, abort.signal, onProgress);
       if (!current()) return;
-      this.#showProgress(how.neighbours ? "" : this.#toCome());
       this.run = new StructureRun(JSON.parse(text), question.case);
+      this.#showProgress(this.#toCome());
       this.show();
     };
     try {
       if (this.run.preview) await more({ whole: true });
       if (!current()) return;
-      if (this.run.lasts_s <= LONGEST_WITH_NEIGHBOURS) await more({ whole: true, neighbours: true });
-      else $("preview").textContent = `Neighbours, other restitutions and slightly other waves of so long a record are run by the command: ${this.run.shell}`;
-      if (current() && state.elastic) await this.#computeElastic({ case: question.case, window: this.run.window }, abort);
+      if (this.#toCome()) await more({ whole: true, neighbours: true });
+      else if (!this.run.hasNeighbours) $("preview").textContent = `Neighbours, other restitutions and slightly other waves of so long a record are run by the command: ${this.run.shell}`;
+      if (current() && state.elastic && !this.run.elastic) await this.#computeElastic({ case: question.case, window: this.run.window }, abort);
     } catch (error) {
       if (error.name === "AbortError" || !current()) return;
       this.#showProgress("");
@@ -215,7 +233,8 @@ class Page {
 
   /** What may still change the verdict. */
   #toCome() {
-    return this.run.lasts_s <= LONGEST_WITH_NEIGHBOURS ? "neighbours to come" : "";
+    const { lasts_s, hasNeighbours } = this.run;
+    return lasts_s <= LONGEST_WITH_NEIGHBOURS && !hasNeighbours ? "neighbours to come" : "";
   }
 
   /** Shows the progress of the work after the picture. */
@@ -243,15 +262,17 @@ class Page {
     }
   }
 
-  fail(error) {
+  fail(error, question) {
     this.controls.showError(error);
     const shown = this.run ? "\nThe page shows the last values that could be run." : "";
     $("failed").textContent = `Not run: ${error.message}${shown}`;
     $("failed").hidden = false;
+    if (this.run && this.asked === JSON.stringify(question)) this.#goOn(REST_MS);
   }
 
   /** Redraws what depends on a change of the state. */
   follow(changed) {
+    if (changed.has("t")) this.keptTime = null;
     if (changed.has("values") || changed.has("water")) {
       this.controls.show(this.run?.effective(this.state));
       queueMicrotask(() => this.ask());
@@ -342,6 +363,9 @@ class Page {
   }
 
   #paintMoment() {
+    const { run } = this;
+    const read = Math.min(this.hover?.t ?? this.state.t, run.tEnd);
+    this.instants.follow(run, { case: run.ofCase, whole: !run.preview }, read);
     this.sceneView.draw();
     this.charts.cursor(this.state.t, this.hover);
     this.playbackControls.show();

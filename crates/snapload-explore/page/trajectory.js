@@ -1,8 +1,7 @@
 // The path of the body's centre, with the boundaries at which a cable is taut; or another plane of the motion.
 
-import { about } from "./charts.js";
 import { FONT, Frame, drawAxes, drawColumn, drawMarks, inside, label, prepare, span, stroke, ticks } from "./plot.js";
-import { fixed, number } from "./formatting.js";
+import { about, fixed, number } from "./formatting.js";
 
 const MARGIN = { left: 50, right: 10, top: 8, bottom: 34 };
 const REACH_PX = 40;
@@ -177,7 +176,8 @@ export class Trajectory {
   }
 
   #legs(context, colours) {
-    const { motion, modes, horizon } = this.run;
+    const { run } = this;
+    const { motion, modes, horizon } = run;
     // Cables are blue and orange; red and the line's width show how many of them are taut.
     const styles = [
       [colours.ink, 1.1],
@@ -192,10 +192,15 @@ export class Trajectory {
       const t = motion.t[i];
       while (leg < modes.t_end.length - 1 && modes.t_end[leg] <= t) leg += 1;
       const lost = horizon.t !== null && t >= horizon.t;
-      const until = Math.min(modes.t_end[leg] ?? Infinity, lost || horizon.t === null ? Infinity : horizon.t);
+      // After the listed modes the tensions of each row show how many cables are taut.
+      const listed = run.listed(t);
+      const modeEnd = listed ? (modes.t_end[leg] ?? Infinity) : t;
+      const until = Math.min(modeEnd, lost || horizon.t === null ? Infinity : horizon.t);
       let j = i + 1;
       while (j < to - 1 && motion.t[j] < until) j += 1;
-      const [stroke, width] = styles[Math.min(modes.taut[leg]?.length ?? 0, 2)];
+      const pulling = [motion.T1[i], motion.T2[i]].filter((tension) => tension > 0);
+      const taut = listed ? (modes.taut[leg] ?? []) : pulling;
+      const [stroke, width] = styles[Math.min(taut.length, 2)];
       context.strokeStyle = lost ? colours.past : stroke;
       context.lineWidth = width;
       drawColumn(context, this.frame, ...this.#columns(motion), i, j + 1);

@@ -5,7 +5,7 @@ use crate::request::{Body, OfCase};
 use crate::schema::{Start, schema};
 use crate::structure::{self, Latest, Opened};
 use crate::work::{Allowance, compute, compute_in_lines};
-use crate::{basin, case_file, export, map, outcome, page, proof, question, run, section};
+use crate::{basin, case_file, export, instant, map, outcome, page, proof, question, run, section};
 use axum::extract::{DefaultBodyLimit, Path, State};
 use axum::http::StatusCode;
 use axum::http::header::{CONTENT_DISPOSITION, CONTENT_TYPE};
@@ -56,6 +56,7 @@ pub(crate) fn router(start: Start, opened: Option<Opened>, port: u16) -> Router 
         .route("/api/schema", get(answer_schema))
         .route("/api/case", post(answer_case))
         .route("/api/run", post(answer_run))
+        .route("/api/instant", post(answer_instant))
         .route("/api/map", post(answer_map))
         .route("/api/outcome", post(answer_outcome))
         .route("/api/proof", post(answer_proof))
@@ -68,6 +69,7 @@ pub(crate) fn router(start: Start, opened: Option<Opened>, port: u16) -> Router 
             get(answer_structure).post(answer_structure_file),
         )
         .route("/api/structure/run", post(answer_structure_run))
+        .route("/api/structure/instant", post(answer_structure_instant))
         .route("/api/structure/elastic", post(answer_structure_elastic))
         .route("/api/structure/waves", post(answer_structure_waves))
         .route(
@@ -114,6 +116,14 @@ async fn answer_run(
     })
     .await?;
     Ok(([(CONTENT_TYPE, "application/json")], answer))
+}
+
+async fn answer_instant(
+    State(shared): State<Arc<Shared>>,
+    Body(request): Body<instant::Request>,
+) -> Result<Response, Refusal> {
+    let work = move |allowance: &Allowance| instant::answer(request, allowance);
+    compute(&shared.workers, work).await.map(json)
 }
 
 async fn answer_outcome(
@@ -243,6 +253,17 @@ async fn answer_structure_run(
         structure::run(&request, shared.opened.as_ref(), &shared.latest, allowance)
     };
     progress_or(json, progress, &workers, work).await
+}
+
+async fn answer_structure_instant(
+    State(shared): State<Arc<Shared>>,
+    Body(request): Body<structure::InstantRequest>,
+) -> Result<Response, Refusal> {
+    let workers = Arc::clone(&shared.workers);
+    let work = move |allowance: &Allowance| {
+        structure::instant(&request, shared.opened.as_ref(), &shared.latest, allowance)
+    };
+    compute(&workers, work).await.map(json)
 }
 
 async fn answer_structure_elastic(

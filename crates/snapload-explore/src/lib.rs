@@ -1,11 +1,11 @@
 //! The page of `snapload explore`, and the server that computes for it.
 //!
 //! A browser on the same machine shows the page and requests a few paths: `/api/schema` lists the
-//! keys, `/api/case` reads a case file, `/api/run` runs a case, `/api/map` runs the cases of a map,
-//! `/api/proof` proves a run, `/api/export/NAME` gives the files that the command `snapload run
-//! --out` writes. `/api/structure` and the paths below it do the same for structures in metres and
-//! kilonewtons, with the texts of `snapload assess`. All numbers are computed by the library, none
-//! by the page.
+//! keys, `/api/case` reads a case file, `/api/run` runs a case, `/api/instant` gives its motion at
+//! one time, `/api/map` runs the cases of a map, `/api/proof` proves a run, `/api/export/NAME` gives
+//! the files that the command `snapload run --out` writes. `/api/structure` and the paths below it
+//! do the same for structures in metres and kilonewtons, with the texts of `snapload assess`. All
+//! numbers are computed by the library, none by the page.
 //!
 //! No other machine is served: the server listens on the loopback address alone, answers only to
 //! its own host name, which excludes pages of other sites that make the browser send requests, and
@@ -16,7 +16,9 @@ mod basin;
 mod case_file;
 mod export;
 mod host_check;
+mod instant;
 mod map;
+mod motion;
 mod order;
 mod outcome;
 mod page;

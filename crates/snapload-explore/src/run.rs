@@ -1,4 +1,5 @@
 //! `/api/run`: a run, with everything that the page draws.
+use crate::motion::{Columns, Times};
 use crate::refusal::Refusal;
 use crate::request::{Values, case};
 use crate::work::Allowance;
@@ -6,19 +7,18 @@ use serde::ser::{SerializeMap, Serializer};
 use serde::{Deserialize, Serialize};
 use snapload::analysis::{Cancelled, Progress, record};
 use snapload::{
-    Case, CaseError, Impact, ModeInterval, Motion, Parameters, Playback, Shape, State, System,
-    Trajectory, Value,
+    Case, CaseError, Impact, ModeInterval, Parameters, Playback, Shape, State, System, Trajectory,
+    Value,
 };
-use snapload_report::MOTION;
 use snapload_report::tables::{Cell, IMPACTS, ImpactRow};
 use snapload_report::{
-    CaseEcho, EndRow, HorizonRow, MotionRow, NormsKnown, NormsRow, RunWithHorizon, end_in_words,
-    python_lines, shell_line,
+    CaseEcho, EndRow, HorizonRow, NormsKnown, NormsRow, RunWithHorizon, accumulation_in_words,
+    end_in_words, python_lines, shell_line,
 };
 use std::time::{Duration, Instant};
 
 /// The time budget of a run with its trust, and again of its neighbour.
-const BUDGET: Duration = Duration::from_secs(2);
+pub(crate) const BUDGET: Duration = Duration::from_secs(2);
 /// The most impacts, and the most intervals, that a page shows.
 const MOST_SHOWN: usize = 10_000;
 /// The allowed numbers of times at which the motion is sent, besides its impacts.
@@ -88,7 +88,7 @@ pub(crate) fn answer(request: Request, allowance: &Allowance) -> Result<Vec<u8>,
     let answer = Answer {
         values: CaseEcho(parameters),
         geometry: Geometry::of(parameters, run.system()),
-        end: EndWithText::of(run, followed.end_in_words(parameters)),
+        end: EndWithText::of(run, end_and_accumulation(&followed, parameters)),
         outcome: followed.outcome_if_certain(),
         norms: NormsRow::new(run.norms()),
         norms_known: &followed.norms_known,
@@ -103,10 +103,7 @@ pub(crate) fn answer(request: Request, allowance: &Allowance) -> Result<Vec<u8>,
             .iter()
             .filter(|impact| impact.v_n > 0.0)
             .count(),
-        cut: (shown.len() < run.impacts().len()).then(|| Cut {
-            impacts: run.impacts().len(),
-            shown: shown.len(),
-        }),
+        cut: Cut::of(run, shown.len()),
         motion: Columns::of(run, shown, sampling),
         ghost,
         ghost_error,
@@ -124,7 +121,8 @@ pub(crate) fn follow(case: &Case, allowance: &Allowance) -> Result<RunWithHorizo
     run.map_err(|cancelled| too_long(case.parameters(), cancelled))
 }
 
-fn too_long(parameters: &Parameters, Cancelled { done }: Cancelled) -> Refusal {
+/// The refusal of a run that did not end within the budget.
+pub(crate) fn too_long(parameters: &Parameters, Cancelled { done }: Cancelled) -> Refusal {
     Refusal::values(format!(
         "after {} s of computing this run has reached t = {done:.4} of {}\nhint: lower t_end or max_impacts, or run it \
          on the command line: {}",
@@ -159,11 +157,27 @@ struct Answer<'a> {
     took_ms: f64,
 }
 
-/// Rows of impacts.
+/// What is left out of a run of many events.
 #[derive(Serialize)]
 struct Cut {
+    /// Rows of impacts.
     impacts: usize,
     shown: usize,
+    /// The time of the first impact, or of the first interval, that is left out.
+    until: f64,
+}
+
+impl Cut {
+    fn of(run: &Trajectory, shown: usize) -> Option<Self> {
+        let impact = run.impacts().get(MOST_SHOWN).map(|impact| impact.t);
+        let mode = run.modes().get(MOST_SHOWN).map(|mode| mode.t_start);
+        let until = impact.into_iter().chain(mode).reduce(f64::min)?;
+        Some(Self {
+            impacts: run.impacts().len(),
+            shown,
+            until,
+        })
+    }
 }
 
 /// The body and cables to draw, at rest.
@@ -223,6 +237,15 @@ struct EndWithText {
     #[serde(flatten)]
     end: EndRow,
     words: String,
+}
+
+/// How a run ends, with the time at which impacts accumulate on a line of its own.
+fn end_and_accumulation(followed: &RunWithHorizon, parameters: &Parameters) -> String {
+    let end = followed.end_in_words(parameters);
+    match accumulation_in_words(&followed.run) {
+        Some(accumulation) => format!("{end}\n{accumulation}"),
+        None => end,
+    }
 }
 
 impl EndWithText {
@@ -291,75 +314,6 @@ impl Serialize for Impacts<'_> {
         let digits = (0..self.shown.len()).map(|k| self.digits.get(k));
         map.serialize_entry("digits", &digits.collect::<Vec<_>>())?;
         map.end()
-    }
-}
-
-/// A motion as columns, under the names of `motion.csv`.
-struct Columns([Vec<f64>; 10]);
-
-impl Columns {
-    /// The motion at the requested times, and just before and just after each impact.
-    fn of(run: &Trajectory, impacts: &[Impact], sampling: Times) -> Self {
-        let mut columns = Self(Default::default());
-        let mut playback = Playback::new(run);
-        let mut instants = impacts.chunk_by(|p, q| p.t == q.t).peekable();
-        let mut latest = f64::NEG_INFINITY;
-        for t in sampling.of(run) {
-            while let Some([first, ..]) = instants.next_if(|instant| instant[0].t <= t) {
-                let mut before = playback.at(first.t.next_down());
-                before.t = first.t;
-                before.state = first.before;
-                before.energy = run.system().energy(&first.before);
-                columns.push(&before);
-                columns.push(&playback.at(first.t));
-                latest = first.t;
-            }
-            if t > latest {
-                columns.push(&playback.at(t));
-            }
-        }
-        columns
-    }
-
-    fn push(&mut self, motion: &Motion) {
-        for (column, number) in self.0.iter_mut().zip(MotionRow::new(motion).0) {
-            column.push(number);
-        }
-    }
-}
-
-impl Serialize for Columns {
-    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        serializer.collect_map(MOTION.iter().zip(&self.0))
-    }
-}
-
-/// The times at which a motion is sent.
-#[derive(Clone, Copy)]
-struct Times {
-    samples: u32,
-    window: Option<[f64; 2]>,
-}
-
-impl Times {
-    /// Evenly spaced from the start to the end, and more densely within the window.
-    fn of(self, run: &Trajectory) -> Vec<f64> {
-        let end = run.end().t;
-        let mut times: Vec<f64> = self.evenly(0.0, end).collect();
-        if let Some([from, to]) = self.window.filter(|[from, _]| *from < end) {
-            times.extend(self.evenly(from, to.min(end)));
-            times.sort_unstable_by(f64::total_cmp);
-            times.dedup();
-        }
-        times
-    }
-
-    fn evenly(self, from: f64, to: f64) -> impl Iterator<Item = f64> {
-        let last = self.samples - 1;
-        (0..self.samples).map(move |k| match k == last {
-            true => to,
-            false => from + (to - from) * f64::from(k) / f64::from(last),
-        })
     }
 }
 

@@ -30,7 +30,7 @@ pub use quoting::{python_text, shell_command};
 pub use report::{CaseEcho, EndRow, NormsRow, Report, ValueRow, write_json};
 pub use run_with_horizon::RunWithHorizon;
 pub use run_with_trust::{RunWithTrust, neighbours, outcome_in_words, percent, trust_in_words};
-pub use summary::{NormsKnown, end_in_words, summary, summary_lines};
+pub use summary::{NormsKnown, accumulation_in_words, end_in_words, summary, summary_lines};
 pub use trust::{HorizonRow, OutcomeRow, ShareRow, TrustRow};
 
 /// All questions about one case, in the order in which help lists them.

@@ -31,6 +31,12 @@ pub fn summary(
         .collect()
 }
 
+/// At what time the impacts of a run accumulate, if that ends it.
+pub fn accumulation_in_words(run: &Trajectory) -> Option<String> {
+    let limit = run.end().t_limit?;
+    Some(format!("the impacts accumulate at t = {}", digits(limit)))
+}
+
 /// The lines of a summary: a label, empty if the line continues the one above, and a text, which
 /// may have several lines itself.
 pub fn summary_lines(
@@ -44,10 +50,7 @@ pub fn summary_lines(
         ("Case", caption.to_owned()),
         ("End", end_with_digits(trusted, parameters, certified)),
     ];
-    if let Some(limit) = run.end().t_limit {
-        let limit = digits(limit);
-        lines.push(("", format!("the impacts accumulate at t = {limit}")));
-    }
+    lines.extend(accumulation_in_words(run).map(|words| ("", words)));
     lines.push(("Outcome", outcome_in_words(trusted)));
     lines.push(("Trust", trust_in_words(trusted)));
     lines.extend(certified.map(|certified| ("Proved", certified.in_words())));

@@ -59,7 +59,7 @@ impl File {
     ) -> Result<Vec<u8>, Refusal> {
         let case = request.case.read(start)?;
         if matches!(self, Self::Case) {
-            return Ok(case.opened.entries.to_toml().into_bytes());
+            return Ok(case.opened.to_file().into_bytes());
         }
         let allowance = allowance.within(BUDGET);
         // What was already computed for the page is not run again.

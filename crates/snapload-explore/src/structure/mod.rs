@@ -6,6 +6,7 @@
 
 mod elastic;
 mod export;
+mod instant;
 mod motion;
 mod opened;
 mod run;
@@ -14,6 +15,7 @@ mod waves;
 
 pub(crate) use elastic::{Request as ElasticRequest, answer as elastic};
 pub(crate) use export::{File, Request as ExportRequest};
+pub(crate) use instant::{Request as InstantRequest, answer as instant};
 pub(crate) use opened::File as CaseFile;
 pub use opened::Opened;
 pub(crate) use run::{Request as RunRequest, answer as run};

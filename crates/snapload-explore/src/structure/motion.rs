@@ -1,6 +1,6 @@
 //! The motion of a structure within a time interval, as columns in metres, kilonewtons and seconds.
 use serde::ser::{Serialize, SerializeMap, Serializer};
-use snapload::{Impact, Playback, State, Trajectory};
+use snapload::{Impact, Motion, Playback, State, Trajectory};
 use snapload_structure::{ElasticRun, Scales};
 
 /// Rows within the interval that is shown.
@@ -46,6 +46,13 @@ impl Columns {
         columns
     }
 
+    /// One row: that of a motion at one time.
+    pub(super) fn at_instant(run: &Trajectory, scales: &Scales, motion: &Motion) -> Self {
+        let mut columns = Self::new(run.system().cables.len());
+        columns.push_motion(motion, scales);
+        columns
+    }
+
     fn before_and_after(&mut self, playback: &mut Playback<'_>, scales: &Scales, snap: &Impact) {
         let t = snap.t * scales.time_s;
         // Snaps of several lines at one instant share their rows.
@@ -60,8 +67,11 @@ impl Columns {
     }
 
     fn at(&mut self, playback: &mut Playback<'_>, scales: &Scales, t: f64) {
-        let motion = playback.at(t);
-        self.push(scales, t * scales.time_s, &motion.state, |line| {
+        self.push_motion(&playback.at(t), scales);
+    }
+
+    fn push_motion(&mut self, motion: &Motion, scales: &Scales) {
+        self.push(scales, motion.t * scales.time_s, &motion.state, |line| {
             motion.tensions[line] * scales.force_n
         });
     }

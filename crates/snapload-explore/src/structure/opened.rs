@@ -4,7 +4,7 @@ use serde::{Deserialize, Serialize};
 use snapload::{CaseError, Entries, Value, parse_value};
 use snapload_report::{python_text, shell_command};
 use snapload_structure::{NO_FILES_HERE, STRUCTURE, Structure};
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 /// The case of a structure with which the program was started, or that was opened on the page.
 #[derive(Clone, Debug)]
@@ -31,6 +31,9 @@ pub(crate) enum WaterKind {
 
 /// The tables of waves, with the kind of each.
 const WATERS: [(&str, WaterKind); 2] = [("wave", WaterKind::Wave), ("sea", WaterKind::Sea)];
+
+/// The keys of `[float]` that name files.
+const FILES: [&str; 2] = ["file", "memory"];
 
 /// A case file that was opened on the page.
 #[derive(Clone, Debug, Deserialize, Serialize)]
@@ -93,6 +96,25 @@ impl Opened {
             return structure.map_err(|error| self.with_folder_hint(error));
         };
         Structure::from_entries_beside(&self.entries, folder)
+    }
+
+    /// The case as a file of its own, with a comment that names the files which it needs beside it.
+    pub(crate) fn to_file(&self) -> String {
+        let float = self.entries.table("float", 0);
+        let named = FILES.into_iter().filter_map(|key| match float.given(key) {
+            Some(Value::Text(path)) if Path::new(path).is_relative() => Some(path.as_str()),
+            _ => None,
+        });
+        let named: Vec<&str> = named.collect();
+        let comment = match named.is_empty() {
+            true => String::new(),
+            false => format!(
+                "# This case needs {} beside it. Copy from the folder of {}.\n",
+                named.join(" and "),
+                self.name
+            ),
+        };
+        comment + &self.entries.to_toml()
     }
 
     /// Adds a hint if the error is that a file is named.
@@ -165,7 +187,7 @@ impl Case {
         if self.by_set {
             ""
         } else {
-            "  # saved by Export"
+            "  # save case.toml first, with Export"
         }
     }
 

@@ -56,20 +56,13 @@ pub(crate) fn answer(
         return Err(Refusal::values(message));
     }
     let case = request.case.read(start)?;
-    let lasts_s = case.structure.duration_s;
-    let preview =
-        !request.whole && lasts_s > PREVIEW_S && matches!(case.structure.water, Water::Sea(_));
-    let wanted_run = RunRequest {
-        preview,
-        neighbours: request.neighbours,
-        time: if request.whole || request.neighbours {
-            LONG_BUDGET
-        } else {
-            BUDGET
-        },
-    };
+    let mut wanted_run = RunRequest::alone(&case, request.whole);
+    if request.neighbours {
+        wanted_run.neighbours = true;
+        wanted_run.time = LONG_BUDGET;
+    }
     let assessment = assessed(&request.case, &case, wanted_run, latest, allowance)?;
-    let answer = Answer::new(&case, &assessment, request.window, preview, began);
+    let answer = Answer::new(&case, &assessment, request.window, began);
     serde_json::to_vec(&answer).map_err(Refusal::failed)
 }
 
@@ -84,7 +77,21 @@ pub(super) struct RunRequest {
     pub(super) time: Duration,
 }
 
-/// The requested run, which is not repeated if it was requested before.
+impl RunRequest {
+    /// A run without neighbours, of all of a long record or of its beginning alone.
+    pub(super) fn alone(case: &Case, whole: bool) -> Self {
+        let long =
+            case.structure.duration_s > PREVIEW_S && matches!(case.structure.water, Water::Sea(_));
+        Self {
+            preview: long && !whole,
+            neighbours: false,
+            time: if whole { LONG_BUDGET } else { BUDGET },
+        }
+    }
+}
+
+/// The requested run, which is not repeated if it was requested before. Where the whole of a record
+/// is known, it is the answer in place of its beginning.
 pub(super) fn assessed(
     case_request: &CaseRequest,
     case: &Case,
@@ -96,9 +103,15 @@ pub(super) fn assessed(
     let allowance = allowance.within(wanted_run.time);
     let on_progress = |progress: Progress| allowance.check(progress);
     let refuse = |unfinished| too_long(case, "assess", wanted_run.time, unfinished);
-    let fingerprint = format!("{} {}", case_request.fingerprint(), wanted_run.preview);
-    let with_neighbours = format!("{fingerprint} beside its neighbours");
+    let alone = |preview: bool| format!("{} {preview}", case_request.fingerprint());
+    let beside = |preview: bool| format!("{} beside its neighbours", alone(preview));
+    let whole = || kept.get(&beside(false)).or_else(|| kept.get(&alone(false)));
+    let fingerprint = alone(wanted_run.preview);
+    let with_neighbours = beside(wanted_run.preview);
     if let Some(found) = kept.get(&with_neighbours) {
+        return Ok(found);
+    }
+    if let Some(found) = whole().filter(|_| wanted_run.preview && !wanted_run.neighbours) {
         return Ok(found);
     }
     let structure = match wanted_run.preview {
@@ -193,13 +206,7 @@ struct Modes {
 }
 
 impl Answer {
-    fn new(
-        case: &Case,
-        assessment: &Assessment,
-        window: Option<[f64; 2]>,
-        preview: bool,
-        began: Instant,
-    ) -> Self {
+    fn new(case: &Case, assessment: &Assessment, window: Option<[f64; 2]>, began: Instant) -> Self {
         let (prepared, name) = (&assessment.prepared, &case.opened.name);
         let end = assessment.outcome.end_s;
         let window = window.filter(|[from, _]| *from < end);
@@ -222,7 +229,7 @@ impl Answer {
             standing: assessment.verdict().standing.words(),
             rebound: (!assessment.restitutions.is_empty()).then(|| assessment.rebound_text()),
             nearby_waves: assessment.waves_text(),
-            preview,
+            preview: prepared.structure.duration_s < case.structure.duration_s,
             lasts_s: case.structure.duration_s,
             transient_s: prepared.structure.transient_s,
             geometry: geometry(assessment),

@@ -140,6 +140,12 @@ fn mutated_requests(server: &Running) {
             kind,
             r#"{"values":{"f_o":0.31},"ghost":1e-6,"samples":50}"#,
         ),
+        server.request(
+            "POST",
+            "/api/instant",
+            kind,
+            r#"{"values":{"f_o":0.31},"t":1.5}"#,
+        ),
         server.request("POST", "/api/map", kind, map),
         server.request(
             "POST",

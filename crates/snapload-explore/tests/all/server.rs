@@ -269,6 +269,31 @@ fn the_lines_that_make_the_same_run_do() {
     assert!(python.contains("snapload.Case(f_o=0.31, stop_when_sliding=True).run()"));
 }
 
+/// A light body turns so quickly that rows a quarter of T apart do not show it.
+#[test]
+fn an_instant_between_the_rows_is_that_of_the_library() {
+    let values = json!({ "inertia": 0.001, "stop_when_settled": false, "t_end": 30 });
+    let keys = ["inertia", "stop_when_settled", "t_end"];
+    let given = [0.001.into(), false.into(), 30.into()];
+    let entries: Vec<_> = keys.into_iter().zip(given).collect();
+    let run = case(&entries).run();
+    let server = serve();
+    for t in [0.3, 23.497, 28.811] {
+        let answer = server.post("/api/instant", &json!({ "values": values, "t": t }));
+        let exact = Playback::new(&run).at(t);
+        let [one, two, ..] = exact.tensions;
+        let expected = [exact.state.theta, one, two, exact.energy];
+        let names = ["theta", "T1", "T2", "energy"];
+        let answer = answer.json();
+        assert_eq!(
+            names.map(|name| answer["motion"][name][0].as_f64()),
+            expected.map(Some)
+        );
+        let taut: Vec<usize> = exact.taut.iter().map(|cable| cable + 1).collect();
+        assert_eq!(answer["taut"], json!(taut));
+    }
+}
+
 #[test]
 fn a_run_of_very_many_impacts_is_cut_and_reported_as_cut() {
     // Without loss and forcing the body bounces for ever.
@@ -280,6 +305,9 @@ fn a_run_of_very_many_impacts_is_cut_and_reported_as_cut() {
         (Some(10_000), 10_000)
     );
     assert_eq!(numbers(&answer["motion"]["t"]).last(), Some(&200.0));
+    let last = numbers(&answer["impacts"]["t"])[9_999];
+    let until = answer["cut"]["until"].as_f64().unwrap();
+    assert!(last < until && until < 200.0, "{last} {until}");
 }
 
 #[test]

@@ -104,6 +104,24 @@ fn a_run_agrees_with_assess() {
             );
         }
     }
+    // Between these rows an instant can be asked for.
+    let request = json!({ "case": { "set": set }, "t": 70.123 });
+    let answer = ask(&server, "/api/structure/instant", request);
+    let exact = &direct.motion_at(&[70.123]).unwrap()[0];
+    for (drawn, newtons) in answer["motion"]["tensions"]
+        .as_array()
+        .unwrap()
+        .iter()
+        .zip(&exact.tension_n)
+    {
+        let kilonewtons = drawn[0].as_f64().unwrap();
+        assert!((kilonewtons - newtons / 1e3).abs() < 1e-6 * newtons.max(1.0) / 1e3);
+    }
+    let lines = 1..=exact.tension_n.len();
+    let taut: Vec<usize> = lines
+        .filter(|line| exact.tension_n[line - 1] > 0.0)
+        .collect();
+    assert_eq!(answer["taut"], json!(taut));
 }
 
 #[test]
@@ -207,7 +225,7 @@ fn another_water_takes_the_place_of_that_of_the_file() {
     assert_eq!(first["assessment"]["end"]["t_s"], 300.0);
     assert_eq!(
         first["shell"],
-        "snapload assess case.toml  # saved by Export"
+        "snapload assess case.toml  # save case.toml first, with Export"
     );
     let whole = ask(
         &server,
@@ -218,6 +236,11 @@ fn another_water_takes_the_place_of_that_of_the_file() {
         (&whole["preview"], &whole["assessment"]["end"]["t_s"]),
         (&json!(false), &json!(400.0))
     );
+    // Once it is known, another interval of it is not that of its beginning.
+    let later = json!({ "case": sea, "window": [320.0, 390.0] });
+    let later = ask(&server, "/api/structure/run", later);
+    assert_eq!(later["preview"], false);
+    assert_eq!(numbers(&later["window"]), [320.0, 390.0]);
     // The exported file is the case that is shown.
     let mut named = sea.clone();
     let set = named["set"].as_array_mut().unwrap();
