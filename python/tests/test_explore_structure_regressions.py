@@ -193,6 +193,15 @@ def test_a_refused_value_leaves_no_verdict_without_its_neighbours(open_structure
     expect(page.locator("#pins li")).not_to_contain_text("without neighbours")
 
 
+def test_nothing_is_to_come_in_still_water_once_the_other_restitutions_are_run(open_structure):
+    page = open_structure("water=still&run.duration=12&run.transient=2&elastic=false&t=0")
+    expect(page.locator("#checks")).to_contain_text("with a restitution of", timeout=60_000)
+    expect(page.locator("#coming")).to_be_empty()
+    page.locator("#pin").click()
+    expect(page.locator("#pins li")).to_have_count(1)
+    expect(page.locator("#pins li")).not_to_contain_text("without neighbours")
+
+
 def test_what_is_read_between_rows_is_exact_once_the_cursor_rests(open_structure):
     page = open_structure("run.duration=60&run.transient=10&elastic=false&window=0,60&t=41.3", refused=1)
     reading = page.locator("#charts .reading").last

@@ -7,7 +7,7 @@ import { escape, fixed, number, ratio } from "./formatting.js";
 const MOST_PINS = 5;
 /** What may still change an answer, by how far it is computed. */
 const STAGES = [", first minutes only", ", without neighbours", ""];
-const stage = (run) => (run.preview ? 0 : run.hasNeighbours ? 2 : 1);
+const stage = (run) => (run.preview ? 0 : run.hasOtherRuns ? 2 : 1);
 
 /** The outcome of an answer, in the order in which it is shown. */
 function outcome(run) {

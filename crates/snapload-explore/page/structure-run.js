@@ -108,7 +108,7 @@ export class StructureRun {
   at(t) {
     const exact = this.instants.get(t);
     const moment = exact ? new StructureMotion(exact.motion).at(t) : this.motionAt.at(t);
-    moment.taut = this.tautAt(t);
+    moment.taut = exact?.taut ?? this.tautAt(t);
     moment.surface = this.surface(this.geometry.rest[0], t);
     return moment;
   }
@@ -133,9 +133,9 @@ export class StructureRun {
     return this.window;
   }
 
-  /** Whether the answer has the neighbours of the run. */
-  get hasNeighbours() {
-    return this.assessment.trust.neighbours > 0;
+  /** Whether the answer has the other runs: of other restitutions always, in waves of other waves and neighbours. */
+  get hasOtherRuns() {
+    return this.rebound !== null;
   }
 
   /** Whether a time is in the part of a record that is not run yet. */

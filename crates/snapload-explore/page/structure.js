@@ -216,13 +216,14 @@ class Page {
       if (!current()) return;
       this.run = new StructureRun(JSON.parse(text), question.case);
       this.#showProgress(this.#toCome());
-      this.show();
+      // Other values may have been asked for since.
+      this.show(JSON.stringify(question.case) === JSON.stringify(state.asked));
     };
     try {
       if (this.run.preview) await more({ whole: true });
       if (!current()) return;
       if (this.#toCome()) await more({ whole: true, neighbours: true });
-      else if (!this.run.hasNeighbours) $("preview").textContent = `Neighbours, other restitutions and slightly other waves of so long a record are run by the command: ${this.run.shell}`;
+      else if (!this.run.hasOtherRuns) $("preview").textContent = `Neighbours, other restitutions and slightly other waves of so long a record are run by the command: ${this.run.shell}`;
       if (current() && state.elastic && !this.run.elastic) await this.#computeElastic({ case: question.case, window: this.run.window }, abort);
     } catch (error) {
       if (error.name === "AbortError" || !current()) return;
@@ -233,8 +234,8 @@ class Page {
 
   /** What may still change the verdict. */
   #toCome() {
-    const { lasts_s, hasNeighbours } = this.run;
-    return lasts_s <= LONGEST_WITH_NEIGHBOURS && !hasNeighbours ? "neighbours to come" : "";
+    const { lasts_s, hasOtherRuns } = this.run;
+    return lasts_s <= LONGEST_WITH_NEIGHBOURS && !hasOtherRuns ? "neighbours to come" : "";
   }
 
   /** Shows the progress of the work after the picture. */

@@ -246,15 +246,23 @@ export class Trajectory {
       );
     const { cable: cables } = run.impacts;
     const struck = (cable) => run.impacts.t.some((time, i) => cables[i] === cable && time >= first && time <= last);
+    const pulls = (n) =>
+      run.cut !== null &&
+      t.slice(this.rows[0], this.rows[1]).some((time, i) => {
+        const row = this.rows[0] + i;
+        const pulling = [run.motion.T1[row], run.motion.T2[row]].filter((tension) => tension > 0);
+        return !run.listed(time) && pulling.length === n;
+      });
+    const occurs = (n) => moded(n) || pulls(n);
     const there = {
       "snap-1": this.#isPath && struck(1),
       "snap-2": this.#isPath && struck(2),
       "taut-1": this.#isPath && this.#passes(0),
       "taut-2": this.#isPath && this.#passes(1),
       upright: this.#isPath && run.geometry.cables.some((cable) => this.#boundary(cable, 0).some(this.#within)),
-      slack: moded(0) && (moded(1) || moded(2)),
-      sliding: moded(1),
-      rocking: moded(2),
+      slack: occurs(0) && (occurs(1) || occurs(2)),
+      sliding: occurs(1),
+      rocking: occurs(2),
       lost: run.horizon.t !== null && run.horizon.t < last,
       ghost: Boolean(run.ghost),
     };

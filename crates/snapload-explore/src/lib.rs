@@ -2,10 +2,10 @@
 //!
 //! A browser on the same machine shows the page and requests a few paths: `/api/schema` lists the
 //! keys, `/api/case` reads a case file, `/api/run` runs a case, `/api/instant` gives its motion at
-//! one time, `/api/map` runs the cases of a map, `/api/proof` proves a run, `/api/export/NAME` gives
-//! the files that the command `snapload run --out` writes. `/api/structure` and the paths below it
-//! do the same for structures in metres and kilonewtons, with the texts of `snapload assess`. All
-//! numbers are computed by the library, none by the page.
+//! one time, `/api/map` runs the cases of a map, `/api/proof` proves a run, and `/api/export/NAME`
+//! gives the files that the command `snapload run --out` writes. `/api/structure` and the paths
+//! below it do the same for structures in metres and kilonewtons, with the texts of `snapload
+//! assess`. All numbers are computed by the library, none by the page.
 //!
 //! No other machine is served: the server listens on the loopback address alone, answers only to
 //! its own host name, which excludes pages of other sites that make the browser send requests, and

@@ -84,7 +84,9 @@ pub(crate) fn answer(request: Request, allowance: &Allowance) -> Result<Vec<u8>,
         Ok(ghost) => (ghost, None),
         Err(refusal) => (None, Some(refusal.message().to_owned())),
     };
-    let shown = &run.impacts()[..run.impacts().len().min(MOST_SHOWN)];
+    let until = listed_until(run);
+    let [impacts, modes] = listed(run, until);
+    let shown = &run.impacts()[..impacts];
     let answer = Answer {
         values: CaseEcho(parameters),
         geometry: Geometry::of(parameters, run.system()),
@@ -93,7 +95,7 @@ pub(crate) fn answer(request: Request, allowance: &Allowance) -> Result<Vec<u8>,
         norms: NormsRow::new(run.norms()),
         norms_known: &followed.norms_known,
         horizon: HorizonWithText::of(&followed),
-        modes: Modes::of(&run.modes()[..run.modes().len().min(MOST_SHOWN)]),
+        modes: Modes::of(&run.modes()[..modes]),
         impacts: Impacts {
             shown,
             digits: &followed.digits,
@@ -103,7 +105,11 @@ pub(crate) fn answer(request: Request, allowance: &Allowance) -> Result<Vec<u8>,
             .iter()
             .filter(|impact| impact.v_n > 0.0)
             .count(),
-        cut: Cut::of(run, shown.len()),
+        cut: until.map(|until| Cut {
+            impacts: run.impacts().len(),
+            shown: impacts,
+            until,
+        }),
         motion: Columns::of(run, shown, sampling),
         ghost,
         ghost_error,
@@ -163,21 +169,24 @@ struct Cut {
     /// Rows of impacts.
     impacts: usize,
     shown: usize,
-    /// The time of the first impact, or of the first interval, that is left out.
+    /// The time of the first event that is left out.
     until: f64,
 }
 
-impl Cut {
-    fn of(run: &Trajectory, shown: usize) -> Option<Self> {
-        let impact = run.impacts().get(MOST_SHOWN).map(|impact| impact.t);
-        let mode = run.modes().get(MOST_SHOWN).map(|mode| mode.t_start);
-        let until = impact.into_iter().chain(mode).reduce(f64::min)?;
-        Some(Self {
-            impacts: run.impacts().len(),
-            shown,
-            until,
-        })
-    }
+/// Up to when all events are listed; none if all of the run's are.
+fn listed_until(run: &Trajectory) -> Option<f64> {
+    let impact = run.impacts().get(MOST_SHOWN).map(|impact| impact.t);
+    let mode = run.modes().get(MOST_SHOWN).map(|mode| mode.t_start);
+    impact.into_iter().chain(mode).reduce(f64::min)
+}
+
+/// How many impacts and intervals are listed, given that time.
+fn listed(run: &Trajectory, until: Option<f64>) -> [usize; 2] {
+    let until = until.unwrap_or(f64::INFINITY);
+    [
+        run.impacts().partition_point(|impact| impact.t < until),
+        run.modes().partition_point(|mode| mode.t_start < until),
+    ]
 }
 
 /// The body and cables to draw, at rest.

@@ -1,4 +1,4 @@
-//! Singular matrices: with a border, where they are singular and their null vectors; their range.
+//! Singular matrices: their null vectors, by a border, and their range.
 //!
 //! Source: W. J. F. Govaerts, *Numerical Methods for Bifurcations of Dynamical Equilibria* (2000),
 //! ch. 3. In
@@ -67,8 +67,9 @@ fn first_borders(matrix: &DMatrix<f64>) -> Option<[DVector<f64>; 2]> {
 }
 
 /// An orthonormal basis of a space of so many dimensions that contains the range of a matrix of at
-/// most this rank, by elimination of the longest column that is left with reflections (G. H. Golub
-/// and C. F. Van Loan, *Matrix Computations* (2013), section 5.4.2).
+/// most this rank: the columns are reflected onto axes one after the other, first that with the
+/// largest entry that is left (after G. H. Golub and C. F. Van Loan, *Matrix Computations* (2013),
+/// section 5.4.2, where it is the longest).
 pub(crate) fn range(matrix: &DMatrix<f64>, rank: usize) -> DMatrix<f64> {
     let q = matrix.clone().col_piv_qr().q();
     q.columns(0, rank).into_owned()

@@ -11,7 +11,8 @@ fn read(path: &str) -> String {
 }
 
 /// Every file that the tree of ARCHITECTURE.md names exists, and the tree names every source file
-/// of the crates; those of a folder may have one line together, as have the sections of the chapter.
+/// of the crates; those of a folder may have one line together, and so have the sections of the
+/// chapter.
 #[test]
 fn the_architecture_is_true() {
     let text = read("ARCHITECTURE.md");

@@ -18,7 +18,7 @@ const BODY: &str = "body";
 const ROW: &str = "influenced_dof";
 const COLUMN: &str = "radiating_dof";
 const WAVES: &str = "wave_direction";
-/// Where the crest of the waves is at t = 0, if not at x = 0. Capytaine's own datasets do not have it.
+/// Where the crest of the waves is at t = 0, if not at x = 0. Datasets of Capytaine do not have it.
 const CREST: &str = "crest_x";
 
 /// The coefficients of a dataset as Capytaine's `assemble_dataset` makes it, with complex values

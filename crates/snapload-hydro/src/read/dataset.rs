@@ -88,8 +88,8 @@ impl Dataset {
         }
     }
 
-    /// The dataset with a dimension again of which one place was selected, as by xarray's `isel`: its
-    /// variable then is one number, and the others no longer are along it.
+    /// The dataset with a dimension again of which one place was selected, as by `isel` of xarray:
+    /// its variable then is one number, and the others no longer are along it.
     pub(super) fn with_dimension(mut self, dim: &str) -> Self {
         if self
             .variables

@@ -112,18 +112,20 @@ fn number(word: &str) -> Option<f64> {
     word.replace(['d', 'D'], "e").parse().ok()
 }
 
-/// Whether a line begins as all lines of numbers do, with a value and a mode or with two modes,
-/// even if what follows can not be read: then it is no heading.
+/// Whether a line begins as all lines of numbers do, with two of them, even if they or what follows
+/// can not be read: then it is no heading.
 fn begins_with_two_numbers(line: &str) -> bool {
     let mut words = line.split_whitespace();
     let mut next = || words.next().is_some_and(is_like_a_number);
     next() && next()
 }
 
-/// Whether a word is a number, begins as one, or is what Fortran writes where it does not fit.
+/// Whether a word is a number, has only the letters of one, or is what Fortran writes where it does
+/// not fit.
 fn is_like_a_number(word: &str) -> bool {
-    let begins = |word: &str| word.starts_with(|c: char| c.is_ascii_digit() || c == '*');
-    number(word).is_some() || begins(word.trim_start_matches(['+', '-', '.']))
+    let of_number = |c: char| c.is_ascii_digit() || "+-.eEdD*".contains(c);
+    let of_value = |c: char| c.is_ascii_digit() || c == '*';
+    number(word).is_some() || word.chars().all(of_number) && word.contains(of_value)
 }
 
 /// A mode, 1 to 6; those of further bodies are refused.

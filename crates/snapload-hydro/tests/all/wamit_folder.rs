@@ -97,6 +97,7 @@ fn several_lines_of_words_may_precede_the_numbers() {
     for heading in [
         "\n",
         "PER I J A B\n",
+        "28-Nov-2026 15:46:12 a run of WAMIT\n",
         "# the pontoon, 20 by 4 m\n\n20 m of it\n",
     ] {
         let own = wamit_files();

@@ -120,7 +120,8 @@ fn damped(structure: &Structure, model: &Model) -> Vec<Rate> {
     };
     let body = &structure.body;
     let (mobility, _) = mobilities(&model.system.body);
-    // By its loads alone a body moves no faster past the water: there its drag is as large as they.
+    // By its loads a body moves no faster past still water, where its drag is as large as they; the
+    // sum with the water's own velocity is an estimate.
     let own = (load(&model.system) / drag.quadratic.max(f64::MIN_POSITIVE)).sqrt();
     let speed = own + together(&drag.water);
     let of = |per_time: f64, keys: &'static str, damping: (&'static str, f64)| Rate {

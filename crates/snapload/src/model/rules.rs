@@ -260,7 +260,7 @@ impl LimitSet {
 mod tests {
     use super::*;
 
-    /// Where only the name is known, as in files, people read it with blanks instead of underscores.
+    /// Where only the name is known, as in files, people read it with blanks for underscores.
     #[test]
     fn labels_are_names_with_blanks() {
         for stop in Stop::ALL {

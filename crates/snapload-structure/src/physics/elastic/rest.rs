@@ -26,10 +26,11 @@ use nalgebra::{DMatrix, Matrix3, Vector3};
 use snapload::{CaseError, State};
 use std::f64::consts::FRAC_PI_2;
 
-/// The largest residual force before the last step, for springs of up to 1 F/L together: that of
-/// stiffer ones is larger in proportion, as the rounding of their forces is, up to the other value.
+/// The largest residual force before the last step, for springs of up to 1 F/L together; that of
+/// stiffer ones is larger in proportion, as the rounding of their forces is.
 const BALANCED: f64 = 1e-12;
-const LEAST_BALANCED: f64 = 1e-3;
+/// The largest residual force of springs of any stiffness.
+const LARGEST_RESIDUAL: f64 = 1e-3;
 /// The most steps of the search.
 const STEPS: usize = 400;
 /// Step of the difference quotients for the derivatives of rows.
@@ -50,7 +51,8 @@ const SAME_MINIMUM: f64 = 1e-6;
 const APART: f64 = 1e-4;
 /// What lines have to do for a body to rest on them.
 const ELASTIC_LINES_THAT_HOLD: &str = "elastic lines that hold the body at rest";
-/// What is added to the second derivatives at first, and at most, in the same way.
+/// What is added to the second derivatives at first, and at most, for springs of up to 1 F/L
+/// together; it is larger in proportion for stiffer ones.
 const DAMPING: [f64; 2] = [1e-6, 1e12];
 
 impl ModelAtRest {
@@ -268,7 +270,7 @@ fn least_energy(body: &BodyOnElasticLines, start: State, turns: bool) -> Result<
             second.fill_column(2, 0.0);
             second[(2, 2)] = 1.0;
         }
-        if gradient.amax() <= (BALANCED * scale.max(1.0)).min(LEAST_BALANCED) {
+        if gradient.amax() <= (BALANCED * scale.max(1.0)).min(LARGEST_RESIDUAL) {
             // A last Newton step reduces the error to rounding.
             let step = second.lu().solve(&-gradient);
             return Ok(step.map_or(at, |step| moved(&at, &step)));

@@ -12,7 +12,7 @@ use crate::motion::active_set::normal_acceleration;
 use crate::motion::events::Reached;
 use crate::motion::simulation::{Progress, Simulation, Step};
 
-/// Why, and when first, neighbours may leave the run's sequence of events at this step, if they may.
+/// Why, and when first, neighbours may leave the run's events at this step, if they may.
 #[inline(always)]
 pub(super) fn cause(
     simulation: &Simulation,

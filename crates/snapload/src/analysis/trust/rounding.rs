@@ -1,8 +1,8 @@
 //! What rounding adds to the deviation of a run in one step.
 //!
-//! Every rounding is off by anything up to half of the last place: a standard deviation of ε/√12,
-//! which is between 0.14 ε and 0.29 ε of the number. It is taken as 0.25 ε of it, above the average
-//! of 0.21 ε. It acts in three ways.
+//! Every rounding is off by anything up to half of the last place: a standard deviation of 1/√12 of
+//! the last place, which is between 0.14 ε and 0.29 ε of the number. It is taken as 0.25 ε of it,
+//! above the average of 0.21 ε. It acts in three ways.
 //!
 //! - *The event is located a little too early or too late*, where the computed gap, instead of the
 //!   true one, is zero; the error of the time is the gap's rounding over ġ. The state at the

@@ -168,8 +168,8 @@ impl UncertainKey {
         self.of_step(|step| self.over_limit(limit, &step.before))
     }
 
-    /// A bound on it along the step, up to what it changes by within one of the equal parts in which
-    /// another corner becomes the highest.
+    /// A bound on it along the step, up to what it changes by within an equal part in which another
+    /// corner becomes the highest.
     pub(super) fn of_limit_within(&self, limit: Limit) -> f64 {
         self.step.as_deref().map_or(0.0, |step| {
             let state = self.simulation.state_along(step);
