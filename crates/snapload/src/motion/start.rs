@@ -57,7 +57,7 @@ pub enum StartError {
     BeyondLimit {
         /// The stop rule of this limit.
         stop: Stop,
-        /// |θ|, or y of the highest point of the body.
+        /// The quantity that it bounds.
         value: f64,
         /// Its bound.
         bound: f64,
