@@ -108,8 +108,10 @@ fn taut_runs_are_those_of_the_simulator() {
         // Rocking in which a tension is lost, and sliding in which it is.
         "r=1.2 e=0.2 a=0.1 b=0 f_o=1 nu=1 omega=3 x=0.05 y=0.15 theta=0.1 vx=0 vy=0 vtheta=0.3 v_stick=1e-2 t_end=4",
         // Slow snaps of both cables in turn that do not accumulate: a pendulum that passes the
-        // corner of two nearly parallel cables, and rows in which a snap comes late.
+        // corner of two nearly parallel cables, late or at once but quickly, and rows in which a
+        // snap comes late.
         "body=point r=500 e=0.5 nu=0 f_o=0.1 omega=1 y=0.00001 t_end=20 v_stick=0.001",
+        "body=point r=500 e=0.5 nu=0 f_o=3 omega=13 x=-0.01775 y=0.0001 v_stick=0.01 t_end=3",
         "body=point r=3.1974299 e=0.2012852 nu=-0.57216147 f_o=0.32562538 omega=4.9900259 y=1.1048667e-06 vx=0.017679876 v_stick=0.001679868 t_end=4.0607571",
     ] {
         let settings = format!("{settings} {common}");

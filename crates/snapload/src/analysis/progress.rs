@@ -11,7 +11,8 @@ use crate::motion::simulation::{Simulation, Step};
 use crate::motion::trajectory::Trajectory;
 use std::fmt;
 use std::ops::ControlFlow;
-use std::sync::atomic::{AtomicU64, Ordering};
+use std::sync::Mutex;
+use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 
 /// How far some work has come.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -108,6 +109,10 @@ pub struct Counter<'a> {
     /// What is done, as a number of fractions.
     done: AtomicU64,
     of: u64,
+    /// Locked during a report, so that no thread reports less after another has reported more.
+    reporting: Mutex<()>,
+    /// Whether the work is to end.
+    ended: AtomicBool,
     on_progress: OnProgress<'a>,
 }
 
@@ -120,6 +125,8 @@ impl<'a> Counter<'a> {
             doing,
             done: AtomicU64::new(done * FRACTIONS),
             of,
+            reporting: Mutex::new(()),
+            ended: AtomicBool::new(false),
             on_progress,
         };
         if of > 0 {
@@ -160,10 +167,35 @@ impl<'a> Counter<'a> {
         self.advance(more * FRACTIONS)
     }
 
+    /// Counts fractions, and reports the count unless another thread is reporting: that one reports
+    /// again if all was done meanwhile, so that the last report is never left out.
     fn advance(&self, fractions: u64) -> Result<(), Cancelled> {
-        let done = self.done.fetch_add(fractions, Ordering::Relaxed) + fractions;
-        let done = done as f64 / FRACTIONS as f64;
-        Progress::new(self.doing, done, self.of as f64).report(self.on_progress)
+        let all = self.of * FRACTIONS;
+        let mut reported = self.done.fetch_add(fractions, Ordering::SeqCst) + fractions;
+        while let Ok(reporting) = self.reporting.try_lock() {
+            reported = self.done.load(Ordering::SeqCst);
+            if self.progress(reported).report(self.on_progress).is_err() {
+                self.ended.store(true, Ordering::SeqCst);
+            }
+            drop(reporting);
+            if reported >= all || self.done.load(Ordering::SeqCst) < all {
+                break;
+            }
+        }
+        match self.ended.load(Ordering::SeqCst) {
+            true => Err(Cancelled {
+                done: self.progress(reported).done,
+            }),
+            false => Ok(()),
+        }
+    }
+
+    fn progress(&self, fractions: u64) -> Progress<'a> {
+        Progress::new(
+            self.doing,
+            fractions as f64 / FRACTIONS as f64,
+            self.of as f64,
+        )
     }
 }
 
@@ -248,4 +280,44 @@ pub fn outcome(case: &Case, on_progress: OnProgress) -> Result<Outcome, Cancelle
     let mut progress = RunProgress::new(on_progress);
     let outcome = Outcome::of_while(case, |simulation| progress.step(simulation));
     outcome.ok_or_else(|| progress.cancelled())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Many threads count at once: no report is less than the one before, and the last is of all.
+    #[test]
+    fn reports_only_grow_and_end_with_all() {
+        for parts in [1, 2, 1000] {
+            let latest = Mutex::new(0.0);
+            let on_progress = |progress: Progress| {
+                let mut latest = latest.lock().expect("no panic");
+                assert!(*latest <= progress.done, "{latest} {}", progress.done);
+                *latest = progress.done;
+                ControlFlow::Continue(())
+            };
+            let counter = Counter::new("counting", 0, 4 * parts, &on_progress);
+            std::thread::scope(|scope| {
+                for _ in 0..4 {
+                    scope.spawn(|| (0..parts).for_each(|_| counter.add(1).expect("goes on")));
+                }
+            });
+            assert_eq!(*latest.lock().expect("no panic"), (4 * parts) as f64);
+        }
+    }
+
+    /// Once one report is answered by `Break`, every thread ends.
+    #[test]
+    fn all_threads_end_after_one_answer() {
+        let asked = AtomicU64::new(0);
+        let on_progress = |_: Progress| match asked.fetch_add(1, Ordering::SeqCst) {
+            3 => ControlFlow::Break(()),
+            _ => ControlFlow::Continue(()),
+        };
+        let counter = Counter::new("counting", 0, 100, &on_progress);
+        let ended = |_| counter.add(1).is_err();
+        let ended: Vec<bool> = (0..5).map(ended).collect();
+        assert_eq!(ended, [false, false, true, true, true]);
+    }
 }

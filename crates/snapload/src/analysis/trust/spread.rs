@@ -10,7 +10,7 @@ use crate::analysis::trust::neighbours::{Neighbours, Spread};
 use crate::analysis::trust::parts::COLUMNS;
 use crate::analysis::trust::passed_impulse;
 use crate::analysis::trust::rounding::{self, Rounding};
-use crate::analysis::trust::start::{self, Beginning, Loose};
+use crate::analysis::trust::start::{self, Beginning, MaybeSlack};
 use crate::analysis::trust::tension::{self, TautStep};
 use crate::analysis::trust::uncertain_key::{UncertainKey, uniform};
 use crate::analysis::trust::{Horizon, HorizonCause, Uncertainty};
@@ -58,7 +58,7 @@ pub(super) struct SpreadMonitor {
     /// Whether the spread is too large to be carried further.
     too_large: bool,
     /// Up to the first event.
-    loose: Option<Box<Loose>>,
+    maybe_slack: Option<Box<MaybeSlack>>,
     pub(super) end_error: f64,
 }
 
@@ -86,13 +86,14 @@ impl SpreadMonitor {
             CovarianceFactor::along_components(&[x, y, theta, vx, vy, vtheta, 0.0]);
         let Beginning {
             cause,
-            loose,
+            maybe_slack,
             opening,
         } = Beginning::of(simulation, &covariance);
         let closed = simulation.closed();
         if !closed.is_empty() {
-            let tight = loose.iter().fold(closed, TautSet::without);
-            let projection = Tangent::new(simulation.system()).of_start_on(simulation, tight);
+            let closed_for_all = maybe_slack.iter().fold(closed, TautSet::without);
+            let projection =
+                Tangent::new(simulation.system()).of_start_on(simulation, closed_for_all);
             let project = |block: &mut Block<COLUMNS>, _: &mut [[f64; COLUMNS]]| {
                 let projected = projection.map(|row| combined(block, &row));
                 block[..6].copy_from_slice(&projected);
@@ -113,7 +114,8 @@ impl SpreadMonitor {
                 start::may_stop(simulation, &Spread::of(&covariance))
                     .then_some(HorizonCause::StopRule)
             });
-        let loose = Loose::of(simulation, &Spread::of(&covariance), [loose, opening]);
+        let maybe_slack =
+            MaybeSlack::of(simulation, &Spread::of(&covariance), [maybe_slack, opening]);
         let horizon = cause.map(|cause| Horizon::at_start(simulation, cause));
         Self {
             too_large: covariance.exceeds_limit(),
@@ -127,7 +129,7 @@ impl SpreadMonitor {
             horizon,
             falling: (TautSet::SLACK, 0.0),
             after_snap: false,
-            loose,
+            maybe_slack,
             end_error: 0.0,
         }
     }
@@ -209,7 +211,7 @@ impl SpreadMonitor {
     /// Whether a bounce may be followed as [`crate::analysis::trust::bounces`] does.
     #[inline(always)]
     fn follows_bounces(&self) -> bool {
-        self.keys.is_empty() && self.loose.is_none()
+        self.keys.is_empty() && self.maybe_slack.is_none()
     }
 
     /// Whether the rounding of bounces may be added as [`crate::analysis::trust::parts`] describes.
@@ -268,9 +270,9 @@ impl SpreadMonitor {
             met: Spread::of(&met),
             late: rounding.late,
             opening: self
-                .loose
+                .maybe_slack
                 .as_ref()
-                .map_or(TautSet::SLACK, |loose| loose.opening),
+                .map_or(TautSet::SLACK, |maybe_slack| maybe_slack.opening),
             keys: &self.keys,
         };
         let approach = LinearMap::Step(&map).approach();
@@ -283,16 +285,17 @@ impl SpreadMonitor {
                     .or_else(|| tension::cause_after_snap(simulation, step, tangent, &after, keys))
                     .map(|cause| (cause, step.t_end))
             });
-            let loose = self.loose.as_mut();
-            let by_start =
-                loose.and_then(|loose| loose.cause(simulation, step, &neighbours.along, closing));
+            let maybe_slack = self.maybe_slack.as_mut();
+            let by_start = maybe_slack.and_then(|maybe_slack| {
+                maybe_slack.cause(simulation, step, &neighbours.along, closing)
+            });
             let others = by_start.into_iter().chain(other);
             let others = others.map(|(cause, t)| self.horizon_at(t, cause));
             let earlier = |a: Horizon, b: Horizon| if b.t < a.t { b } else { a };
             self.horizon = others.chain(by_tension).reduce(earlier);
         }
         if step.event.reached != Reached::default() {
-            self.loose = None;
+            self.maybe_slack = None;
         }
         after.add_parts(&rounding.parts);
         self.after_snap = !step.event.reached.gaps.is_empty();

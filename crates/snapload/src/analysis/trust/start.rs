@@ -37,7 +37,7 @@ pub(super) struct Beginning {
     /// Why trust ends there, if it does.
     pub(super) cause: Option<HorizonCause>,
     /// Cables that may be slack in neighbours.
-    pub(super) loose: TautSet,
+    pub(super) maybe_slack: TautSet,
     /// Those of them that open.
     pub(super) opening: TautSet,
 }
@@ -50,29 +50,33 @@ impl Beginning {
             simulation.contact(cable).gap >= -start_tolerance(&system.cables[cable])
         };
         let closed: TautSet = system.all_cables().iter().filter(at_end).collect();
-        let ways = closed.iter().map(|i| (i, way(simulation, covariance, i)));
-        let with = |which: fn(&Way) -> bool| -> TautSet {
-            let chosen = ways.clone().filter(|(_, way)| which(way));
+        let starts = closed
+            .iter()
+            .map(|i| (i, cable_start(simulation, covariance, i)));
+        let with = |which: fn(&CableStart) -> bool| -> TautSet {
+            let chosen = starts.clone().filter(|(_, start)| which(start));
             chosen.map(|(cable, _)| cable).collect()
         };
-        let loose = with(|way| way.loose);
-        let closing = with(|way| way.closes);
+        let maybe_slack = with(|start| start.maybe_slack);
+        let closing = with(|start| start.closes);
         // What is closed when a cable snaps has moved on where a neighbour snaps later.
-        let in_order = loose.is_empty() || closing.is_empty() || closed.len() == 1;
-        let mut doubtful = with(|way| !way.certain).iter();
-        let cable = doubtful.next().or_else(|| loose.iter().find(|_| !in_order));
+        let in_order = maybe_slack.is_empty() || closing.is_empty() || closed.len() == 1;
+        let mut doubtful = with(|start| !start.certain).iter();
+        let cable = doubtful
+            .next()
+            .or_else(|| maybe_slack.iter().find(|_| !in_order));
         Self {
             cause: cable.map(|cable| HorizonCause::Start { cable }),
-            loose,
-            opening: closing.iter().fold(loose, TautSet::without),
+            maybe_slack,
+            opening: closing.iter().fold(maybe_slack, TautSet::without),
         }
     }
 }
 
 /// How a closed cable begins in neighbours.
-struct Way {
+struct CableStart {
     /// Whether it may be slack.
-    loose: bool,
+    maybe_slack: bool,
     /// Whether it snaps at once, in the run.
     closes: bool,
     /// Whether it moves in the same direction in all of them or, if it rests, rests in all; and
@@ -80,7 +84,7 @@ struct Way {
     certain: bool,
 }
 
-fn way(simulation: &Simulation, covariance: &CovarianceFactor, cable: usize) -> Way {
+fn cable_start(simulation: &Simulation, covariance: &CovarianceFactor, cable: usize) -> CableStart {
     let (system, state) = (simulation.system(), simulation.state());
     let tether = &system.cables[cable];
     let (normal, slopes) = tether.normal_and_slopes(state);
@@ -88,15 +92,15 @@ fn way(simulation: &Simulation, covariance: &CovarianceFactor, cable: usize) -> 
         slopes.map(|slopes| slopes[0] * state.vx + slopes[1] * state.vy + slopes[2] * state.vtheta);
     let [a, b, arm] = [normal.n.x, normal.n.y, normal.arm];
     let gap = 2.0 * tether.length() * covariance.along(&[a, b, arm, 0.0, 0.0, 0.0]);
-    let loose = SIGMA_REACH * gap > start_tolerance(tether);
+    let maybe_slack = SIGMA_REACH * gap > start_tolerance(tether);
     let speed = SIGMA_REACH * covariance.along(&[x, y, theta, a, b, arm]);
     let (v_n, rests) = (normal.velocity(state), simulation.resting().contains(cable));
     let goes_on = match rests {
-        true => !loose && speed <= START_TOLERANCE,
+        true => !maybe_slack && speed <= START_TOLERANCE,
         false => speed < v_n.abs(),
     };
-    Way {
-        loose,
+    CableStart {
+        maybe_slack,
         closes: !rests && v_n > 0.0,
         certain: goes_on && !simulation.undecided_at_start().contains(cable),
     }
@@ -104,7 +108,7 @@ fn way(simulation: &Simulation, covariance: &CovarianceFactor, cable: usize) -> 
 
 /// The cables that may be slack in neighbours at the start, up to the first event.
 #[derive(Clone, Debug)]
-pub(super) struct Loose {
+pub(super) struct MaybeSlack {
     /// Those that open.
     pub(super) opening: TautSet,
     t: f64,
@@ -116,15 +120,15 @@ pub(super) struct Loose {
     margins: PerCable<f64>,
 }
 
-impl Loose {
+impl MaybeSlack {
     /// Those of a motion about to begin with this spread; none if there are none.
     pub(super) fn of(
         simulation: &Simulation,
         spread: &Spread,
-        [loose, opening]: [TautSet; 2],
+        [maybe_slack, opening]: [TautSet; 2],
     ) -> Option<Box<Self>> {
         let [mut reach, mut margins] = [[0.0; MAX_CABLES]; 2];
-        for cable in loose.iter() {
+        for cable in maybe_slack.iter() {
             let Normal { n, arm } = simulation.system().cables[cable].normal(simulation.state());
             reach[cable] = spread.reach(&[n.x, n.y, arm, 0.0, 0.0, 0.0]);
             margins[cable] = -simulation.contact(cable).gap;
@@ -136,7 +140,7 @@ impl Loose {
             sizes: spread.sizes,
             margins,
         };
-        (!loose.is_empty()).then(|| Box::new(all))
+        (!maybe_slack.is_empty()).then(|| Box::new(all))
     }
 
     /// Why and when trust ends if one of them may close again within the step for some
