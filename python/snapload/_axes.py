@@ -22,7 +22,16 @@ def axis_values(key: str, values: ArrayLike | str) -> str | NDArray[Any]:
     if isinstance(values, str) and ":" in values:
         return values
     more = "; for pairs of values, not all combinations, give cases"
-    return _flat(key, np.asarray(unmasked(key, values)), more)
+    # NumPy would make texts of the numbers beside a text, and 1 of True beside numbers: each value is judged by itself.
+    kinds = {_kind(value) for value in values} if isinstance(values, (list, tuple)) else set()
+    return _flat(key, np.asarray(unmasked(key, values), dtype=object if len(kinds) > 1 else None), more)
+
+
+def _kind(value: Any) -> str:
+    """Whether NumPy takes it as a flag, a text, or as something else."""
+    if isinstance(value, (bool, np.bool_)):
+        return "flag"
+    return "text" if isinstance(value, (str, bytes)) else "else"
 
 
 def _flat(key: str, array: NDArray[Any], more: str = "") -> NDArray[Any]:

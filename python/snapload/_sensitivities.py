@@ -60,6 +60,6 @@ def sensitivities(case: Case, impacts: int = 3) -> Table:
                 (name, f"{unit} over the unit of the key", f"derivative of {name}", np.array(values, dtype=np.float64))
                 for name, unit, values in derivatives
             ),
-            ("certain", "", "1 where the impact is before the horizon, else 0", np.array(certain, dtype=np.int64)),
+            ("certain", "", "whether the impact is before the horizon", np.array(certain, dtype=np.bool_)),
         ]
     )

@@ -67,11 +67,12 @@ class Table:
     @classmethod
     def _from_columns(cls, columns: Iterable[tuple[str, str, str, NDArray[Any]]]) -> Table:
         """A table of columns: name, scale (empty, if it is no quantity), meaning, values."""
-        kinds = {"f": ("float64", np.float64), "i": ("int64", np.int64)}
+        kinds = {"f": ("float64", np.float64), "i": ("int64", np.int64), "b": ("bool", np.bool_)}
         parts = []
         for name, scale, meaning, values in columns:
             kind, dtype = kinds.get(values.dtype.kind, ("words", None))
-            attrs = {"long_name": meaning, "units": "1" if scale else "", "scale": "" if scale == "1" else scale}
+            unit = {"units": scale} if scale in ("1", "rad") else {"units": "1" if scale else "", "scale": scale}
+            attrs = {"long_name": meaning, **unit}
             data = values.tolist() if dtype is None else bytearray(values.astype(dtype).tobytes())
             parts.append((name, kind, {key: word for key, word in attrs.items() if word}, data))
         return cls(_engine.Table.of(parts))

@@ -13,9 +13,7 @@ use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use pyo3::types::{PyByteArray, PyDict};
 use serde::Serialize;
-use snapload::analysis::{
-    Cancelled, Counter, Ensemble, Progress, Uncertainty, no_progress, record,
-};
+use snapload::analysis::{Cancelled, Counter, Ensemble, Progress, Uncertainty, record};
 use snapload::{ModeInterval, Playback, Sampling, Trajectory};
 use snapload_report::tables::{IMPACTS, ImpactRow, impact_rows};
 use snapload_report::{
@@ -109,11 +107,14 @@ impl Run {
 
     /// The line that `snapload run --json -` writes.
     #[pyo3(signature = (dt=None))]
-    fn to_json(&self, dt: Option<f64>) -> PyResult<String> {
+    fn to_json(&self, py: Python<'_>, dt: Option<f64>) -> PyResult<String> {
         let sampling = dt.map(|dt| self.sampling(dt)).transpose()?;
-        let trusted = self.with_trust()?;
-        let report = Report::new(self.case()?.parameters(), trusted, sampling, &no_progress);
-        to_json(&report)
+        let (case, trusted) = (self.case()?, self.with_trust()?);
+        let text = on_this_thread(py, |on_progress| {
+            let report = Report::new(case.parameters(), trusted, sampling, on_progress);
+            serde_json::to_string(&report)
+        })?;
+        text.map_err(internal_error)
     }
 
     /// What `snapload run` prints.

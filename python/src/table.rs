@@ -7,7 +7,7 @@ use arrow_array::cast::AsArray;
 use arrow_array::ffi_stream::FFI_ArrowArrayStream;
 use arrow_array::types::{Float64Type, Int64Type};
 use arrow_array::{
-    ArrayRef, Float64Array, Int64Array, RecordBatch, RecordBatchIterator, StringArray,
+    ArrayRef, BooleanArray, Float64Array, Int64Array, RecordBatch, RecordBatchIterator, StringArray,
 };
 use arrow_schema::ffi::FFI_ArrowSchema;
 use arrow_schema::{DataType, Field, Schema, SchemaRef};
@@ -86,6 +86,10 @@ impl Table {
                 let all = values.iter().flat_map(|n| n.to_ne_bytes());
                 Ok(("int64", bytes(all.collect())?))
             }
+            DataType::Boolean => {
+                let values = array.as_boolean().values().iter().map(u8::from);
+                Ok(("bool", bytes(values.collect())?))
+            }
             DataType::Utf8 => {
                 let values: Vec<_> = array.as_string::<i32>().iter().collect();
                 Ok(("object", PyList::new(py, values)?.into_any()))
@@ -112,8 +116,8 @@ impl Table {
         parts.collect()
     }
 
-    /// A table of columns: name, kind (`float64`, `int64`, `words` or `lists` of whole numbers),
-    /// metadata, and what `column` gives of such a one.
+    /// A table of columns: name, kind (`float64`, `int64`, `bool`, `words` or `lists` of whole
+    /// numbers), metadata, and what `column` gives of such a one.
     #[staticmethod]
     fn of(parts: Vec<Part<'_>>) -> PyResult<Self> {
         let mut fields = Vec::new();
@@ -135,6 +139,7 @@ fn kind_of(of: &DataType) -> &'static str {
     match of {
         DataType::Float64 => "float64",
         DataType::Int64 => "int64",
+        DataType::Boolean => "bool",
         DataType::Utf8 => "words",
         _ => "lists",
     }
@@ -153,6 +158,11 @@ fn array_from(kind: &str, values: &Bound<'_, PyAny>) -> PyResult<ArrayRef> {
             let numbers = bytes.as_chunks::<8>().0.iter();
             let numbers = numbers.map(|bytes| i64::from_ne_bytes(*bytes));
             Arc::new(Int64Array::from_iter_values(numbers))
+        }
+        "bool" => {
+            let bytes: Vec<u8> = values.extract()?;
+            let flags: Vec<bool> = bytes.into_iter().map(|byte| byte != 0).collect();
+            Arc::new(BooleanArray::from(flags))
         }
         "words" => {
             let words: Vec<String> = values.extract()?;
@@ -178,8 +188,8 @@ pub(crate) fn array_of(values: Values) -> ArrayRef {
         }
         Values::Counts(list) => Arc::new(Int64Array::from_iter_values(list.into_iter().flatten())),
         Values::Flags(list) => {
-            let flags = list.into_iter().flatten().map(i64::from);
-            Arc::new(Int64Array::from_iter_values(flags))
+            let flags: Vec<bool> = list.into_iter().flatten().collect();
+            Arc::new(BooleanArray::from(flags))
         }
         Values::Words(list) => Arc::new(StringArray::from_iter_values(list.into_iter().flatten())),
     }

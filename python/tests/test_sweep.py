@@ -127,6 +127,7 @@ def interrupt(call: str, after: str = "", at_work: Callable[[], bool] | None = N
         "snapload.Case('rocking-example', t_end=1e6).run()",
         "snapload.ensemble(snapload.Case(), 10**7)",
         "snapload._engine.reproduce(None)",
+        "run = snapload.Case().run(); run.to_json(1e-6)",
         "snapload.critical_force(snapload.Case(t_end=1e4, stop_when_settled=False), members=10**6)",
     ],
 )
@@ -265,6 +266,13 @@ def test_a_place_where_nothing_can_be_merged_is_named(tmp_path: Path):
         snapload.merge([part], missing)
     with pytest.raises(ValueError, match=f"can not write {tmp_path / 'm.csv'}: rows are written as Parquet"):
         snapload.merge([part], tmp_path / "m.csv")
+
+
+@pytest.mark.parametrize(("values", "refused"), [([0.1, "a"], "a"), ([True, 0.2], "true"), ([0.1, "0,3"], "0,3")])
+def test_each_value_of_a_mixed_list_is_judged_by_itself(values, refused):
+    with pytest.raises(ValueError, match=f'f_o = "?{refused}"? is not allowed'):
+        snapload.sweep(snapload.Case(t_end=1), f_o=values)
+    assert snapload.sweep(snapload.Case(t_end=1), f_o=[0.1, np.float32(0.5), 1]).f_o.values.tolist() == [0.1, 0.5, 1]
 
 
 def test_dates_are_no_values_of_a_key(tmp_path: Path):

@@ -5,6 +5,7 @@ use crate::hydro_input::{HydroArgs, triple};
 use crate::json::JsonArgs;
 use crate::outputs::Outputs;
 use serde::Serialize;
+use snapload::Sampling;
 use snapload::analysis::Progress;
 use snapload_hydro::digits::{digits, in_full, tenths};
 use snapload_hydro::{
@@ -133,7 +134,14 @@ fn released(args: &Args, body: &Body, fit: &Fit) -> Result<Decay, HydroError> {
         let _ = bar.show(Progress::new("decaying", part, 1.0));
     };
     let (memory, inf) = (&fit.memory, &fit.added_mass_inf);
-    decay(body, memory, inf, args.from, times, &on_progress)
+    let mut motion = decay(body, memory, inf, args.from, times, &on_progress)?;
+    // The rows are at the decimals that one writes: at 0.3, not at three times the double 0.1.
+    if let Ok(sampling) = Sampling::every(args.step, args.duration) {
+        for (row, t_s) in motion.t_s.iter_mut().zip(sampling.times()) {
+            *row = t_s;
+        }
+    }
+    Ok(motion)
 }
 
 /// A body that is released where it rests does not swing, and one that is

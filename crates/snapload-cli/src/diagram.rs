@@ -148,7 +148,12 @@ fn columns(key: &'static str, found: &[DiagramPoint]) -> Vec<(&'static str, Valu
     columns.push(("period", Values::Counts(period.collect())));
     columns.push(("snaps", by_value(&DiagramPoint::snaps)));
     columns.push(("exponent", by_value(&exponent(0))));
-    columns.push(("exponent_se", by_value(&exponent(1))));
+    // An error that is not known is missing; one without bound is a value.
+    let error = exponent(1);
+    columns.push((
+        "exponent_se",
+        by_value(&|at| error(at).filter(|se| !se.is_nan())),
+    ));
     columns.push((
         "stop",
         names(rows().map(|(at, _)| at.stop().map(|stop| stop.name()))),

@@ -12,6 +12,7 @@ use std::path::{Path, PathBuf};
 pub(crate) struct PendingOutputs {
     scratch: Vec<PathBuf>,
     files: Vec<(PathBuf, PathBuf)>,
+    outdated: Vec<PathBuf>,
 }
 
 /// A directory in which output will be placed.
@@ -70,6 +71,12 @@ impl PendingOutputs {
         Ok(())
     }
 
+    /// Removes a file of an earlier answer, if there is one, when those of this one are placed: this
+    /// answer has none of its kind, and beside it the earlier one would look like a part of it.
+    pub(crate) fn remove(&mut self, target: PathBuf) {
+        self.outdated.push(target);
+    }
+
     /// An error if another output has the same path.
     fn refuse_duplicate(&self, target: &Path) -> Result<(), Failure> {
         if self
@@ -113,6 +120,14 @@ impl PendingOutputs {
         let mut temporary_paths = temporary_paths();
         for (scratch, target) in places {
             move_into_place(scratch, target).map_err(failed(target))?;
+        }
+        for target in &self.outdated {
+            match fs::remove_file(target) {
+                Err(error) if error.kind() != ErrorKind::NotFound => {
+                    return Err(failed(target)(error));
+                }
+                _ => {}
+            }
         }
         temporary_paths.new.clear();
         Ok(files.into_iter().map(|(_, target)| target).collect())

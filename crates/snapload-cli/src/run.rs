@@ -98,10 +98,12 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
         pending.write(folder, directory.join("run.json"), |out| {
             write_json(&report, out)
         })?;
-        if let Some(certified) = &certified {
-            pending.write(folder, directory.join(CERTIFICATE), |out| {
-                write_json(&certified.proof, out)
-            })?;
+        let certificate = directory.join(CERTIFICATE);
+        match &certified {
+            Some(certified) => {
+                pending.write(folder, certificate, |out| write_json(&certified.proof, out))?
+            }
+            None => pending.remove(certificate),
         }
     }
     match outputs.json.write(outputs.pending, &report)? {

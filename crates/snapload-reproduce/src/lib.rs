@@ -86,13 +86,14 @@ impl Report {
 /// disagree.
 fn claims_json(claims: &[Claim]) -> String {
     let row = |claim: &Claim| {
-        let evidence = format!("{} {}", claim.evidence, claim.remark);
+        let sentences = [claim.evidence.trim_end_matches('.'), &claim.remark];
+        let evidence = sentences.join(if claim.remark.is_empty() { "" } else { ". " });
         serde_json::json!({
             "id": claim.id,
             "section": claim.section,
             "claim": claim.claim,
             "verdict": claim.verdict.label(),
-            "evidence": evidence.trim_end(),
+            "evidence": evidence,
             "judged": claim.judged,
         })
     };

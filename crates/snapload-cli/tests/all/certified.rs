@@ -152,6 +152,12 @@ fn the_certificate_of_a_run_can_be_checked() {
         serde_json::from_str(&fs::read_to_string(d.path().join("r/run.json")).unwrap()).unwrap();
     assert_eq!(inside["certificate"]["proved"], true);
 
+    // The proof of the run before is not left beside a run that has none.
+    let mut command = snapload(d.path());
+    command.args(["run", "--out", "r"]).assert().success();
+    let left = listing(&d.path().join("r"));
+    assert!(left.contains(&"run.json".to_owned()) && !left.contains(&"run.cert".to_owned()));
+
     // Without `--certify` the output does not mention a proof.
     let d = directory();
     let mut command = snapload(d.path());

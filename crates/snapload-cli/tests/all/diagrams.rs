@@ -122,6 +122,14 @@ fn a_motion_that_stops_has_no_exponent() {
         going += usize::from(!stops);
     }
     assert!(stopped > 0 && going == 11, "{stopped} {going}");
+    // Four points tell no error of an exponent: the cell is empty, as that of other missing numbers.
+    let few = ["--periods", "60", "--keep", "4", "--out", "few.csv"];
+    draw("r=1.8:1.9:2", &few);
+    let table = std::fs::read_to_string(d.path().join("few.csv")).unwrap();
+    assert!(
+        table.lines().count() > 4 && !table.contains("NaN"),
+        "{table}"
+    );
     // Without any point there is nothing to draw.
     let plot = ["--plot", "none.svg", "--show", "x,y"];
     draw("r=1.6:1.6001:2", &plot);

@@ -137,6 +137,26 @@ fn decay_lists_its_swings() {
     assert!((period - 3.802).abs() < 0.02, "{period}");
 }
 
+/// Times are the decimals that one writes, as those of other tables are, and the last is the end.
+#[test]
+fn decay_is_written_at_decimals_up_to_its_end() {
+    let room = room();
+    let times = |duration: &str, step: &str| {
+        let times = ["--duration", duration, "--step", step];
+        snapload(room.path())
+            .args(["decay", "pontoon.nc", "--pairs", "6", "--out", "d.csv"])
+            .args(times)
+            .assert()
+            .success();
+        let table = fs::read_to_string(room.path().join("d.csv")).unwrap();
+        let times = table.lines().skip(1).map(|row| row.split(',').next());
+        times.map(|t| t.unwrap().to_owned()).collect::<Vec<_>>()
+    };
+    let tenths = ["0.0", "0.1", "0.2", "0.3", "0.4", "0.5", "0.6", "0.7"];
+    assert_eq!(times("0.7", "0.1"), tenths);
+    assert_eq!(times("1", "0.3"), ["0.0", "0.3", "0.6", "0.9", "1.0"]);
+}
+
 /// Heave takes 3.25 s for a swing: within 1 s there is none, which
 /// does not say that it never swings.
 #[test]

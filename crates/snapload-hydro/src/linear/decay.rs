@@ -13,7 +13,7 @@ use std::f64::consts::PI;
 /// The motion after the release.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Decay {
-    /// t \[s\].
+    /// t \[s\]: every step, and the end of the duration.
     pub t_s: Vec<f64>,
     /// q \[m, m, rad\].
     pub q: Vec<Vector3<f64>>,
@@ -28,6 +28,8 @@ const MOST_STEPS: f64 = 1e7;
 const MOST_ROWS: f64 = 1e6;
 /// The shortest and the longest time between rows \[s\].
 const STEPS_S: [f64; 2] = [1e-6, 1e6];
+/// Times less than this part of a step apart are the same.
+const SAME_TIME: f64 = 1e-9;
 /// The longest step as a part of 1/|λ| of the fastest oscillation: a cubic through velocities and
 /// accelerations that far apart is off by less than a millionth.
 const PART_OF_OSCILLATION: f64 = 0.125;
@@ -53,7 +55,7 @@ pub fn decay(
     let matrix = state_matrix(body, &body.stiffness, memory, added_mass_inf, &identity)?;
     let parts = steps_per_row(&matrix, [duration_s, row_s])?;
     let step_s = row_s / parts as f64;
-    let steps = (duration_s / step_s + 1e-9) as usize;
+    let steps = (duration_s / step_s + SAME_TIME) as usize;
     let (to_row, step) = (Flow::new(&matrix, row_s), Flow::new(&matrix, step_s));
     let mut row_state = vec![0.0; matrix.nrows()];
     row_state[..3].copy_from_slice(start.into().as_slice());
@@ -83,10 +85,16 @@ pub fn decay(
         };
         on_progress(row as f64 / last_row as f64);
     }
+    let rest_s = duration_s - last_row as f64 * row_s;
+    if rest_s > SAME_TIME * row_s {
+        let end = Flow::new(&matrix, rest_s).applied(&row_state);
+        decay.t_s.push(duration_s);
+        decay.q.push(Vector3::from_column_slice(&end[..3]));
+    }
     Ok(decay)
 }
 
-/// The number of the last row, the first being 0.
+/// The number of the last row that is a multiple of the step, the first being 0.
 fn last_row(duration_s: f64, row_s: f64) -> Result<usize, HydroError> {
     let [least, most] = STEPS_S;
     if !(least..=most).contains(&row_s) {
@@ -99,7 +107,7 @@ fn last_row(duration_s: f64, row_s: f64) -> Result<usize, HydroError> {
         let expected = format!("0 to {most} is allowed, a million steps of {row_s} s");
         return Err(HydroError::value("the duration in s", duration_s, expected));
     }
-    Ok((duration_s / row_s + 1e-9) as usize)
+    Ok((duration_s / row_s + SAME_TIME) as usize)
 }
 
 /// Into how many steps the motion from one row to the next is divided. Eigenvalues that are real

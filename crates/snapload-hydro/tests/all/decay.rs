@@ -164,6 +164,24 @@ fn times_that_are_not_possible_are_named() {
     }
 }
 
+/// The end of the duration has a row of its own where no step ends there: the state is the same as
+/// on other rows.
+#[test]
+fn the_end_has_a_row() {
+    let entry = &reference("linear.json")["pontoon"];
+    let body = body(&entry["case"], &hydro(file("pontoon")));
+    let (memory, inf) = given("pontoon");
+    let of = |row_s: f64| {
+        let start = Vector3::new(0.0, 1.0, 0.1);
+        decay(&body, &memory, &inf, start, [4.0, row_s], &|_| ()).expect("a decay")
+    };
+    let (uneven, even) = (of(0.3), of(0.5));
+    assert_eq!((uneven.t_s.len(), even.t_s.len()), (15, 9));
+    assert_eq!((uneven.t_s[14], even.t_s[8]), (4.0, 4.0));
+    let ends = [uneven.q[14], even.q[8]];
+    assert!((ends[0] - ends[1]).norm() < 1e-10, "{ends:?}");
+}
+
 /// However far the rows are apart, the turns are those up to the duration.
 #[test]
 fn turns_do_not_depend_on_the_rows() {
