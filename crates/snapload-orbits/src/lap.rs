@@ -341,7 +341,19 @@ impl Linearised {
     /// The monodromy matrix ∂P/∂z over the `variables`, with the times those of the events.
     pub fn monodromy(&self, variables: &[usize]) -> DMatrix<f64> {
         let m = variables.len();
-        let mut state = self.start(variables, m);
+        let state = self.start(variables, m);
+        let end = self.carried(state, |_, _| ());
+        DMatrix::from_fn(m, m, |i, j| end[(variables[i], j)])
+    }
+
+    /// Deviations of the state, as columns, carried through the lap. `after_leg` may replace them,
+    /// with the delays of the event, by combinations of them after each of its legs.
+    pub(crate) fn carried(
+        &self,
+        mut state: Rows,
+        mut after_leg: impl FnMut(&mut Rows, &mut Rows),
+    ) -> Rows {
+        let m = state.ncols();
         let mut time = DMatrix::zeros(1, m);
         for leg in &self.legs {
             let zero = DMatrix::zeros(1, m);
@@ -353,11 +365,13 @@ impl Linearised {
             };
             state = moved(&leg.slopes, &state, &time, &lasts, m, 0);
             time += lasts;
+            after_leg(&mut state, &mut time);
         }
-        DMatrix::from_fn(m, m, |i, j| state[(variables[i], j)])
+        state
     }
 
-    fn start(&self, variables: &[usize], columns: usize) -> Rows {
+    /// Deviations of the `variables` at the start, as columns.
+    pub(crate) fn start(&self, variables: &[usize], columns: usize) -> Rows {
         let mut rows = DMatrix::zeros(6, columns);
         for i in 0..6 {
             for (column, &j) in variables.iter().enumerate() {

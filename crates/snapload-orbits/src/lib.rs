@@ -37,6 +37,7 @@ mod curve;
 mod curve_rows;
 mod diagram;
 mod distances;
+mod eigenvalues;
 mod erosion;
 mod exponents;
 mod exponents_text;

@@ -7,11 +7,12 @@
 //! where that closes more directions, the problem is solved in those that the whole lap leaves.
 
 use crate::bordered::range;
+use crate::eigenvalues::{eigenvalues, far_apart};
 use crate::hybrid::{DURATION, Family, Hybrid, Jet, Point, constant, variable};
 use crate::lap::{Lap, Leg};
 use crate::newton::Closed;
 use crate::sequence::Sequence;
-use nalgebra::{Complex, DMatrix, DVector};
+use nalgebra::{DMatrix, DVector};
 use snapload::TautSet;
 
 /// The multipliers of an orbit.
@@ -103,9 +104,8 @@ pub fn multipliers<F: Family>(
 ) -> Multipliers {
     let variables = lap.family.variables();
     let (most, leg) = most_taut(lap.sequence, &closed.durations, lap.times().1);
-    let reduced = if most.is_empty() {
-        let linear = lap.linearise(&closed.z, &closed.durations);
-        linear.monodromy(variables)
+    let (linear, left) = if most.is_empty() {
+        (lap.linearise(&closed.z, &closed.durations), None)
     } else {
         let cut = cut_within(lap, system, legs, leg);
         let here = Lap {
@@ -113,19 +113,29 @@ pub fn multipliers<F: Family>(
             phase: cut.phase,
             ..*lap
         };
-        let whole = here.linearise(&cut.z, &cut.durations).monodromy(variables);
-        let basis = directions_left(lap, most, &cut.z);
-        basis.transpose() * whole * &basis
+        let left = directions_left(lap, most, &cut.z);
+        (here.linearise(&cut.z, &cut.durations), Some(left))
     };
-    let closed_in_events = closed_in_events(lap, legs);
-    let reduced = within_range(reduced, variables.len() - closed_in_events);
+    let within = |basis: &DMatrix<f64>, whole: DMatrix<f64>| basis.transpose() * whole * basis;
+    let whole = linear.monodromy(variables);
+    let mut reduced = match &left {
+        None => whole,
+        Some(left) => within(left, whole),
+    };
+    let mut left = left.unwrap_or_else(|| DMatrix::identity(variables.len(), variables.len()));
+    let rank = variables.len() - closed_in_events(lap, legs);
+    if reduced.nrows() > rank && reduced.iter().all(|entry| entry.is_finite()) {
+        // The other eigenvalues of a matrix of this rank are exact zeros.
+        let range = range(&reduced, rank);
+        reduced = within(&range, reduced);
+        left *= range;
+    }
     let zeros = variables.len() - reduced.nrows();
-    let product = if reduced.nrows() == 0 {
-        1.0
-    } else {
-        reduced.determinant()
+    let (mut values, product) = match reduced.nrows() {
+        0 => (Vec::new(), 1.0),
+        _ => far_apart(&reduced, &linear, variables, &left)
+            .unwrap_or_else(|| (eigenvalues(reduced.clone()), reduced.determinant())),
     };
-    let mut values = eigenvalues(reduced);
     values.resize(variables.len(), [0.0; 2]);
     Multipliers {
         values,
@@ -150,30 +160,6 @@ fn closed_in_events<F: Family>(lap: &Lap<F>, legs: &[Leg]) -> usize {
         }
     });
     closed.max().unwrap_or(0)
-}
-
-/// A matrix of at most this rank, in the directions to which it leads: its other eigenvalues are
-/// exact zeros.
-fn within_range(matrix: DMatrix<f64>, rank: usize) -> DMatrix<f64> {
-    if matrix.nrows() <= rank || !matrix.iter().all(|entry| entry.is_finite()) {
-        return matrix;
-    }
-    let range = range(&matrix, rank);
-    range.transpose() * matrix * range
-}
-
-/// The eigenvalues, the largest first.
-pub(crate) fn eigenvalues(matrix: DMatrix<f64>) -> Vec<[f64; 2]> {
-    if matrix.nrows() == 0 || !matrix.iter().all(|entry| entry.is_finite()) {
-        return vec![[f64::NAN; 2]; matrix.nrows()];
-    }
-    let found = matrix.complex_eigenvalues();
-    let mut values: Vec<Complex<f64>> = found.iter().copied().collect();
-    values.sort_by(|a, b| b.norm().total_cmp(&a.norm()).then(a.im.total_cmp(&b.im)));
-    values
-        .into_iter()
-        .map(|value| [value.re, value.im])
-        .collect()
 }
 
 /// The largest set of held surfaces, and the longest leg with it.

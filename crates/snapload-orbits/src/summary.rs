@@ -41,6 +41,7 @@ pub fn orbit_summary(orbit: &Orbit) -> String {
         .collect();
     let _ = writeln!(text, "Section   {}", state.join(", "));
     let multiplier = |[re, im]: &[f64; 2]| match *im {
+        0.0 if *re != 0.0 && re.abs() < 1e-3 => format!("{re:.6e}"),
         0.0 => format!("{re:.6}"),
         im => format!("{re:.6}{im:+.6}i"),
     };

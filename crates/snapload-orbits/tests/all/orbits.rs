@@ -312,3 +312,36 @@ fn an_orbit_that_is_approached_slowly_is_found() {
     assert!((slowest[0] + 0.992_777).abs() < 1e-6, "{slowest:?}");
     assert_eq!(orbit.stability(), Stability::Stable);
 }
+
+/// An orbit of 18 periods and 36 snaps, whose multipliers are 15 orders of magnitude apart. Those
+/// known are of one-period matrices by differences in 113 bits, multiplied in 60 digits. Their
+/// product is the rule of volumes: each snap contracts by e².
+#[test]
+fn small_multipliers_have_digits_of_their_own() {
+    let case = Parameters {
+        inertia: None,
+        a: 0.0,
+        r: 1.51398,
+        e: 0.380582,
+        nu: 1.01488,
+        omega: 4.08176,
+        f_o: 1.56653,
+        ..Parameters::STANDARD
+    };
+    let orbit = of_attractor(&case, &OrbitRequest::default(), &no_progress).unwrap();
+    let orbit = orbit.unwrap();
+    let summary = orbit_summary(&orbit);
+    assert!(summary.contains("i, 3.06466"), "{summary}");
+    let multipliers = orbit.multipliers;
+    let [_, _, third, last] = &multipliers.values[..4] else {
+        panic!("{multipliers:?}");
+    };
+    assert_eq!([third[1], last[1]], [0.0; 2]);
+    assert!(relative(third[0], 3.064_659_5e-12) < 1e-7, "{third:?}");
+    assert!(relative(last[0], 1.565_05e-17) < 1e-5, "{last:?}");
+    let volume = case.e.powi(2 * 36);
+    assert!(
+        relative(multipliers.product, volume) < 1e-9,
+        "{multipliers:?} {volume:e}"
+    );
+}

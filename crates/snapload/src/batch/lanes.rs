@@ -150,6 +150,26 @@ impl Lanes {
     }
 }
 
+#[cfg(feature = "comparisons")]
+impl Lanes {
+    /// Runs a case many times over. How many runs were on their way at a time, and how many places
+    /// there are: in the lanes, waiting for a step together, and one on its way between them.
+    pub fn most_at_a_time(self, case: &Case, count: usize) -> [usize; 2] {
+        let [begun, ended, most] = [0_usize; 3].map(std::cell::Cell::new);
+        let mut runs = (0..count).map(|index| {
+            begun.set(begun.get() + 1);
+            most.set(most.get().max(begun.get() - ended.get()));
+            Slot::new(index, Box::new(case.simulation()), NoFollower)
+        });
+        let usage = self.run(&mut runs, &mut |slot| {
+            assert!(slot.simulation.stop().is_some(), "it has ended");
+            ended.set(ended.get() + 1);
+        });
+        assert_eq!((begun.get(), ended.get()), (count, count), "{self:?}");
+        [most.get(), 2 * usage.width + 1]
+    }
+}
+
 /// The functions that are compiled for the instructions of one kind of processor.
 #[cfg(target_arch = "x86_64")]
 mod x86 {
@@ -179,44 +199,5 @@ mod x86 {
         let scheduler = LaneScheduler::new(runs, take_result);
         // SAFETY: the processor has AVX-512, as was just asked.
         unsafe { run_all(scheduler) }
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::case::parameters::Parameters;
-    use std::cell::Cell;
-
-    /// Runs begin as others end, also where all of them rock from the start on: a study can be
-    /// interrupted, and its memory does not grow with the number of its cases.
-    #[test]
-    fn few_runs_are_in_progress_at_any_time() {
-        let rocking = Parameters {
-            x: 0.0,
-            y: 0.0,
-            a: 0.5,
-            f_o: 0.05,
-            t_end: 3.0,
-            stop_when_settled: false,
-            ..Parameters::STANDARD
-        };
-        let case = Case::new(rocking).expect("legal");
-        for lanes in Lanes::available() {
-            let [begun, ended, most] = [0_usize; 3].map(Cell::new);
-            let mut runs = (0..200).map(|index| {
-                begun.set(begun.get() + 1);
-                most.set(most.get().max(begun.get() - ended.get()));
-                Slot::new(index, Box::new(case.simulation()), NoFollower)
-            });
-            let usage = lanes.run(&mut runs, &mut |slot| {
-                assert!(slot.simulation.stop().is_some() && slot.outcome.rocking > 2.0);
-                ended.set(ended.get() + 1);
-            });
-            assert_eq!((begun.get(), ended.get()), (200, 200), "{lanes:?}");
-            // In the lanes, waiting for a step together, and one on its way between them.
-            let places = 2 * usage.width + 1;
-            assert!(most.get() <= places, "{lanes:?}: {}", most.get());
-        }
     }
 }

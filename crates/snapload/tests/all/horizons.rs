@@ -4,7 +4,9 @@ use crate::agrees_with_closed_forms::string;
 use snapload::analysis::{
     Horizon, HorizonCause, TrustMonitor, Uncertainty, Unfinished, no_progress, record, trusted_run,
 };
-use snapload::{Case, CaseError, Rules, Simulation, State, Trajectory};
+use snapload::{
+    Body, Cable, Case, CaseError, Forcing, Rules, Simulation, State, Stop, System, Trajectory,
+};
 
 /// A mass that swings from the lowest point at v, with weight and cable length 1, where v may be
 /// off by `doubt`: its horizon, and when it loses its tension T = v² − 2 + 3 cos φ.
@@ -332,4 +334,41 @@ fn a_snap_after_which_a_tension_is_about_zero_ends_trust() -> Result<(), Unfinis
         );
     }
     Ok(())
+}
+
+/// A run that stands still ends as such, however many impacts are allowed, and not certainly.
+#[test]
+fn a_standstill_is_told_and_is_not_certain() {
+    for max_impacts in [3, u64::MAX] {
+        let system = System {
+            body: Body::point(),
+            cables: vec![Cable::new([0.0, 0.0], [0.0, 0.0], 1.0)],
+            forcing: Forcing {
+                constant: [0.0, -1.0].into(),
+                harmonics: Vec::new(),
+            },
+            drag: None,
+            floating: None,
+            restitution: 0.5,
+        };
+        let rules = Rules {
+            max_impacts,
+            ..Rules::until(1.0)
+        };
+        let start = State::default();
+        let mut simulation = Simulation::new(system, rules, 0.0, start).expect("slack");
+        let mut monitor = TrustMonitor::new(&simulation, &[0.0; 6], 1e-3);
+        let mut moved = simulation.clone();
+        let mut step = moved.step().expect("a flight");
+        let idle = (0..10_000).take_while(|_| {
+            simulation.idle();
+            simulation.stop().is_none()
+        });
+        assert!(idle.count() >= 1000);
+        assert_eq!(simulation.stop(), Some(Stop::Standstill));
+        step.stop = simulation.stop();
+        monitor.follow(&moved, &step);
+        let horizon = monitor.verdict().horizon.expect("an end of trust");
+        assert_eq!((horizon.t, horizon.impact), (step.t_end, 1));
+    }
 }

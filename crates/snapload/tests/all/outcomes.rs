@@ -282,3 +282,24 @@ fn runs_that_rock_together_have_the_bits_of_runs_by_themselves() {
         }
     }
 }
+
+/// Runs begin as others end, also where all of them rock from the start on: a study can be
+/// interrupted, and its memory does not grow with the number of its cases.
+#[test]
+fn few_runs_are_in_progress_at_any_time() -> Result<(), CaseError> {
+    let case = Case::new(Parameters {
+        x: 0.0,
+        y: 0.0,
+        a: 0.5,
+        f_o: 0.05,
+        t_end: 3.0,
+        stop_when_settled: false,
+        ..Parameters::STANDARD
+    })?;
+    assert!(Outcome::of(&case).rocking > 2.0);
+    for lanes in Lanes::available() {
+        let [most, places] = lanes.most_at_a_time(&case, 200);
+        assert!(most <= places, "{lanes:?}: {most}");
+    }
+    Ok(())
+}

@@ -29,6 +29,11 @@ impl Simulation {
         plain(NextStep(self))
     }
 
+    /// Counts a step of no length without a snap, as [`Simulation::step`] does.
+    pub fn idle(&mut self) {
+        self.check_progress(self.t, self.impacts);
+    }
+
     /// The effect of the latest step on deviations, if it was a bounce.
     pub fn bounce_stages(&self, step: &Step) -> Option<BounceStages> {
         let map = BounceMap::of(&self.bounced(step)?);
