@@ -331,7 +331,7 @@ fn small_multipliers_have_digits_of_their_own() {
     let orbit = of_attractor(&case, &OrbitRequest::default(), &no_progress).unwrap();
     let orbit = orbit.unwrap();
     let summary = orbit_summary(&orbit);
-    assert!(summary.contains("i, 3.06466"), "{summary}");
+    assert!(summary.contains("i, 3.064659e-12, 1.5650"), "{summary}");
     let multipliers = orbit.multipliers;
     let [_, _, third, last] = &multipliers.values[..4] else {
         panic!("{multipliers:?}");
