@@ -42,9 +42,10 @@ export class StructureState extends ObservableState {
   zoom = null;
 
   /** `file` is the case file if it was opened on the page, `given` its values. */
-  constructor(schema, { name, given, water, lines, floats }, file = null) {
+  constructor(schema, { name, checksum, given, water, lines, floats }, file = null) {
     super();
     this.caseName = name;
+    this.checksum = checksum;
     this.given = given;
     this.ownWater = water;
     this.lines = lines;
@@ -52,7 +53,7 @@ export class StructureState extends ObservableState {
     this.file = file;
     this.schema = { ...schema, keys: keysOf(schema, lines) };
     /** Which case a link changes: the name of its file, and what its values are. */
-    this.identity = `${name.split(/[\\/]/).at(-1)}:${checksum(JSON.stringify(given))}`;
+    this.identity = `${name.split(/[\\/]/).at(-1)}:${shortSum(JSON.stringify(given))}`;
   }
 
   get waterNow() {
@@ -98,7 +99,9 @@ export class StructureState extends ObservableState {
     const order = Object.entries(this.values).sort(([a], [b]) => a.split(".").length - b.split(".").length);
     const other = (name) => ["wave", "sea"].some((water) => water !== this.waterNow && name.startsWith(`${water}.`));
     const set = order.filter(([name]) => !other(name)).map(([name, value]) => `${name}=${fieldText(value)}`);
-    return { file: this.file, set, water: this.water };
+    // Without a file it is about that of the program, which may be started again with another one.
+    const of = this.file ? { file: this.file } : { opened: this.checksum };
+    return { ...of, set, water: this.water };
   }
 
   /** The values by path that changes in the notation of `--set` stand for. */
@@ -153,7 +156,7 @@ const valueOf = (key, text) => readValue(key, text) ?? text;
 export const caseOfLink = (part) => part.match(/^case=(.*?)(:\w*)?$/)?.[1];
 
 /** A short text that differs for different texts (FNV-1a). */
-function checksum(text) {
+function shortSum(text) {
   let sum = 0x811c9dc5;
   for (const byte of new TextEncoder().encode(text)) sum = Math.imul(sum ^ byte, 0x01000193) >>> 0;
   return sum.toString(36);

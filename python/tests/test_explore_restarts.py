@@ -1,0 +1,65 @@
+"""The page of a structure while its program ends, starts again, or opens another case."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from contextlib import contextmanager
+from pathlib import Path
+from urllib.parse import urlsplit
+
+import pytest
+from explore import CYLINDER, ROOT, served
+from playwright.sync_api import Browser, Page, expect
+
+SHORT = "run.duration=60&run.transient=10&elastic=false"
+program = contextmanager(served)
+
+
+def changed(folder: Path, name: str, before: str, after: str) -> str:
+    """A copy of the cylinder with another value."""
+    text = (ROOT / CYLINDER).read_text(encoding="utf-8")
+    assert before in text
+    file = folder / name
+    file.write_text(text.replace(before, after), encoding="utf-8")
+    return str(file)
+
+
+@pytest.fixture
+def tab(browser: Browser) -> Iterator[Page]:
+    """A page of its own: those that tests share have a program until their end."""
+    context = browser.new_context(reduced_motion="reduce")
+    page = context.new_page()
+    page.set_default_timeout(15_000)
+    yield page
+    context.close()
+
+
+def left_alone(tab: Page) -> int:
+    """Opens the cylinder, and ends its program; returns the port of that."""
+    with program(CYLINDER) as url:
+        tab.goto(f"{url}#{SHORT}&t=0")
+        expect(tab.locator("#shell")).to_contain_text("run.duration=60", timeout=30_000)
+        expect(tab.locator("#coming")).to_be_empty(timeout=60_000)
+    return urlsplit(url).port or 0
+
+
+def height(tab: Page, text: str) -> None:
+    tab.locator('[id="field-wave.height"]').fill(text)
+    tab.locator('[id="field-wave.height"]').press("Enter")
+
+
+def test_a_page_does_not_show_the_answer_of_another_case(tab: Page, tmp_path: Path):
+    port = left_alone(tab)
+    thin = changed(tmp_path, "thin.toml", "diameter = 0.038", "diameter = 0.019")
+    before = tab.locator("#message").inner_text()
+    with program(thin, port=port):
+        height(tab, "1.9")
+        failed = tab.locator("#failed")
+        expect(failed).to_contain_text(f"the program was started again, with another case, {thin}")
+        expect(failed).to_contain_text("reload the page")
+        assert tab.locator("#message").inner_text() == before
+        tab.locator('[data-file="case.toml"]').click()
+        expect(tab.locator("#export-message")).to_contain_text("with another case")
+        tab.reload()
+        expect(tab.locator("#file")).to_have_text(thin)
+        expect(tab.locator("#note")).to_contain_text("The link belongs to cylinder.toml")
