@@ -63,3 +63,27 @@ def test_a_page_does_not_show_the_answer_of_another_case(tab: Page, tmp_path: Pa
         tab.reload()
         expect(tab.locator("#file")).to_have_text(thin)
         expect(tab.locator("#note")).to_contain_text("The link belongs to cylinder.toml")
+
+
+def test_the_same_value_is_asked_for_again_once_the_program_is_back(tab: Page):
+    port = left_alone(tab)
+    failed = tab.locator("#failed")
+    height(tab, "1.9")
+    expect(failed).to_contain_text("the program does not answer")
+    tab.locator('[data-file="case.toml"]').click()
+    expect(tab.locator("#export-message")).to_contain_text("the program does not answer")
+    with program(CYLINDER, port=port):
+        height(tab, "1.9")
+        expect(failed).to_be_hidden()
+        expect(tab.locator("#shell")).to_contain_text("wave.height=1.9")
+
+
+def test_the_same_value_of_a_case_of_the_thesis_is_asked_for_again(open_page):
+    page = open_page("t=0", refused=1)
+    page.route("**/api/run", lambda route: route.abort())
+    page.locator("#field-f_o").fill("0.4")
+    expect(page.locator("#failed")).to_contain_text("the program does not answer")
+    page.unroute("**/api/run")
+    page.locator("#field-f_o").fill("0.4")
+    expect(page.locator("#failed")).to_be_hidden()
+    expect(page.locator("#shell")).to_contain_text("0.4")

@@ -213,3 +213,64 @@ def test_what_is_read_between_rows_is_exact_once_the_cursor_rests(open_structure
     expect(page.locator("#window-words")).to_have_text("41.3 to 41.3 s")
     assert reading.inner_text().removeprefix("about ") == wide
     page.unroute("**/api/structure/instant")
+
+
+EXACT = """t => fetch("api/structure/instant", {
+    method: "POST",
+    headers: { "Content-Type": "application/json" },
+    body: JSON.stringify({ case: { set: ["run.duration=60", "run.transient=10"] }, t }),
+}).then(answer => answer.json())"""
+
+
+def test_a_step_out_of_the_interval_moves_it(open_structure):
+    page = open_structure(f"{SHORT}&window=20,30&t=25")
+    words, surge = page.locator("#window-words"), page.locator("#charts .reading").nth(1)
+    for button, way in [("#last", "#next"), ("#first", "#previous")]:
+        for step in [way, "shift"]:
+            page.locator(button).click()
+            before = words.inner_text()
+            if step == way:
+                page.locator(way).click()
+            else:
+                page.locator("#scene").focus()
+                page.keyboard.press("Shift+ArrowRight" if way == "#next" else "Shift+ArrowLeft")
+            expect(words).not_to_have_text(before)
+            comes_true(page, lambda: contains(words.inner_text(), exact_time(page)))
+            expect(surge).not_to_contain_text("about")
+            exact = page.evaluate(EXACT, exact_time(page))
+            comes_true(page, lambda exact=exact: surge.inner_text() == f"{exact['motion']['x'][0]:.3f} m".replace("-", "−"))
+
+
+def test_no_reading_is_of_another_time_than_the_clock_says(open_structure):
+    page = open_structure(f"{SHORT}&window=20,30&t=25", refused=1)
+    page.locator("#last").click()
+    end, surge = exact_time(page), page.locator("#charts .reading").nth(1)
+    read = surge.inner_text()
+    page.route("**/api/structure/**", lambda route: route.abort())
+    page.locator("#next").click()
+    expect(page.locator("#failed")).to_contain_text("the program does not answer")
+    # The next interval does not come: what is shown is still the end of the one before.
+    assert exact_time(page) == end
+    assert surge.inner_text() == read
+    page.unroute("**/api/structure/**")
+
+
+def test_a_first_answer_that_is_refused_leaves_a_page_that_can_be_used(open_structure):
+    page = open_structure("line.length=2.9&elastic=false&t=0", refused=1)
+    expect(page.locator("#failed")).to_contain_text("2.9 is not allowed")
+    expect(page.locator("#failed")).to_contain_text("The page shows the case without changes")
+    expect(page.locator("#shell")).to_have_text(f"snapload assess {CYLINDER}")
+    for button in ["#first", "#next", "#previous", "#last", "#scene-svg"]:
+        page.locator(button).click()
+
+
+def test_nothing_that_is_pressed_before_the_first_answer_goes_wrong(open_structure, structure_url):
+    page = open_structure(f"{SHORT}&t=0")
+    page.goto(urljoin(structure_url, "icon.svg"))
+    page.route("**/api/structure/run", lambda route: None)
+    page.goto(structure_url)
+    for button in ["#first", "#next", "#previous", "#last", "#play", "#zoom-in", "#zoom-all", "#scene-svg"]:
+        page.locator(button).click()
+    page.locator("#interval-start").evaluate("one => { one.value = 0.5; one.dispatchEvent(new Event('input')); }")
+    expect(page.locator("#export-message")).to_contain_text("Nothing is shown yet")
+    page.unroute("**/api/structure/run")

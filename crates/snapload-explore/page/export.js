@@ -35,11 +35,11 @@ export class ExportPanel {
     this.slowFiles = slowFiles;
     if (slowFiles.length) $("file-cancel").addEventListener("click", () => this.writing?.abort());
     for (const [id, text] of [
-      ["copy-shell", () => this.currentRun().shell],
-      ["copy-python", () => this.currentRun().python],
+      ["copy-shell", () => this.#run.shell],
+      ["copy-python", () => this.#run.python],
       ["copy-link", address],
     ]) {
-      $(id).addEventListener("click", () => copy($(id), text()));
+      $(id).addEventListener("click", () => this.#try(() => copy($(id), text())));
     }
   }
 
@@ -104,14 +104,20 @@ export class ExportPanel {
     }
   }
 
+  /** The run that is shown; there may be none yet. */
+  get #run() {
+    const run = this.currentRun();
+    if (!run) throw new Error("Nothing is shown yet that could be saved.");
+    return run;
+  }
+
   #shapes(scheme) {
-    const { t } = this.state;
-    return this.picture.shapes(this.currentRun(), Math.min(t, this.currentRun().tEnd), this.sceneView.options(SIZE.width, SIZE.height, scheme));
+    return this.picture.shapes(this.#run, this.#run.nearest(this.state.t), this.sceneView.options(SIZE.width, SIZE.height, scheme));
   }
 
   #sceneSvg() {
     // An exported picture always has the light theme.
-    const title = `${this.currentRun().shell}, t = ${this.state.t}`;
+    const title = `${this.#run.shell}, t = ${this.#run.nearest(this.state.t)}`;
     save(
       new Blob([svg(this.#shapes("light"), SIZE.width, SIZE.height, title)], { type: "image/svg+xml" }),
       "scene.svg",
@@ -130,7 +136,7 @@ export class ExportPanel {
   }
 
   async #animation() {
-    const run = this.currentRun();
+    const run = this.#run;
     const [from, to] = run.interval(this.state.window);
     const recording = (this.recording = new AnimationRecording({
       run,

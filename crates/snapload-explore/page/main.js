@@ -1,6 +1,6 @@
 // Wires state, server, scene, charts and controls together.
 
-import { Runner, fetchCase, fetchSchema } from "./api.js";
+import { Refused, Runner, fetchCase, fetchSchema } from "./api.js";
 import { Charts } from "./charts.js";
 import { $, setProperties } from "./dom.js";
 import { EventTable } from "./events.js";
@@ -257,6 +257,8 @@ class Page {
       this.controls.showError(error);
       this.refusal = error.message;
     }
+    // A program that did not answer may answer the same question later.
+    if (keyOf(question) === this.asked && !(error instanceof Refused)) this.asked = null;
     this.#fillTables();
     const instead = this.run ? null : this.#instead(question);
     const shown = this.run ? "the last values that could be run" : instead?.words;
@@ -339,7 +341,7 @@ class Page {
   }
 
   #paintMoment() {
-    const read = Math.min(this.hover?.t ?? this.state.t, this.run.tEnd);
+    const read = this.run.nearest(this.hover?.t ?? this.state.t);
     this.instants.follow(this.run, { values: this.question.values }, read);
     this.sceneView.draw();
     this.charts.cursor(this.state.t, this.hover);

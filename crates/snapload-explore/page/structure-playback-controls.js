@@ -16,6 +16,7 @@ export class StructurePlaybackControls extends PlaybackControls {
   constructor(state, playback, { onInterval }) {
     super(state, playback, (speed) => (speed === 1 ? "real time" : `${speed} times`));
     $("interval-start").addEventListener("input", () => {
+      if (!this.run) return;
       playback.pause();
       onInterval(Number($("interval-start").value));
     });

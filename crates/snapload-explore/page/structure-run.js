@@ -23,8 +23,9 @@ export class StructureMotion {
     const j = Math.min(i + 1, c.t.length - 1);
     const d = c.t[j] - c.t[i];
     const u = d > 0 ? Math.min(Math.max((t - c.t[i]) / d, 0), 1) : 0;
+    const outside = t < c.t[0] || t > c.t[c.t.length - 1];
     /** @type {any} */
-    const moment = { t, rough: u > 0 && u < 1 };
+    const moment = { t, rough: outside || (u > 0 && u < 1) };
     for (const [place, speed, name] of COORDINATES) {
       moment[name] =
         u === 0 ? c[place][i] : hermite(c[place][i], c[speed][i], c[place][j], c[speed][j], d, u)[0];
@@ -126,6 +127,12 @@ export class StructureRun {
       sum += amplitude * Math.sin(omega * t - k * (x - this.geometry.rest[0]) + phase);
     }
     return sum;
+  }
+
+  /** The nearest time whose motion the answer has: until another interval arrives, one of the interval before. */
+  nearest(t) {
+    const [from, to] = this.window;
+    return Math.min(Math.max(t, from), to, this.tEnd);
   }
 
   /** The interval that is shown. */

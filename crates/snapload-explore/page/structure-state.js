@@ -153,7 +153,14 @@ export class StructureState extends ObservableState {
 const valueOf = (key, text) => readValue(key, text) ?? text;
 
 /** The name of the case in the part of a fragment that names it; undefined for other parts. */
-export const caseOfLink = (part) => part.match(/^case=(.*?)(:\w*)?$/)?.[1];
+const caseOfLink = (part) => part.match(/^case=(.*?)(:\w*)?$/)?.[1];
+
+/** What was not taken from a link: parts that are not understood, or all of the link of another case. */
+export function brokenLinkWords(parts) {
+  const other = caseOfLink(decode(parts[0]) ?? "");
+  if (other === undefined) return `Not understood in the link, and ignored: ${parts.join(", ")}`;
+  return `The link belongs to ${other} with other values than those of the case that is open, and is ignored. Open that file first, then the link.`;
+}
 
 /** A short text that differs for different texts (FNV-1a). */
 function shortSum(text) {

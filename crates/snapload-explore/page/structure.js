@@ -1,6 +1,6 @@
 // The page of a structure: wires state, server, scene, charts and tables together.
 
-import { Runner, fetchCase, fetchLong, fetchStructureFile, fetchStructures, fetchWithProgress } from "./api.js";
+import { Refused, Runner, fetchCase, fetchLong, fetchStructureFile, fetchStructures, fetchWithProgress } from "./api.js";
 import { Controls } from "./controls.js";
 import { $ } from "./dom.js";
 import { Keyboard, timeKeys } from "./keyboard.js";
@@ -24,8 +24,7 @@ import { PinnedAnswers } from "./structure-pinned-answers.js";
 import { StructureRun } from "./structure-run.js";
 import { structureShapes } from "./structure-scene.js";
 import { StructureSceneView } from "./structure-scene-view.js";
-import { decode } from "./state.js";
-import { StructureState, caseOfLink } from "./structure-state.js";
+import { StructureState, brokenLinkWords } from "./structure-state.js";
 import { showChecks, showLines, showSnaps } from "./structure-tables.js";
 import { StructurePlaybackControls } from "./structure-playback-controls.js";
 import { StructureWaves } from "./structure-waves.js";
@@ -49,13 +48,15 @@ class Page {
     this.instants = new ExactInstants("api/structure/instant", { onArrival: () => this.drawMoment() });
     this.hover = null;
     this.background = null;
+    /** Why the values can not be run. */
+    this.refusal = "";
     /** The time cursor of a part of the record that is not run yet. */
     this.keptTime = null;
     this.link = new Link(this.state, {
       onBroken: (parts) => note(brokenLinkWords(parts)),
       onTravel: () => this.controls.endTyping(),
     });
-    this.playback = new Playback(this.state, () => this.run);
+    this.playback = new Playback(this.state, () => this.run, (t) => this.intoInterval(t));
     this.sceneView = new StructureSceneView(this.state, this.playback);
     this.playbackControls = new StructurePlaybackControls(this.state, this.playback, {
       onInterval: (from) => this.showInterval(from),
@@ -130,7 +131,7 @@ class Page {
 
   /** Requests the run of the current values; only once for the same values. */
   ask(since = performance.now()) {
-    const asked = JSON.stringify(this.question);
+    const asked = keyOf(this.question);
     if (asked === this.asked) return;
     this.asked = asked;
     this.stopBackground();
@@ -152,12 +153,13 @@ class Page {
     this.run = new StructureRun(answer, question.case);
     // Results for elastic lines stay valid for another interval of the same run.
     this.sameCase = before !== null && keyOf(before.ofCase) === keyOf(question.case);
-    const latest = this.asked === JSON.stringify(question);
+    const latest = this.asked === keyOf(question);
     this.show(latest);
     if (this.playsAtOnce) this.playback.play();
     this.playsAtOnce = false;
     reportPaintTime(since);
     if (!latest) return;
+    this.refusal = "";
     $("failed").hidden = true;
     this.controls.clearError();
     this.controls.show(this.run.effective(this.state));
@@ -177,7 +179,10 @@ class Page {
     this.playbackControls.setRun(run);
     const [from, to] = run.window;
     const kept = this.keptTime ?? state.t;
-    const t = kept >= from && kept <= to ? kept : from;
+    const within = ([begin, end]) => kept >= begin && kept <= end;
+    // While the answer for another interval is on its way, the time cursor may be there already.
+    const there = within([from, to]) || (!latest && state.window && within(state.window));
+    const t = there ? kept : from;
     if (latest) this.#keepWindow();
     state.set({ t });
     this.keptTime = run.isBeyond(kept) ? kept : null;
@@ -195,7 +200,7 @@ class Page {
     // An interval that is not run yet comes back with the whole record.
     if (state.window && run.isBeyond(state.window[1])) return;
     const chosen = state.window === null;
-    this.asked = JSON.stringify({ case: state.asked, window: run.window });
+    this.asked = keyOf({ case: state.asked, window: run.window });
     state.set({ window: run.window });
     // It belongs to the entry of the history that was made without an interval.
     if (chosen) this.link.write({ now: true, sameEntry: true });
@@ -217,7 +222,7 @@ class Page {
       this.run = new StructureRun(JSON.parse(text), question.case);
       this.#showProgress(this.#toCome());
       // Other values may have been asked for since.
-      this.show(JSON.stringify(question.case) === JSON.stringify(state.asked));
+      this.show(keyOf(question.case) === keyOf(state.asked));
     };
     try {
       if (this.run.preview) await more({ whole: true });
@@ -264,11 +269,21 @@ class Page {
   }
 
   fail(error, question) {
-    this.controls.showError(error);
-    const shown = this.run ? "\nThe page shows the last values that could be run." : "";
-    $("failed").textContent = `Not run: ${error.message}${shown}`;
+    const latest = this.asked === keyOf(question);
+    // What is shown instead may be refused, too: the reason is that of the values asked for.
+    if (latest || !this.refusal) {
+      this.controls.showError(error);
+      this.refusal = error.message;
+    }
+    // A program that did not answer may answer the same question later.
+    if (latest && !(error instanceof Refused)) this.asked = null;
+    const unchanged = { case: { ...question.case, set: [], water: null }, window: null };
+    const instead = this.run || keyOf(unchanged.case) === keyOf(question.case) ? null : unchanged;
+    const shown = this.run ? "the last values that could be run" : instead && "the case without changes";
+    $("failed").textContent = `Not run: ${this.refusal}${shown ? `\nThe page shows ${shown}.` : ""}`;
     $("failed").hidden = false;
-    if (this.run && this.asked === JSON.stringify(question)) this.#goOn(REST_MS);
+    if (instead) this.runner.ask(instead, performance.now());
+    if (this.run && latest) this.#goOn(REST_MS);
   }
 
   /** Redraws what depends on a change of the state. */
@@ -323,11 +338,15 @@ class Page {
     this.playback.seek(t);
   }
 
-  /** Moves the time cursor to any time of the record. */
-  goTo(t) {
-    const [from, to] = this.run.window;
-    if (t < from || t > to) this.showInterval(t - (to - from) / 2);
-    this.jump(t);
+  /** Moves the interval to a time of the record that is outside it; returns the time within the interval. */
+  intoInterval(t) {
+    const { run, state } = this;
+    // The interval may have been moved already, and its answer be on its way.
+    const moved = state.window && !run.isBeyond(state.window[1]) ? state.window : run.window;
+    const there = t >= moved[0] && t <= moved[1];
+    if (!there) this.showInterval(t - (moved[1] - moved[0]) / 2);
+    const [from, to] = there ? moved : state.window;
+    return Math.min(Math.max(t, from), to);
   }
 
   /** Shows an interval of the same length with another start. */
@@ -365,10 +384,10 @@ class Page {
 
   #paintMoment() {
     const { run } = this;
-    const read = Math.min(this.hover?.t ?? this.state.t, run.tEnd);
+    const read = run.nearest(this.hover?.t ?? this.state.t);
     this.instants.follow(run, { case: run.ofCase, whole: !run.preview }, read);
     this.sceneView.draw();
-    this.charts.cursor(this.state.t, this.hover);
+    this.charts.cursor(run.nearest(this.state.t), this.hover);
     this.playbackControls.show();
   }
 
@@ -389,7 +408,7 @@ class Page {
     $("zoom-all").addEventListener("click", () => this.state.set({ window: null }));
     $("events-body").addEventListener("click", (event) => {
       const row = event.target.closest("tr");
-      if (row) this.goTo(Number(row.dataset.t));
+      if (row) this.jump(Number(row.dataset.t));
     });
   }
 
@@ -409,13 +428,6 @@ class Page {
     state.set({ values, water: water === state.ownWater ? null : water, window: null });
     this.link.write({ now: true });
   }
-}
-
-/** What was not taken from a link: parts that are not understood, or all of the link of another case. */
-function brokenLinkWords(parts) {
-  const other = caseOfLink(decode(parts[0]) ?? "");
-  if (other === undefined) return `Not understood in the link, and ignored: ${parts.join(", ")}`;
-  return `The link belongs to ${other} with other values than those of the case that is open, and is ignored. Open that file first, then the link.`;
 }
 
 const keyOf = (value) => JSON.stringify(value);
