@@ -5,10 +5,10 @@ from __future__ import annotations
 from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
-from urllib.parse import urlsplit
+from urllib.parse import urljoin, urlsplit
 
 import pytest
-from explore import CYLINDER, ROOT, served
+from explore import CYLINDER, ROOT, comes_true, served
 from playwright.sync_api import Browser, Page, expect
 
 SHORT = "run.duration=60&run.transient=10&elastic=false"
@@ -87,3 +87,29 @@ def test_the_same_value_of_a_case_of_the_thesis_is_asked_for_again(open_page):
     page.locator("#field-f_o").fill("0.4")
     expect(page.locator("#failed")).to_be_hidden()
     expect(page.locator("#shell")).to_contain_text("0.4")
+
+
+def test_a_case_that_is_opened_is_a_step_of_the_history(open_structure, structure_url, tmp_path: Path):
+    page = open_structure(f"{SHORT}&t=0")
+    file, note = page.locator("#file"), page.locator("#note")
+    low = changed(tmp_path, "low.toml", "height = 2", "height = 1.2")
+    for _ in range(2):
+        page.locator("#open-case").set_input_files(low)
+        expect(file).to_have_text("low.toml")
+        comes_true(page, lambda: "case=low.toml" in page.url and "window=" in page.url)
+        page.go_back()
+        expect(file).to_have_text(CYLINDER)
+        expect(page.locator("#shell")).to_contain_text("run.duration=60")
+        expect(note).to_be_hidden()
+        page.go_forward()
+        expect(file).to_have_text("low.toml")
+        expect(page.locator('[id="field-wave.height"]')).to_have_value("1.2")
+        # From here on both cases are at the same address but for their fragments.
+        page.goto(urljoin(structure_url, "icon.svg"))
+        page.goto(urljoin(structure_url, f"structure.html#{SHORT}&t=0"))
+        expect(file).to_have_text(CYLINDER)
+    # The first page of the program is that of its own case.
+    page.goto(urljoin(structure_url, "icon.svg"))
+    page.goto(structure_url)
+    expect(file).to_have_text(CYLINDER)
+    expect(note).to_be_hidden()

@@ -243,14 +243,16 @@ def test_a_step_out_of_the_interval_moves_it(open_structure):
 
 def test_no_reading_is_of_another_time_than_the_clock_says(open_structure):
     page = open_structure(f"{SHORT}&window=20,30&t=25", refused=1)
+    surge = page.locator("#charts .reading").nth(1)
+    before = surge.inner_text()
     page.locator("#last").click()
-    end, surge = exact_time(page), page.locator("#charts .reading").nth(1)
+    comes_true(page, lambda: exact_time(page) == 30 and surge.inner_text() != before)
     read = surge.inner_text()
     page.route("**/api/structure/**", lambda route: route.abort())
     page.locator("#next").click()
     expect(page.locator("#failed")).to_contain_text("the program does not answer")
     # The next interval does not come: what is shown is still the end of the one before.
-    assert exact_time(page) == end
+    assert exact_time(page) == 30
     assert surge.inner_text() == read
     page.unroute("**/api/structure/**")
 
@@ -274,3 +276,46 @@ def test_nothing_that_is_pressed_before_the_first_answer_goes_wrong(open_structu
     page.locator("#interval-start").evaluate("one => { one.value = 0.5; one.dispatchEvent(new Event('input')); }")
     expect(page.locator("#export-message")).to_contain_text("Nothing is shown yet")
     page.unroute("**/api/structure/run")
+
+
+def test_of_many_snaps_the_page_says_which_it_does_not_have(open_structure):
+    page = open_structure(f"{SHORT}&window=40,50&t=45")
+    left_out = {}
+
+    def without_some(route):
+        answer = route.fetch()
+        json = answer.json()
+        snaps = json["snaps"]
+        # As if only the first four, those of the interval and the hardest were listed.
+        keep = [i for i, t in enumerate(snaps["t"]) if i < 4 or i in snaps["hardest"] or 39 <= t <= 51]
+        left_out["until"] = snaps["t"][3]
+        left_out["before"] = sum(t <= 45 for t in snaps["t"])
+        left_out["at"] = next(t for i, t in enumerate(snaps["t"]) if i not in keep)
+        snaps["hardest"] = [keep.index(i) for i in snaps["hardest"]]
+        for name in ["number", "t", "line", "jolt", "speed", "peak", "utilisation"]:
+            snaps[name] = [snaps[name][i] for i in keep]
+        route.fulfill(response=answer, json=json)
+
+    page.route("**/api/structure/run", without_some)
+    page.locator('[id="field-run.restitution"]').fill("0.51")
+    words = page.locator("#record-words")
+    expect(words).to_contain_text("only the hardest and those of the interval are drawn")
+    assert f"after {left_out['until']:.3g} s" in words.inner_text()
+    expect(page.locator("#counted")).to_contain_text(f"snap {left_out['before']} of ")
+    expect(page.locator("#counted")).not_to_contain_text("past")
+    expect(page.locator("#events-body tr")).to_have_count(13)
+    page.unroute("**/api/structure/run")
+
+
+def test_a_film_says_what_it_is_of(code):
+    caption = """async ([set, water, speed]) => {
+        const { filmCaption } = await import("./structure-key-groups.js");
+        const valuesOf = set => Object.fromEntries(set.map(change => change.split("=")));
+        return filmCaption({ caseName: "/home/me/cylinder.toml", valuesOf }, { ofCase: { set, water } }, 5, speed);
+    }"""
+    assert code.evaluate(caption, [[], None, 1]) == "cylinder.toml · t = 5.00 s · real time"
+    changed = ["wave.height=2.4", "line.length=6.1"]
+    expected = "cylinder.toml, wave.height = 2.4, line.length = 6.1 · t = 5.00 s · 20 times"
+    assert code.evaluate(caption, [changed, None, 20]) == expected
+    many = [f"line.{number}.length=6.1" for number in range(1, 7)]
+    assert code.evaluate(caption, [many, "sea", 1]) == "cylinder.toml, 7 changes · t = 5.00 s · real time"

@@ -13,7 +13,7 @@ import { ExactInstants } from "./exact-instants.js";
 import { Controls, caseGroups, notOfAPoint } from "./controls.js";
 import { Link } from "./link.js";
 import { LongRun } from "./long-run.js";
-import { acceptCaseFiles, note, openStructure, reportPaintTime, purposeAndSkip, themeButton } from "./page.js";
+import { acceptCaseFiles, note, keepStructure, reportPaintTime, purposeAndSkip, themeButton } from "./page.js";
 import { Outcome } from "./outcome.js";
 import { FramedPicture, onResize } from "./plot.js";
 import { Playback } from "./playback.js";
@@ -58,7 +58,10 @@ class Page {
     this.refusal = "";
     this.link = new Link(this.state, {
       onBroken: (parts) => note(`Not understood in the link, and ignored: ${parts.join(", ")}`),
-      onTravel: () => this.controls.endTyping(),
+      onTravel: () => {
+        this.controls.endTyping();
+        return true;
+      },
     });
     this.playback = new Playback(this.state, () => this.run);
     this.sceneView = new SceneView(this.state, this.playback);
@@ -385,7 +388,10 @@ class Page {
   /** Opens a case file; that of a structure opens the page of structures. */
   async open(file) {
     const { structure, values } = await fetchCase(file);
-    if (structure) return openStructure(file);
+    if (structure) {
+      location.href = await keepStructure(file);
+      return;
+    }
     note("");
     this.state.set({ values, t: 0, window: null });
     this.link.write({ now: true });

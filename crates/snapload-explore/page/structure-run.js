@@ -86,6 +86,10 @@ export class StructureRun {
     this.horizon = { t: answer.assessment.trust.horizon_s };
     this.lines = answer.assessment.lines;
     this.stops = answer.snaps.t;
+    const { number, t, all } = answer.snaps;
+    const gap = number.findIndex((count, i) => count !== i + 1);
+    /** The time up to which all snaps are listed, if not to the end. @type {number | null} */
+    this.listedUntil = number.length === all ? null : (t[(gap < 0 ? number.length : gap) - 1] ?? 0);
     const { x, z, tensions } = answer.motion;
     this.reach = { x: ends(x), z: ends(z) };
     this.mostTension = tensions.reduce((most, column) => Math.max(most, ends(column)[1]), 0);
@@ -166,6 +170,15 @@ export class StructureRun {
   latestSnap(t) {
     const { t: times } = this.snaps;
     return times.length > 0 && times[0] <= t ? lastAtOrBefore(times, t) : -1;
+  }
+
+  /** The number of snaps at or before t in words; of many snaps some are not listed, and not known to the page. */
+  snapsUntil(t) {
+    const { number, all } = this.snaps;
+    const i = this.latestSnap(t);
+    const next = number[i + 1] ?? all + 1;
+    const known = i < 0 ? 0 : number[i];
+    return `${next > known + 1 ? "past " : ""}snap ${known} of ${all}`;
   }
 
   /** Snaps with from <= t <= to, the latest first, as indices. */

@@ -53,7 +53,7 @@ export class StructureState extends ObservableState {
     this.file = file;
     this.schema = { ...schema, keys: keysOf(schema, lines) };
     /** Which case a link changes: the name of its file, and what its values are. */
-    this.identity = `${name.split(/[\\/]/).at(-1)}:${shortSum(JSON.stringify(given))}`;
+    this.identity = identityOf({ name, given });
   }
 
   get waterNow() {
@@ -92,6 +92,21 @@ export class StructureState extends ObservableState {
       else values[name] = value;
     }
     this.set({ values, ...more });
+  }
+
+  /** The values with waves of another kind, which start with about the height and period of those that they replace. */
+  ofWater(water) {
+    const value = (name) => Number(this.value(name) ?? 0);
+    const values = { ...this.values };
+    if (water === "sea" && this.value("sea.hs") === null) {
+      values["sea.hs"] = Number(((value("wave.height") || 2) / 1.86).toFixed(1));
+      values["sea.tp"] = value("wave.period") || 6;
+    }
+    if (water === "wave" && this.value("wave.height") === null) {
+      values["wave.height"] = Number(((value("sea.hs") || 1) * 1.86).toFixed(1));
+      values["wave.period"] = value("sea.tp") || 6;
+    }
+    return { values, water: water === this.ownWater ? null : water };
   }
 
   /** The case in a request: changes in the notation of `--set`, those of all lines first. */
@@ -160,6 +175,18 @@ export function brokenLinkWords(parts) {
   const other = caseOfLink(decode(parts[0]) ?? "");
   if (other === undefined) return `Not understood in the link, and ignored: ${parts.join(", ")}`;
   return `The link belongs to ${other} with other values than those of the case that is open, and is ignored. Open that file first, then the link.`;
+}
+
+/** The name of a file without its folder. */
+export const fileName = (name) => name.split(/[\\/]/).at(-1);
+
+/** Which case a link changes: the name of its file, and what its values are. */
+export const identityOf = ({ name, given }) => `${fileName(name)}:${shortSum(JSON.stringify(given))}`;
+
+/** The identity of the case that a fragment names; null if it names none. */
+export function caseOfFragment(fragment) {
+  const part = fragment.split("&").find((one) => one.startsWith("case="));
+  return part ? decode(part.slice("case=".length)) : null;
 }
 
 /** A short text that differs for different texts (FNV-1a). */

@@ -7,9 +7,10 @@ import { Keyboard, timeKeys } from "./keyboard.js";
 import { Link } from "./link.js";
 import {
   acceptCaseFiles,
+  caseFragment,
   note,
-  openStructure,
-  openedStructure,
+  keepStructure,
+  keptStructure,
   reportPaintTime,
   purposeAndSkip,
   themeButton,
@@ -18,19 +19,19 @@ import { FramedPicture, onResize } from "./plot.js";
 import { Playback } from "./playback.js";
 import { chooseTheme, chosenTheme, colours, lineColour, reducedMotion } from "./theme.js";
 import { StructureCharts, breakingLoads } from "./structure-charts.js";
-import { structureKeyGroups, reasonUnavailable } from "./structure-key-groups.js";
+import { filmCaption, structureKeyGroups, reasonUnavailable } from "./structure-key-groups.js";
 import { StructureHandles } from "./structure-handles.js";
 import { PinnedAnswers } from "./structure-pinned-answers.js";
 import { StructureRun } from "./structure-run.js";
 import { structureShapes } from "./structure-scene.js";
 import { StructureSceneView } from "./structure-scene-view.js";
-import { StructureState, brokenLinkWords } from "./structure-state.js";
+import { StructureState, brokenLinkWords, caseOfFragment, identityOf } from "./structure-state.js";
 import { showChecks, showLines, showSnaps } from "./structure-tables.js";
 import { StructurePlaybackControls } from "./structure-playback-controls.js";
 import { StructureWaves } from "./structure-waves.js";
 import { ExactInstants } from "./exact-instants.js";
 import { ExportPanel } from "./export.js";
-import { fixed, round } from "./formatting.js";
+import { round } from "./formatting.js";
 
 /** Neighbours and elastic lines are computed this long after the last change of values. */
 const REST_MS = 300;
@@ -54,7 +55,7 @@ class Page {
     this.keptTime = null;
     this.link = new Link(this.state, {
       onBroken: (parts) => note(brokenLinkWords(parts)),
-      onTravel: () => this.controls.endTyping(),
+      onTravel: () => this.travel(),
     });
     this.playback = new Playback(this.state, () => this.run, (t) => this.intoInterval(t));
     this.sceneView = new StructureSceneView(this.state, this.playback);
@@ -89,7 +90,7 @@ class Page {
       address: () => this.link.address,
       path: "api/structure/export",
       slowFiles: ["note.html", "assess.json"],
-      picture: { shapes: structureShapes, caption: (run, t) => `${this.state.caseName} · t = ${fixed(t, 2)} s` },
+      picture: { shapes: structureShapes, caption: (run, t, speed) => filmCaption(this.state, run, t, speed) },
     });
     this.pins = new PinnedAnswers(this.state, () => this.run, { onBack: (pin) => this.restore(pin) });
     this.waves = new StructureWaves(this.state, {
@@ -394,8 +395,22 @@ class Page {
   /** Opens the case file of a structure; one of the thesis's model opens the other page. */
   async open(file) {
     const { structure, values } = await fetchCase(file);
-    if (structure) await openStructure(file);
-    else location.href = `index.html#${caseFragment(values)}`;
+    const address = structure ? await keepStructure(file) : `index.html#${caseFragment(values)}`;
+    // The address is that of another case from now on.
+    this.link.held = true;
+    location.href = address;
+  }
+
+  /** Follows the history to another case, which loads the page again. */
+  travel() {
+    this.controls.endTyping();
+    const { identity, schema } = this.state;
+    const own = schema.start && identityOf(schema.start);
+    // An address that names no case is of the one with which the program was started.
+    const named = caseOfFragment(location.hash.slice(1)) ?? own ?? identity;
+    this.link.held = named !== identity && (named === own || keptStructure(named) !== null);
+    if (this.link.held) location.reload();
+    return !this.link.held;
   }
 
   tools() {
@@ -404,43 +419,25 @@ class Page {
     purposeAndSkip(PURPOSE_READ);
     $("file").textContent = this.state.caseName;
     $("elastic").addEventListener("change", () => this.state.set({ elastic: $("elastic").checked }));
-    $("waters").addEventListener("change", (event) => this.#chooseWater(event.target.value));
+    $("waters").addEventListener("change", (event) => {
+      this.state.set({ ...this.state.ofWater(event.target.value), window: null });
+      this.link.write({ now: true });
+    });
     $("zoom-all").addEventListener("click", () => this.state.set({ window: null }));
     $("events-body").addEventListener("click", (event) => {
       const row = event.target.closest("tr");
       if (row) this.jump(Number(row.dataset.t));
     });
   }
-
-  /** Waves of another kind start with about the height and period of those that they replace. */
-  #chooseWater(water) {
-    const { state } = this;
-    const value = (name) => Number(state.value(name) ?? 0);
-    const values = { ...state.values };
-    if (water === "sea" && state.value("sea.hs") === null) {
-      values["sea.hs"] = Number(((value("wave.height") || 2) / 1.86).toFixed(1));
-      values["sea.tp"] = value("wave.period") || 6;
-    }
-    if (water === "wave" && state.value("wave.height") === null) {
-      values["wave.height"] = Number(((value("sea.hs") || 1) * 1.86).toFixed(1));
-      values["wave.period"] = value("sea.tp") || 6;
-    }
-    state.set({ values, water: water === state.ownWater ? null : water, window: null });
-    this.link.write({ now: true });
-  }
 }
 
 const keyOf = (value) => JSON.stringify(value);
 
-/** Values of the thesis's model as a fragment of its page's address. */
-const caseFragment = (values) =>
-  Object.entries(values)
-    .map(([name, value]) => `${name}=${encodeURIComponent(value)}`)
-    .join("&");
-
 try {
   const schema = await fetchStructures();
-  const file = openedStructure();
+  const named = caseOfFragment(location.hash.slice(1));
+  const own = schema.start && named === identityOf(schema.start);
+  const file = named === null || own ? null : keptStructure(named);
   const opened = file ? await fetchStructureFile(file) : schema.start;
   if (opened) new Page(schema, opened, file);
   else note("No structure is open. Drop a case file here, or start the program with one: snapload explore docs/examples/cylinder.toml");
