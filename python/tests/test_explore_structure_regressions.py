@@ -238,7 +238,8 @@ def test_a_step_out_of_the_interval_moves_it(open_structure):
             comes_true(page, lambda: contains(words.inner_text(), exact_time(page)))
             expect(surge).not_to_contain_text("about")
             exact = page.evaluate(EXACT, exact_time(page))
-            comes_true(page, lambda exact=exact: surge.inner_text() == f"{exact['motion']['x'][0]:.3f} m".replace("-", "−"))
+            x = f"{exact['motion']['x'][0]:.3f} m".replace("-", "−")
+            expect(surge).to_have_text(x)
 
 
 def test_no_reading_is_of_another_time_than_the_clock_says(open_structure):

@@ -13,7 +13,7 @@ const AROUND = [0.5, 1.5];
 /** Groups of keys for the controls. Files named in the case can not be changed here. */
 export function structureKeyGroups(state) {
   const { keys } = state.schema;
-  const under = (path) => keys.filter((key) => key.under === path).map((key) => ranged(state, key));
+  const under = (path) => keys.filter((key) => key.under === path).map((key) => ({ ...ranged(state, key), of: whose(path, state) }));
   const waves = Object.entries(WAVES).map(([name, title]) => ({
     title,
     keys: under(name),
@@ -38,6 +38,13 @@ export function structureKeyGroups(state) {
     { title: "Site", keys: under("site"), open: false },
     { title: "Design checks", keys: under("design"), open: false },
   ];
+}
+
+/** Of which lines a key is, where several have the same one. */
+function whose(path, { lines }) {
+  const [table, number] = path.split(".");
+  if (table !== "line" || lines === 1) return "";
+  return number ? `line ${number} alone` : "all lines";
 }
 
 /** A key with the range of its slider: about the case's value if the key has no usual range. */

@@ -1,6 +1,6 @@
 // The answer in tables, as in `snapload assess` and its page: lines, checks, warnings, and the hardest snaps.
 
-import { $ } from "./dom.js";
+import { $, replaceButtons } from "./dom.js";
 import { escape, fixed, number, ratio, round, sentence } from "./formatting.js";
 
 /** The heading of slack; the tensions and snaps beside it are those of the judged time. */
@@ -100,7 +100,7 @@ export function showSnaps(run) {
     `${cell(fixed(speed[i], 3))}${cell(peak[i] === null ? "–" : round(peak[i], 4))}` +
     `${cell(ratio(utilisation[i]))}` +
     `<td>${t[i] < run.transient_s ? "no, in the transient" : "yes"}</td></tr>`;
-  $("events-body").innerHTML = hardest.map(row).join("");
+  replaceButtons($("events-body"), hardest.map(row).join(""), $("scene"));
   const early = before ? `, and the ${before} hardest before it` : "";
   const listed = `the ${hardest.length - before} hardest in the judged time${early}, of ${run.snapsInWords} at 1 cm/s or more`;
   $("events-words").textContent = all ? listed : "no snaps at 1 cm/s or more";

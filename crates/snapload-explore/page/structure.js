@@ -178,12 +178,11 @@ class Page {
     const { run, state } = this;
     this.sceneView.setRun(run);
     this.playbackControls.setRun(run);
-    const [from, to] = run.window;
     const kept = this.keptTime ?? state.t;
-    const within = ([begin, end]) => kept >= begin && kept <= end;
+    const within = (window) => kept >= window[0] && kept <= window[1];
     // While the answer for another interval is on its way, the time cursor may be there already.
-    const there = within([from, to]) || (!latest && state.window && within(state.window));
-    const t = there ? kept : from;
+    const there = within(run.window) || (!latest && state.window && within(state.window));
+    const t = there ? kept : run.window[0];
     if (latest) this.#keepWindow();
     state.set({ t });
     this.keptTime = run.isBeyond(kept) ? kept : null;
