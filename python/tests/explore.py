@@ -27,17 +27,19 @@ SIDEWAYS = {"width": 740, "height": 360}
 PICTURES = ["trajectory", "rotation", "snaps", "tensions", "energy"]
 
 
-def served(*args: str) -> Iterator[str]:
-    """The address at which the program serves a page; it ends with 0 when interrupted."""
+def served(*args: str, port: int = 0) -> Iterator[str]:
+    """The address at which the program serves a page, at any free port for 0; it ends with 0 when interrupted."""
     target = Path(os.environ.get("CARGO_TARGET_DIR", ROOT / "target"))
-    program = [target / "debug" / "snapload", "explore", "--no-browser", "--port", "0", *args]
+    program = [target / "debug" / "snapload", "explore", "--no-browser", "--port", str(port), *args]
     with subprocess.Popen(program, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, cwd=ROOT) as server:
         assert server.stdout is not None
         line = server.stdout.readline()
         found = re.search(r"http://127\.0\.0\.1:\d+/", line)
         assert found, line
-        yield found[0]
-        server.send_signal(signal.SIGINT)
+        try:
+            yield found[0]
+        finally:
+            server.send_signal(signal.SIGINT)
         assert server.wait(timeout=10) == 0
 
 

@@ -213,3 +213,110 @@ def test_what_is_read_between_rows_is_exact_once_the_cursor_rests(open_structure
     expect(page.locator("#window-words")).to_have_text("41.3 to 41.3 s")
     assert reading.inner_text().removeprefix("about ") == wide
     page.unroute("**/api/structure/instant")
+
+
+EXACT = """t => fetch("api/structure/instant", {
+    method: "POST",
+    headers: { "Content-Type": "application/json" },
+    body: JSON.stringify({ case: { set: ["run.duration=60", "run.transient=10"] }, t }),
+}).then(answer => answer.json())"""
+
+
+def test_a_step_out_of_the_interval_moves_it(open_structure):
+    page = open_structure(f"{SHORT}&window=20,30&t=25")
+    words, surge = page.locator("#window-words"), page.locator("#charts .reading").nth(1)
+    for button, way in [("#last", "#next"), ("#first", "#previous")]:
+        for step in [way, "shift"]:
+            page.locator(button).click()
+            before = words.inner_text()
+            if step == way:
+                page.locator(way).click()
+            else:
+                page.locator("#scene").focus()
+                page.keyboard.press("Shift+ArrowRight" if way == "#next" else "Shift+ArrowLeft")
+            expect(words).not_to_have_text(before)
+            comes_true(page, lambda: contains(words.inner_text(), exact_time(page)))
+            expect(surge).not_to_contain_text("about")
+            exact = page.evaluate(EXACT, exact_time(page))
+            x = f"{exact['motion']['x'][0]:.3f} m".replace("-", "−")
+            expect(surge).to_have_text(x)
+
+
+def test_no_reading_is_of_another_time_than_the_clock_says(open_structure):
+    page = open_structure(f"{SHORT}&window=20,30&t=25", refused=1)
+    surge = page.locator("#charts .reading").nth(1)
+    before = surge.inner_text()
+    page.locator("#last").click()
+    comes_true(page, lambda: exact_time(page) == 30 and surge.inner_text() != before)
+    read = surge.inner_text()
+    page.route("**/api/structure/**", lambda route: route.abort())
+    page.locator("#next").click()
+    expect(page.locator("#failed")).to_contain_text("the program does not answer")
+    # The next interval does not come: what is shown is still the end of the one before.
+    assert exact_time(page) == 30
+    assert surge.inner_text() == read
+    page.unroute("**/api/structure/**")
+
+
+def test_a_first_answer_that_is_refused_leaves_a_page_that_can_be_used(open_structure):
+    page = open_structure("line.length=2.9&elastic=false&t=0", refused=1)
+    expect(page.locator("#failed")).to_contain_text("2.9 is not allowed")
+    expect(page.locator("#failed")).to_contain_text("The page shows the case without changes")
+    expect(page.locator("#shell")).to_have_text(f"snapload assess {CYLINDER}")
+    for button in ["#first", "#next", "#previous", "#last", "#scene-svg"]:
+        page.locator(button).click()
+
+
+def test_nothing_that_is_pressed_before_the_first_answer_goes_wrong(open_structure, structure_url):
+    page = open_structure(f"{SHORT}&t=0")
+    page.goto(urljoin(structure_url, "icon.svg"))
+    page.route("**/api/structure/run", lambda route: None)
+    page.goto(structure_url)
+    for button in ["#first", "#next", "#previous", "#last", "#play", "#zoom-in", "#zoom-all", "#scene-svg"]:
+        page.locator(button).click()
+    page.locator("#interval-start").evaluate("one => { one.value = 0.5; one.dispatchEvent(new Event('input')); }")
+    expect(page.locator("#export-message")).to_contain_text("Nothing is shown yet")
+    page.unroute("**/api/structure/run")
+
+
+def test_of_many_snaps_the_page_says_which_it_does_not_have(open_structure):
+    page = open_structure(f"{SHORT}&window=40,50&t=45")
+    left_out = {}
+
+    def without_some(route):
+        answer = route.fetch()
+        json = answer.json()
+        snaps = json["snaps"]
+        # As if only the first four, those of the interval and the hardest were listed.
+        keep = [i for i, t in enumerate(snaps["t"]) if i < 4 or i in snaps["hardest"] or 39 <= t <= 51]
+        left_out["until"] = snaps["t"][3]
+        left_out["before"] = sum(t <= 45 for t in snaps["t"])
+        left_out["at"] = next(t for i, t in enumerate(snaps["t"]) if i not in keep)
+        snaps["hardest"] = [keep.index(i) for i in snaps["hardest"]]
+        for name in ["number", "t", "line", "jolt", "speed", "peak", "utilisation"]:
+            snaps[name] = [snaps[name][i] for i in keep]
+        route.fulfill(response=answer, json=json)
+
+    page.route("**/api/structure/run", without_some)
+    page.locator('[id="field-run.restitution"]').fill("0.51")
+    words = page.locator("#record-words")
+    expect(words).to_contain_text("only the hardest and those of the interval are drawn")
+    assert f"after {left_out['until']:.3g} s" in words.inner_text()
+    expect(page.locator("#counted")).to_contain_text(f"snap {left_out['before']} of ")
+    expect(page.locator("#counted")).not_to_contain_text("past")
+    expect(page.locator("#events-body tr")).to_have_count(13)
+    page.unroute("**/api/structure/run")
+
+
+def test_a_film_says_what_it_is_of(code):
+    caption = """async ([set, water, speed]) => {
+        const { filmCaption } = await import("./structure-key-groups.js");
+        const valuesOf = set => Object.fromEntries(set.map(change => change.split("=")));
+        return filmCaption({ caseName: "/home/me/cylinder.toml", valuesOf }, { ofCase: { set, water } }, 5, speed);
+    }"""
+    assert code.evaluate(caption, [[], None, 1]) == "cylinder.toml · t = 5.00 s · real time"
+    changed = ["wave.height=2.4", "line.length=6.1"]
+    expected = "cylinder.toml, wave.height = 2.4, line.length = 6.1 · t = 5.00 s · 20 times"
+    assert code.evaluate(caption, [changed, None, 20]) == expected
+    many = [f"line.{number}.length=6.1" for number in range(1, 7)]
+    assert code.evaluate(caption, [many, "sea", 1]) == "cylinder.toml, 7 changes · t = 5.00 s · real time"

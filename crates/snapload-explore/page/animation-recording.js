@@ -136,7 +136,7 @@ export class AnimationRecording {
     context.fillRect(0, 0, width, height);
     const past = this.run.beyond(t) ? " · past the horizon of trust" : "";
     const caption = {
-      text: `${this.picture.caption(this.run, t)}${past}`,
+      text: `${this.picture.caption(this.run, t, this.options.speed)}${past}`,
       at: [14, this.options.picture === "thesis" ? height - 14 : 26],
       size: 15,
       fill: paints.ink,

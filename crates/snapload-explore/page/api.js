@@ -80,21 +80,17 @@ export async function fetchStructures() {
 
 /** The values of a structure's case file. */
 export async function fetchStructureFile(file) {
-  return (await post("api/structure", file)).json();
+  return answered(async () => (await post("api/structure", file)).json());
 }
 
 /** A long request that can be cancelled. */
 export async function fetchLong(path, question, signal) {
-  try {
-    return await (await post(path, question, signal)).json();
-  } catch (error) {
-    throw error.name === "AbortError" ? error : readableError(error);
-  }
+  return answered(async () => (await post(path, question, signal)).json());
 }
 
 /** The values of a case file. */
 export async function fetchCase(file) {
-  return (await post("api/case", file)).json();
+  return answered(async () => (await post("api/case", file)).json());
 }
 
 /** How a run and its neighbours end. */
@@ -109,9 +105,18 @@ export const fetchAnswer = (name, question, signal) => fetchLong(`api/question/$
 /** The state once a period, over a long motion. */
 export const fetchSection = (question, signal) => fetchLong("api/section", question, signal);
 
-/** A refusal has its own message; any other failure means that the server does not answer. */
+/** What a request results in; its error says what is wrong. */
+async function answered(request) {
+  try {
+    return await request();
+  } catch (error) {
+    throw readableError(error);
+  }
+}
+
+/** A refusal has its own message, and a cancelled request none; any other failure means that the server does not answer. */
 function readableError(error) {
-  return error instanceof Refused
+  return error instanceof Refused || error.name === "AbortError"
     ? error
     : new Error("the program does not answer. Is snapload explore still running?");
 }
@@ -137,7 +142,7 @@ export async function fetchWithProgress(path, question, signal, onProgress) {
       onProgress(line);
     }
   } catch (error) {
-    throw error.name === "AbortError" ? error : readableError(error);
+    throw readableError(error);
   }
   throw new Error("The answer is incomplete. Is snapload explore still running?");
 }
@@ -158,6 +163,5 @@ async function* linesOf(response) {
 
 /** A file as the command writes it. */
 export async function fetchFile(path, question) {
-  const response = await post(path, question);
-  return response.blob();
+  return answered(async () => (await post(path, question)).blob());
 }

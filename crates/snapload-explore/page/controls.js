@@ -98,6 +98,8 @@ export class Controls {
     meaning.textContent = withSymbols(["choice", "flag", ...ROOMY].includes(key.kind.type) ? key.meaning : key.title);
     label.title = withSymbols(key.meaning) + (key.default_in_words ? `. Default: ${withSymbols(key.default_in_words)}` : "");
     label.append(name, meaning);
+    // Beside a field the heading of its group says of what it is.
+    if (key.of) label.append(element("span", { className: "unseen", textContent: `, ${key.of}` }));
     if (unit) meaning.append(element("span", { className: "unit", textContent: ` [${unit}]` }));
     return label;
   }
@@ -245,7 +247,6 @@ export class Controls {
       const follows = given === undefined && key.default_in_words !== "" && effective[name] !== undefined;
       const value = follows ? effective[name] : this.state.value(name);
       const text = follows ? rounded(value) : fieldText(value);
-      if (value === null && key.default_in_words) setProperties(field, { placeholder: key.default_in_words });
       if (key.kind.type === "flag") setProperties(field, { checked: value });
       else if (this.typing !== name) setProperties(field, { value: text });
       if (reset) setProperties(reset, { hidden: !(name in this.state.values) });
@@ -255,7 +256,9 @@ export class Controls {
       if (slider) setAttributes(slider, { "aria-valuetext": `${text} ${unitText(key.unit)}`.trim() });
       // An unavailable key that is given is refused by the server; its field stays enabled so that it can be corrected.
       const reason = given === undefined ? this.reasonUnavailable(name, this.state) : undefined;
-      setProperties(field, { disabled: reason !== undefined });
+      // The default of a key that does not apply would be of no use, and take room.
+      const placeholder = value === null && reason === undefined ? key.default_in_words : "";
+      setProperties(field, { disabled: reason !== undefined, ...(key.default_in_words && { placeholder }) });
       if (slider) setProperties(slider, { disabled: field.disabled });
       setProperties(why, { textContent: reason ?? "", hidden: !reason });
     }

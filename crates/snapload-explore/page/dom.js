@@ -29,6 +29,17 @@ export function setAttributes(element, attributes) {
 }
 
 /**
+ * Lets a button wait for what it has begun. A disabled button would lose the focus: this one keeps it, and whoever
+ * listens to it asks `isWaiting`.
+ * @param {Element} button
+ * @param {boolean} waiting
+ */
+export const setWaiting = (button, waiting) => setAttributes(button, { "aria-disabled": waiting ? "true" : null });
+
+/** @param {Element} button */
+export const isWaiting = (button) => button.getAttribute("aria-disabled") === "true";
+
+/**
  * Replaces the content of a list of buttons. If one of them has the focus, that goes to the button of the same kind in
  * the same place, or to another one if there is none.
  * @param {HTMLElement} list

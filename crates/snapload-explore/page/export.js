@@ -1,7 +1,7 @@
 // Exports: files as the command writes them, the scene, the animation, and lines to copy.
 
 import { fetchFile, fetchWithProgress } from "./api.js";
-import { $ } from "./dom.js";
+import { $, isWaiting, setWaiting } from "./dom.js";
 import { AnimationRecording } from "./animation-recording.js";
 import { paint, svg } from "./shapes.js";
 
@@ -35,11 +35,11 @@ export class ExportPanel {
     this.slowFiles = slowFiles;
     if (slowFiles.length) $("file-cancel").addEventListener("click", () => this.writing?.abort());
     for (const [id, text] of [
-      ["copy-shell", () => this.currentRun().shell],
-      ["copy-python", () => this.currentRun().python],
+      ["copy-shell", () => this.#run.shell],
+      ["copy-python", () => this.#run.python],
       ["copy-link", address],
     ]) {
-      $(id).addEventListener("click", () => copy($(id), text()));
+      $(id).addEventListener("click", () => this.#try(() => copy($(id), text())));
     }
   }
 
@@ -48,9 +48,9 @@ export class ExportPanel {
     $("python").textContent = run.python;
   }
 
-  /** Shows the message of an error. */
+  /** Shows the message of an error; that of work that goes on stays. */
   async #try(action) {
-    this.showMessage("");
+    if (!document.querySelector(".export [aria-disabled]")) this.showMessage("");
     try {
       await action();
     } catch (error) {
@@ -64,16 +64,17 @@ export class ExportPanel {
 
   /** The file belongs to the current values, even if they change while it is written. */
   async #file(button) {
+    if (isWaiting(button)) return;
     const name = button.dataset.file;
     const of = `${name} of ${this.state.caseName ?? "your own values"}`;
-    button.disabled = true;
+    setWaiting(button, true);
     this.showMessage(`${of}: writing`);
     try {
       const path = `${this.path}/${name}`;
       if (this.slowFiles.includes(name)) return await this.#slowFile(path, name, of);
       save(await fetchFile(path, this.question()), name);
     } finally {
-      button.disabled = false;
+      setWaiting(button, false);
     }
     this.showMessage(`${of} is saved.`);
   }
@@ -104,14 +105,20 @@ export class ExportPanel {
     }
   }
 
+  /** The run that is shown; there may be none yet. */
+  get #run() {
+    const run = this.currentRun();
+    if (!run) throw new Error("Nothing is shown yet that could be saved.");
+    return run;
+  }
+
   #shapes(scheme) {
-    const { t } = this.state;
-    return this.picture.shapes(this.currentRun(), Math.min(t, this.currentRun().tEnd), this.sceneView.options(SIZE.width, SIZE.height, scheme));
+    return this.picture.shapes(this.#run, this.#run.nearest(this.state.t), this.sceneView.options(SIZE.width, SIZE.height, scheme));
   }
 
   #sceneSvg() {
     // An exported picture always has the light theme.
-    const title = `${this.currentRun().shell}, t = ${this.state.t}`;
+    const title = `${this.#run.shell}, t = ${this.#run.nearest(this.state.t)}`;
     save(
       new Blob([svg(this.#shapes("light"), SIZE.width, SIZE.height, title)], { type: "image/svg+xml" }),
       "scene.svg",
@@ -130,7 +137,8 @@ export class ExportPanel {
   }
 
   async #animation() {
-    const run = this.currentRun();
+    if (this.recording) return;
+    const run = this.#run;
     const [from, to] = run.interval(this.state.window);
     const recording = (this.recording = new AnimationRecording({
       run,
@@ -140,7 +148,7 @@ export class ExportPanel {
       options: { ...this.sceneView.options(SIZE.width, SIZE.height), playing: true },
       size: SIZE,
     }));
-    $("animation").disabled = true;
+    setWaiting($("animation"), true);
     $("animation-cancel").hidden = $("animation-progress").hidden = false;
     try {
       const blob = await recording.record((part) => {
@@ -150,7 +158,7 @@ export class ExportPanel {
       if (blob) save(blob, "run.webm");
       this.showMessage(blob ? "run.webm is saved." : "The animation was cancelled.");
     } finally {
-      $("animation").disabled = false;
+      setWaiting($("animation"), false);
       $("animation-cancel").hidden = $("animation-progress").hidden = true;
       this.recording = null;
     }

@@ -6,7 +6,10 @@ const PACE_MS = 350;
 const timeless = (fragment) => fragment.replace(/(^|&)t=[^&]*/, "");
 
 export class Link {
-  /** `onBroken` receives what could not be read; `onTravel` is called before another entry of the history is read. */
+  /**
+   * `onBroken` receives what could not be read; `onTravel` is called before another entry of the history is read, and says
+   * whether it is to be read.
+   */
   constructor(state, { onBroken, onTravel }) {
     this.state = state;
     this.onBroken = onBroken;
@@ -15,8 +18,7 @@ export class Link {
     this.written = "";
     this.gesture = null;
     addEventListener("popstate", () => {
-      onTravel();
-      this.read();
+      if (onTravel()) this.read();
     });
   }
 

@@ -1,6 +1,6 @@
 // Wires state, server, scene, charts and controls together.
 
-import { Runner, fetchCase, fetchSchema } from "./api.js";
+import { Refused, Runner, fetchCase, fetchSchema } from "./api.js";
 import { Charts } from "./charts.js";
 import { $, setProperties } from "./dom.js";
 import { EventTable } from "./events.js";
@@ -13,7 +13,7 @@ import { ExactInstants } from "./exact-instants.js";
 import { Controls, caseGroups, notOfAPoint } from "./controls.js";
 import { Link } from "./link.js";
 import { LongRun } from "./long-run.js";
-import { acceptCaseFiles, note, openStructure, reportPaintTime, purposeAndSkip, themeButton } from "./page.js";
+import { acceptCaseFiles, note, keepStructure, reportPaintTime, purposeAndSkip, themeButton } from "./page.js";
 import { Outcome } from "./outcome.js";
 import { FramedPicture, onResize } from "./plot.js";
 import { Playback } from "./playback.js";
@@ -58,7 +58,10 @@ class Page {
     this.refusal = "";
     this.link = new Link(this.state, {
       onBroken: (parts) => note(`Not understood in the link, and ignored: ${parts.join(", ")}`),
-      onTravel: () => this.controls.endTyping(),
+      onTravel: () => {
+        this.controls.endTyping();
+        return true;
+      },
     });
     this.playback = new Playback(this.state, () => this.run);
     this.sceneView = new SceneView(this.state, this.playback);
@@ -257,6 +260,8 @@ class Page {
       this.controls.showError(error);
       this.refusal = error.message;
     }
+    // A program that did not answer may answer the same question later.
+    if (keyOf(question) === this.asked && !(error instanceof Refused)) this.asked = null;
     this.#fillTables();
     const instead = this.run ? null : this.#instead(question);
     const shown = this.run ? "the last values that could be run" : instead?.words;
@@ -339,7 +344,7 @@ class Page {
   }
 
   #paintMoment() {
-    const read = Math.min(this.hover?.t ?? this.state.t, this.run.tEnd);
+    const read = this.run.nearest(this.hover?.t ?? this.state.t);
     this.instants.follow(this.run, { values: this.question.values }, read);
     this.sceneView.draw();
     this.charts.cursor(this.state.t, this.hover);
@@ -383,7 +388,10 @@ class Page {
   /** Opens a case file; that of a structure opens the page of structures. */
   async open(file) {
     const { structure, values } = await fetchCase(file);
-    if (structure) return openStructure(file);
+    if (structure) {
+      location.href = await keepStructure(file);
+      return;
+    }
     note("");
     this.state.set({ values, t: 0, window: null });
     this.link.write({ now: true });

@@ -2,6 +2,7 @@
 
 import { fetchStructureFile } from "./api.js";
 import { $ } from "./dom.js";
+import { identityOf } from "./structure-state.js";
 import { chooseTheme, chosenTheme, store, stored, onPrint, onSystemScheme, THEMES } from "./theme.js";
 
 /** Shows a note about the page as a whole; hides it if the text is empty. */
@@ -55,16 +56,25 @@ export function purposeAndSkip(name) {
   });
 }
 
-/** The case file of a structure, kept for the page of structures until the window is closed. */
-const OPENED = "snapload-structure";
-export const openedStructure = () => JSON.parse(sessionStorage.getItem(OPENED) ?? "null");
+/** The case files of structures that were opened last, kept until the window is closed: each with what an address calls it. */
+const OPENED = "snapload-structures";
+const MOST_OPENED = 12;
+const opened = () => JSON.parse(sessionStorage.getItem(OPENED) ?? "[]");
+export const keptStructure = (identity) => opened().find(([of]) => of === identity)?.[1] ?? null;
 
-/** Opens the page of structures with a file; a file that is no structure is refused here. */
-export async function openStructure(file) {
-  await fetchStructureFile(file);
-  sessionStorage.setItem(OPENED, JSON.stringify(file));
-  location.href = "structure.html";
+/** Keeps a file, and returns its address on the page of structures; a file that is no structure is refused here. */
+export async function keepStructure(file) {
+  const identity = identityOf(await fetchStructureFile(file));
+  const others = opened().filter(([of]) => of !== identity);
+  sessionStorage.setItem(OPENED, JSON.stringify([[identity, file], ...others].slice(0, MOST_OPENED)));
+  return `structure.html#case=${encodeURIComponent(identity)}`;
 }
+
+/** Values of the thesis's model as a fragment of its page's address. */
+export const caseFragment = (values) =>
+  Object.entries(values)
+    .map(([name, value]) => `${name}=${encodeURIComponent(value)}`)
+    .join("&");
 
 /** Opens a case file by the button or by dropping it on the page, and shows its errors. */
 export function acceptCaseFiles(onFile) {

@@ -13,7 +13,7 @@ export class PlaybackControls {
     this.playback = playback;
     this.run = null;
     for (const speed of SPEEDS) $("speed").append(new Option(speedWords(speed), String(speed)));
-    const on = (id, action) => $(id).addEventListener("click", action);
+    const on = (id, action) => $(id).addEventListener("click", () => this.run && action());
     on("play", () => playback.toggle());
     on("first", () => this.jump(this.ends[0]));
     on("last", () => this.jump(this.ends[1]));
@@ -62,7 +62,8 @@ export class PlaybackControls {
 
   show() {
     if (!this.run) return;
-    const { t, speed, window } = this.state;
+    const { speed, window } = this.state;
+    const t = this.run.nearest(this.state.t);
     const [from, to] = this.run.interval(window);
     setProperties($("scrub"), { min: String(from), max: String(to) });
     setProperties($("scrub"), { value: String(t) });

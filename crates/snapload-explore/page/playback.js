@@ -3,10 +3,14 @@
 import { SPEEDS } from "./state.js";
 
 export class Playback {
-  /** `currentRun` returns the run that is shown. */
-  constructor(state, currentRun) {
+  /**
+   * `currentRun` returns the run that is shown; `intoInterval` shows another interval if a time of the record is
+   * outside the one that can be shown, and returns the time within it.
+   */
+  constructor(state, currentRun, intoInterval = (t) => t) {
     this.state = state;
     this.currentRun = currentRun;
+    this.intoInterval = intoInterval;
     this.playing = false;
     this.frame = null;
     /** @type {(playing: boolean) => void} */
@@ -54,15 +58,17 @@ export class Playback {
 
   seek(t) {
     if (!this.run) return;
-    this.state.set({ t: Math.min(Math.max(t, 0), this.run.tEnd) });
+    this.state.set({ t: this.intoInterval(Math.min(Math.max(t, 0), this.run.tEnd)) });
   }
 
   next() {
+    if (!this.run) return;
     this.pause();
     this.seek(this.run.nextStop(this.state.t));
   }
 
   previous() {
+    if (!this.run) return;
     this.pause();
     this.seek(this.run.previousStop(this.state.t));
   }

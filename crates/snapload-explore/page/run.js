@@ -140,6 +140,11 @@ export class Run {
     return taut[lastAtOrBefore(t_start, t)] ?? [];
   }
 
+  /** The nearest time whose motion the answer has. */
+  nearest(t) {
+    return Math.min(t, this.tEnd);
+  }
+
   /** The interval that is shown, which may be chosen. */
   interval(chosen) {
     return chosen ?? [0, this.tEnd];

@@ -114,7 +114,7 @@ export class SceneView {
     const { run, canvas, state } = this;
     const { context, width, height } = prepare(canvas);
     const options = { ...this.options(width, height), camera: this.fixedCamera };
-    paint(context, sceneShapes(run, Math.min(state.t, run.tEnd), options));
+    paint(context, sceneShapes(run, run.nearest(state.t), options));
     this.#caption();
   }
 
@@ -128,7 +128,7 @@ export class SceneView {
   view() {
     const [width, height] = [this.canvas.clientWidth, this.canvas.clientHeight];
     const cam = this.fixedCamera ?? camera(this.run, this.options(width, height));
-    const moment = this.run.at(Math.min(this.state.t, this.run.tEnd));
+    const moment = this.run.at(this.run.nearest(this.state.t));
     return { run: this.run, moment, cam, whole: cam.whole, size: { width, height } };
   }
 
@@ -138,7 +138,7 @@ export class SceneView {
   }
 
   #caption() {
-    const t = Math.min(this.state.t, this.run.tEnd);
+    const t = this.run.nearest(this.state.t);
     const moment = this.run.at(t);
     const past = this.run.beyond(t) ? ", past the horizon" : "";
     const taut = moment.taut?.length

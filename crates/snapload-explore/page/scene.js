@@ -4,13 +4,15 @@ import { eventWords } from "./events.js";
 import { slackLine } from "./slack-line.js";
 import { magnifier } from "./magnifier.js";
 import { SimplifiedLine } from "./simplified-line.js";
-import { arrow } from "./shapes.js";
+import { arrow, roundLength } from "./shapes.js";
 import { mix } from "./theme.js";
 import { about, fixed, modeName, number } from "./formatting.js";
 
 /** How long a snap stays visible during playback, in seconds of real time. */
 const AFTERGLOW_S = 0.45;
 const PATH_BEHIND = 4;
+/** The width of the name of a cable, and the distance of one that is beside its anchor. */
+const [NAME_PX, ASIDE_PX] = [46, 10];
 const [BEYOND_FLOOR_PX, BEYOND_SURFACE_PX, MOST_BEYOND] = [34, 30, 0.4];
 
 /**
@@ -370,17 +372,26 @@ function labels(run, cam, { width, height, colours, view }) {
   const floor = cam.level(cam.anchorLevel);
   const surface = cam.level(cam.surface);
   const inside = (y) => y > 4 && y < height - 4;
+  const anchors = run.geometry.cables.map((cable) => cam.place(cable.anchor)[0]);
+  const left = Math.min(...anchors);
+  const close = Math.max(...anchors) - left < NAME_PX;
   const shapes = [];
   if (view !== "close") {
     const names = run.geometry.cables.map((cable, i) => {
       const [x, y] = cam.place(cable.anchor);
       const dy = below > 0 ? 24 : -16;
-      return { ...text, text: `cable ${i + 1}`, at: [x, y + dy], align: "center", fill: colours[`cable-${i + 1}`] };
+      // The names of anchors that are close together are on either side.
+      const isLeft = i === anchors.indexOf(left);
+      const align = close ? (isLeft ? "right" : "left") : "center";
+      const aside = close ? (isLeft ? -ASIDE_PX : ASIDE_PX) : 0;
+      return { ...text, text: `cable ${i + 1}`, at: [x + aside, y + dy], align, fill: colours[`cable-${i + 1}`] };
     });
     shapes.push(...names);
   }
   if (inside(floor)) {
-    shapes.push({ ...text, text: "sea floor", at: [width / 2, floor + (below > 0 ? 24 : -16)], align: "center" });
+    const free = view === "close" || anchors.every((x) => Math.abs(x - width / 2) > NAME_PX + 2 * ASIDE_PX);
+    const place = free ? { at: [width / 2], align: "center" } : { at: [12] };
+    shapes.push({ ...text, text: "sea floor", ...place, at: [...place.at, floor + (below > 0 ? 24 : -16)] });
   }
   if (inside(surface)) {
     const clear = waveHeight(run, cam) + (below > 0 ? 17 : 7);
@@ -390,8 +401,7 @@ function labels(run, cam, { width, height, colours, view }) {
 }
 
 function scaleBar(run, cam, { width, height, colours }) {
-  const nice =
-    [1, 0.5, 0.2, 0.1, 0.05, 0.02, 0.01, 0.005, 0.002, 0.001].find((l) => l * cam.scale < 0.22 * width) ?? 1e-3;
+  const nice = roundLength((0.22 * width) / cam.scale);
   const length = nice * cam.scale;
   // Just below the surface and its troughs, with its number above it, if the surface is visible; otherwise at the edge.
   const clear = waveHeight(run, cam) + (cam.up > 0 ? 24 : 8);

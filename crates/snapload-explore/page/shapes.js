@@ -64,6 +64,13 @@ function paintText(context, shape) {
   context.fillText(shape.text, ...shape.at);
 }
 
+/** The largest length of one digit, 1, 2 or 5, that is shorter than this, for a scale bar. */
+export function roundLength(most) {
+  const power = 10 ** Math.floor(Math.log10(most));
+  const digit = [5, 2, 1].find((one) => one * power < most);
+  return Number((digit ? digit * power : power / 2).toPrecision(1));
+}
+
 const ANCHORS = { left: "start", center: "middle", right: "end" };
 const escape = (text) => text.replace(/[&<>"]/g, (c) => ({ "&": "&amp;", "<": "&lt;", ">": "&gt;", '"': "&quot;" })[c]);
 const short = (value) => String(Math.round(value * 100) / 100);

@@ -1,7 +1,8 @@
 // The keys of a structure in groups, those that are changed most often first.
 
 import { isRange } from "./controls.js";
-import { fieldText } from "./formatting.js";
+import { fieldText, fixed } from "./formatting.js";
+import { fileName } from "./structure-state.js";
 
 const WAVES = { wave: "Regular wave", sea: "Irregular sea" };
 /** The keys that are shown for each line. */
@@ -12,7 +13,7 @@ const AROUND = [0.5, 1.5];
 /** Groups of keys for the controls. Files named in the case can not be changed here. */
 export function structureKeyGroups(state) {
   const { keys } = state.schema;
-  const under = (path) => keys.filter((key) => key.under === path).map((key) => ranged(state, key));
+  const under = (path) => keys.filter((key) => key.under === path).map((key) => ({ ...ranged(state, key), of: whose(path, state) }));
   const waves = Object.entries(WAVES).map(([name, title]) => ({
     title,
     keys: under(name),
@@ -37,6 +38,13 @@ export function structureKeyGroups(state) {
     { title: "Site", keys: under("site"), open: false },
     { title: "Design checks", keys: under("design"), open: false },
   ];
+}
+
+/** Of which lines a key is, where several have the same one. */
+function whose(path, { lines }) {
+  const [table, number] = path.split(".");
+  if (table !== "line" || lines === 1) return "";
+  return number ? `line ${number} alone` : "all lines";
 }
 
 /** A key with the range of its slider: about the case's value if the key has no usual range. */
@@ -66,6 +74,22 @@ export function reasonUnavailable(name, state) {
   if (name === "body.height" && state.value("body.shape") !== "rectangle") return "a circle has only a width";
   return undefined;
 }
+
+/** More changes are counted and not named in a film. */
+const LONGEST_CHANGES = 60;
+
+/** The line in each picture of a film: the case, what is changed in it, the time, and the speed. */
+export function filmCaption(state, { ofCase }, t, speed) {
+  const { set, water } = ofCase;
+  const changes = [water && `water: ${water}`, changesText(state.valuesOf(set))].filter(Boolean).join(", ");
+  const count = set.length + (water ? 1 : 0);
+  const changed = changes.length > LONGEST_CHANGES ? `${count} changes` : changes;
+  const what = [fileName(state.caseName), changed].filter(Boolean).join(", ");
+  return `${what} · t = ${fixed(t, 2)} s · ${speedWords(speed)}`;
+}
+
+/** How fast time passes. */
+export const speedWords = (speed) => (speed === 1 ? "real time" : `${speed} times`);
 
 /** The changes as text, such as `wave.height = 2.5`. */
 export const changesText = (values) =>

@@ -5,6 +5,7 @@ import { prepare } from "./plot.js";
 import { tautWords } from "./structure-scene-view.js";
 import { colours, lineColour } from "./theme.js";
 import { PlaybackControls } from "./playback-controls.js";
+import { speedWords } from "./structure-key-groups.js";
 import { fixed, round } from "./formatting.js";
 
 const INSET_PX = 8;
@@ -14,8 +15,9 @@ const APART_PX = 1.5;
 export class StructurePlaybackControls extends PlaybackControls {
   /** `onInterval` receives the start of the interval that is to be shown. */
   constructor(state, playback, { onInterval }) {
-    super(state, playback, (speed) => (speed === 1 ? "real time" : `${speed} times`));
+    super(state, playback, speedWords);
     $("interval-start").addEventListener("input", () => {
+      if (!this.run) return;
       playback.pause();
       onInterval(Number($("interval-start").value));
     });
@@ -30,7 +32,7 @@ export class StructurePlaybackControls extends PlaybackControls {
     return {
       value: `${fixed(t, 2)} of ${fixed(run.tEnd, 2)} s, ${tautWords(run, t)}`,
       clock: `t = ${fixed(t, 2)} s`,
-      counted: `snap ${run.latestSnap(t) + 1} of ${run.snaps.all}`,
+      counted: run.snapsUntil(t),
     };
   }
 
@@ -52,8 +54,11 @@ export class StructurePlaybackControls extends PlaybackControls {
     this.#strip($("strip"), this.run.window, true);
     this.#strip($("record"), [0, this.run.lasts_s], false);
     const { run } = this;
-    $("record-words").textContent = `${run.snapsInWords} in ${round(run.tEnd)} s`;
-    $("record").setAttribute("aria-label", `${run.snapsInWords} in ${round(run.tEnd)} s; the height shows the strength`);
+    const { listedUntil } = run;
+    const drawn = listedUntil === null ? "" : `; after ${round(listedUntil)} s only the hardest and those of the interval are drawn`;
+    const words = `${run.snapsInWords} in ${round(run.tEnd)} s${drawn}`;
+    $("record-words").textContent = words;
+    $("record").setAttribute("aria-label", `${words}; the height shows the strength`);
   }
 
   /** Snaps as ticks in the colours of their lines, taut lines as bands, and the interval within the record. */

@@ -23,8 +23,9 @@ export class StructureMotion {
     const j = Math.min(i + 1, c.t.length - 1);
     const d = c.t[j] - c.t[i];
     const u = d > 0 ? Math.min(Math.max((t - c.t[i]) / d, 0), 1) : 0;
+    const outside = t < c.t[0] || t > c.t[c.t.length - 1];
     /** @type {any} */
-    const moment = { t, rough: u > 0 && u < 1 };
+    const moment = { t, rough: outside || (u > 0 && u < 1) };
     for (const [place, speed, name] of COORDINATES) {
       moment[name] =
         u === 0 ? c[place][i] : hermite(c[place][i], c[speed][i], c[place][j], c[speed][j], d, u)[0];
@@ -85,6 +86,10 @@ export class StructureRun {
     this.horizon = { t: answer.assessment.trust.horizon_s };
     this.lines = answer.assessment.lines;
     this.stops = answer.snaps.t;
+    const { number, t, all } = answer.snaps;
+    const gap = number.findIndex((count, i) => count !== i + 1);
+    /** The time up to which all snaps are listed, if not to the end. @type {number | null} */
+    this.listedUntil = number.length === all ? null : (t[(gap < 0 ? number.length : gap) - 1] ?? 0);
     const { x, z, tensions } = answer.motion;
     this.reach = { x: ends(x), z: ends(z) };
     this.mostTension = tensions.reduce((most, column) => Math.max(most, ends(column)[1]), 0);
@@ -128,6 +133,12 @@ export class StructureRun {
     return sum;
   }
 
+  /** The nearest time whose motion the answer has: until another interval arrives, one of the interval before. */
+  nearest(t) {
+    const [from, to] = this.window;
+    return Math.min(Math.max(t, from), to, this.tEnd);
+  }
+
   /** The interval that is shown. */
   interval() {
     return this.window;
@@ -159,6 +170,15 @@ export class StructureRun {
   latestSnap(t) {
     const { t: times } = this.snaps;
     return times.length > 0 && times[0] <= t ? lastAtOrBefore(times, t) : -1;
+  }
+
+  /** The number of snaps at or before t in words; of many snaps some are not listed, and not known to the page. */
+  snapsUntil(t) {
+    const { number, all } = this.snaps;
+    const i = this.latestSnap(t);
+    const next = number[i + 1] ?? all + 1;
+    const known = i < 0 ? 0 : number[i];
+    return `${next > known + 1 ? "past " : ""}snap ${known} of ${all}`;
   }
 
   /** Snaps with from <= t <= to, the latest first, as indices. */

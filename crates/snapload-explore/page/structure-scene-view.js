@@ -35,7 +35,7 @@ export class StructureSceneView {
   }
 
   get t() {
-    return Math.min(this.state.t, this.run.tEnd);
+    return this.run.nearest(this.state.t);
   }
 
   draw() {

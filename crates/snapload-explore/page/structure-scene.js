@@ -2,7 +2,7 @@
 
 import { slackLine } from "./slack-line.js";
 import { turned } from "./scene.js";
-import { arrow } from "./shapes.js";
+import { arrow, roundLength } from "./shapes.js";
 import { lineColour, mix } from "./theme.js";
 import { about, fixed, number, round } from "./formatting.js";
 
@@ -243,7 +243,7 @@ function labelShapes(run, i, moment, cam, { colours, height }) {
 
 /** In the water, below the troughs, if there is room; otherwise at the upper edge. */
 function scaleBar(run, cam, { width, height, colours }) {
-  const nice = [100, 50, 20, 10, 5, 2, 1, 0.5, 0.2, 0.1].find((l) => l * cam.scale < 0.2 * width) ?? 0.1;
+  const nice = roundLength((0.2 * width) / cam.scale);
   const length = nice * cam.scale;
   const trough = cam.level(-crestOf(run.waves)) + 14;
   const floor = Math.min(cam.level(-run.geometry.depth), height);

@@ -42,9 +42,10 @@ export class StructureState extends ObservableState {
   zoom = null;
 
   /** `file` is the case file if it was opened on the page, `given` its values. */
-  constructor(schema, { name, given, water, lines, floats }, file = null) {
+  constructor(schema, { name, checksum, given, water, lines, floats }, file = null) {
     super();
     this.caseName = name;
+    this.checksum = checksum;
     this.given = given;
     this.ownWater = water;
     this.lines = lines;
@@ -52,7 +53,7 @@ export class StructureState extends ObservableState {
     this.file = file;
     this.schema = { ...schema, keys: keysOf(schema, lines) };
     /** Which case a link changes: the name of its file, and what its values are. */
-    this.identity = `${name.split(/[\\/]/).at(-1)}:${checksum(JSON.stringify(given))}`;
+    this.identity = identityOf({ name, given });
   }
 
   get waterNow() {
@@ -93,12 +94,29 @@ export class StructureState extends ObservableState {
     this.set({ values, ...more });
   }
 
+  /** The values with waves of another kind, which start with about the height and period of those that they replace. */
+  ofWater(water) {
+    const value = (name) => Number(this.value(name) ?? 0);
+    const values = { ...this.values };
+    if (water === "sea" && this.value("sea.hs") === null) {
+      values["sea.hs"] = Number(((value("wave.height") || 2) / 1.86).toFixed(1));
+      values["sea.tp"] = value("wave.period") || 6;
+    }
+    if (water === "wave" && this.value("wave.height") === null) {
+      values["wave.height"] = Number(((value("sea.hs") || 1) * 1.86).toFixed(1));
+      values["wave.period"] = value("sea.tp") || 6;
+    }
+    return { values, water: water === this.ownWater ? null : water };
+  }
+
   /** The case in a request: changes in the notation of `--set`, those of all lines first. */
   get asked() {
     const order = Object.entries(this.values).sort(([a], [b]) => a.split(".").length - b.split(".").length);
     const other = (name) => ["wave", "sea"].some((water) => water !== this.waterNow && name.startsWith(`${water}.`));
     const set = order.filter(([name]) => !other(name)).map(([name, value]) => `${name}=${fieldText(value)}`);
-    return { file: this.file, set, water: this.water };
+    // Without a file it is about that of the program, which may be started again with another one.
+    const of = this.file ? { file: this.file } : { opened: this.checksum };
+    return { ...of, set, water: this.water };
   }
 
   /** The values by path that changes in the notation of `--set` stand for. */
@@ -150,10 +168,29 @@ export class StructureState extends ObservableState {
 const valueOf = (key, text) => readValue(key, text) ?? text;
 
 /** The name of the case in the part of a fragment that names it; undefined for other parts. */
-export const caseOfLink = (part) => part.match(/^case=(.*?)(:\w*)?$/)?.[1];
+const caseOfLink = (part) => part.match(/^case=(.*?)(:\w*)?$/)?.[1];
+
+/** What was not taken from a link: parts that are not understood, or all of the link of another case. */
+export function brokenLinkWords(parts) {
+  const other = caseOfLink(decode(parts[0]) ?? "");
+  if (other === undefined) return `Not understood in the link, and ignored: ${parts.join(", ")}`;
+  return `The link belongs to ${other} with other values than those of the case that is open, and is ignored. Open that file first, then the link.`;
+}
+
+/** The name of a file without its folder. */
+export const fileName = (name) => name.split(/[\\/]/).at(-1);
+
+/** Which case a link changes: the name of its file, and what its values are. */
+export const identityOf = ({ name, given }) => `${fileName(name)}:${shortSum(JSON.stringify(given))}`;
+
+/** The identity of the case that a fragment names; null if it names none. */
+export function caseOfFragment(fragment) {
+  const part = fragment.split("&").find((one) => one.startsWith("case="));
+  return part ? decode(part.slice("case=".length)) : null;
+}
 
 /** A short text that differs for different texts (FNV-1a). */
-function checksum(text) {
+function shortSum(text) {
   let sum = 0x811c9dc5;
   for (const byte of new TextEncoder().encode(text)) sum = Math.imul(sum ^ byte, 0x01000193) >>> 0;
   return sum.toString(36);

@@ -1,10 +1,7 @@
 // The answer in tables, as in `snapload assess` and its page: lines, checks, warnings, and the hardest snaps.
 
-import { $ } from "./dom.js";
+import { $, replaceButtons } from "./dom.js";
 import { escape, fixed, number, ratio, round, sentence } from "./formatting.js";
-
-/** The numbers of listed snaps: of the judged ones, and of those in the transient. */
-const [LISTED, EARLY] = [10, 3];
 
 /** The heading of slack; the tensions and snaps beside it are those of the judged time. */
 const SLACK = "Slack of<br>all time";
@@ -95,20 +92,16 @@ export function showChecks(run) {
 
 /** The hardest snaps; each row leads to its instant. */
 export function showSnaps(run) {
-  const { t, line, speed, peak, utilisation, jolt, all } = run.snaps;
-  const order = t.map((_, i) => i).sort((a, b) => run.hardness[b] - run.hardness[a]);
-  const judged = (i) => t[i] >= run.transient_s;
-  const after = order.filter(judged).slice(0, LISTED);
-  const before = order.filter((i) => !judged(i)).slice(0, EARLY);
-  const hardest = [...after, ...before].sort((a, b) => t[a] - t[b]);
+  const { t, line, speed, peak, utilisation, jolt, hardest, all } = run.snaps;
+  const before = hardest.filter((i) => t[i] < run.transient_s).length;
   const row = (i) =>
     `<tr data-t="${t[i]}"><td><button type="button" class="go" data-t="${t[i]}">${fixed(t[i], 3)}</button></td>` +
     `<td><span class="c${((line[i] - 1) % 6) + 1}">${line[i]}</span>${jolt[i] ? " impact while taut" : ""}</td>` +
     `${cell(fixed(speed[i], 3))}${cell(peak[i] === null ? "–" : round(peak[i], 4))}` +
     `${cell(ratio(utilisation[i]))}` +
     `<td>${t[i] < run.transient_s ? "no, in the transient" : "yes"}</td></tr>`;
-  $("events-body").innerHTML = hardest.map(row).join("");
-  const early = before.length ? `, and the ${before.length} hardest before it` : "";
-  const listed = `the ${after.length} hardest in the judged time${early}, of ${run.snapsInWords} at 1 cm/s or more`;
+  replaceButtons($("events-body"), hardest.map(row).join(""), $("scene"));
+  const early = before ? `, and the ${before} hardest before it` : "";
+  const listed = `the ${hardest.length - before} hardest in the judged time${early}, of ${run.snapsInWords} at 1 cm/s or more`;
   $("events-words").textContent = all ? listed : "no snaps at 1 cm/s or more";
 }

@@ -1,7 +1,7 @@
 // The same structure in regular waves of other heights and periods, as a table with arrow-key navigation.
 
 import { fetchLong } from "./api.js";
-import { $ } from "./dom.js";
+import { $, isWaiting, setWaiting } from "./dom.js";
 import { fixed, number, ratio } from "./formatting.js";
 
 export class StructureWaves {
@@ -20,7 +20,8 @@ export class StructureWaves {
   follow() {
     $("waves-box").hidden = this.state.waterNow !== "wave";
     const stale = this.asked !== undefined && this.asked !== this.#key;
-    $("waves-run").disabled = this.abort !== null;
+    setWaiting($("waves-run"), this.abort !== null);
+    $("waves-stale").hidden = !stale;
     $("waves").classList.toggle("stale", stale);
     $("waves-run").textContent = this.asked === undefined ? "Compute" : "Compute again";
     for (const cell of document.querySelectorAll("#waves td")) {
@@ -42,6 +43,7 @@ export class StructureWaves {
   }
 
   async compute() {
+    if (isWaiting($("waves-run"))) return;
     const asked = this.#key;
     this.abort = new AbortController();
     $("waves-message").textContent = "computing a hundred waves…";
@@ -62,7 +64,8 @@ export class StructureWaves {
     const marks = { fails: "×", "not judged": "–", "at least": "≥ ", known: "" };
     const meaning = { "not judged": "–: nothing is judged", "at least": "≥: the run stopped at the largest number of snaps" };
     const occurring = Object.keys(meaning).filter((kind) => cells.some((cell) => cell.kind === kind));
-    const legend = ["×: the body turns over or touches the floor", ...occurring.map((kind) => meaning[kind])];
+    const colours = utilisation ? ["amber: half of the breaking load or more", "red: a line breaks, or ×"] : ["red: ×"];
+    const legend = ["×: the body turns over or touches the floor", ...occurring.map((kind) => meaning[kind]), ...colours];
     $("waves-message").textContent =
       `${what} in waves run for ${length} periods each and judged after ten, or after a run.transient that is given (at most half of the run); ${legend.join("; ")}. ` +
       "Motions are chaotic, so that single cells may differ from those beside them. Click a cell to run its wave for the duration of the case.";
@@ -78,8 +81,10 @@ export class StructureWaves {
       return `<tr><th scope="row">${number(height, 3)}</th>${row}</tr>`;
     });
     const head = periods_s.map((period) => `<th scope="col">${number(period, 3)}</th>`).join("");
-    $("waves").innerHTML = `<thead><tr><th scope="col">H [m] \\ T [s]</th>${head}</tr></thead><tbody>${rows.reverse().join("")}</tbody>`;
+    $("waves").innerHTML = `<thead><tr><th scope="col">H [m] \\<br>T [s]</th>${head}</tr></thead><tbody>${rows.reverse().join("")}</tbody>`;
     $("waves").querySelector("td").tabIndex = 0;
+    const box = $("waves").parentElement;
+    if (box.scrollWidth > box.clientWidth) $("waves-message").textContent += " The table can be scrolled sideways.";
   }
 
   #pick(cell) {

@@ -1,15 +1,16 @@
 // The page of a structure: wires state, server, scene, charts and tables together.
 
-import { Runner, fetchCase, fetchLong, fetchStructureFile, fetchStructures, fetchWithProgress } from "./api.js";
+import { Refused, Runner, fetchCase, fetchLong, fetchStructureFile, fetchStructures, fetchWithProgress } from "./api.js";
 import { Controls } from "./controls.js";
 import { $ } from "./dom.js";
 import { Keyboard, timeKeys } from "./keyboard.js";
 import { Link } from "./link.js";
 import {
   acceptCaseFiles,
+  caseFragment,
   note,
-  openStructure,
-  openedStructure,
+  keepStructure,
+  keptStructure,
   reportPaintTime,
   purposeAndSkip,
   themeButton,
@@ -18,20 +19,19 @@ import { FramedPicture, onResize } from "./plot.js";
 import { Playback } from "./playback.js";
 import { chooseTheme, chosenTheme, colours, lineColour, reducedMotion } from "./theme.js";
 import { StructureCharts, breakingLoads } from "./structure-charts.js";
-import { structureKeyGroups, reasonUnavailable } from "./structure-key-groups.js";
+import { filmCaption, structureKeyGroups, reasonUnavailable } from "./structure-key-groups.js";
 import { StructureHandles } from "./structure-handles.js";
 import { PinnedAnswers } from "./structure-pinned-answers.js";
 import { StructureRun } from "./structure-run.js";
 import { structureShapes } from "./structure-scene.js";
 import { StructureSceneView } from "./structure-scene-view.js";
-import { decode } from "./state.js";
-import { StructureState, caseOfLink } from "./structure-state.js";
+import { StructureState, brokenLinkWords, caseOfFragment, identityOf } from "./structure-state.js";
 import { showChecks, showLines, showSnaps } from "./structure-tables.js";
 import { StructurePlaybackControls } from "./structure-playback-controls.js";
 import { StructureWaves } from "./structure-waves.js";
 import { ExactInstants } from "./exact-instants.js";
 import { ExportPanel } from "./export.js";
-import { fixed, round } from "./formatting.js";
+import { round } from "./formatting.js";
 
 /** Neighbours and elastic lines are computed this long after the last change of values. */
 const REST_MS = 300;
@@ -49,13 +49,15 @@ class Page {
     this.instants = new ExactInstants("api/structure/instant", { onArrival: () => this.drawMoment() });
     this.hover = null;
     this.background = null;
+    /** Why the values can not be run. */
+    this.refusal = "";
     /** The time cursor of a part of the record that is not run yet. */
     this.keptTime = null;
     this.link = new Link(this.state, {
       onBroken: (parts) => note(brokenLinkWords(parts)),
-      onTravel: () => this.controls.endTyping(),
+      onTravel: () => this.travel(),
     });
-    this.playback = new Playback(this.state, () => this.run);
+    this.playback = new Playback(this.state, () => this.run, (t) => this.intoInterval(t));
     this.sceneView = new StructureSceneView(this.state, this.playback);
     this.playbackControls = new StructurePlaybackControls(this.state, this.playback, {
       onInterval: (from) => this.showInterval(from),
@@ -88,7 +90,7 @@ class Page {
       address: () => this.link.address,
       path: "api/structure/export",
       slowFiles: ["note.html", "assess.json"],
-      picture: { shapes: structureShapes, caption: (run, t) => `${this.state.caseName} · t = ${fixed(t, 2)} s` },
+      picture: { shapes: structureShapes, caption: (run, t, speed) => filmCaption(this.state, run, t, speed) },
     });
     this.pins = new PinnedAnswers(this.state, () => this.run, { onBack: (pin) => this.restore(pin) });
     this.waves = new StructureWaves(this.state, {
@@ -130,7 +132,7 @@ class Page {
 
   /** Requests the run of the current values; only once for the same values. */
   ask(since = performance.now()) {
-    const asked = JSON.stringify(this.question);
+    const asked = keyOf(this.question);
     if (asked === this.asked) return;
     this.asked = asked;
     this.stopBackground();
@@ -152,12 +154,13 @@ class Page {
     this.run = new StructureRun(answer, question.case);
     // Results for elastic lines stay valid for another interval of the same run.
     this.sameCase = before !== null && keyOf(before.ofCase) === keyOf(question.case);
-    const latest = this.asked === JSON.stringify(question);
+    const latest = this.asked === keyOf(question);
     this.show(latest);
     if (this.playsAtOnce) this.playback.play();
     this.playsAtOnce = false;
     reportPaintTime(since);
     if (!latest) return;
+    this.refusal = "";
     $("failed").hidden = true;
     this.controls.clearError();
     this.controls.show(this.run.effective(this.state));
@@ -175,9 +178,11 @@ class Page {
     const { run, state } = this;
     this.sceneView.setRun(run);
     this.playbackControls.setRun(run);
-    const [from, to] = run.window;
     const kept = this.keptTime ?? state.t;
-    const t = kept >= from && kept <= to ? kept : from;
+    const within = (window) => kept >= window[0] && kept <= window[1];
+    // While the answer for another interval is on its way, the time cursor may be there already.
+    const there = within(run.window) || (!latest && state.window && within(state.window));
+    const t = there ? kept : run.window[0];
     if (latest) this.#keepWindow();
     state.set({ t });
     this.keptTime = run.isBeyond(kept) ? kept : null;
@@ -195,7 +200,7 @@ class Page {
     // An interval that is not run yet comes back with the whole record.
     if (state.window && run.isBeyond(state.window[1])) return;
     const chosen = state.window === null;
-    this.asked = JSON.stringify({ case: state.asked, window: run.window });
+    this.asked = keyOf({ case: state.asked, window: run.window });
     state.set({ window: run.window });
     // It belongs to the entry of the history that was made without an interval.
     if (chosen) this.link.write({ now: true, sameEntry: true });
@@ -217,7 +222,7 @@ class Page {
       this.run = new StructureRun(JSON.parse(text), question.case);
       this.#showProgress(this.#toCome());
       // Other values may have been asked for since.
-      this.show(JSON.stringify(question.case) === JSON.stringify(state.asked));
+      this.show(keyOf(question.case) === keyOf(state.asked));
     };
     try {
       if (this.run.preview) await more({ whole: true });
@@ -264,11 +269,21 @@ class Page {
   }
 
   fail(error, question) {
-    this.controls.showError(error);
-    const shown = this.run ? "\nThe page shows the last values that could be run." : "";
-    $("failed").textContent = `Not run: ${error.message}${shown}`;
+    const latest = this.asked === keyOf(question);
+    // What is shown instead may be refused, too: the reason is that of the values asked for.
+    if (latest || !this.refusal) {
+      this.controls.showError(error);
+      this.refusal = error.message;
+    }
+    // A program that did not answer may answer the same question later.
+    if (latest && !(error instanceof Refused)) this.asked = null;
+    const unchanged = { case: { ...question.case, set: [], water: null }, window: null };
+    const instead = this.run || keyOf(unchanged.case) === keyOf(question.case) ? null : unchanged;
+    const shown = this.run ? "the last values that could be run" : instead && "the case without changes";
+    $("failed").textContent = `Not run: ${this.refusal}${shown ? `\nThe page shows ${shown}.` : ""}`;
     $("failed").hidden = false;
-    if (this.run && this.asked === JSON.stringify(question)) this.#goOn(REST_MS);
+    if (instead) this.runner.ask(instead, performance.now());
+    if (this.run && latest) this.#goOn(REST_MS);
   }
 
   /** Redraws what depends on a change of the state. */
@@ -323,11 +338,15 @@ class Page {
     this.playback.seek(t);
   }
 
-  /** Moves the time cursor to any time of the record. */
-  goTo(t) {
-    const [from, to] = this.run.window;
-    if (t < from || t > to) this.showInterval(t - (to - from) / 2);
-    this.jump(t);
+  /** Moves the interval to a time of the record that is outside it; returns the time within the interval. */
+  intoInterval(t) {
+    const { run, state } = this;
+    // The interval may have been moved already, and its answer be on its way.
+    const moved = state.window && !run.isBeyond(state.window[1]) ? state.window : run.window;
+    const there = t >= moved[0] && t <= moved[1];
+    if (!there) this.showInterval(t - (moved[1] - moved[0]) / 2);
+    const [from, to] = there ? moved : state.window;
+    return Math.min(Math.max(t, from), to);
   }
 
   /** Shows an interval of the same length with another start. */
@@ -365,18 +384,32 @@ class Page {
 
   #paintMoment() {
     const { run } = this;
-    const read = Math.min(this.hover?.t ?? this.state.t, run.tEnd);
+    const read = run.nearest(this.hover?.t ?? this.state.t);
     this.instants.follow(run, { case: run.ofCase, whole: !run.preview }, read);
     this.sceneView.draw();
-    this.charts.cursor(this.state.t, this.hover);
+    this.charts.cursor(run.nearest(this.state.t), this.hover);
     this.playbackControls.show();
   }
 
   /** Opens the case file of a structure; one of the thesis's model opens the other page. */
   async open(file) {
     const { structure, values } = await fetchCase(file);
-    if (structure) await openStructure(file);
-    else location.href = `index.html#${caseFragment(values)}`;
+    const address = structure ? await keepStructure(file) : `index.html#${caseFragment(values)}`;
+    // The address is that of another case from now on.
+    this.link.held = true;
+    location.href = address;
+  }
+
+  /** Follows the history to another case, which loads the page again. */
+  travel() {
+    this.controls.endTyping();
+    const { identity, schema } = this.state;
+    const own = schema.start && identityOf(schema.start);
+    // An address that names no case is of the one with which the program was started.
+    const named = caseOfFragment(location.hash.slice(1)) ?? own ?? identity;
+    this.link.held = named !== identity && (named === own || keptStructure(named) !== null);
+    if (this.link.held) location.reload();
+    return !this.link.held;
   }
 
   tools() {
@@ -385,50 +418,25 @@ class Page {
     purposeAndSkip(PURPOSE_READ);
     $("file").textContent = this.state.caseName;
     $("elastic").addEventListener("change", () => this.state.set({ elastic: $("elastic").checked }));
-    $("waters").addEventListener("change", (event) => this.#chooseWater(event.target.value));
+    $("waters").addEventListener("change", (event) => {
+      this.state.set({ ...this.state.ofWater(event.target.value), window: null });
+      this.link.write({ now: true });
+    });
     $("zoom-all").addEventListener("click", () => this.state.set({ window: null }));
     $("events-body").addEventListener("click", (event) => {
       const row = event.target.closest("tr");
-      if (row) this.goTo(Number(row.dataset.t));
+      if (row) this.jump(Number(row.dataset.t));
     });
   }
-
-  /** Waves of another kind start with about the height and period of those that they replace. */
-  #chooseWater(water) {
-    const { state } = this;
-    const value = (name) => Number(state.value(name) ?? 0);
-    const values = { ...state.values };
-    if (water === "sea" && state.value("sea.hs") === null) {
-      values["sea.hs"] = Number(((value("wave.height") || 2) / 1.86).toFixed(1));
-      values["sea.tp"] = value("wave.period") || 6;
-    }
-    if (water === "wave" && state.value("wave.height") === null) {
-      values["wave.height"] = Number(((value("sea.hs") || 1) * 1.86).toFixed(1));
-      values["wave.period"] = value("sea.tp") || 6;
-    }
-    state.set({ values, water: water === state.ownWater ? null : water, window: null });
-    this.link.write({ now: true });
-  }
-}
-
-/** What was not taken from a link: parts that are not understood, or all of the link of another case. */
-function brokenLinkWords(parts) {
-  const other = caseOfLink(decode(parts[0]) ?? "");
-  if (other === undefined) return `Not understood in the link, and ignored: ${parts.join(", ")}`;
-  return `The link belongs to ${other} with other values than those of the case that is open, and is ignored. Open that file first, then the link.`;
 }
 
 const keyOf = (value) => JSON.stringify(value);
 
-/** Values of the thesis's model as a fragment of its page's address. */
-const caseFragment = (values) =>
-  Object.entries(values)
-    .map(([name, value]) => `${name}=${encodeURIComponent(value)}`)
-    .join("&");
-
 try {
   const schema = await fetchStructures();
-  const file = openedStructure();
+  const named = caseOfFragment(location.hash.slice(1));
+  const own = schema.start && named === identityOf(schema.start);
+  const file = named === null || own ? null : keptStructure(named);
   const opened = file ? await fetchStructureFile(file) : schema.start;
   if (opened) new Page(schema, opened, file);
   else note("No structure is open. Drop a case file here, or start the program with one: snapload explore docs/examples/cylinder.toml");

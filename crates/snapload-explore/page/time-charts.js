@@ -151,7 +151,7 @@ export class TimeCharts {
   /** Shows the time cursor, the hovered mark, and the readings: elements that move over an unchanged chart. */
   cursor(t, hover) {
     if (!this.run) return;
-    const read = this.run.at(Math.min(hover?.t ?? t, this.run.tEnd));
+    const read = this.run.at(this.run.nearest(hover?.t ?? t));
     for (const part of this.parts) {
       const frame = this.frames.get(part.chart.id);
       const drag = this.drag?.zoom ? this.drag : null;

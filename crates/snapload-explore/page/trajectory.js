@@ -314,7 +314,7 @@ export class Trajectory {
     if (!this.run) return;
     const { left, top, width, height } = this.frame;
     set(this.window, { x: left, y: top, width, height, viewBox: `${left} ${top} ${width} ${height}` });
-    const now = this.run.at(Math.min(t, this.run.tEnd));
+    const now = this.run.at(this.run.nearest(t));
     this.run.geometry.cables.forEach((cable, i) => {
       const points = this.#isPath ? this.#boundary(cable, now.theta) : [];
       set(this.boundaries[i], { points: points.map((point) => point.map(short).join()).join(" ") });

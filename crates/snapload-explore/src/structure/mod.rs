@@ -11,6 +11,7 @@ mod motion;
 mod opened;
 mod run;
 mod schema;
+mod snaps;
 mod waves;
 
 pub(crate) use elastic::{Request as ElasticRequest, answer as elastic};

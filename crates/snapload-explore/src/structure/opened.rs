@@ -50,6 +50,10 @@ pub(crate) struct CaseRequest {
     /// A file in place of the one with which the program was started.
     #[serde(default)]
     file: Option<File>,
+    /// Otherwise the checksum of the case with which the program was started when the page was
+    /// opened: a page can stay open while the program is started with another one.
+    #[serde(default)]
+    opened: Option<String>,
     /// Changes, each in the notation of `--set`.
     #[serde(default)]
     set: Vec<String>,
@@ -86,6 +90,15 @@ impl Opened {
             .iter()
             .find(|(table, _)| self.entries.count(table) > 0);
         there.map_or(WaterKind::Still, |(_, kind)| *kind)
+    }
+
+    /// A text that differs for different cases: FNV-1a of its name and its keys.
+    pub(crate) fn checksum(&self) -> String {
+        let text = format!("{}\n{}", self.name, self.entries.to_toml());
+        let sum = text.bytes().fold(0xcbf2_9ce4_8422_2325_u64, |sum, byte| {
+            (sum ^ u64::from(byte)).wrapping_mul(0x0100_0000_01b3)
+        });
+        format!("{sum:x}")
     }
 
     /// The structure. A case from a browser has no folder, and files in the folder in which the
@@ -140,14 +153,9 @@ impl Opened {
 impl CaseRequest {
     /// Reads and checks it; `start` is the case with which the program was started.
     pub(crate) fn read(&self, start: Option<&Opened>) -> Result<Case, Refusal> {
-        let mut opened = match (&self.file, start) {
-            (Some(file), _) => file.read()?,
-            (None, Some(start)) => start.clone(),
-            (None, None) => {
-                let message =
-                    "no structure is open; open a case file, such as docs/examples/cylinder.toml";
-                return Err(Refusal::values(message));
-            }
+        let mut opened = match &self.file {
+            Some(file) => file.read()?,
+            None => self.of_the_program(start)?.clone(),
         };
         let own = opened.water();
         let water = self.water.unwrap_or(own);
@@ -162,6 +170,24 @@ impl CaseRequest {
             by_set: water == own && self.file.is_none(),
             set: self.set.clone(),
             opened,
+        })
+    }
+
+    /// The case with which the program was started, if it is the one that the page was opened with.
+    fn of_the_program<'a>(&self, start: Option<&'a Opened>) -> Result<&'a Opened, Refusal> {
+        let there = start.map(Opened::checksum);
+        if self.opened.is_some() && self.opened != there {
+            let now = start.map_or("without a structure".to_owned(), |start| {
+                format!("with another case, {}", start.name)
+            });
+            return Err(Refusal::values(format!(
+                "the program was started again, {now}; this page shows the case before\nhint: reload the page"
+            )));
+        }
+        start.ok_or_else(|| {
+            Refusal::values(
+                "no structure is open; open a case file, such as docs/examples/cylinder.toml",
+            )
         })
     }
 

@@ -2,12 +2,13 @@
 use super::Latest;
 use super::motion::Columns;
 use super::opened::{Case, CaseRequest, Opened};
+use super::snaps::Snaps;
 use crate::refusal::Refusal;
 use crate::work::Allowance;
 use serde::{Deserialize, Serialize};
 use serde_json::{Value as JsonValue, json};
 use snapload::analysis::{Progress, Unfinished};
-use snapload_structure::{Assessment, DEFAULT_NEIGHBOURS, Outline, Snap, Structure, Water, note};
+use snapload_structure::{Assessment, DEFAULT_NEIGHBOURS, Outline, Structure, Water, note};
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
@@ -17,8 +18,6 @@ const BUDGET: Duration = Duration::from_secs(2);
 const LONG_BUDGET: Duration = Duration::from_secs(60);
 /// The beginning of a longer record that is shown first \[s\].
 const PREVIEW_S: f64 = 300.0;
-/// The most snaps that a page shows.
-const MOST_SHOWN: usize = 20_000;
 
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -184,19 +183,6 @@ struct Answer {
     took_ms: f64,
 }
 
-/// The snaps that count as columns, in kN and m/s.
-#[derive(Serialize)]
-struct Snaps {
-    t: Vec<f64>,
-    line: Vec<usize>,
-    jolt: Vec<bool>,
-    speed: Vec<f64>,
-    peak: Vec<Option<f64>>,
-    utilisation: Vec<Option<f64>>,
-    /// The number of snaps; the first are shown.
-    all: usize,
-}
-
 /// The taut lines and the times from which on they are taut \[s\], within the interval that is
 /// shown; counted from 1.
 #[derive(Serialize)]
@@ -234,7 +220,7 @@ impl Answer {
             transient_s: prepared.structure.transient_s,
             geometry: geometry(assessment),
             waves: prepared.model.waves.iter().map(wave).collect(),
-            snaps: Snaps::of(assessment),
+            snaps: Snaps::of(assessment, window),
             modes: Modes::of(assessment, window),
             motion: Columns::of(&assessment.run, &prepared.model.scales, window),
             window,
@@ -266,29 +252,6 @@ fn geometry(assessment: &Assessment) -> JsonValue {
         "position": body.position_m,
         "lines": lines.collect::<Vec<_>>(),
     })
-}
-
-impl Snaps {
-    fn of(assessment: &Assessment) -> Self {
-        let all: Vec<&Snap> = assessment
-            .snaps
-            .iter()
-            .filter(|snap| snap.counts())
-            .collect();
-        let shown = &all[..all.len().min(MOST_SHOWN)];
-        Self {
-            t: shown.iter().map(|snap| snap.t_s).collect(),
-            line: shown.iter().map(|snap| snap.line + 1).collect(),
-            jolt: shown.iter().map(|snap| snap.is_impact_while_taut).collect(),
-            speed: shown.iter().map(|snap| snap.effective_speed_m_s).collect(),
-            peak: shown
-                .iter()
-                .map(|snap| snap.peak_n.map(|peak| peak / 1e3))
-                .collect(),
-            utilisation: shown.iter().map(|snap| snap.utilisation).collect(),
-            all: all.len(),
-        }
-    }
 }
 
 impl Modes {

@@ -47,7 +47,7 @@ pub(crate) fn opened(file: &File) -> Result<JsonValue, Refusal> {
     Ok(case(&opened))
 }
 
-/// A case: its name, its waves and lines, and its values, by path.
+/// A case: its name and checksum, its waves and lines, and its values, by path.
 fn case(opened: &Opened) -> JsonValue {
     let mut given = Map::new();
     for table in STRUCTURE.tables {
@@ -62,6 +62,7 @@ fn case(opened: &Opened) -> JsonValue {
     }
     json!({
         "name": opened.name,
+        "checksum": opened.checksum(),
         "water": opened.water(),
         "lines": opened.entries.count("line"),
         "floats": opened.entries.count("float") > 0,

@@ -91,11 +91,17 @@ impl Snap {
 
     /// The order from the softest to the hardest: by the part of the line's breaking load if that
     /// is known, else by the peak, else by the speed.
-    pub(crate) fn by_hardness(&self, other: &Self) -> Ordering {
-        let all = |snap: &Self| (snap.utilisation, snap.peak_n, snap.effective_speed_m_s);
-        all(self)
-            .partial_cmp(&all(other))
-            .unwrap_or(Ordering::Equal)
+    pub fn by_hardness(&self, other: &Self) -> Ordering {
+        let known = |one: Option<f64>, other: Option<f64>| match (one, other) {
+            (Some(one), Some(other)) => one.total_cmp(&other),
+            _ => one.is_some().cmp(&other.is_some()),
+        };
+        let speed = self
+            .effective_speed_m_s
+            .total_cmp(&other.effective_speed_m_s);
+        known(self.utilisation, other.utilisation)
+            .then(known(self.peak_n, other.peak_n))
+            .then(speed)
     }
 }
 
