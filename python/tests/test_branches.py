@@ -66,7 +66,8 @@ def test_a_point_of_a_branch_is_an_orbit_of_its_case():
     branch = volley()
     frame = branch.events.to_pandas()
     assert frame[frame.admissible].kind.tolist() == [row["kind"] for row in branch.events if row["admissible"] is True]
-    assert branch.events._table.parts()[5][:3] == ("theta", "float64", {"long_name": "theta at the section", "units": "rad"})
+    words = {"long_name": "theta at the section", "units": "rad"}
+    assert branch.events._table.parts()[5][:3] == ("theta", "float64", words)
     assert frame.kind.tolist() == ["corner", "period_doubling", "fold"] and len(branch) == branch.points.sizes["point"]
     for place in (3, -1):
         orbit, point = branch.orbit(place), branch.points.isel(point=place)
