@@ -22,7 +22,8 @@ def axis_values(key: str, values: ArrayLike | str) -> str | NDArray[Any]:
     if isinstance(values, str) and ":" in values:
         return values
     more = "; for pairs of values, not all combinations, give cases"
-    # NumPy would make texts of the numbers beside a text, and 1 of True beside numbers: each value is judged by itself.
+    # NumPy would make texts of the numbers beside a text, and 1 of True beside numbers: each value
+    # is judged by itself.
     kinds = {_kind(value) for value in values} if isinstance(values, (list, tuple)) else set()
     return _flat(key, np.asarray(unmasked(key, values), dtype=object if len(kinds) > 1 else None), more)
 

@@ -121,7 +121,8 @@ impl PendingOutputs {
         for (scratch, target) in places {
             move_into_place(scratch, target).map_err(failed(target))?;
         }
-        for target in &self.outdated {
+        let is_placed = |target: &Path| files.iter().any(|(_, placed)| is_same(placed, target));
+        for target in self.outdated.iter().filter(|target| !is_placed(target)) {
             match fs::remove_file(target) {
                 Err(error) if error.kind() != ErrorKind::NotFound => {
                     return Err(failed(target)(error));

@@ -51,6 +51,11 @@ export class Runner {
     setTimeout(cutShort, Math.max(current.startedAt + UNINTERRUPTED_MS - performance.now(), 0));
   }
 
+  /** Asks for what is shown in place of a refused question, unless a newer one waits. */
+  askInstead(question, since) {
+    if (!this.waiting) this.ask(question, since);
+  }
+
   async #next(afterOneCutShort = false) {
     const { question, since } = this.waiting;
     const controller = new AbortController();

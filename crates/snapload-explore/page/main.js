@@ -267,7 +267,8 @@ class Page {
     const shown = this.run ? "the last values that could be run" : instead?.words;
     $("failed").textContent = `Not run: ${this.refusal}${shown ? `\nThe picture shows ${shown}.` : ""}`;
     $("failed").hidden = false;
-    if (instead) this.runner.ask({ values: instead.values, ghost: null, samples: SAMPLES.first }, performance.now());
+    if (!instead) return;
+    this.runner.askInstead({ values: instead.values, ghost: null, samples: SAMPLES.first }, performance.now());
   }
 
   /** The case to show after one that can not be run: the first one of the page, then the standard case, then none. */

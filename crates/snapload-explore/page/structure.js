@@ -282,7 +282,7 @@ class Page {
     const shown = this.run ? "the last values that could be run" : instead && "the case without changes";
     $("failed").textContent = `Not run: ${this.refusal}${shown ? `\nThe page shows ${shown}.` : ""}`;
     $("failed").hidden = false;
-    if (instead) this.runner.ask(instead, performance.now());
+    if (instead) this.runner.askInstead(instead, performance.now());
     if (this.run && latest) this.#goOn(REST_MS);
   }
 

@@ -49,11 +49,17 @@ pub(crate) fn far_apart(
         return None;
     }
     let count = reduced.nrows();
+    // The range that was found of M itself is known to ε|M| only; a lap leads into the exact one.
+    let start = lap.start(variables, variables.len()) * left;
+    let (left, _) = carried(lap, variables, start);
     let mut frame = DMatrix::identity(count, count);
     let (mut turned, mut factor) = (frame.clone(), frame.clone());
     for _ in 0..LAPS {
         let next;
-        (next, factor) = after_lap(lap, variables, left, &frame);
+        let start = lap.start(variables, variables.len()) * &left * &frame;
+        let (end, along) = carried(lap, variables, start);
+        let (orthonormal, triangle) = (left.transpose() * end).qr().unpack();
+        (next, factor) = (orthonormal, triangle * along);
         turned = frame.transpose() * &next;
         frame = next;
     }
@@ -81,16 +87,15 @@ pub(crate) fn far_apart(
     Some((values, product))
 }
 
-/// An orthonormal frame after one lap, and R.
-fn after_lap(
+/// Deviations after one lap, made orthonormal after each of its legs, and R: the lap leads from the
+/// start to them times R.
+fn carried(
     lap: &Linearised,
     variables: &[usize],
-    left: &DMatrix<f64>,
-    frame: &DMatrix<f64>,
+    start: DMatrix<f64>,
 ) -> (DMatrix<f64>, DMatrix<f64>) {
-    let count = frame.ncols();
+    let count = start.ncols();
     let mut factor = DMatrix::identity(count, count);
-    let start = lap.start(variables, variables.len()) * left * frame;
     let end = lap.carried(start, |state, time| {
         let states = state.nrows();
         let mut both = state.clone().insert_rows(states, 1, 0.0);
@@ -101,6 +106,6 @@ fn after_lap(
         time.copy_from(&orthonormal.row(states));
     });
     let end = DMatrix::from_fn(variables.len(), count, |i, j| end[(variables[i], j)]);
-    let (frame, triangle) = (left.transpose() * end).qr().unpack();
-    (frame, triangle * factor)
+    let (orthonormal, triangle) = end.qr().unpack();
+    (orthonormal, triangle * factor)
 }

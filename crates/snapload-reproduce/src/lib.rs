@@ -86,8 +86,10 @@ impl Report {
 /// disagree.
 fn claims_json(claims: &[Claim]) -> String {
     let row = |claim: &Claim| {
-        let sentences = [claim.evidence.trim_end_matches('.'), &claim.remark];
-        let evidence = sentences.join(if claim.remark.is_empty() { "" } else { ". " });
+        let evidence = match claim.remark.as_str() {
+            "" => claim.evidence.clone(),
+            remark => format!("{}. {remark}", claim.evidence.trim_end_matches('.')),
+        };
         serde_json::json!({
             "id": claim.id,
             "section": claim.section,

@@ -157,6 +157,11 @@ fn the_certificate_of_a_run_can_be_checked() {
     command.args(["run", "--out", "r"]).assert().success();
     let left = listing(&d.path().join("r"));
     assert!(left.contains(&"run.json".to_owned()) && !left.contains(&"run.cert".to_owned()));
+    // What this run itself writes under that name stays.
+    let mut command = snapload(d.path());
+    let args = ["run", "--out", "r", "--json", "r/run.cert"];
+    command.args(args).assert().success();
+    assert!(listing(&d.path().join("r")).contains(&"run.cert".to_owned()));
 
     // Without `--certify` the output does not mention a proof.
     let d = directory();

@@ -328,20 +328,27 @@ fn small_multipliers_have_digits_of_their_own() {
         f_o: 1.56653,
         ..Parameters::STANDARD
     };
-    let orbit = of_attractor(&case, &OrbitRequest::default(), &no_progress).unwrap();
-    let orbit = orbit.unwrap();
-    let summary = orbit_summary(&orbit);
-    assert!(summary.contains("i, 3.064659e-12, 1.5650"), "{summary}");
-    let multipliers = orbit.multipliers;
-    let [_, _, third, last] = &multipliers.values[..4] else {
-        panic!("{multipliers:?}");
-    };
-    assert_eq!([third[1], last[1]], [0.0; 2]);
-    assert!(relative(third[0], 3.064_659_5e-12) < 1e-7, "{third:?}");
-    assert!(relative(last[0], 1.565_05e-17) < 1e-5, "{last:?}");
-    let volume = case.e.powi(2 * 36);
-    assert!(
-        relative(multipliers.product, volume) < 1e-9,
-        "{multipliers:?} {volume:e}"
-    );
+    for phase in [0.0, 0.37] {
+        let request = OrbitRequest {
+            phase,
+            ..OrbitRequest::default()
+        };
+        let orbit = of_attractor(&case, &request, &no_progress)
+            .unwrap()
+            .unwrap();
+        let summary = orbit_summary(&orbit);
+        assert!(summary.contains("i, 3.064659e-12, 1.5650"), "{summary}");
+        let multipliers = &orbit.multipliers;
+        let [_, _, third, last] = &multipliers.values[..4] else {
+            panic!("{multipliers:?}");
+        };
+        assert_eq!([third[1], last[1]], [0.0; 2]);
+        assert!(relative(third[0], 3.064_659_5e-12) < 1e-7, "{third:?}");
+        assert!(relative(last[0], 1.565_05e-17) < 1e-5, "{last:?}");
+        let volume = case.e.powi(2 * 36);
+        assert!(
+            relative(multipliers.product, volume) < 1e-9,
+            "{multipliers:?} {volume:e}"
+        );
+    }
 }

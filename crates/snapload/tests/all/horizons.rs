@@ -4,9 +4,7 @@ use crate::agrees_with_closed_forms::string;
 use snapload::analysis::{
     Horizon, HorizonCause, TrustMonitor, Uncertainty, Unfinished, no_progress, record, trusted_run,
 };
-use snapload::{
-    Body, Cable, Case, CaseError, Forcing, Rules, Simulation, State, Stop, System, Trajectory,
-};
+use snapload::{Case, CaseError, Rules, Simulation, State, Stop, Trajectory};
 
 /// A mass that swings from the lowest point at v, with weight and cable length 1, where v may be
 /// off by `doubt`: its horizon, and when it loses its tension T = v² − 2 + 3 cos φ.
@@ -340,17 +338,7 @@ fn a_snap_after_which_a_tension_is_about_zero_ends_trust() -> Result<(), Unfinis
 #[test]
 fn a_standstill_is_told_and_is_not_certain() {
     for max_impacts in [3, u64::MAX] {
-        let system = System {
-            body: Body::point(),
-            cables: vec![Cable::new([0.0, 0.0], [0.0, 0.0], 1.0)],
-            forcing: Forcing {
-                constant: [0.0, -1.0].into(),
-                harmonics: Vec::new(),
-            },
-            drag: None,
-            floating: None,
-            restitution: 0.5,
-        };
+        let system = string(1.0, 1.0, 0.5);
         let rules = Rules {
             max_impacts,
             ..Rules::until(1.0)
