@@ -36,15 +36,15 @@ pub(crate) fn eigenvalues(matrix: DMatrix<f64>) -> Vec<[f64; 2]> {
 }
 
 /// The eigenvalues of M in the directions `left`, the largest first, and their product; none where
-/// M itself, which is `reduced` there, has them all to enough digits, or where they form one group.
+/// the `values` of M itself, which is `reduced` there, have enough digits, or are one group.
 pub(crate) fn far_apart(
-    reduced: &DMatrix<f64>,
+    (reduced, values): (&DMatrix<f64>, &[[f64; 2]]),
     lap: &Linearised,
     variables: &[usize],
     left: &DMatrix<f64>,
 ) -> Option<(Vec<[f64; 2]>, f64)> {
     let size = |[re, im]: &[f64; 2]| re.hypot(*im);
-    let smallest = eigenvalues(reduced.clone()).last().map_or(0.0, size);
+    let smallest = values.last().map_or(0.0, size);
     if !reduced.iter().all(|entry| entry.is_finite()) || smallest >= SMALL * reduced.amax() {
         return None;
     }
@@ -55,13 +55,12 @@ pub(crate) fn far_apart(
     let mut frame = DMatrix::identity(count, count);
     let (mut turned, mut factor) = (frame.clone(), frame.clone());
     for _ in 0..LAPS {
-        let next;
         let start = lap.start(variables, variables.len()) * &left * &frame;
         let (end, along) = carried(lap, variables, start);
         let (orthonormal, triangle) = (left.transpose() * end).qr().unpack();
-        (next, factor) = (orthonormal, triangle * along);
-        turned = frame.transpose() * &next;
-        frame = next;
+        factor = triangle * along;
+        turned = frame.transpose() * &orthonormal;
+        frame = orthonormal;
     }
     if !factor.iter().all(|entry| entry.is_finite()) {
         return None;

@@ -133,8 +133,11 @@ pub fn multipliers<F: Family>(
     let zeros = variables.len() - reduced.nrows();
     let (mut values, product) = match reduced.nrows() {
         0 => (Vec::new(), 1.0),
-        _ => far_apart(&reduced, &linear, variables, &left)
-            .unwrap_or_else(|| (eigenvalues(reduced.clone()), reduced.determinant())),
+        _ => {
+            let values = eigenvalues(reduced.clone());
+            far_apart((&reduced, &values), &linear, variables, &left)
+                .unwrap_or_else(|| (values, reduced.determinant()))
+        }
     };
     values.resize(variables.len(), [0.0; 2]);
     Multipliers {
