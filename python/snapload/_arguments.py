@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import operator
 import warnings
 from collections.abc import Mapping
@@ -30,6 +31,12 @@ def engine_case(case: Case) -> _engine.Case:
     if isinstance(case, System):
         raise TypeError("case = a snapload.System is not allowed; allowed: a snapload.Case; a System has its own sweep")
     raise TypeError(f"case = {case!r} is not allowed; allowed: a snapload.Case, such as snapload.Case(f_o=0.31)")
+
+
+def case_text(engine: _engine.Case) -> str:
+    """The given keys of a case, as a file of a case has them."""
+    # JSON's numbers, words and flags are TOML's.
+    return "".join(f"{key} = {json.dumps(value)}\n" for key, value in engine.given().items())
 
 
 def whole_number(option: str, value: SupportsIndex, most: int | None = None) -> int:

@@ -85,7 +85,7 @@ def safe_basin(case: Case, *, trust: bool = True, progress: bool = True, **windo
     >>> bool(basin.safe.sum() / basin.legal.sum() == basin.attrs["gim"])
     True
     """
-    from ._dataset import COMMON_ATTRIBUTES, flag_attributes
+    from ._dataset import flag_attributes, title_and_case
 
     engine, axes, trust = engine_case(case), _window_axes(window), flag("trust", trust)
     with progress_bar("safe basin", _PROGRESS_TOTAL, progress) as report_progress:
@@ -109,7 +109,7 @@ def safe_basin(case: Case, *, trust: bool = True, progress: bool = True, **windo
     measures = _measure_attributes(data) | {"cell": np.array([data["cell"][key] for key in data["keys"]])}
     scales = {name: scale for name, (scale, _) in _distances(data["keys"]).items()}
     scales["cell"] = ", ".join(units()[key] or "1" for key in data["keys"])
-    title = {"title": "A safe basin of a body on cables", **COMMON_ATTRIBUTES}
+    title = title_and_case("A safe basin of a body on cables", engine)
     return with_own_names(xarray.Dataset(variables, coords, title | with_scales(measures, scales)))
 
 
@@ -170,7 +170,7 @@ def basins_of_attraction(
     >>> labels.dims, attractors[1]
     (('x', 'y'), <Orbit: stable, 1 period, 2, 1>)
     """
-    from ._dataset import COMMON_ATTRIBUTES
+    from ._dataset import title_and_case
 
     engine, axes = engine_case(case), _window_axes(window)
     transient, trust = whole_number("transient", transient), flag("trust", trust)
@@ -195,7 +195,7 @@ def basins_of_attraction(
         "cells": np.array([row["cells"] for row in data["attractors"]], dtype=np.int64),
         "fractions": np.array([row["fraction"] for row in data["attractors"]], dtype=np.float64),
         "periods": np.array([row["period"] for row in data["attractors"]], dtype=np.int64),
-        **COMMON_ATTRIBUTES,
+        **title_and_case("Basins of attraction of a body on cables", engine),
     }
     if trust:
         attrs["undecided"] = data["undecided"]
@@ -267,7 +267,7 @@ def erosion(
     >>> bool(eroded.gim[2] < eroded.gim[0]), eroded["if"].dims
     (True, ('f_o',))
     """
-    from ._dataset import COMMON_ATTRIBUTES
+    from ._dataset import title_and_case
 
     engine, axes, trust = engine_case(case), _window_axes(window), flag("trust", trust)
     if not isinstance(over, Mapping) or len(over) != 1:
@@ -289,7 +289,7 @@ def erosion(
     knees: dict[str, Any] = {"knee": or_nan(data["knee"])}
     if data["knee_between"] is not None:
         knees["knee_between"] = [or_nan(knee) for knee in data["knee_between"]]
-    title = {"title": "Erosion of a safe basin of a body on cables", **COMMON_ATTRIBUTES}
+    title = title_and_case("Erosion of a safe basin of a body on cables", engine)
     return with_own_names(
         xarray.Dataset(variables, coords, title | with_scales(knees, dict.fromkeys(knees, units()[key])))
     )

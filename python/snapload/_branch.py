@@ -117,7 +117,7 @@ class Branch:
         >>> points.multipliers.dims, bool(points.stable.any()), bool(points.stable.all())
         (('point', 'multiplier'), True, False)
         """
-        from ._dataset import COMMON_ATTRIBUTES
+        from ._dataset import title_and_case
 
         rows, key_attributes = self._data["points"], attributes()
 
@@ -156,7 +156,7 @@ class Branch:
             self.along: ("point", column("value", np.float64), key_attributes[self.along]),
             "arclength": ("point", column("arclength", np.float64), key_attributes["arclength"]),
         }
-        title = {"title": "A branch of periodic orbits of a body on cables", **COMMON_ATTRIBUTES}
+        title = title_and_case("A branch of periodic orbits of a body on cables", self.case._engine)
         points = with_own_names(xarray.Dataset(variables, coords, title))
         # A branch does not change. Who changes values does so in a copy.
         for variable in points.variables.values():

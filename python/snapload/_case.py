@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 import os
 from collections.abc import Iterator, Mapping
 from functools import cache
@@ -11,7 +10,7 @@ from os import PathLike
 from typing import TYPE_CHECKING, Any, Self, Unpack
 
 from . import _engine
-from ._arguments import Uncertainty, flag, number, uncertainty_for_engine, utf8_text, whole_number
+from ._arguments import Uncertainty, case_text, flag, number, uncertainty_for_engine, utf8_text, whole_number
 from ._case_mapping import CaseMapping, UnknownKeyError
 from ._keys import OPTIONAL, PARAMETERS, Keys, KeyValues
 from ._orbit import HasOrbits
@@ -165,10 +164,8 @@ class Case(CaseMapping, KeyValues, HasOrbits):
         >>> snapload.Case.from_file(path) == snapload.Case(f_o=0.31, a=0.2)
         True
         """
-        # JSON's numbers, words and flags are TOML's.
-        lines = (f"{key} = {json.dumps(value)}\n" for key, value in self._engine.given().items())
         with open(path, "w", encoding="utf-8", newline="\n") as file:
-            file.writelines(lines)
+            file.write(case_text(self._engine))
 
     def replace(self, **keys: Unpack[Keys]) -> Self:
         """Return a case with some keys changed; derived values, such as the inertia, are computed again.

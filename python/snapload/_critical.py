@@ -291,7 +291,7 @@ def _critical_over_keys(
     engine: _engine.Case, over: Mapping[str, ArrayLike], step: float, largest: float, progress: bool
 ) -> xarray.Dataset:
     """The result for every combination of some keys."""
-    from ._dataset import COMMON_ATTRIBUTES, grid_coordinates
+    from ._dataset import grid_coordinates, title_and_case
 
     if "f_o" in over:
         raise ValueError("over = f_o is not allowed, as it is the key that is searched; allowed: other keys")
@@ -339,5 +339,5 @@ def _critical_over_keys(
     }
     if any("error" in row for row in rows):
         variables["error"] = (dims, column("error", ""), about["error"])
-    title = {"title": "Critical force of a body on cables that go slack and snap taut", **COMMON_ATTRIBUTES}
+    title = title_and_case("Critical force of a body on cables that go slack and snap taut", engine)
     return with_own_names(xarray.Dataset(variables, {**coords, "f_o": ("f_o", forces, about["f_o"])}, title))

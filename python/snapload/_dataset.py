@@ -13,6 +13,7 @@ from xarray.backends import BackendArray
 from xarray.core import indexing
 
 from . import _engine
+from ._arguments import case_text
 from ._axes import all_values
 from ._schema import attributes, with_own_names
 
@@ -21,6 +22,13 @@ COMMON_ATTRIBUTES = {
     "Conventions": "CF-1.12",
     "scales": "L half the distance of the anchors, m the mass of the body, F its net buoyancy, T = sqrt(m L / F)",
 }
+
+
+def title_and_case(title: str, engine: _engine.Case) -> dict[str, str]:
+    """The attributes of the answer to a question about a case: its title, and all to ask it again."""
+    case = case_text(engine) or "# the standard case\n"
+    return {"title": title, **COMMON_ATTRIBUTES, "source": f"snapload {_engine.__version__}", "case": case}
+
 
 #: The number of rows of a chunk, if its size is not given.
 _CHUNK_ROWS = 1 << 18

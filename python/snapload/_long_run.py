@@ -103,7 +103,7 @@ def section(
             f"{periods - keep} periods of the forcing; use fewer periods, or another start",
             stacklevel=2,
         )
-    from ._dataset import COMMON_ATTRIBUTES
+    from ._dataset import title_and_case
 
     variables: dict[str, Any] = {}
     if at == "impacts":
@@ -122,7 +122,7 @@ def section(
     for place, name in enumerate(("exponent", "exponent_se")):
         variables[name] = ("direction", spectrum[place], attributes()[name])
     measures = {name: or_nan(data[name]) for name in ("phase", "period", "snaps", "y_max", "theta_max")}
-    attrs: dict[str, Any] = {"title": "A section of a long motion of a body on cables", **COMMON_ATTRIBUTES}
+    attrs: dict[str, Any] = dict(title_and_case("A section of a long motion of a body on cables", case._engine))
     if data["stop"] is not None:
         stop = data["stop"]
         attrs |= {"stop": stop["reason"], "stop_certain": int(stop["certain"])}
@@ -263,7 +263,8 @@ def orbit_diagram(
         ``snaps`` per period, the largest Lyapunov ``exponent`` (minus infinity where taut cables remove all directions)
         with ``exponent_se``, ``y_max``, ``stop`` (empty if the motion did not stop) with ``stop_t`` and
         ``stop_certain``, false where rounding decides that time and otherwise true, and ``restarted``, whether the
-        motion started from the start of the case again. The values are in the order in which they were followed.
+        motion started from the start of the case, as it does at the first value, after a stop, and where the last
+        state is not legal at the next value, as when ``r`` varies and a cable is taut. The values are in the order in which they were followed.
 
     Raises
     ------
@@ -284,7 +285,7 @@ def orbit_diagram(
     >>> found.x.dims, found.period.values.tolist()
     (('f_o', 'k'), [1.0, 1.0, 1.0])
     """
-    from ._dataset import COMMON_ATTRIBUTES
+    from ._dataset import title_and_case
 
     if len(axis) != 1:
         given = ", ".join(axis) or "none"
@@ -328,7 +329,7 @@ def orbit_diagram(
             {"long_name": "number of the period of the forcing"},
         ),
     }
-    title = {"title": "The attractor of a body on cables against a key", **COMMON_ATTRIBUTES}
+    title = title_and_case("The attractor of a body on cables against a key", engine)
     return with_own_names(xarray.Dataset(variables, coords, title))
 
 

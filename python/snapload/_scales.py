@@ -54,7 +54,7 @@ class Scales:
 
     Examples
     --------
-    A ring of 1 m across between anchors 10 m apart, in waves of 0.4 rad/s that push with 310 N:
+    A ring of 1 m across between anchors 10 m apart, in waves of 0.45 rad/s that push with 310 N:
 
     >>> import snapload
     >>> scales = snapload.Scales(length=5.0, mass=800.0, force=1000.0)

@@ -188,6 +188,26 @@ def test_other_invalid_arguments_are_refused():
         snapload.plot_diagram(xarray.Dataset())
 
 
+def test_a_dataset_has_the_case_it_is_of(tmp_path):
+    case = snapload.Case(**TORUS, t_end=30)
+    window = dict(x="-0.2:0.2:2", y="0.3:0.5:2")
+    critical = snapload.critical_force(case, step=0.5, over=dict(e=[0.5, 0.7]), progress=False)
+    for found in (
+        snapload.section(case, periods=40, keep=20, progress=False),
+        snapload.orbit_diagram(case, f_o=[1.5, 1.6], periods=40, keep=20, progress=False),
+        snapload.safe_basin(case, progress=False, **window),
+        snapload.basins_of_attraction(case, transient=20, progress=False, **window)[0],
+        snapload.erosion(case, e=[0.5, 0.7], progress=False, **window),
+        critical,
+    ):
+        path = tmp_path / "case.toml"
+        path.write_text(found.attrs["case"], encoding="utf-8")
+        assert snapload.Case.from_file(path) == case
+        assert found.attrs["source"] == f"snapload {snapload.__version__}"
+    critical.to_netcdf(tmp_path / "critical.nc", engine="h5netcdf")
+    assert xarray.open_dataset(tmp_path / "critical.nc").attrs["case"] == critical.attrs["case"]
+
+
 def test_a_parquet_table_has_its_case_and_version(command, tmp_path):
     out = tmp_path / "section.parquet"
     data = json.loads(

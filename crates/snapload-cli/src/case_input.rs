@@ -139,6 +139,19 @@ pub(crate) fn read_text(path: &Path) -> Result<String, Failure> {
     )
 }
 
+/// What may have been meant by the name of a file that is not there.
+fn hint_for_no_file(name: &str) -> String {
+    if named_case(name).is_ok() {
+        return format!("\nhint: for the built-in case write --case {name}");
+    }
+    match name.split_once('=') {
+        Some((key, _)) if !key.contains(['/', '\\']) => {
+            format!("\nhint: each key has an option of its own: --set {name}")
+        }
+        _ => String::new(),
+    }
+}
+
 /// The text of a file of at most `largest` bytes; otherwise the error `too_large`.
 pub(crate) fn read_up_to(path: &Path, largest: u64, too_large: &str) -> Result<String, Failure> {
     let shown = path.display();
@@ -164,12 +177,7 @@ pub(crate) fn read_up_to(path: &Path, largest: u64, too_large: &str) -> Result<S
             ))
         }),
         Err(error) if error.kind() == ErrorKind::NotFound => {
-            let known = named_case(&shown.to_string()).is_ok();
-            let hint = if known {
-                format!("\nhint: for the built-in case write --case {shown}")
-            } else {
-                String::new()
-            };
+            let hint = hint_for_no_file(&shown.to_string());
             Err(bad(&format!("there is no such file{hint}")))
         }
         Err(error) if error.kind() == ErrorKind::IsADirectory => {

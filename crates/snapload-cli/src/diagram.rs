@@ -17,7 +17,8 @@ use std::path::PathBuf;
 
 const EXAMPLES: &str = "\
 The motion at each value starts from the final state at the previous value, so that one attractor is followed. If
-a motion stops at a limit, the next value starts from the start of the case again, and `restarted` says so.
+a motion stops at a limit, or its final state is not legal at the next value, the next value starts from the start
+of the case again, and `restarted` says so.
 
 Examples:
   snapload diagram --set body=point --set r=1.976 --set e=0.71 --set nu=0.87 --set omega=4.847 \\
@@ -164,5 +165,7 @@ fn columns(key: &'static str, found: &[DiagramPoint]) -> Vec<(&'static str, Valu
     ));
     let certain = rows().map(|(at, _)| at.stop_is_certain());
     columns.push(("stop_certain", Values::Flags(certain.collect())));
+    let restarted = rows().map(|(at, _)| Some(at.restarted));
+    columns.push(("restarted", Values::Flags(restarted.collect())));
     columns
 }

@@ -125,7 +125,6 @@ impl Erosion {
 mod tests {
     use super::*;
     use snapload::Parameters;
-    use snapload::analysis::no_progress;
 
     /// Basins of a hundred legal cells, given the numbers of safe, of undecided, and of undecided
     /// safe ones.
@@ -158,30 +157,6 @@ mod tests {
         Erosion {
             key: "f_o",
             points: points.collect(),
-        }
-    }
-
-    /// The knee and the rows are those of the values, in whatever order these are given.
-    #[test]
-    fn the_order_of_the_values_does_not_matter() {
-        let window = Window {
-            base: Parameters {
-                t_end: 20.0,
-                ..Parameters::STANDARD
-            },
-            keys: ["x", "y"],
-            values: [vec![-0.2, 0.0, 0.2], vec![0.1, 0.3, 0.5]],
-        };
-        let text = |values: &[f64]| {
-            let over = Erosion::of(&window, "f_o", values, false, &no_progress).unwrap();
-            let given: Vec<f64> = over.points.iter().map(|(value, _)| *value).collect();
-            assert_eq!(given, [0.0, 0.2, 0.4, 0.6, 0.8]);
-            (over.knee(), crate::erosion_summary(&over))
-        };
-        let rising = text(&[0.0, 0.2, 0.4, 0.6, 0.8]);
-        assert!(rising.0.is_some(), "{}", rising.1);
-        for given in [[0.8, 0.6, 0.4, 0.2, 0.0], [0.4, 0.0, 0.8, 0.6, 0.2]] {
-            assert_eq!(text(&given), rising);
         }
     }
 

@@ -89,6 +89,23 @@ impl Sequence {
         }
         parts
     }
+
+    /// The same in whole words. Snaps of one cable that follow each other are counted: where
+    /// impacts accumulate they are many.
+    pub fn in_words(&self) -> String {
+        let event = |same: &[String]| match (same[0].split_once(' '), same.len()) {
+            (None, 1) => format!("snap of cable {}", same[0]),
+            (None, count) => format!("{count} snaps of cable {}", same[0]),
+            (Some((what, cable)), _) => format!("{what} of cable {cable}"),
+        };
+        let symbol = self.symbol();
+        let are_snaps_of_one = |one: &String, next: &String| one == next && !one.contains(' ');
+        let all: Vec<String> = symbol.chunk_by(are_snaps_of_one).map(event).collect();
+        match all.is_empty() {
+            true => "none".to_owned(),
+            false => all.join(", "),
+        }
+    }
 }
 
 impl Event {
@@ -236,5 +253,38 @@ pub fn symbol_text(sequence: &Sequence) -> String {
         "none".to_owned()
     } else {
         symbol.join(", ")
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{Event, EventKind, Sequence};
+    use snapload::TautSet;
+
+    #[test]
+    fn snaps_of_one_cable_in_a_row_are_counted() {
+        let snap = |cable: usize, after: TautSet| Event {
+            kind: EventKind::Snap {
+                struck: TautSet::only(cable),
+                pulling: TautSet::only(cable),
+            },
+            after,
+        };
+        let slack = TautSet::SLACK;
+        let let_go = Event {
+            kind: EventKind::Release(TautSet::only(0)),
+            after: slack,
+        };
+        let accumulation = [snap(0, slack), snap(0, slack), snap(0, TautSet::only(0))];
+        let others = [let_go, snap(0, slack), snap(1, slack)];
+        let events = accumulation.into_iter().chain(others).collect();
+        let sequence = Sequence {
+            start: slack,
+            events,
+        };
+        let words = "3 snaps of cable 1, stick of cable 1, release of cable 1, snap of cable 1, \
+                     snap of cable 2";
+        assert_eq!(sequence.in_words(), words);
+        assert_eq!(Sequence::default().in_words(), "none");
     }
 }

@@ -23,7 +23,7 @@ pub fn orbit_summary(orbit: &Orbit) -> String {
         "Orbit     {stability}, of {} (t = {:.6})\nEvents    {}\n",
         of_the_forcing(orbit.periods as usize),
         orbit.length,
-        events_text(&orbit.lap.sequence)
+        orbit.lap.sequence.in_words()
     );
     text += &always_taut_text(&orbit.lap.sequence);
     if orbit.smallest_periods < orbit.periods {
@@ -90,19 +90,6 @@ fn always_taut_text(sequence: &Sequence) -> String {
         0 => String::new(),
         1 => format!("Taut      cable {} all the time\n", cables[0]),
         _ => format!("Taut      cables {} all the time\n", cables.join(", ")),
-    }
-}
-
-/// The events of a sequence in whole words, where the symbol abbreviates them.
-fn events_text(sequence: &Sequence) -> String {
-    let event = |word: String| match word.split_once(' ') {
-        None => format!("snap of cable {word}"),
-        Some((what, cable)) => format!("{what} of cable {cable}"),
-    };
-    let all: Vec<String> = sequence.symbol().into_iter().map(event).collect();
-    match all.is_empty() {
-        true => "none".to_owned(),
-        false => all.join(", "),
     }
 }
 
@@ -181,6 +168,8 @@ pub fn section_summary(section: &Section) -> String {
 /// A diagram.
 pub fn diagram_summary(key: &str, found: &[DiagramPoint]) -> String {
     let mut text = format!("{key:<12} period  snaps    exponent\n");
+    let first = found.first().map(|at| at.value);
+    let begins_anew = |at: &DiagramPoint| at.restarted && Some(at.value) != first;
     for at in found {
         let period = at.period.map_or("none".to_owned(), |n| n.to_string());
         let snaps = at
@@ -188,7 +177,8 @@ pub fn diagram_summary(key: &str, found: &[DiagramPoint]) -> String {
             .map_or("-".to_owned(), |snaps| format!("{snaps:.3}"));
         let exponent = at.section.exponents.first();
         let exponent = exponent.map_or("-".to_owned(), |both| exponent_text(*both));
-        let value = six_digits(at.value);
+        let mark = if begins_anew(at) { "*" } else { "" };
+        let value = six_digits(at.value) + mark;
         let _ = match at.stop() {
             Some(stop) => writeln!(
                 text,
@@ -207,6 +197,9 @@ pub fn diagram_summary(key: &str, found: &[DiagramPoint]) -> String {
     }
     if let Some(longest) = none.map(|at| at.section.longest_period()).max() {
         let _ = writeln!(text, "none: no period of the forcing up to {longest}");
+    }
+    if found.iter().any(begins_anew) {
+        text += "*: from the start of the case, as the motion before had stopped or its last state is not legal here\n";
     }
     let doubtful = |at: &DiagramPoint| at.stop_is_certain() == Some(false);
     if found.iter().any(doubtful) {

@@ -111,7 +111,7 @@ const SEA: &[Key] = &[
 const RUN: &[Key] = &[
     Key::new("restitution", "1", Kind::number(0.0, 1.0), Required,
         "part of the closing speed that a snap returns: 0 if the line absorbs all, 1 if it absorbs nothing").usual(0.0, 1.0),
-    Key::new("duration", "s", Kind::positive(1e6), Derived("100 wave periods; three hours of a sea"), "simulated time"),
+    Key::new("duration", "s", Kind::positive(1e6), Derived("100 wave periods; three hours of a sea; 60 s in still water"), "simulated time"),
     Key::new("transient", "s", Kind::number(0.0, 1e6), Derived("10 wave periods, or peak periods of a sea, at most half the duration; 0 in still water"),
         "snaps and tensions before this are shown but not judged, as the waves begin at once on a body at rest"),
     Key::new("start", "m", PLACE, Derived("where the body rests in still water"), "[x, z] of the centre at the start, at rest"),

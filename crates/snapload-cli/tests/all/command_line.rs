@@ -56,6 +56,32 @@ fn a_run_is_summed_up_for_a_person() {
 }
 
 #[test]
+fn a_word_in_the_place_of_a_file_has_a_hint() {
+    let d = directory();
+    for (word, hint) in [
+        (
+            "f_o=0.31",
+            Some("hint: each key has an option of its own: --set f_o=0.31"),
+        ),
+        (
+            "rocking-example",
+            Some("hint: for the built-in case write --case rocking-example"),
+        ),
+        ("./f_o=0.31", None),
+        ("f_o", None),
+    ] {
+        let assert = snapload(d.path())
+            .args(["run", "--set", "a=0.2", word])
+            .assert()
+            .code(2)
+            .stderr(contains(format!("{word}: there is no such file")));
+        let stderr = String::from_utf8_lossy(&assert.get_output().stderr).into_owned();
+        let found = stderr.lines().find(|line| line.starts_with("hint"));
+        assert_eq!(found, hint, "{stderr}");
+    }
+}
+
+#[test]
 fn the_summary_names_what_differs_from_the_standard_case() {
     let d = directory();
     let run = |args: &[&str], expected: &'static str| {

@@ -48,6 +48,12 @@ fn a_diagram_tells_where_rounding_decides_a_stop() {
         [&stopped[place("stop")], &stopped[place("stop_certain")]],
         ["upper_bound", "false"]
     );
+    // The next value does not go on from there.
+    assert!(rows.iter().all(|row| &row[place("restarted")] == "true"));
+    assert!(
+        text.contains("\n1.8*  ") && text.contains("\n*: from the start of the case"),
+        "{text}"
+    );
     assert_eq!(
         stopped[place("stop_t")].parse::<f64>().unwrap(),
         number(&stop["t"])
@@ -59,6 +65,26 @@ fn a_diagram_tells_where_rounding_decides_a_stop() {
         assert!((t - (0.25 + f64::from(k)) * period).abs() < 1e-9);
         // A column of doubles, each with its fraction.
         assert_eq!(&row[place("theta")], "0.0");
+    }
+}
+
+/// A state with a taut cable is not legal where the cable is another in length, and each value
+/// begins anew; where the force varies, none but the first does.
+#[test]
+fn a_diagram_tells_where_nothing_is_followed() {
+    for (vary, anew) in [("r=1.5:1.6:3", true), ("nu=1:1.02:3", false)] {
+        let out = snapload(directory().path())
+            .args(["diagram", "--set=f_o=0.1", "--vary", vary, "--json", "-"])
+            .args(["--periods", "30", "--keep", "16"])
+            .assert()
+            .success();
+        let answer: Value = serde_json::from_slice(&out.get_output().stdout).unwrap();
+        let restarted = answer["rows"]
+            .as_array()
+            .unwrap()
+            .iter()
+            .map(|row| &row["restarted"]);
+        assert_eq!(restarted.collect::<Vec<_>>(), [true, anew, anew], "{vary}");
     }
 }
 

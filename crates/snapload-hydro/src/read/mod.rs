@@ -3,6 +3,7 @@
 mod capytaine;
 mod checks;
 mod dataset;
+mod fortran;
 mod nemoh;
 mod netcdf;
 mod plane;

@@ -11,6 +11,7 @@
 //! for β = 0, and arg F3 → 0. Source: Nemoh v2, `Solver/Main.f90`, and v3, `Common/Results.f90`,
 //! which write these files, and the files that come with them.
 
+use super::fortran::number;
 use super::table::{Row, Table};
 use super::{Format, Given, agreed_water};
 use crate::coefficients::{Hydrodynamics, Hydrostatics};
@@ -202,9 +203,9 @@ fn zones<'a>(name: &'static str, text: &'a str, width: usize) -> Result<Vec<Zone
         let Some(zone) = zones.last_mut() else {
             continue;
         };
-        let numbers: Result<Vec<f64>, _> = line.split_whitespace().map(str::parse::<f64>).collect();
+        let numbers: Option<Vec<f64>> = line.split_whitespace().map(number).collect();
         match numbers {
-            Ok(mut numbers) if numbers.len() == width => {
+            Some(mut numbers) if numbers.len() == width => {
                 numbers[0] = omega(numbers[0]);
                 zone.rows.push(numbers);
             }

@@ -1,5 +1,6 @@
 //! The lines and units of WAMIT's text files.
 
+use super::fortran::number;
 use crate::error::HydroError;
 use crate::water::Water;
 use std::f64::consts::PI;
@@ -105,11 +106,6 @@ pub(super) fn lines<'a>(
             }
         }
     })
-}
-
-/// A number as Fortran writes it, whose exponents have D, too.
-fn number(word: &str) -> Option<f64> {
-    word.replace(['d', 'D'], "e").parse().ok()
 }
 
 /// Whether a line begins as all lines of numbers do, with two of them, even if they or what follows

@@ -96,6 +96,19 @@ fn nemoh_is_read() {
     assert!((force[1] - Complex::new(751_218.5, 0.0)).norm() < 40.0);
 }
 
+/// Fortran leaves out the E of an exponent with three digits.
+#[test]
+fn tiny_numbers_of_nemoh_are_read() {
+    let [radiation, excitation] = in_rad_s();
+    let tiny = [
+        radiation.replace("0.0 0.0", "-0.1234567-104 0.1234567-113"),
+        excitation,
+    ];
+    let hydro = reading(&tiny).expect("coefficients");
+    assert_eq!(hydro.added_mass[0][(0, 1)], -1.234567e-105);
+    assert_eq!(hydro.damping[0][(0, 1)], 1.234567e-114);
+}
+
 /// Nemoh v3 writes ω = 2πf = 2π/T by choice as f or as T, in seven digits.
 #[test]
 fn first_columns_of_nemoh_are_those_that_it_names() {

@@ -73,8 +73,8 @@ fn lines_of_numbers_are_not_taken_for_headings() {
         let error = from_wamit(files, &wamit_given()).expect_err("a refusal");
         error.to_string()
     };
-    // What Fortran writes of an exponent with three digits, and of a number that does not fit.
-    for pitch in ["5 5 67.82-000", "5 5 *****", "5 5"] {
+    // Two numbers without a space between them, and what Fortran writes of one that does not fit.
+    for pitch in ["5 5 67.82-12.5", "5 5 *****", "5 5"] {
         let message = refusal(&with_hst(&format!("{pitch}\n3 3 80.0\n")));
         assert!(message.contains("the .hst file: line 1"), "{message}");
     }

@@ -129,7 +129,10 @@ fn check_submerged(structure: &Structure) -> Result<(), CaseError> {
         let (anchor, fairlead) = (line.anchor_m, line.fairlead_m);
         let reach = (fairlead[0] - anchor[0]).hypot(fairlead[1] - anchor[1]);
         if reach > line.length_m * (1.0 + SHORTER_BY) {
-            let allowed = format!("at least the {reach:.3} m from its anchor to its fairlead");
+            let least = (reach / (1.0 + SHORTER_BY) * 1e3).ceil() / 1e3;
+            let allowed = format!(
+                "at least {least:.3} m, 2 % less than the {reach:.3} m from its anchor to its fairlead"
+            );
             return Err(CaseError::value(&path("length"), line.length_m, allowed)
                 .with_hint("make the line longer, or move the body or the anchor"));
         }

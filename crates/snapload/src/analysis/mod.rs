@@ -30,6 +30,8 @@ pub use progress::{
 };
 pub use sensitivity::{Sensitivity, Slope, sensitivity};
 pub use threads::in_parallel;
+#[cfg(feature = "comparisons")]
+pub use trust::LimitDerivatives;
 pub use trust::{
     Certainty, Graze, Horizon, HorizonCause, START_KEYS, Trust, TrustMonitor, UNCERTAIN_KEYS,
     Uncertainty, trusted_run,

@@ -2,8 +2,10 @@
 
 use proptest::prelude::*;
 use proptest::test_runner::RngSeed;
-use snapload::analysis::{HorizonCause, Uncertainty, Unfinished, no_progress, trusted_run};
-use snapload::{Case, Parameters, Stop, Value};
+use snapload::analysis::{
+    HorizonCause, LimitDerivatives, Uncertainty, Unfinished, no_progress, trusted_run,
+};
+use snapload::{Case, Limit, Parameters, Stop, Value};
 use std::f64::consts::TAU;
 
 /// A mass that the wave carries to and fro once, near the second cable in the middle of the flight.
@@ -191,6 +193,68 @@ fn neighbours_reach_a_limit_within_a_flight() -> Result<(), Unfinished> {
         }
     }
     Ok(())
+}
+
+/// The largest second derivative, by divided differences, of the derivative by a key of a limit's
+/// quantity along a first flight, and the bound on it. Where the highest corner or the sign of the
+/// rotation changes, the quantity is not smooth, and nothing is compared.
+fn second_derivative(case: &Parameters, key: &'static str, limit: Limit) -> [f64; 2] {
+    let case = Case::new(*case).expect("a legal case");
+    let found = LimitDerivatives::in_flight(&case, key, limit, 1000);
+    let branch = |theta: f64| [theta.sin() > 0.0, theta.cos() > 0.0];
+    let smooth = |at: &&[[f64; 2]]| branch(at[0][0]) == branch(at[2][0]);
+    let second =
+        |at: &[[f64; 2]]| (at[0][1] - 2.0 * at[1][1] + at[2][1]).abs() / found.part.powi(2);
+    let largest = found.at.windows(3).filter(smooth).map(second);
+    [largest.fold(0.0, f64::max), found.bound]
+}
+
+/// Each term of the bound counts alone in one of the first cases, which come close to it: the
+/// force, the spin, the rotation and the size.
+#[test]
+fn the_derivative_of_a_quantity_by_a_key_changes_within_its_bound() {
+    let p = Parameters {
+        a: 0.3,
+        b: 0.3,
+        nu: 1.0,
+        omega: 1.5,
+        y: 0.8,
+        ..Parameters::STANDARD
+    };
+    let spinning = Parameters {
+        y: 0.6,
+        theta: 0.2,
+        vtheta: 9.0,
+        t_end: 0.05,
+        ..p
+    };
+    let short = Parameters {
+        t_end: 0.005,
+        ..spinning
+    };
+    for (case, key) in [
+        (p, "f_o"),
+        (short, "vtheta"),
+        (spinning, "theta"),
+        (spinning, "a"),
+    ] {
+        let [largest, bound] = second_derivative(&case, key, Limit::UpperBound);
+        assert!(largest > 0.5 * bound, "{key}: {largest} {bound}");
+    }
+    for limit in Limit::ALL {
+        for case in [p, spinning] {
+            for key in [
+                "r", "a", "b", "inertia", "f_o", "nu", "omega", "x", "y", "theta", "vx", "vy",
+                "vtheta",
+            ] {
+                let [largest, bound] = second_derivative(&case, key, limit);
+                assert!(
+                    largest <= bound * (1.0 + 1e-5) + 1e-5,
+                    "{limit:?}, {key}: {largest} {bound}"
+                );
+            }
+        }
+    }
 }
 
 proptest! {

@@ -28,6 +28,8 @@ mod uncertain_key;
 
 pub use certainty::Certainty;
 pub use monitor::TrustMonitor;
+#[cfg(feature = "comparisons")]
+pub use uncertain_key::LimitDerivatives;
 
 use crate::analysis::digits::digits_within;
 use crate::analysis::progress::{OnProgress, Unfinished, record};

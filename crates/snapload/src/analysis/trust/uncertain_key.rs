@@ -270,87 +270,39 @@ fn length_of_slope(vector: Vector2<Dual<f64, 1>>) -> f64 {
     vector.map(|component| component.slope[0]).length()
 }
 
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::case::parameters::Parameters;
+/// For tests only: how the derivative of a limit's quantity by a key runs along the first flight.
+#[cfg(feature = "comparisons")]
+#[derive(Clone, Debug)]
+pub struct LimitDerivatives {
+    /// The angle and the derivative, at the ends of equal parts of the flight.
+    pub at: Vec<[f64; 2]>,
+    /// How long each part takes.
+    pub part: f64,
+    /// A bound on the second derivative of the derivative by time.
+    pub bound: f64,
+}
 
-    /// The largest second derivative, by divided differences, of the derivative by a key of a
-    /// limit's quantity along a first flight, and the bound on it. Where the highest corner or the
-    /// sign of the rotation changes, the quantity is not smooth, and nothing is compared.
-    fn second_derivative(case: &Parameters, key: &'static str, limit: Limit) -> [f64; 2] {
-        let case = Case::new(*case).expect("a legal case");
-        let mut key = UncertainKey::new(&case, key, 1e-6).expect("an uncertain key");
+#[cfg(feature = "comparisons")]
+impl LimitDerivatives {
+    /// Along the first flight of a case, in so many parts.
+    ///
+    /// # Panics
+    /// Where the case does not begin with a flight or has no such key.
+    pub fn in_flight(case: &Case, key: &'static str, limit: Limit, parts: usize) -> Self {
+        let mut key = UncertainKey::new(case, key, 1e-6).expect("an uncertain key");
         let step = key.simulation.step().expect("a flight");
-        assert!(step.taut.is_empty());
+        assert!(step.taut.is_empty(), "a flight");
         let change = FlightChange::along(&key.simulation, &step);
-        let bound = limit.change_in_flight(&change, key.outline());
+        let part = (step.t_end - step.t_start).value / parts as f64;
         let state = key.simulation.state_along(&step);
-        let s = (step.t_end - step.t_start).value;
-        let h = 1e-3 * s;
-        let mut largest = 0.0_f64;
-        for k in 1..=99 {
-            let at =
-                [-1.0, 0.0, 1.0].map(|side| state(Dual::constant(0.01 * s * k as f64 + side * h)));
-            let branch = at.map(|state| {
-                let (sine, cosine) = state.theta.value.sin_cos();
-                [sine > 0.0, cosine > 0.0]
-            });
-            if branch[0] == branch[2] {
-                let [left, middle, right] = at.map(|state| key.over_limit(limit, &state).slope[0]);
-                largest = largest.max((left - 2.0 * middle + right).abs() / (h * h));
-            }
-        }
-        [largest, bound]
-    }
-
-    /// Each term of the bound counts alone in one of the first cases, which come close to it: the
-    /// force, the spin, the rotation and the size.
-    #[test]
-    fn the_derivative_of_a_quantity_by_a_key_changes_within_its_bound() {
-        let p = Parameters {
-            a: 0.3,
-            b: 0.3,
-            nu: 1.0,
-            omega: 1.5,
-            y: 0.8,
-            ..Parameters::STANDARD
+        let at = |k: usize| {
+            let state = state(Dual::constant(part * k as f64));
+            [state.theta.value, key.over_limit(limit, &state).slope[0]]
         };
-        let spinning = Parameters {
-            y: 0.6,
-            theta: 0.2,
-            vtheta: 9.0,
-            t_end: 0.05,
-            ..p
-        };
-        for (case, key) in [
-            (p, "f_o"),
-            (
-                Parameters {
-                    t_end: 0.005,
-                    ..spinning
-                },
-                "vtheta",
-            ),
-            (spinning, "theta"),
-            (spinning, "a"),
-        ] {
-            let [largest, bound] = second_derivative(&case, key, Limit::UpperBound);
-            assert!(largest > 0.5 * bound, "{key}: {largest} {bound}");
-        }
-        for limit in Limit::ALL {
-            for case in [p, spinning] {
-                for key in [
-                    "r", "a", "b", "inertia", "f_o", "nu", "omega", "x", "y", "theta", "vx", "vy",
-                    "vtheta",
-                ] {
-                    let [largest, bound] = second_derivative(&case, key, limit);
-                    assert!(
-                        largest <= bound * (1.0 + 1e-5) + 1e-5,
-                        "{limit:?}, {key}: {largest} {bound}"
-                    );
-                }
-            }
+        Self {
+            at: (0..=parts).map(at).collect(),
+            part,
+            bound: limit.change_in_flight(&change, key.outline()),
         }
     }
 }
