@@ -88,6 +88,16 @@ impl Branch {
 }
 
 impl Branch {
+    /// Where it ends, and why.
+    fn ends_in_words(&self) -> String {
+        let [low, high] = &self.ends;
+        let end = |end: &BranchEnd| format!("at {:.6}: {}", end.at, end.because);
+        match low == high {
+            true => end(low),
+            false => format!("{}; and {}", end(low), end(high)),
+        }
+    }
+
     /// Of the events of a kind, the one that is nearest along the branch to the orbit with which it
     /// was started, or the one with a given number, counted from 1 in their order.
     ///
@@ -111,7 +121,7 @@ impl Branch {
             let wanted = number.map_or(String::new(), |number| format!(" number {number}"));
             let values: Vec<String> = all.iter().map(|e| format!("{:.6}", e.value[0])).collect();
             NoOrbit(match values.len() {
-                0 => format!("the branch has no {name} in its range; use a wider range"),
+                0 => format!("the branch has no {name}; it ends {}", self.ends_in_words()),
                 count => format!(
                     "there is no {name}{wanted}: the branch has {count} in its range, at {}",
                     values.join(", ")

@@ -354,7 +354,7 @@ pub(crate) fn located<F: Family>(
     let (u, ..) = continuation.corrected(branch_step.from, tangent, sigma)?;
     let orbit = orbit_of(branch_step, &u);
     let orbit = match kind {
-        Kind::Graze => orbit.at_graze(),
+        Kind::Graze => orbit.by_survey(),
         _ => orbit,
     };
     let restitution = continuation.family.snap_contraction(orbit.at).sqrt();
@@ -421,6 +421,11 @@ fn raw(test: Test, orbit: &Orbit, tangent: &DVector<f64>) -> f64 {
 fn is_meant(test: Test, orbit: &Orbit) -> bool {
     let multipliers = &orbit.multipliers.values;
     match test {
+        // Where later contact erases all deviations, the value changes with the square of the speed
+        // of a snap: at its graze it turns back, but no multiplier is 1.
+        Test::Fold => multipliers
+            .iter()
+            .any(|[re, im]| (re - 1.0).hypot(*im) < 1e-2),
         Test::PeriodDoubling => multipliers
             .iter()
             .any(|[re, im]| (re + 1.0).hypot(*im) < 1e-4),

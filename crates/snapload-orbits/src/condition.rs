@@ -150,8 +150,17 @@ impl Condition {
         match self {
             Self::Singular { of, .. } => singular(*of, continuation, u),
             Self::Touch(contact) => {
-                let leg = contact.leg.saturating_add_signed(shift).min(events);
-                Some(Self::Touch(Contact { leg, ..*contact }))
+                // The last leg and the first are one flight, in which the contact may be on the
+                // other side of the section than its leg.
+                let flight = contact.leg as isize + shift;
+                let leg = flight.rem_euclid((events as isize).max(1)) as usize;
+                let system = continuation.family.plain(u.at);
+                let legs = continuation.lap(u.at).legs(&system, &u.z, &u.durations);
+                let (first, last, own) = (legs.first()?, legs.last()?, legs.get(leg)?);
+                let length = last.t + last.s - first.t;
+                let laps = ((own.t + 0.5 * own.s - contact.t) / length).round();
+                let t = contact.t + laps * length;
+                Some(Self::Touch(Contact { leg, t, ..*contact }))
             }
             Self::Speed { leg } => {
                 let leg = (*leg as isize + shift).rem_euclid(events as isize) as usize;
@@ -180,6 +189,42 @@ impl Condition {
         let leg = legs.get(leg)?;
         let s = t.map_or(leg.s, |t| t - leg.t);
         Some(-rate(continuation, u, leg, surface, s))
+    }
+
+    /// The time from a graze to the nearest other event of the lap, negative beyond it: there the
+    /// surface would be touched in the continuation of a flight that has ended. Without bound where
+    /// there is no other event, or no graze.
+    ///
+    /// The gap at that event says the same less well: it is zero there without a change of sign.
+    pub(crate) fn time_to_events<F: Family>(
+        &self,
+        continuation: &Continuation<F>,
+        u: &Unknowns,
+    ) -> f64 {
+        let system = continuation.family.plain(u.at);
+        let legs = continuation.lap(u.at).legs(&system, &u.z, &u.durations);
+        // The last leg and the first are one flight, which the section cuts.
+        let last = legs.len() - 1;
+        let [from_event, to_event] = match self {
+            Self::Touch(contact) if last > 0 && contact.leg <= last => {
+                let leg = &legs[contact.leg];
+                let s = contact.t - leg.t;
+                let [before, after] = [contact.leg == 0, contact.leg == last];
+                [
+                    s + if before { legs[last].s } else { 0.0 },
+                    leg.s - s + if after { legs[0].s } else { 0.0 },
+                ]
+            }
+            Self::Speed { leg } if last > 1 => {
+                let [before, after] = [*leg == 0, *leg + 1 == last];
+                [
+                    legs[*leg].s + if before { legs[last].s } else { 0.0 },
+                    legs[*leg + 1].s + if after { legs[0].s } else { 0.0 },
+                ]
+            }
+            _ => [f64::INFINITY; 2],
+        };
+        from_event.min(to_event)
     }
 
     /// The event whose snap has zero velocity.

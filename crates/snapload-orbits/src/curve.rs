@@ -7,13 +7,12 @@
 
 use crate::branch_events::{BranchEvent, Kind};
 use crate::continuation::{Continuation, Unknowns};
-use crate::follower::{END_OF_RANGE, TOO_LONG, beyond_largest_gap};
+use crate::curve_borders::{Border, NO_LOSS, loses_less, margins, passed};
 use crate::hybrid::Family;
 use crate::multipliers::{NEAR_CIRCLE, Stability};
 use crate::normal_form::{Coefficient, coefficient};
 use crate::on_curve::OnCurve;
 use crate::orbit::{NoOrbit, Orbit};
-use crate::roots::root;
 use nalgebra::DVector;
 use snapload::analysis::{Cancelled, OnProgress, Progress};
 
@@ -77,11 +76,6 @@ const SHORTEST_STEP: f64 = 1e-6;
 /// second, longer.
 const SHORTEN_FROM: usize = 7;
 const LENGTHEN_TO: usize = 4;
-/// The least part of phase space that a lap on a curve of Neimark-Sacker points loses. Without any
-/// loss the multipliers of every orbit come in pairs with the product 1: the condition holds for
-/// all orbits, so that it determines no curve, and close to that it determines one badly.
-const LEAST_LOSS: f64 = 1e-4;
-
 impl Curve {
     /// The kinds of special orbits that have curves.
     pub const KINDS: [Kind; 4] = [
@@ -202,8 +196,12 @@ impl HalfCurve {
     /// was found.
     fn end_on<F: Family>(&mut self, border: Border<F>, arclength: f64, ranges: &[[f64; 2]; 2]) {
         self.end.because = border.what.to_owned();
+        let is_between_sequences = border.is_between_sequences();
         if let Some(last) = border.place {
             let mut point = point(&last, last.orbit(), arclength + border.sigma);
+            if is_between_sequences {
+                point.orbit = point.orbit.by_survey();
+            }
             // The value itself where Newton's method comes to it up to rounding.
             if let Some(value) = ranges.as_flattened().get(border.number) {
                 point.orbit.at[border.number / 2] = *value;
@@ -257,7 +255,7 @@ fn point<F: Family>(on_curve: &OnCurve<F>, orbit: Orbit, arclength: f64) -> Curv
         .sqrt();
     let kind = on_curve.condition.kind();
     let orbit = match kind {
-        Kind::Graze => orbit.at_graze(),
+        Kind::Graze => orbit.by_survey(),
         _ => orbit,
     };
     let form = coefficient(&on_curve.continuation, &on_curve.here, kind);
@@ -272,23 +270,6 @@ fn point<F: Family>(on_curve: &OnCurve<F>, orbit: Orbit, arclength: f64) -> Curv
     }
 }
 
-// Why a curve ends, besides the end of a range and a cable that would be too long.
-const CORNER: &str = "corner: two cables snap at once, and come in the other order beyond it";
-const GRAZE: &str =
-    "graze: another snap of the sequence has zero velocity here, and a negative one beyond it";
-const ONE_TO_ONE: &str =
-    "resonance 1:1: both multipliers of the pair are 1 here, and real beyond it";
-const ONE_TO_TWO: &str =
-    "resonance 1:2: both multipliers of the pair are -1 here, and real beyond it";
-const NO_LOSS: &str = "hardly any energy is lost here: without loss every orbit has a pair of multipliers with the product 1";
-
-/// What is at the borders, and the distances to them, negative beyond; the first four are those of
-/// the range.
-type Margins = [(&'static str, f64); 10];
-
-/// A point this close to a border counts as on it.
-const ON_BORDER: f64 = 1e-8;
-
 /// Follows curves.
 struct Follower<'a> {
     options: &'a CurveOptions,
@@ -300,7 +281,8 @@ impl Follower<'_> {
     fn run<F: Family>(&mut self, mut on_curve: OnCurve<F>) -> Result<HalfCurve, Cancelled> {
         let first = on_curve.copied();
         let mut half = HalfCurve::empty(first.here.at, "");
-        let mut margins = self.margins(&on_curve, &on_curve.orbit());
+        let ranges = self.options.ranges;
+        let mut before = margins(ranges, &on_curve, &on_curve.orbit());
         let (mut step, mut arclength) = (self.options.step, 0.0);
         while half.end.because.is_empty() {
             if half.points.len() >= self.options.most {
@@ -309,12 +291,12 @@ impl Follower<'_> {
             }
             let stepped = on_curve.stepped(step).map(|(next, steps)| {
                 let orbit = next.orbit();
-                let reached = self.margins(&next, &orbit);
+                let reached = margins(ranges, &next, &orbit);
                 (next, steps, orbit, reached)
             });
             let border = stepped
                 .as_ref()
-                .and_then(|(.., reached)| self.passed(&on_curve, step, &margins, reached));
+                .and_then(|(.., reached)| passed(ranges, &on_curve, step, &before, reached));
             let lost = border.as_ref().is_some_and(|border| border.place.is_none());
             let Some((next, steps, orbit, reached)) = stepped.filter(|_| !lost) else {
                 step *= 0.5;
@@ -323,7 +305,7 @@ impl Follower<'_> {
                 }
                 continue;
             };
-            if loses_less(&margins, &reached) {
+            if loses_less(&before, &reached) {
                 half.end.because = NO_LOSS.to_owned();
                 break;
             }
@@ -332,7 +314,7 @@ impl Follower<'_> {
                 break;
             }
             if let Some(border) = border {
-                half.end_on(border, arclength, &self.options.ranges);
+                half.end_on(border, arclength, &ranges);
                 break;
             }
             arclength += step;
@@ -342,7 +324,7 @@ impl Follower<'_> {
                     "the pair of multipliers is not on the unit circle from here on".to_owned();
                 break;
             }
-            (on_curve, margins) = (next, reached);
+            (on_curve, before) = (next, reached);
             let orbit = match on_curve.renumber_events() {
                 true => on_curve.orbit(),
                 false => orbit,
@@ -364,85 +346,4 @@ impl Follower<'_> {
             _ => step,
         }
     }
-
-    /// The distance to each border.
-    fn margins<F: Family>(&self, on_curve: &OnCurve<F>, orbit: &Orbit) -> Margins {
-        let [[a, b], [c, d]] = self.options.ranges;
-        let [x, y] = orbit.at;
-        let corner = orbit.survey.corner_gap;
-        let corner = corner.map_or(f64::INFINITY, |gap| -gap.value);
-        let own = on_curve.condition.leg();
-        let events = orbit.lap.sequence.events.iter().zip(&orbit.lap.speeds);
-        let others = events
-            .enumerate()
-            .filter(|(k, (event, _))| own != Some(*k) && !event.struck().is_empty());
-        let slowest = others.map(|(_, (_, speed))| *speed);
-        let slowest = slowest.fold(f64::INFINITY, f64::min);
-        let of_torus = on_curve.condition.kind() == Kind::NeimarkSacker;
-        let multipliers = &orbit.multipliers;
-        let trace = of_torus.then(|| multipliers.pair_of_torus()).flatten();
-        let trace = trace.map(|pair| pair.map(|k| multipliers.values[k][0]).iter().sum());
-        let resonances = trace.map_or([f64::INFINITY; 2], |sum: f64| [2.0 - sum, 2.0 + sum]);
-        let [one, two] = resonances;
-        let loss = match of_torus && multipliers.zeros_from_contact == 0 {
-            true => 1.0 - multipliers.product.abs() - LEAST_LOSS,
-            false => f64::INFINITY,
-        };
-        [
-            (END_OF_RANGE, x - a),
-            (END_OF_RANGE, b - x),
-            (END_OF_RANGE, y - c),
-            (END_OF_RANGE, d - y),
-            (CORNER, corner),
-            (GRAZE, slowest),
-            (ONE_TO_ONE, one),
-            (ONE_TO_TWO, two),
-            (NO_LOSS, loss),
-            (TOO_LONG, -beyond_largest_gap(orbit)),
-        ]
-    }
-
-    /// The first border between two points.
-    fn passed<'a, F: Family>(
-        &self,
-        on_curve: &OnCurve<'a, F>,
-        step: f64,
-        before: &Margins,
-        after: &Margins,
-    ) -> Option<Border<'a, F>> {
-        let crossed = (0..before.len()).filter(|&k| before[k].1 >= 0.0 && after[k].1 < 0.0);
-        let border = |number: usize| {
-            let what = before[number].0;
-            let margin = |there: &OnCurve<F>| self.margins(there, &there.orbit())[number].1;
-            let at = |sigma: f64| on_curve.moved(sigma).as_ref().map_or(f64::NAN, margin);
-            let sigma = root(&at, (0.0, before[number].1), (step, after[number].1));
-            // The largest gap may jump from one closest approach to another.
-            let is_on = |there: &OnCurve<F>| margin(there).abs() < ON_BORDER;
-            let found = |there: &OnCurve<F>| what == TOO_LONG || is_on(there);
-            Border {
-                what,
-                number,
-                sigma,
-                place: on_curve.moved(sigma).filter(found),
-            }
-        };
-        crossed
-            .map(border)
-            .min_by(|a, b| a.sigma.total_cmp(&b.sigma))
-    }
-}
-
-/// Whether a curve that begins beyond the border of too little loss leads further beyond it.
-fn loses_less(before: &Margins, after: &Margins) -> bool {
-    let mut both = before.iter().zip(after);
-    both.any(|((what, before), (_, after))| *what == NO_LOSS && *before < 0.0 && after < before)
-}
-
-/// A border that a curve passes, the distance to it, and the point there, if it was found.
-struct Border<'a, F: Family> {
-    what: &'static str,
-    /// Its place among the distances.
-    number: usize,
-    sigma: f64,
-    place: Option<OnCurve<'a, F>>,
 }

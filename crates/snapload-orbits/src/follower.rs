@@ -41,6 +41,8 @@ const LONGEST_TIME_CHANGE: f64 = 0.3;
 /// A gap of more than this, by which a cable would have to be longer, ends a branch or a curve.
 const LARGEST_GAP: f64 = 0.02;
 pub(crate) const TOO_LONG: &str = "a cable would have to be longer by 0.02";
+pub(crate) const CORNER: &str = "corner: at a snap another cable is at its full length, too; beyond it the \
+                                 sequence is another one";
 pub(crate) const END_OF_RANGE: &str = "the end of the range";
 /// A direction whose part along the parameter is larger than this certainly leads
 /// beyond a border on which it begins.
@@ -325,7 +327,7 @@ impl<'a> Follower<'a> {
             if event.ends_branch() {
                 half.end.at = event.value[0];
                 half.end.because = match event.kind {
-                    Kind::Corner => "corner: two cables snap at once, and come in the other order beyond it",
+                    Kind::Corner => CORNER,
                     _ => "graze: a snap of the sequence has zero velocity here, and a negative one beyond it",
                 }
                 .to_owned();

@@ -34,6 +34,7 @@ mod branch_rows;
 mod condition;
 mod continuation;
 mod curve;
+mod curve_borders;
 mod curve_rows;
 mod diagram;
 mod distances;

@@ -167,9 +167,9 @@ impl Orbit {
         self.why_not.is_empty()
     }
 
-    /// The same orbit at a graze, where rounding decides whether a simulation has the snap of zero
-    /// velocity: its admissibility is decided without the simulation.
-    pub(crate) fn at_graze(mut self) -> Self {
+    /// The same orbit where rounding decides what a simulation does, as at a graze whether it has
+    /// the snap of zero velocity: its admissibility is decided without the simulation.
+    pub(crate) fn by_survey(mut self) -> Self {
         self.why_not = self.survey.why_not(&self.lap.durations);
         self
     }

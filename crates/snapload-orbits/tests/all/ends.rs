@@ -5,6 +5,7 @@ use snapload::Parameters;
 use snapload::analysis::no_progress;
 use snapload_orbits::{
     Branch, BranchEvent, BranchOptions, Curve, CurveOptions, Kind, Moored, Orbit, OrbitRequest,
+    of_attractor,
 };
 
 const STRETCHED: Parameters = Parameters {
@@ -224,4 +225,82 @@ fn a_snap_that_sticks_in_place_of_the_next_ends_no_branch() {
     assert!(found.points.iter().all(|point| point.orbit.is_admissible()));
     let snaps = |k: usize| found.points[k].orbit.lap.sequence.snaps();
     assert!(snaps(0) < snaps(found.points.len() - 1));
+}
+
+fn point_mass([r, e, f_o, nu, omega]: [f64; 5]) -> Parameters {
+    Parameters {
+        r,
+        e,
+        f_o,
+        nu,
+        omega,
+        ..POINT
+    }
+}
+
+/// Where the instant of a graze comes to that of a snap of the other cable, both gaps are zero at
+/// once, and the curve ends: beyond, the touch would come after the snap has changed the motion. In
+/// each of its admissible points a slack cable is touched, or struck without velocity.
+#[test]
+fn a_curve_of_grazes_ends_where_a_graze_meets_a_snap() {
+    let case = point_mass([1.4116, 0.236185, 1.70665, 1.0, 5.42625]);
+    let keys = [Some("f_o"), Some("r")];
+    let family = Moored::case(case, keys);
+    let start = [-0.0041765, 0.0258545, 0.0, 0.4844652, -0.4544662, 0.0];
+    let orbit = near(&family, Moored::values(&case, keys), start);
+    let ranges = [[0.853325, 3.4133], [1.02, 2.8232]];
+    let first = branch(&family, &orbit, ranges[0], 0.02);
+    let event = first.event(Kind::Graze, None).unwrap();
+    for step in [0.02, 0.004] {
+        let found = curve(&family, event, ranges, step);
+        let admissible = found.points.iter().filter(|p| p.orbit.why_not.is_empty());
+        for point in admissible {
+            let survey = &point.orbit.survey;
+            let speed = survey.least_speed.map_or(1.0, |least| least.value);
+            let off = gap(&point.orbit).abs().min(speed.abs());
+            assert!(off < 1e-6, "{:?}: {off}", point.orbit.at);
+        }
+        let ends = found
+            .ends
+            .iter()
+            .zip([found.points.first(), found.points.last()]);
+        let meets = ends.filter(|(end, _)| end.because.starts_with("corner: the graze comes"));
+        let both: Vec<_> = meets.map(|(_, point)| point.unwrap()).collect();
+        assert_eq!(both.len(), 1, "{:?}", found.ends);
+        let corner = both[0].orbit.survey.corner_gap.expect("a gap at a snap");
+        assert!(corner.value.abs() < 1e-9, "{}", corner.value);
+        let [f_o, r] = both[0].orbit.at;
+        assert!(
+            (f_o - 1.78).abs() < 0.01 && (r - 1.45).abs() < 0.01,
+            "{f_o} {r}"
+        );
+    }
+}
+
+/// Where a cable without restitution and the contact after it erase all deviations, the value of a
+/// key changes with the square of the speed of a snap: the branch turns back at that snap's graze,
+/// but no multiplier is 1, and it is no fold.
+#[test]
+fn a_branch_that_turns_back_at_a_graze_has_no_fold_there() {
+    let case = point_mass([1.22399, 0.0, 2.62753, 0.234551, 1.61223]);
+    let keys = [Some("f_o"), None];
+    let family = Moored::case(case, keys);
+    let attractor = of_attractor(&case, &OrbitRequest::default(), &no_progress);
+    let start = attractor.unwrap().unwrap().z;
+    let orbit = near(&family, Moored::values(&case, keys), start);
+    let found = branch(&family, &orbit, [1.57652, 4.20405], 0.02);
+    let grazes = found
+        .events
+        .iter()
+        .filter(|event| event.kind == Kind::Graze);
+    let turning = grazes.map(|event| (event.value[0] - 1.663823457406).abs());
+    assert!(turning.fold(1.0, f64::min) < 1e-9);
+    let multipliers = |event: &&BranchEvent| event.orbit.multipliers.values.clone();
+    let folds = found.events.iter().filter(|event| event.kind == Kind::Fold);
+    for fold in folds.collect::<Vec<_>>().iter().map(multipliers) {
+        assert!(
+            fold.iter().any(|[re, im]| (re - 1.0).hypot(*im) < 1e-4),
+            "{fold:?}"
+        );
+    }
 }
