@@ -6,7 +6,7 @@ import re
 from itertools import pairwise
 from pathlib import Path
 
-from explore import blameless, download, times
+from explore import PHONE, blameless, download, times
 from playwright.sync_api import Page, expect
 
 SHORT = "run.duration=60&run.transient=10&elastic=false"
@@ -17,9 +17,9 @@ def focused(page: Page) -> str:
     return page.evaluate("() => document.activeElement.id || document.activeElement.dataset.t || 'none'")
 
 
-def waves(page: Page) -> None:
-    """Other waves in a table with amber cells, whose answer is not computed."""
-    cells = [{"value": value, "kind": "known"} for value in [0.4, 0.7, 0.9] * 10]
+def waves(page: Page, values: tuple[float, ...] = (0.4, 0.7, 0.9)) -> None:
+    """Other waves in a table with cells of these values, whose answer is not computed."""
+    cells = [{"value": value, "kind": "known"} for value in values * 10]
     answer = {"periods_s": [4 + k / 3 for k in range(10)], "heights_m": [1.5, 2, 2.5], "cells": cells}
     answer = {**answer, "utilisation": True, "length": 60}
     page.route("**/api/structure/waves", lambda route: route.fulfill(json=answer))
@@ -61,9 +61,58 @@ def test_other_waves_are_readable_and_say_when_they_are_of_earlier_values(open_s
     page.locator('[id="field-run.restitution"]').fill("0.51")
     expect(page.locator("#waves-stale")).to_contain_text("The table is of earlier values")
     page.set_viewport_size({"width": 1300, "height": 950})
-    waves(page)
+    waves(page, (8, 6.83, 9.75))
+    assert box.evaluate("one => one.scrollWidth <= one.clientWidth")
+    expect(message).not_to_contain_text("scrolled")
+    page.set_viewport_size({"width": 320, "height": 568})
+    waves(page, (8, 6.83, 9.75))
     expect(message).to_contain_text("can be scrolled sideways")
     assert box.evaluate("one => one.scrollWidth > one.clientWidth")
+
+
+def test_a_chart_keeps_its_unit_where_its_name_is_cut_off(open_structure):
+    page = open_structure(f"{SHORT}&t=25", viewport={"width": 1300, "height": 950})
+    for name in page.locator("#charts .chart-name").all():
+        cut_off = "one => one.querySelector('.unit').getBoundingClientRect().right - one.getBoundingClientRect().right"
+        assert name.evaluate(cut_off) <= 0
+
+
+NEEDS = """select => {
+    const clone = select.cloneNode(false);
+    clone.append(new Option(select.selectedOptions[0].text));
+    Object.assign(clone.style, { width: "auto", maxWidth: "none" });
+    select.after(clone);
+    const width = clone.offsetWidth;
+    clone.remove();
+    return width;
+}"""
+
+
+def test_the_speed_is_readable_on_a_phone(open_structure):
+    page = open_structure(f"{SHORT}&t=25", viewport=PHONE)
+    speed = page.locator("#speed")
+    assert speed.evaluate("one => one.offsetWidth") >= speed.evaluate(NEEDS)
+
+
+def test_a_field_of_all_lines_says_that_they_differ(open_structure):
+    page = open_structure(f"{SHORT}&line.2.diameter=0.04&t=25")
+    field = page.locator('[id="field-line.diameter"]')
+    expect(field).to_have_value("")
+    expect(field).to_have_attribute("placeholder", "they differ")
+    expect(page.locator('[id="field-line.length"]')).to_have_value("6")
+
+
+def test_the_dot_of_a_velocity_is_above_its_letter(open_page):
+    page = open_page("t=0")
+    heights = page.locator('label[for="field-vtheta"] .symbol i').evaluate(
+        """one => {
+            const context = document.createElement("canvas").getContext("2d");
+            const { fontStyle, fontFamily } = getComputedStyle(one);
+            context.font = `${fontStyle} 100px ${fontFamily}`;
+            return [one.textContent, "θ"].map(text => context.measureText(text).actualBoundingBoxAscent);
+        }"""
+    )
+    assert heights[0] > 1.1 * heights[1]
 
 
 def test_fields_of_all_lines_and_of_one_have_different_names(open_structure):

@@ -8,6 +8,7 @@ from pathlib import Path
 from urllib.parse import urljoin, urlsplit
 
 import pytest
+import xarray
 from explore import CYLINDER, ROOT, comes_true, served
 from playwright.sync_api import Browser, Page, expect
 
@@ -63,6 +64,36 @@ def test_a_page_does_not_show_the_answer_of_another_case(tab: Page, tmp_path: Pa
         tab.reload()
         expect(tab.locator("#file")).to_have_text(thin)
         expect(tab.locator("#note")).to_contain_text("The link belongs to cylinder.toml")
+
+
+def test_a_page_does_not_show_the_answer_with_other_coefficients(tab: Page, tmp_path: Path):
+    pontoon = tmp_path / "pontoon.toml"
+    text = (ROOT / "docs/examples/pontoon.toml").read_text(encoding="utf-8")
+    pontoon.write_text(text.replace("pontoon-10m.nc", "coefficients.nc"), encoding="utf-8")
+    coefficients = tmp_path / "coefficients.nc"
+    coefficients.write_bytes((ROOT / "docs/examples/pontoon-10m.nc").read_bytes())
+    with program(str(pontoon)) as url:
+        tab.goto(f"{url}#{SHORT}&t=0")
+        expect(tab.locator("#shell")).to_contain_text("run.duration=60", timeout=30_000)
+        port = urlsplit(url).port or 0
+    restitution, failed = tab.locator('[id="field-run.restitution"]'), tab.locator("#failed")
+    # The same ones again are no other case.
+    with program(str(pontoon), port=port):
+        restitution.fill("0.31")
+        expect(tab.locator("#shell")).to_contain_text("restitution=0.31")
+        expect(failed).to_be_hidden()
+    with xarray.open_dataset(ROOT / "docs/examples/pontoon-10m.nc") as dataset:
+        less = dataset.assign(radiation_damping=0.97 * dataset["radiation_damping"])
+        less.to_netcdf(coefficients)
+    with program(str(pontoon), port=port):
+        restitution.fill("0.32")
+        expect(failed).to_contain_text("or a file that this case names was changed")
+        expect(failed).to_contain_text("reload the page")
+        tab.reload()
+        expect(tab.locator("#shell")).to_contain_text("restitution=0.3", timeout=30_000)
+        restitution.fill("0.33")
+        expect(tab.locator("#shell")).to_contain_text("restitution=0.33")
+        expect(failed).to_be_hidden()
 
 
 def test_the_same_value_is_asked_for_again_once_the_program_is_back(tab: Page):

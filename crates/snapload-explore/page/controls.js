@@ -257,8 +257,10 @@ export class Controls {
       // An unavailable key that is given is refused by the server; its field stays enabled so that it can be corrected.
       const reason = given === undefined ? this.reasonUnavailable(name, this.state) : undefined;
       // The default of a key that does not apply would be of no use, and take room.
-      const placeholder = value === null && reason === undefined ? key.default_in_words : "";
-      setProperties(field, { disabled: reason !== undefined, ...(key.default_in_words && { placeholder }) });
+      // Only keys of structures can stand for several things.
+      const empty = this.state.differs?.(name) ? "they differ" : key.default_in_words;
+      const placeholder = value === null && reason === undefined ? empty : "";
+      setProperties(field, { disabled: reason !== undefined, placeholder });
       if (slider) setProperties(slider, { disabled: field.disabled });
       setProperties(why, { textContent: reason ?? "", hidden: !reason });
     }

@@ -49,7 +49,9 @@ export function fieldText(value) {
 export function symbolHtml(symbol) {
   const [stem, below] = symbol.split("_");
   if (symbol.split("_").length > 2 || [...stem.normalize("NFC")].length > 2) return symbol;
-  const italic = `<i>${stem}</i>`;
+  // A mark that has no letter of its own falls into it in italics of some fonts.
+  const marked = [...stem.normalize("NFC")].length > 1 && /\p{M}$/u.test(stem.normalize("NFC"));
+  const italic = marked ? `<i class="marked">${stem}</i>` : `<i>${stem}</i>`;
   return below ? `${italic}<sub>${below}</sub>` : italic;
 }
 

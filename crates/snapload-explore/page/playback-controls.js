@@ -35,6 +35,11 @@ export class PlaybackControls {
     return [0, this.run.tEnd];
   }
 
+  /** The time window that shows all. */
+  get all() {
+    return null;
+  }
+
   jump(t) {
     this.playback.pause();
     this.playback.seek(t);
@@ -43,9 +48,9 @@ export class PlaybackControls {
   /** Multiplies the length of the time window about the cursor. */
   zoom(factor) {
     const end = this.run.tEnd;
-    const [from, to] = this.run.interval(this.state.window);
+    const [from, to] = this.run.intervalToCome(this.state.window);
     const length = (to - from) * factor;
-    if (length >= end) return this.state.set({ window: null });
+    if (length >= end) return this.state.set({ window: this.all });
     const least = Math.max(length, 1e-6);
     const start = Math.min(Math.max(this.state.t - least / 2, 0), end - least);
     this.state.set({ window: [Number(start.toPrecision(9)), Number((start + least).toPrecision(9))] });

@@ -4,13 +4,17 @@ import { SPEEDS } from "./state.js";
 
 export class Playback {
   /**
-   * `currentRun` returns the run that is shown; `intoInterval` shows another interval if a time of the record is
-   * outside the one that can be shown, and returns the time within it.
+   * `currentRun` returns the run that is shown. `interval.into` shows another interval if a time of the record is
+   * outside the one that can be shown, and returns the time within it; `interval.unlistedStop` asks for a stop that the
+   * run does not list.
+   * @param {{ into: (t: number) => number, unlistedStop: (way: string, t: number) => Promise<number | null> }} interval
    */
-  constructor(state, currentRun, intoInterval = (t) => t) {
+  constructor(state, currentRun, interval = { into: (t) => t, unlistedStop: async () => null }) {
     this.state = state;
     this.currentRun = currentRun;
-    this.intoInterval = intoInterval;
+    this.interval = interval;
+    /** The steps that wait for an answer. @type {Promise<void> | null} */
+    this.steps = null;
     this.playing = false;
     this.frame = null;
     /** @type {(playing: boolean) => void} */
@@ -58,19 +62,35 @@ export class Playback {
 
   seek(t) {
     if (!this.run) return;
-    this.state.set({ t: this.intoInterval(Math.min(Math.max(t, 0), this.run.tEnd)) });
+    this.state.set({ t: this.interval.into(Math.min(Math.max(t, 0), this.run.tEnd)) });
   }
 
   next() {
-    if (!this.run) return;
-    this.pause();
-    this.seek(this.run.nextStop(this.state.t));
+    this.#step("nextStop");
   }
 
   previous() {
+    this.#step("previousStop");
+  }
+
+  /** Goes to a stop. Steps after one that waits for an answer wait, too. */
+  #step(way) {
     if (!this.run) return;
     this.pause();
-    this.seek(this.run.previousStop(this.state.t));
+    const stop = this.steps ? null : this.run[way](this.state.t);
+    if (stop !== null) return this.seek(stop);
+    const steps = (this.steps ?? Promise.resolve()).then(() => this.#stepLater(way));
+    this.steps = steps;
+    steps.then(() => {
+      if (this.steps === steps) this.steps = null;
+    });
+  }
+
+  async #stepLater(way) {
+    const { t } = this.state;
+    const stop = this.run[way](t) ?? (await this.interval.unlistedStop(way, t));
+    // Meanwhile the time cursor may have been moved by hand.
+    if (stop !== null && this.state.t === t) this.seek(stop);
   }
 
   /** A small step: 1/500 of the time that is shown. */
@@ -85,10 +105,10 @@ export class Playback {
   }
 
   get #first() {
-    return this.run.interval(this.state.window)[0];
+    return this.run.intervalToCome(this.state.window)[0];
   }
 
   get #last() {
-    return Math.min(this.run.interval(this.state.window)[1], this.run.tEnd);
+    return Math.min(this.run.intervalToCome(this.state.window)[1], this.run.tEnd);
   }
 }

@@ -150,6 +150,11 @@ export class Run {
     return chosen ?? [0, this.tEnd];
   }
 
+  /** The interval that is shown next: a chosen one needs no other answer. */
+  intervalToCome(chosen) {
+    return this.interval(chosen);
+  }
+
   /** Whether the answer lists all events up to a time; of a long run it lists only the first. */
   listed(t) {
     return !this.cut || t < this.cut.until;

@@ -25,7 +25,12 @@ export class StructurePlaybackControls extends PlaybackControls {
 
   /** Only the motion of the interval that is shown is available. */
   get ends() {
-    return this.run.window;
+    return this.run.intervalToCome(this.state.window);
+  }
+
+  /** Without a time window the interval around the hardest snap is shown. */
+  get all() {
+    return [0, this.run.tEnd];
   }
 
   words(t, run) {
@@ -39,14 +44,16 @@ export class StructurePlaybackControls extends PlaybackControls {
   show() {
     super.show();
     if (!this.run) return;
-    const [from, to] = this.run.window;
+    const { window } = this.run;
+    // The slider stays where it is moved to.
+    const [from, to] = this.run.intervalToCome(this.state.window);
     // Over the whole record, as it is drawn above it.
     const most = Math.max(this.run.lasts_s - (to - from), 0);
     // Before the whole record is run there is nothing to choose from.
     const { preview } = this.run;
     Object.assign($("interval-start"), { min: 0, max: most, value: from, disabled: most === 0 || preview });
     $("interval-start").setAttribute("aria-valuetext", `from ${round(from)} to ${round(to)} of ${round(this.run.tEnd)} s`);
-    $("window-words").value = `${fixed(from, 1)} to ${fixed(to, 1)} s`;
+    $("window-words").value = `${fixed(window[0], 1)} to ${fixed(window[1], 1)} s`;
     $("zoom-all").disabled = preview;
   }
 

@@ -144,6 +144,12 @@ export class StructureRun {
     return this.window;
   }
 
+  /** The interval that is shown once the answers on their way are there. */
+  intervalToCome(chosen) {
+    // One past the beginning that is run waits for the whole record.
+    return chosen && !this.isBeyond(chosen[1]) ? chosen : this.window;
+  }
+
   /** Whether the answer has the other runs: of other restitutions always, in waves of other waves and neighbours. */
   get hasOtherRuns() {
     return this.rebound !== null;
@@ -158,12 +164,22 @@ export class StructureRun {
     return this.horizon.t !== null && t > this.horizon.t;
   }
 
+  /** The next stop after t, or the end; null where snaps in between may not be listed. */
   nextStop(t) {
-    return this.stops.find((stop) => stop > t) ?? this.tEnd;
+    const i = this.latestSnap(t);
+    return this.#followsAt(i + 1) ? (this.stops[i + 1] ?? this.tEnd) : null;
   }
 
+  /** The one before t, or the start; null as above. */
   previousStop(t) {
-    return this.stops.findLast((stop) => stop < t) ?? 0;
+    const i = this.stops.findLastIndex((stop) => stop < t);
+    return this.#followsAt(i + 1) ? (this.stops[i] ?? 0) : null;
+  }
+
+  /** Whether no snap is left out between a row of the list, or its end, and the row before. */
+  #followsAt(i) {
+    const { number, all } = this.snaps;
+    return (number[i] ?? all + 1) === (number[i - 1] ?? 0) + 1;
   }
 
   /** Index of the last snap at or before t; −1 before the first. */
@@ -176,9 +192,7 @@ export class StructureRun {
   snapsUntil(t) {
     const { number, all } = this.snaps;
     const i = this.latestSnap(t);
-    const next = number[i + 1] ?? all + 1;
-    const known = i < 0 ? 0 : number[i];
-    return `${next > known + 1 ? "past " : ""}snap ${known} of ${all}`;
+    return `${this.#followsAt(i + 1) ? "" : "past "}snap ${number[i] ?? 0} of ${all}`;
   }
 
   /** Snaps with from <= t <= to, the latest first, as indices. */

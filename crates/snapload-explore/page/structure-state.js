@@ -69,14 +69,26 @@ export class StructureState extends ObservableState {
     const own = this.values[name];
     if (own !== undefined) return own;
     const [table, number, key] = name.split(".");
-    if (key === undefined && this.#key(name)?.table === "line") return this.#ofAllLines(number);
+    if (this.#isOfAllLines(name)) return this.#ofAllLines(number);
     return (key && this.values[`${table}.${key}`]) ?? this.given[name] ?? this.#key(name)?.default ?? null;
+  }
+
+  /** Whether a key of all lines has several values. */
+  differs(name) {
+    return this.#isOfAllLines(name) && new Set(this.#ofEachLine(name.split(".")[1]).map(fieldText)).size > 1;
+  }
+
+  #isOfAllLines(name) {
+    return name.split(".").length === 2 && this.#key(name)?.table === "line";
   }
 
   /** The value that all lines have; null if they differ. */
   #ofAllLines(key) {
-    const all = Array.from({ length: this.lines }, (_, i) => this.value(`line.${i + 1}.${key}`));
-    return all.every((value) => fieldText(value) === fieldText(all[0])) ? all[0] : null;
+    return this.differs(`line.${key}`) ? null : this.#ofEachLine(key)[0];
+  }
+
+  #ofEachLine(key) {
+    return Array.from({ length: this.lines }, (_, i) => this.value(`line.${i + 1}.${key}`));
   }
 
   /** Sets some keys; null, or the value of the case, removes a change. */

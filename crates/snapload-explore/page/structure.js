@@ -21,6 +21,7 @@ import { chooseTheme, chosenTheme, colours, lineColour, reducedMotion } from "./
 import { StructureCharts, breakingLoads } from "./structure-charts.js";
 import { filmCaption, structureKeyGroups, reasonUnavailable } from "./structure-key-groups.js";
 import { StructureHandles } from "./structure-handles.js";
+import { StructureInterval } from "./structure-interval.js";
 import { PinnedAnswers } from "./structure-pinned-answers.js";
 import { StructureRun } from "./structure-run.js";
 import { structureShapes } from "./structure-scene.js";
@@ -51,16 +52,19 @@ class Page {
     this.background = null;
     /** Why the values can not be run. */
     this.refusal = "";
+    /** The question whose answer is shown in place of that of refused values; no other answer follows it. */
+    this.instead = null;
     /** The time cursor of a part of the record that is not run yet. */
     this.keptTime = null;
     this.link = new Link(this.state, {
       onBroken: (parts) => note(brokenLinkWords(parts)),
       onTravel: () => this.travel(),
     });
-    this.playback = new Playback(this.state, () => this.run, (t) => this.intoInterval(t));
+    this.interval = new StructureInterval(this.state, () => this.run);
+    this.playback = new Playback(this.state, () => this.run, this.interval);
     this.sceneView = new StructureSceneView(this.state, this.playback);
     this.playbackControls = new StructurePlaybackControls(this.state, this.playback, {
-      onInterval: (from) => this.showInterval(from),
+      onInterval: (from) => this.interval.moveTo(from),
     });
     this.playback.onPlaying = (playing) => {
       this.playbackControls.showPlaying(playing);
@@ -135,6 +139,7 @@ class Page {
     const asked = keyOf(this.question);
     if (asked === this.asked) return;
     this.asked = asked;
+    this.instead = null;
     this.stopBackground();
     this.runner.ask(this.question, since);
   }
@@ -155,16 +160,18 @@ class Page {
     // Results for elastic lines stay valid for another interval of the same run.
     this.sameCase = before !== null && keyOf(before.ofCase) === keyOf(question.case);
     const latest = this.asked === keyOf(question);
-    this.show(latest);
+    const last = latest || this.instead === keyOf(question);
+    this.show(last);
     if (this.playsAtOnce) this.playback.play();
     this.playsAtOnce = false;
     reportPaintTime(since);
-    if (!latest) return;
-    this.refusal = "";
-    $("failed").hidden = true;
-    this.controls.clearError();
-    this.controls.show(this.run.effective(this.state));
-    this.#goOn(this.sameCase ? 0 : REST_MS);
+    if (latest) {
+      this.refusal = "";
+      $("failed").hidden = true;
+      this.controls.clearError();
+      this.controls.show(this.run.effective(this.state));
+    }
+    if (last) this.#goOn(this.sameCase ? 0 : REST_MS);
   }
 
   /** Completes the answer that is shown, if no other takes its place before. */
@@ -275,15 +282,31 @@ class Page {
       this.controls.showError(error);
       this.refusal = error.message;
     }
+    const refused = error instanceof Refused;
     // A program that did not answer may answer the same question later.
-    if (latest && !(error instanceof Refused)) this.asked = null;
-    const unchanged = { case: { ...question.case, set: [], water: null }, window: null };
-    const instead = this.run || keyOf(unchanged.case) === keyOf(question.case) ? null : unchanged;
+    if (latest && !refused) this.asked = null;
+    const instead = latest && refused ? this.#insteadOf(question) : null;
     const shown = this.run ? "the last values that could be run" : instead && "the case without changes";
     $("failed").textContent = `Not run: ${this.refusal}${shown ? `\nThe page shows ${shown}.` : ""}`;
     $("failed").hidden = false;
-    if (instead) this.runner.askInstead(instead, performance.now());
-    if (this.run && latest) this.#goOn(REST_MS);
+    if (instead) {
+      this.instead = keyOf(instead);
+      this.runner.askInstead(instead, performance.now());
+    } else if (this.run && (latest || this.instead === keyOf(question))) {
+      this.interval.stay();
+      this.#goOn(REST_MS);
+    }
+  }
+
+  /**
+   * The question that is asked in place of a refused one: of the case without changes, or, once a run is shown, of its
+   * case if the interval was moved. Null if nothing else can be shown.
+   */
+  #insteadOf(question) {
+    const { run, state } = this;
+    const instead = { case: run?.ofCase ?? { ...question.case, set: [], water: null }, window: state.window };
+    const moved = !run || keyOf(run.intervalToCome(state.window)) !== keyOf(run.window);
+    return moved && keyOf(instead) !== keyOf(question) ? instead : null;
   }
 
   /** Redraws what depends on a change of the state. */
@@ -336,26 +359,6 @@ class Page {
   jump(t) {
     this.playback.pause();
     this.playback.seek(t);
-  }
-
-  /** Moves the interval to a time of the record that is outside it; returns the time within the interval. */
-  intoInterval(t) {
-    const { run, state } = this;
-    // The interval may have been moved already, and its answer be on its way.
-    const moved = state.window && !run.isBeyond(state.window[1]) ? state.window : run.window;
-    const there = t >= moved[0] && t <= moved[1];
-    if (!there) this.showInterval(t - (moved[1] - moved[0]) / 2);
-    const [from, to] = there ? moved : state.window;
-    return Math.min(Math.max(t, from), to);
-  }
-
-  /** Shows an interval of the same length with another start. */
-  showInterval(begin) {
-    const [from, to] = this.run.window;
-    const length = to - from;
-    const start = Math.min(Math.max(begin, 0), Math.max(this.run.tEnd - length, 0));
-    const window = [start, start + length].map((time) => Number(time.toFixed(3)));
-    this.state.set({ window, t: Math.min(Math.max(this.state.t, window[0]), window[1]) });
   }
 
   restore({ values, water }) {

@@ -29,7 +29,7 @@ export class TimeCharts {
   #build(root, chart) {
     const figure = document.createElement("figure");
     figure.className = "chart";
-    figure.innerHTML = `<figcaption><span class="chart-name">${chart.name} <i>${chart.symbol}</i>
+    figure.innerHTML = `<figcaption><span class="chart-name"><span>${chart.name}</span> <i>${chart.symbol}</i>
       <span class="unit">[${chart.unit}]</span></span><output class="reading"></output></figcaption>
       <div class="stack"><canvas class="base" role="img"></canvas><div class="over" aria-hidden="true">
         <div class="brush"></div><div class="upright hovered"></div><div class="upright"></div>

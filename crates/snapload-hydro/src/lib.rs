@@ -36,8 +36,8 @@ pub use memory::{
     added_mass_at_infinity, fit, given,
 };
 pub use read::{
-    Dataset, FirstColumn, Format, Given, Reading, Values, Variable, WamitText, from_dataset,
-    from_nemoh, from_wamit, read,
+    Dataset, FirstColumn, Format, Given, Reading, Values, Variable, WamitText, files_of,
+    from_dataset, from_nemoh, from_wamit, read,
 };
 pub use report::{
     Floating, GivenMemory, Json, Report, Request, held_summary, page, periods_summary,

@@ -52,6 +52,6 @@ pub use schema::{STRUCTURE, is_structure};
 pub use snapload_hydro::wave_number;
 pub use structure::{
     AddedMass, AddedMassDefaults, Afloat, BodySi, DesignRule, IrregularSea, LineSi, NO_FILES_HERE,
-    Outline, Project, Site, SpectrumShape, Structure, THREE_HOURS_S, Water, Wave,
+    Outline, Project, Site, SpectrumShape, Structure, THREE_HOURS_S, Water, Wave, files_beside,
 };
 pub use text_layout::labelled_row;

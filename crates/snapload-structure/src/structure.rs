@@ -7,7 +7,7 @@ mod design;
 mod read;
 
 pub use added_mass::{AddedMass, AddedMassDefaults};
-pub use afloat::{Afloat, NO_FILES_HERE};
+pub use afloat::{Afloat, NO_FILES_HERE, files_beside};
 
 use crate::text_layout::kilo;
 use std::f64::consts::PI;

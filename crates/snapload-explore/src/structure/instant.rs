@@ -1,8 +1,10 @@
-//! `/api/structure/instant`: the motion at exactly one time, and which lines are taut then.
+//! `/api/structure/instant`: the motion at exactly one time, which lines are taut then, and the
+//! snaps before and after it.
 use super::Latest;
 use super::motion::Columns;
 use super::opened::{CaseRequest, Opened};
 use super::run::{RunRequest, assessed};
+use super::snaps;
 use crate::refusal::Refusal;
 use crate::work::Allowance;
 use serde::{Deserialize, Serialize};
@@ -25,6 +27,9 @@ struct Answer {
     motion: Columns,
     /// Counted from 1.
     taut: Vec<usize>,
+    /// The times of the snaps before and after that time, which the page may not list \[s\].
+    previous: Option<f64>,
+    next: Option<f64>,
 }
 
 /// The answer, as JSON; at a time outside the run that at its end.
@@ -39,9 +44,12 @@ pub(crate) fn answer(
     let assessment = assessed(&request.case, &case, wanted_run, latest, allowance)?;
     let scales = &assessment.prepared.model.scales;
     let motion = Playback::new(&assessment.run).at(request.t / scales.time_s);
+    let [previous, next] = snaps::around(&assessment.snaps, request.t);
     let answer = Answer {
         taut: motion.taut.iter().map(|line| line + 1).collect(),
         motion: Columns::at_instant(&assessment.run, scales, &motion),
+        previous,
+        next,
     };
     serde_json::to_vec(&answer).map_err(Refusal::failed)
 }

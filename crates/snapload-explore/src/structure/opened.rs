@@ -3,7 +3,7 @@ use crate::refusal::Refusal;
 use serde::{Deserialize, Serialize};
 use snapload::{CaseError, Entries, Value, parse_value};
 use snapload_report::{python_text, shell_command};
-use snapload_structure::{NO_FILES_HERE, STRUCTURE, Structure};
+use snapload_structure::{NO_FILES_HERE, STRUCTURE, Structure, files_beside};
 use std::path::{Path, PathBuf};
 
 /// The case of a structure with which the program was started, or that was opened on the page.
@@ -51,7 +51,8 @@ pub(crate) struct CaseRequest {
     #[serde(default)]
     file: Option<File>,
     /// Otherwise the checksum of the case with which the program was started when the page was
-    /// opened: a page can stay open while the program is started with another one.
+    /// opened: a page can stay open while the program is started with another one, or while a file
+    /// that the case names is changed.
     #[serde(default)]
     opened: Option<String>,
     /// Changes, each in the notation of `--set`.
@@ -92,13 +93,27 @@ impl Opened {
         there.map_or(WaterKind::Still, |(_, kind)| *kind)
     }
 
-    /// A text that differs for different cases: FNV-1a of its name and its keys.
+    /// A text that differs for different cases: FNV-1a of its name, its keys, and the files that it
+    /// names as they are now.
     pub(crate) fn checksum(&self) -> String {
-        let text = format!("{}\n{}", self.name, self.entries.to_toml());
-        let sum = text.bytes().fold(0xcbf2_9ce4_8422_2325_u64, |sum, byte| {
-            (sum ^ u64::from(byte)).wrapping_mul(0x0100_0000_01b3)
+        let mut bytes = format!("{}\n{}", self.name, self.entries.to_toml()).into_bytes();
+        for file in self.files() {
+            // The parts can not be moved from one file to another; a missing file is one of its own.
+            let content = std::fs::read(file).ok();
+            let length = content.as_ref().map(Vec::len);
+            bytes.extend(format!("\n{length:?}\n").into_bytes());
+            bytes.extend(content.unwrap_or_default());
+        }
+        let sum = bytes.iter().fold(0xcbf2_9ce4_8422_2325_u64, |sum, byte| {
+            (sum ^ u64::from(*byte)).wrapping_mul(0x0100_0000_01b3)
         });
         format!("{sum:x}")
+    }
+
+    /// The files that it names, and those that belong to them.
+    fn files(&self) -> Vec<PathBuf> {
+        let folder = self.folder.as_ref();
+        folder.map_or_else(Vec::new, |folder| files_beside(&self.entries, folder))
     }
 
     /// The structure. A case from a browser has no folder, and files in the folder in which the
@@ -178,7 +193,11 @@ impl CaseRequest {
         let there = start.map(Opened::checksum);
         if self.opened.is_some() && self.opened != there {
             let now = start.map_or("without a structure".to_owned(), |start| {
-                format!("with another case, {}", start.name)
+                let changed = match start.files().is_empty() {
+                    true => "",
+                    false => ", or a file that this case names was changed",
+                };
+                format!("with another case, {}{changed}", start.name)
             });
             return Err(Refusal::values(format!(
                 "the program was started again, {now}; this page shows the case before\nhint: reload the page"

@@ -197,8 +197,9 @@ impl Answer {
         let end = assessment.outcome.end_s;
         let window = window.filter(|[from, _]| *from < end);
         let window = window.unwrap_or_else(|| note::window(assessment));
-        // Rounded to the millisecond, as in links.
-        let window = [window[0], window[1].min(end)].map(|t| (t * 1e3).round() / 1e3);
+        // Rounded to the millisecond, as in links, and not to an instant.
+        let [from, to] = [window[0], window[1].min(end)].map(|t| (t * 1e3).round() / 1e3);
+        let window = [from, to.max(from + 1e-3)];
         let mut json = assessment.to_json(name);
         if let Some(json) = json.as_object_mut() {
             json.remove("snaps");

@@ -63,6 +63,14 @@ impl Snaps {
     }
 }
 
+/// The times of the last snap that counts before a time, and of the first after it \[s\].
+pub(super) fn around(snaps: &[Snap], t_s: f64) -> [Option<f64>; 2] {
+    let counting = || snaps.iter().filter(|snap| snap.counts());
+    let before = counting().rfind(|snap| snap.t_s < t_s);
+    let after = counting().find(|snap| snap.t_s > t_s);
+    [before, after].map(|found| found.map(|snap| snap.t_s))
+}
+
 /// The hardest ones, judged and in the transient, in the order of time.
 fn hardest(all: &[&Snap], transient_s: f64) -> Vec<usize> {
     let mut order: Vec<usize> = (0..all.len()).collect();
@@ -95,6 +103,16 @@ mod tests {
             peak_n: None,
             utilisation: None,
         }
+    }
+
+    #[test]
+    fn the_snaps_around_a_time_are_those_that_count() {
+        // The third is too slow to count, and two are at one instant.
+        let all = [(1.0, 1.0), (2.0, 1.0), (3.0, 1e-4), (4.0, 1.0), (4.0, 2.0)];
+        let snaps = all.map(|(t, speed)| snap(t, speed));
+        assert_eq!(around(&snaps, 0.5), [None, Some(1.0)]);
+        assert_eq!(around(&snaps, 2.0), [Some(1.0), Some(4.0)]);
+        assert_eq!(around(&snaps, 4.0), [Some(2.0), None]);
     }
 
     #[test]

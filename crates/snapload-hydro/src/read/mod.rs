@@ -135,13 +135,7 @@ pub fn read(path: &Path, given: &Given) -> Result<Reading, HydroError> {
             Reading::new(Format::Wamit, from_wamit(&wamit_text(path)?, given)?)
         }
         _ if path.is_dir() || extension.as_deref() == Some("tec") => {
-            let folder = if path.is_dir() {
-                nemoh_folder(path)
-            } else {
-                path.parent().unwrap_or(Path::new("")).to_owned()
-            };
-            let [radiation, excitation] = ["RadiationCoefficients.tec", "ExcitationForce.tec"]
-                .map(|name| text(path, &folder.join(name)));
+            let [radiation, excitation] = nemoh_files(path).map(|file| text(path, &file));
             let hydro = from_nemoh(&radiation?, &excitation?, given)?;
             Reading::new(Format::Nemoh, hydro)
         }
@@ -152,9 +146,21 @@ pub fn read(path: &Path, given: &Given) -> Result<Reading, HydroError> {
     }
 }
 
-/// The files of WAMIT that belong to one of them: that one, and the others of its name. Of `.3` and
-/// `.2`, which both have the wave forces, it is the one that was asked for, else `.3`.
-fn wamit_text(asked: &Path) -> Result<WamitText, HydroError> {
+/// The files that [`read`] reads for a path; some of them may not be there.
+#[must_use]
+pub fn files_of(path: &Path) -> Vec<PathBuf> {
+    let extension = path.extension().and_then(|end| end.to_str());
+    match extension.map(str::to_ascii_lowercase).as_deref() {
+        Some("1" | "2" | "3" | "hst") => wamit_files(path).to_vec(),
+        ending if path.is_dir() || ending == Some("tec") => nemoh_files(path).to_vec(),
+        _ => vec![path.to_owned()],
+    }
+}
+
+/// The files of WAMIT that belong to one of them: that one, and the others of its name, as `.1`,
+/// wave forces, and `.hst`. Of `.3` and `.2`, which both have the wave forces, it is the one that
+/// was asked for, else `.3`.
+fn wamit_files(asked: &Path) -> [PathBuf; 3] {
     let is_asked = |ending: &str| {
         asked
             .extension()
@@ -171,15 +177,30 @@ fn wamit_text(asked: &Path) -> Result<WamitText, HydroError> {
     };
     let (third, hst) = (with("3"), with("hst"));
     let takes_third = !is_asked("2") && (is_asked("3") || third.exists());
-    let excitation = if takes_third { third } else { with("2") };
+    [with("1"), if takes_third { third } else { with("2") }, hst]
+}
+
+/// Their text; only the hydrostatics may be missing, unless they were asked for.
+fn wamit_text(asked: &Path) -> Result<WamitText, HydroError> {
+    let [radiation, excitation, hst] = wamit_files(asked);
     Ok(WamitText {
-        radiation: text(asked, &with("1"))?,
+        radiation: text(asked, &radiation)?,
         excitation: text(asked, &excitation)?,
-        hydrostatics: match is_asked("hst") || hst.exists() {
+        hydrostatics: match hst == asked || hst.exists() {
             true => Some(text(asked, &hst)?),
             false => None,
         },
     })
+}
+
+/// The files of Nemoh that belong to one of them, or that are in a folder.
+fn nemoh_files(path: &Path) -> [PathBuf; 2] {
+    let folder = if path.is_dir() {
+        nemoh_folder(path)
+    } else {
+        path.parent().unwrap_or(Path::new("")).to_owned()
+    };
+    ["RadiationCoefficients.tec", "ExcitationForce.tec"].map(|name| folder.join(name))
 }
 
 /// Nemoh writes its results into a folder `results` or `Results`.

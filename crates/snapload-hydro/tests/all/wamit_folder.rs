@@ -2,7 +2,7 @@
 
 use crate::common::{path, wamit_files, wamit_given};
 use nalgebra::Matrix3;
-use snapload_hydro::{WamitText, from_wamit, read};
+use snapload_hydro::{WamitText, files_of, from_wamit, read};
 
 /// A folder with the pontoon's files under these endings.
 fn folder(files: [(&str, &str); 3]) -> tempfile::TempDir {
@@ -46,6 +46,22 @@ fn the_wave_forces_are_those_that_were_asked_for() {
         assert!(error.to_string().contains("No such file"), "{error}");
     }
     assert!((heave("1") - 0.9).abs() < 1e-9);
+}
+
+/// What is read for one of the files is that one and all others that belong to it.
+#[test]
+fn the_files_of_one_are_those_that_belong_to_it() {
+    let folder = folder([("1", "1"), ("3", "3"), ("hst", "HST")]);
+    let at = |ending: &str| folder.path().join(format!("pontoon.{ending}"));
+    for asked in ["1", "3", "HST"] {
+        assert_eq!(files_of(&at(asked)), ["1", "3", "HST"].map(at), "{asked}");
+    }
+    assert_eq!(files_of(&at("2")), ["1", "2", "HST"].map(at));
+    assert_eq!(files_of(&at("nc")), [at("nc")]);
+    let nemoh = ["RadiationCoefficients.tec", "ExcitationForce.tec"];
+    let inside = nemoh.map(|name| folder.path().join(name));
+    assert_eq!(files_of(folder.path()), inside);
+    assert_eq!(files_of(&inside[1]), inside);
 }
 
 #[test]

@@ -6,7 +6,7 @@ use nalgebra::Vector3;
 use snapload::{CaseError, Entries, Fields, FromValue};
 use snapload_hydro::{
     FirstColumn, FitOptions, Format, Given, GivenMemory, GivenSource, HydroError, Reading, Report,
-    Request, SectionBody, Shape, Water, Weight, read,
+    Request, SectionBody, Shape, Water, Weight, files_of, read,
 };
 use std::path::{Path, PathBuf};
 
@@ -116,6 +116,17 @@ fn path(
         Some(folder) => Ok(Some(folder.join(name))),
         None => Err(fields.refuse(key, format!("{name:?}"), NO_FILES_HERE)),
     }
+}
+
+/// The files that a case in this folder is computed from, besides its own.
+#[must_use]
+pub fn files_beside(entries: &Entries, folder: &Path) -> Vec<PathBuf> {
+    let fields = entries.table("float", 0);
+    let [file, memory] = ["file", "memory"].map(|key| path(fields, key, Some(folder)));
+    // A name that is refused names no file.
+    let file = file.ok().flatten().map(|file| files_of(&file));
+    let memory = memory.ok().flatten();
+    file.into_iter().flatten().chain(memory).collect()
 }
 
 /// The coefficients of a file, or of the textbook if there is none.
