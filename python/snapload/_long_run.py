@@ -264,7 +264,8 @@ def orbit_diagram(
         with ``exponent_se``, ``y_max``, ``stop`` (empty if the motion did not stop) with ``stop_t`` and
         ``stop_certain``, false where rounding decides that time and otherwise true, and ``restarted``, whether the
         motion started from the start of the case, as it does at the first value, after a stop, and where the last
-        state is not legal at the next value, as when ``r`` varies and a cable is taut. The values are in the order in which they were followed.
+        state is not legal at the next value, as when ``r`` varies and a cable is taut. The values are in the order in
+        which they were followed.
 
     Raises
     ------

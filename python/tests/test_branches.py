@@ -102,7 +102,7 @@ def test_impossible_switches_report_why():
         branch.switch("period_doubling", 2)
     with pytest.raises(ValueError, match="kind = 'fold' is not allowed; allowed: 'period_doubling'"):
         branch.switch("fold")
-    with pytest.raises(snapload.NoOrbitError, match=r"has no period doubling; it ends at 1\.3\d*: the end of the range; and at 1\.5"):
+    with pytest.raises(snapload.NoOrbitError, match="no period doubling; it ends at 1.500000: the end of the range"):
         snapload.continuation(snapload.Case(**VOLLEY).orbit(), "f_o", (1.3, 1.5)).switch()
 
 

@@ -197,7 +197,7 @@ def test_a_dataset_has_the_case_it_is_of(tmp_path):
         snapload.orbit_diagram(case, f_o=[1.5, 1.6], periods=40, keep=20, progress=False),
         snapload.safe_basin(case, progress=False, **window),
         snapload.basins_of_attraction(case, transient=20, progress=False, **window)[0],
-        snapload.erosion(case, e=[0.5, 0.7], progress=False, **window),
+        snapload.erosion(case, over=dict(e=[0.5, 0.7]), progress=False, **window),
         critical,
     ):
         path = tmp_path / "case.toml"
