@@ -7,7 +7,7 @@
 
 use crate::branch_events::{BranchEvent, Kind};
 use crate::continuation::{Continuation, Unknowns};
-use crate::follower::{END_OF_RANGE, TOO_LONG, beyond_largest_gap};
+use crate::follower::{END_OF_RANGE, TOO_LONG, beyond_largest_gap, check_followed};
 use crate::hybrid::Family;
 use crate::multipliers::{NEAR_CIRCLE, Stability};
 use crate::normal_form::{Coefficient, coefficient};
@@ -95,13 +95,16 @@ impl Curve {
     ///
     /// # Errors
     /// [`Cancelled`] if the work is cancelled; within it [`NoOrbit`] if the point is not of such a
-    /// kind, or no such orbit is found there.
+    /// kind, no such orbit is found there, or a range or the step is not allowed.
     pub fn of<F: Family>(
         family: &F,
         event: &BranchEvent,
         options: &CurveOptions,
         on_progress: OnProgress,
     ) -> Result<Result<Self, NoOrbit>, Cancelled> {
+        if let Err(error) = check_followed(&options.ranges, options.step) {
+            return Ok(Err(NoOrbit(error.to_string())));
+        }
         let orbit = &event.orbit;
         let continuation = Continuation {
             family,
@@ -138,11 +141,11 @@ impl Curve {
             true => HalfCurve::empty(on_curve.here.at, "the curve is closed"),
             false => follower.run(on_curve)?,
         };
-        let mut points: Vec<CurvePoint> = backward.points;
+        let mut points = backward.points;
+        points
+            .iter_mut()
+            .for_each(|point| point.arclength = -point.arclength);
         points.reverse();
-        for point in &mut points {
-            point.arclength = -point.arclength;
-        }
         points.push(first);
         points.extend(forward.points);
         if event.kind == Kind::Fold {

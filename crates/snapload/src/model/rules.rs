@@ -104,7 +104,8 @@ listed! {
         /// The time no longer increases, in very many steps, or a number is no longer finite: the
         /// computation can not go on.
         Standstill = [
-            "standstill", "standstill", "the computation stood still: its time no longer increased",
+            "standstill", "standstill",
+            "the computation could not go on: its time no longer increased, or a number overflowed",
         ];
     }
 }

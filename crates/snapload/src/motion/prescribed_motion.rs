@@ -140,7 +140,7 @@ impl<T: Real> PrescribedTaut<T> {
             state = series.state(step);
             (t, left) = (t + step, left - step);
         }
-        State::from_components([T::ZERO / T::ZERO; 6])
+        State::from_components([(-T::ONE).sqrt(); 6])
     }
 
     /// The tensions that hold the cables of `taut`, of either sign.
