@@ -14,15 +14,15 @@ const RATE: f64 = 0.05;
 
 /// What slows the ball.
 #[derive(Clone, Copy, Debug, PartialEq)]
-enum Slowed {
-    ByDrag,
-    ByWater,
-    ByBoth,
+enum By {
+    Drag,
+    Water,
+    Both,
 }
 
 /// A ball of some mass that bounces on a cable of length 1 once in a period: its weight and the force
 /// on it are those of the ball of unit mass times its mass.
-fn ball<T: Real>(mass: Option<f64>, slowed: Slowed) -> (System<T>, Rules<T>) {
+fn ball<T: Real>(mass: Option<f64>, slowed: By) -> (System<T>, Rules<T>) {
     let number = |x: f64| T::from_f64(x);
     let zero = T::ZERO;
     let m = mass.unwrap_or(1.0);
@@ -38,14 +38,14 @@ fn ball<T: Real>(mass: Option<f64>, slowed: Slowed) -> (System<T>, Rules<T>) {
         Some(m) => Body::with_mass_matrix(Shape::Point, diagonal(m, m, 0.3 * m)).unwrap(),
         None => Body::point(),
     };
-    let share = if slowed == Slowed::ByBoth { 0.5 } else { 1.0 };
-    let drag = (slowed != Slowed::ByWater).then(|| Drag {
+    let share = if slowed == By::Both { 0.5 } else { 1.0 };
+    let drag = (slowed != By::Water).then(|| Drag {
         linear: number(share * RATE * m),
         quadratic: zero,
         turning: number(7.0),
         water: vec![],
     });
-    let floating = (slowed != Slowed::ByDrag).then(|| Floating {
+    let floating = (slowed != By::Drag).then(|| Floating {
         stiffness: [[zero; 3]; 3],
         damping: diagonal(share * RATE * m, share * RATE * m, 7.0),
         constant: [zero; 3],
@@ -91,7 +91,7 @@ fn start() -> [f64; 6] {
 fn volumes_shrink_by_the_damping_over_the_mass() {
     let expected = E * E * (-2.0 * RATE * TAU / OMEGA).exp();
     for mass in [None, Some(1.0), Some(5.0)] {
-        for slowed in [Slowed::ByDrag, Slowed::ByWater, Slowed::ByBoth] {
+        for slowed in [By::Drag, By::Water, By::Both] {
             let family = Moored::new(
                 false,
                 move |_| ball(mass, slowed),
@@ -117,11 +117,11 @@ fn volumes_shrink_by_the_damping_over_the_mass() {
 fn the_rate_is_the_trace_of_the_damping_over_the_mass() {
     let of = |change: fn(&mut System)| {
         let made = move || {
-            let (mut system, rules) = ball::<f64>(Some(5.0), Slowed::ByDrag);
+            let (mut system, rules) = ball::<f64>(Some(5.0), By::Drag);
             change(&mut system);
             (system, rules)
         };
-        let jets = |_| ball(Some(5.0), Slowed::ByDrag);
+        let jets = |_| ball(Some(5.0), By::Drag);
         Moored::new(true, move |_| made(), jets).contraction([0.0; 2])
     };
     let rate = of(|_| {}).unwrap();
