@@ -229,10 +229,8 @@ fn others(kind: Kind, orbit: &Orbit) -> Stability {
             left.values.remove(place);
         }
         // Two that meet there, as without losses, are known to half of the digits.
-        let double = left
-            .values
-            .iter_mut()
-            .filter(|value| off(**value) < NEAR_CIRCLE);
+        let near = |value: &&mut [f64; 2]| off(**value) < NEAR_CIRCLE;
+        let double = left.values.iter_mut().filter(near);
         double.for_each(|value| *value = [critical, 0.0]);
     };
     match kind {

@@ -20,8 +20,8 @@ enum By {
     Both,
 }
 
-/// A ball of some mass that bounces on a cable of length 1 once in a period: its weight and the force
-/// on it are those of the ball of unit mass times its mass.
+/// A ball of some mass that bounces on a cable of length 1 once in a period: its weight and the
+/// force on it are those of the ball of unit mass times its mass.
 fn ball<T: Real>(mass: Option<f64>, slowed: By) -> (System<T>, Rules<T>) {
     let number = |x: f64| T::from_f64(x);
     let zero = T::ZERO;

@@ -180,11 +180,10 @@ impl<T: Real> PrescribedTaut<T> {
     /// The state changed by the least amount in the mass metric so that the gaps of `closed` cables
     /// are zero, and the normal velocities of `still` ones.
     ///
-    /// It is made for states that are almost there, as a Newton method leaves them: the gaps are
-    /// taken to zero by two steps of Newton's method (over [`crate::Precise`] by a few more), of
-    /// which each squares the part of its length by which a cable is off. From 1e-4 of it rounding
-    /// is left, from a tenth of it about 1e-5 of it, and from farther any amount; [`crate::Cable::gap`]
-    /// says what.
+    /// It is made for states that are almost there: the gaps are taken to zero by two steps of
+    /// Newton's method (over [`crate::Precise`] by a few more), of which each squares the part of
+    /// its length by which a cable is off. From 1e-4 of it rounding is left, from a tenth of it
+    /// about 1e-5 of it, and from farther any amount; [`crate::Cable::gap`] says what.
     pub fn projected(&self, state: &State<T>, closed: TautSet, still: TautSet) -> State<T> {
         let mut state = *state;
         project_position(&self.system, &mut state, closed);

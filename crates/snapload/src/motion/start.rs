@@ -281,29 +281,27 @@ fn check_numbers<T: Real>(
     if !system.contact_law().is_passive() {
         return Err(StartError::Restitution);
     }
-    let at_least_zero = [
-        ("v_stick", v_stick, "a speed of 0 or more"),
-        (
-            "inertia",
-            system.body.inverse_inertia(),
-            "a moment of inertia above 0",
-        ),
-    ];
-    let sizes = system
-        .body
-        .sizes()
-        .map(|(key, size)| (key, size, "a size of 0 or more"));
-    for (key, value, allowed) in at_least_zero.into_iter().chain(sizes) {
-        if value < T::ZERO {
-            let value = value.to_f64();
-            return Err(StartError::NotAllowed {
-                key,
-                value,
-                allowed,
-            });
-        }
-    }
+    check_signs(system, v_stick)?;
     check_parts(system)
+}
+
+/// Checks that no size is negative.
+fn check_signs<T: Real>(system: &System<T>, v_stick: T) -> Result<(), StartError> {
+    let body = &system.body;
+    let inertia = T::ONE / body.inverse_inertia();
+    let speed = ("v_stick", v_stick, "a speed of 0 or more");
+    let others = [speed, ("inertia", inertia, "a moment of inertia above 0")];
+    let sizes = body.sizes();
+    let sizes = sizes.map(|(key, size)| (key, size, "a size of 0 or more"));
+    let mut negative = others.into_iter().chain(sizes);
+    let negative = negative.find(|(_, value, _)| *value < T::ZERO);
+    negative.map_or(Ok(()), |(key, value, allowed)| {
+        Err(StartError::NotAllowed {
+            key,
+            value: value.to_f64(),
+            allowed,
+        })
+    })
 }
 
 /// Checks what the parts of a system promise: that a cable which is taut at rest by construction

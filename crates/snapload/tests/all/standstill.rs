@@ -16,8 +16,8 @@ fn at(y: f64) -> State {
     }
 }
 
-/// A mass that falls by half a unit snaps at t = 1 with v = 1; the bounces that follow take 2 e/(1 −
-/// e) together. If no snap is slow enough to stick, it stands still then. On one cable, and on two
+/// A mass that falls by half a unit snaps at t = 1 with v = 1; the bounces that follow take
+/// 2 e/(1 − e) together. If no snap is slow enough to stick, it stands still then. On one cable, and on two
 /// under a force of no amplitude, where every step before is a bounce.
 #[test]
 fn snaps_that_never_stick_end_where_time_stands_still() {

@@ -19,12 +19,13 @@ use crate::motion::ties::{Instant, first_clear};
 /// A motion whose time does not increase in more steps than this, without a snap, stands still.
 const MOST_IDLE: u32 = 1000;
 
-/// The same with so many snaps. A corner between cables at an angle of β sends a body back after
-/// π/β snaps at most, all of them at one instant if it is hit to a rounding: this many would take
-/// cables that are parallel to 3e-5, and a row of cables, of which there are few, no more. Snaps
-/// that accumulate, each e times as fast as the one before, come to rest by `v_stick` before: from
-/// where their time no longer increases to a `v_stick` 1e-30 times as fast, they are fewer than
-/// this for every e up to 0.9993. Where `v_stick` is zero nothing else ends them.
+/// The same with so many snaps, far above what a motion has that goes on. A corner between two
+/// cables at an angle of β sends a body back after π/β snaps at most, all of them at one instant if
+/// it is hit to a rounding: this many would take cables that are parallel to 3e-5. Of more cables
+/// that hold a point mass only the outermost two make the corner. Snaps that accumulate, each e
+/// times as fast as the one before, stick before: from where their time no longer increases to a
+/// `v_stick` of 1e-30 times that speed they are fewer than this for every e up to 0.9993. Where
+/// `v_stick` is zero nothing else ends them.
 const MOST_AT_ONCE: u32 = 100_000;
 
 /// Steps since the time last increased.
