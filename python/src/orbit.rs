@@ -346,7 +346,7 @@ impl Branch {
             let on_progress = |progress: snapload::analysis::Progress| shared.report(progress);
             family.branch_of_doubling(&event, &options, &on_progress)
         })?;
-        let doubled = doubled.map_err(|cancelled| error_of_work(cancelled.into()))?;
+        let doubled = doubled.map_err(error_of_work)?;
         let none = "no direction of a branch of twice the length is found there";
         Ok(match doubled {
             Some(branch) => {
@@ -390,7 +390,7 @@ pub(crate) fn continuation(
         let on_progress = |progress: snapload::analysis::Progress| shared.report(progress);
         family.branch(&start, &options, &on_progress)
     })?;
-    let branch = branch.map_err(|cancelled| error_of_work(Unfinished::from(cancelled)))?;
+    let branch = branch.map_err(error_of_work)?;
     Ok(Branch {
         case,
         key,

@@ -190,6 +190,11 @@ fn explain(error: StartError, start: &State, lengths: &[f64]) -> CaseError {
             let key = format!("length_{}", cable + 1);
             CaseError::value(&key, Value::Number(length), error.to_string())
         }
+        StartError::NotAllowed {
+            key,
+            value,
+            allowed,
+        } => CaseError::value(key, Value::Number(value), allowed),
         StartError::CanNotClose { .. }
         | StartError::NotFinite
         | StartError::Restitution

@@ -129,7 +129,7 @@ impl Attraction {
             return Err(CaseError::value("vary", "t_end", allowed).into());
         }
         if !window.keys.contains(&"omega") {
-            crate::section::period_of(&window.base)?;
+            crate::moored::period_of(&window.base)?;
         }
         let options = SectionOptions {
             phase: 0.0,

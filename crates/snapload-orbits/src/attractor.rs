@@ -3,10 +3,10 @@
 use crate::exponents_text::exponent_text;
 use crate::hybrid::{Family, Point, distance};
 use crate::lap::SAME;
-use crate::moored::Moored;
+use crate::moored::{Moored, period_of};
 use crate::multipliers::Stability;
 use crate::orbit::{NoOrbit, Orbit, OrbitRequest};
-use crate::section::{LONGEST_PERIOD, Section, SectionOptions, period_of};
+use crate::section::{LONGEST_PERIOD, Section, SectionOptions};
 use crate::summary::periods;
 use snapload::analysis::{Counter, OnProgress, Progress, Unfinished, on_all_threads};
 use snapload::{Case, Limit, Parameters};

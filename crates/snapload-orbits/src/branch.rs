@@ -3,12 +3,12 @@
 use crate::branch_events::{BranchEvent, Kind, Tested};
 use crate::continuation::{Continuation, Goal, Unknowns};
 use crate::curve::Curve;
-use crate::follower::{BranchOptions, Follower};
+use crate::follower::{BranchOptions, Follower, check_followed};
 use crate::half_branch::{BranchEnd, BranchPoint, HalfBranch, point};
 use crate::hybrid::Family;
 use crate::orbit::{NoOrbit, Orbit};
 use crate::switch::doubled;
-use snapload::analysis::{Cancelled, OnProgress};
+use snapload::analysis::{OnProgress, Unfinished};
 
 /// A branch of orbits.
 #[derive(Clone, Debug)]
@@ -25,13 +25,15 @@ impl Branch {
     /// The branch of an orbit in the first parameter, in both directions.
     ///
     /// # Errors
-    /// [`Cancelled`] if the work is cancelled.
+    /// A [`snapload::CaseError`] if the range or the step is not allowed;
+    /// [`snapload::analysis::Cancelled`] if the work is cancelled.
     pub fn of<F: Family>(
         family: &F,
         orbit: &Orbit,
         options: &BranchOptions,
         on_progress: OnProgress,
-    ) -> Result<Self, Cancelled> {
+    ) -> Result<Self, Unfinished> {
+        check_followed(&[options.range], options.step)?;
         let continuation = Continuation {
             family,
             sequence: orbit.lap.sequence.clone(),
@@ -135,13 +137,15 @@ impl Branch {
     /// lap later.
     ///
     /// # Errors
-    /// [`Cancelled`] if the work is cancelled.
+    /// A [`snapload::CaseError`] if the range or the step is not allowed;
+    /// [`snapload::analysis::Cancelled`] if the work is cancelled.
     pub fn of_doubling<F: Family>(
         family: &F,
         event: &BranchEvent,
         options: &BranchOptions,
         on_progress: OnProgress,
-    ) -> Result<Option<Self>, Cancelled> {
+    ) -> Result<Option<Self>, Unfinished> {
+        check_followed(&[options.range], options.step)?;
         let Some((continuation, start, apart)) = doubled(family, event) else {
             return Ok(None);
         };

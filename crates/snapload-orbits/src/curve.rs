@@ -8,6 +8,7 @@
 use crate::branch_events::{BranchEvent, Kind};
 use crate::continuation::{Continuation, Unknowns};
 use crate::curve_borders::{Border, NO_LOSS, loses_less, margins, passed};
+use crate::follower::check_followed;
 use crate::hybrid::Family;
 use crate::multipliers::{NEAR_CIRCLE, Stability};
 use crate::normal_form::{Coefficient, coefficient};
@@ -89,13 +90,16 @@ impl Curve {
     ///
     /// # Errors
     /// [`Cancelled`] if the work is cancelled; within it [`NoOrbit`] if the point is not of such a
-    /// kind, or no such orbit is found there.
+    /// kind, no such orbit is found there, or a range or the step is not allowed.
     pub fn of<F: Family>(
         family: &F,
         event: &BranchEvent,
         options: &CurveOptions,
         on_progress: OnProgress,
     ) -> Result<Result<Self, NoOrbit>, Cancelled> {
+        if let Err(error) = check_followed(&options.ranges, options.step) {
+            return Ok(Err(NoOrbit(error.to_string())));
+        }
         let orbit = &event.orbit;
         let continuation = Continuation {
             family,
@@ -132,11 +136,11 @@ impl Curve {
             true => HalfCurve::empty(on_curve.here.at, "the curve is closed"),
             false => follower.run(on_curve)?,
         };
-        let mut points: Vec<CurvePoint> = backward.points;
+        let mut points = backward.points;
+        points
+            .iter_mut()
+            .for_each(|point| point.arclength = -point.arclength);
         points.reverse();
-        for point in &mut points {
-            point.arclength = -point.arclength;
-        }
         points.push(first);
         points.extend(forward.points);
         if event.kind == Kind::Fold {
@@ -224,10 +228,8 @@ fn others(kind: Kind, orbit: &Orbit) -> Stability {
             left.values.remove(place);
         }
         // Two that meet there, as without losses, are known to half of the digits.
-        let double = left
-            .values
-            .iter_mut()
-            .filter(|value| off(**value) < NEAR_CIRCLE);
+        let near = |value: &&mut [f64; 2]| off(**value) < NEAR_CIRCLE;
+        let double = left.values.iter_mut().filter(near);
         double.for_each(|value| *value = [critical, 0.0]);
     };
     match kind {

@@ -2,8 +2,9 @@
 //! one before.
 
 use crate::hybrid::Point;
+use crate::moored::period_of;
 use crate::options::followed_key;
-use crate::section::{Section, SectionOptions, period_of, start_of};
+use crate::section::{Section, SectionOptions, start_of};
 use snapload::analysis::{OnProgress, Progress, Unfinished};
 use snapload::{Parameters, Stop};
 

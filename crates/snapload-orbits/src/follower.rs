@@ -9,6 +9,7 @@ use crate::newton::{Closed, close};
 use crate::orbit::Orbit;
 use crate::roots::root;
 use nalgebra::DVector;
+use snapload::CaseError;
 use snapload::analysis::{Cancelled, OnProgress, Progress};
 
 /// How a branch is followed.
@@ -20,6 +21,26 @@ pub struct BranchOptions {
     pub step: f64,
     /// The most points in either direction.
     pub most: usize,
+}
+
+/// Refuses ranges that hold no numbers, and a step that leads nowhere.
+pub(crate) fn check_followed(ranges: &[[f64; 2]], step: f64) -> Result<(), CaseError> {
+    for [low, high] in ranges {
+        if !(low.is_finite() && high.is_finite() && low <= high) {
+            let allowed = "two finite numbers, the first not above the second";
+            return Err(CaseError::value("range", format!("{low}:{high}"), allowed));
+        }
+    }
+    check_step(step)
+}
+
+/// Refuses the length of a step that leads nowhere, or beyond all measure.
+pub(crate) fn check_step(step: f64) -> Result<(), CaseError> {
+    if step > 0.0 && step <= 1.0 {
+        return Ok(());
+    }
+    let allowed = "a number above 0, at most 1";
+    Err(CaseError::value("step", step, allowed))
 }
 
 /// The longest and the shortest step, in units of the first.

@@ -77,8 +77,8 @@ pub trait Family: Sync {
     /// The period of the forcing, with its derivatives by the parameters.
     fn forcing_period(&self, at: [f64; 2]) -> Jet;
 
-    /// The rate at which volumes shrink in flight: the negative divergence; `None` if it is not
-    /// constant.
+    /// The rate at which volumes shrink in flight: the negative divergence, which is the trace of
+    /// M⁻¹ D for a mass matrix M and a damping matrix D; `None` if it is not constant.
     fn contraction(&self, at: [f64; 2]) -> Option<f64>;
 
     /// The factor by which one snap multiplies volumes: e².

@@ -92,7 +92,7 @@ pub use hybrid::{
 pub use impact_map::{ImpactPoint, Impacts, MOST_KEPT};
 pub use lap::{Lap, Leg, Linearised};
 pub use measures::Measures;
-pub use moored::{Cables, Moored};
+pub use moored::{Cables, Moored, period_of};
 pub use moored_searches::OnLap;
 pub use multipliers::{Multipliers, Stability, multipliers};
 pub use newton::{Closed, close};
@@ -106,7 +106,7 @@ pub use proof::{Proofs, prove_all};
 pub use quantities::QUANTITIES;
 pub use rows::{AttractionRow, BasinRow, DiagramRow, ErosionRow, SectionRow};
 pub use scan::scan;
-pub use section::{LONGEST_PERIOD, Section, SectionOptions, period_of, start_of};
+pub use section::{LONGEST_PERIOD, Section, SectionOptions, start_of};
 pub use sequence::{Event, EventKind, Sequence, Timed, symbol_text};
 pub use summary::{
     basin_summary, diagram_summary, erosion_summary, orbit_summary, section_summary,

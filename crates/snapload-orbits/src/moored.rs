@@ -3,8 +3,8 @@
 use crate::hybrid::{Family, Hybrid, Jet, Limits, PARAMETER, Point, Simulated};
 use crate::sequence::{Event, EventKind, Sequence, Timed};
 use snapload::{
-    Limit, Parameters, PerCable, PrescribedTaut, Real, Rules, Simulation, State, System, TautSet,
-    Value,
+    CaseError, Limit, Parameters, PerCable, PrescribedTaut, Real, Rules, Simulation, State, System,
+    TautSet, Value,
 };
 use std::sync::Arc;
 
@@ -13,7 +13,13 @@ const V_STICK: f64 = 1e-7;
 /// The most events of a simulated motion.
 const MOST_IMPACTS: u64 = 20_000;
 
+/// The longest period of the forcing, which is the longest time of a run (the key `t_end`).
+const LONGEST_FORCING: f64 = 1e6;
+
 /// A body on cables over some numbers.
+///
+/// # Panics
+/// All methods that are given a surface, or a set of them, if the system has no such cable.
 pub struct Cables<T: Real> {
     prescribed: PrescribedTaut<T>,
     rules: Rules<T>,
@@ -188,12 +194,16 @@ impl Family for Moored {
 
     fn contraction(&self, at: [f64; 2]) -> Option<f64> {
         let (system, _) = (self.doubles)(at);
-        let turning = f64::from(u8::from(system.body.inverse_inertia() > 0.0));
-        match &system.drag {
-            None => Some(0.0),
-            Some(drag) if drag.quadratic == 0.0 => Some(2.0 * drag.linear + turning * drag.turning),
-            Some(_) => None,
-        }
+        let damping = damping(&system)?;
+        let moving = if self.turns { 3 } else { 2 };
+        Some(
+            (0..moving)
+                .map(|i| {
+                    let force = [0, 1, 2].map(|j| damping[j][i]);
+                    system.body.moved_by(force)[i]
+                })
+                .sum(),
+        )
     }
 
     fn snap_contraction(&self, at: [f64; 2]) -> f64 {
@@ -220,6 +230,47 @@ impl Family for Moored {
         let (system, rules) = (self.doubles)(at);
         Some(simulate(system, &rules, t, z, t_end))
     }
+}
+
+/// The period of the forcing.
+///
+/// # Errors
+/// A [`CaseError`] where there is no forcing, or its period is longer than a run can be.
+pub fn period_of(parameters: &Parameters) -> Result<f64, CaseError> {
+    let period = std::f64::consts::TAU / parameters.omega.abs();
+    if period <= LONGEST_FORCING {
+        return Ok(period);
+    }
+    // Its fourth digit is rounded up, so that what is shown is allowed.
+    let least = std::f64::consts::TAU / LONGEST_FORCING * (1.0 + 5e-4);
+    let allowed = format!(
+        "a frequency of at least {least:.3e}, as sections are a period of the forcing apart, and a \
+         period is at most {LONGEST_FORCING:e}"
+    );
+    Err(CaseError::value("omega", parameters.omega, allowed))
+}
+
+/// D, where the forces that depend on the velocity are −D q̇: those of linear drag, and the damping
+/// of the water. None where they depend on it otherwise: by quadratic drag, or by the memory of the
+/// water.
+fn damping(system: &System) -> Option<[[f64; 3]; 3]> {
+    let mut damping = [[0.0; 3]; 3];
+    if let Some(water) = &system.floating {
+        if !water.memory.is_empty() {
+            return None;
+        }
+        damping = water.damping;
+    }
+    if let Some(drag) = &system.drag {
+        if drag.quadratic != 0.0 {
+            return None;
+        }
+        let turning = drag.turning * system.body.inertia();
+        for (i, part) in [drag.linear, drag.linear, turning].into_iter().enumerate() {
+            damping[i][i] += part;
+        }
+    }
+    Some(damping)
 }
 
 /// Runs it, and records its events.

@@ -11,7 +11,7 @@ use crate::follower::BranchOptions;
 use crate::hybrid::{Family, Hybrid, Point};
 use crate::moored::Moored;
 use crate::orbit::{NoOrbit, Orbit, OrbitRequest};
-use snapload::analysis::{Cancelled, OnProgress};
+use snapload::analysis::{Cancelled, OnProgress, Unfinished};
 
 /// One of many states of a lap.
 #[derive(Clone, Copy, Debug)]
@@ -51,7 +51,7 @@ impl Moored {
         orbit: &Orbit,
         options: &BranchOptions,
         on_progress: OnProgress,
-    ) -> Result<Branch, Cancelled> {
+    ) -> Result<Branch, Unfinished> {
         Branch::of(self, orbit, options, on_progress)
     }
 
@@ -65,7 +65,7 @@ impl Moored {
         event: &BranchEvent,
         options: &BranchOptions,
         on_progress: OnProgress,
-    ) -> Result<Option<Branch>, Cancelled> {
+    ) -> Result<Option<Branch>, Unfinished> {
         Branch::of_doubling(self, event, options, on_progress)
     }
 

@@ -1,7 +1,7 @@
 //! Checks of the options of the questions, shared by the command and Python.
 
 use crate::curve::CurveOptions;
-use crate::follower::BranchOptions;
+use crate::follower::{BranchOptions, check_step};
 use crate::hybrid::{Family, Hybrid, Point};
 use crate::moored::Moored;
 use crate::orbit_search::NEARLY_TAUT;
@@ -117,7 +117,7 @@ pub fn branch_options(
     let (key, value) = followed_key("along", parameters, key)?;
     check_range(key, value, [low, high])?;
     check_inertia(parameters, key, [low, high])?;
-    let step = checked_step(step)?;
+    check_step(step)?;
     let range = [low, high];
     Ok((key, value, BranchOptions { range, step, most }))
 }
@@ -148,9 +148,10 @@ pub fn curve_options(
     if first == second {
         return Err(CaseError::value("along", first, "two different keys"));
     }
+    check_step(step)?;
     let options = CurveOptions {
         ranges: [a, b],
-        step: checked_step(step)?,
+        step,
         most,
     };
     Ok(([first, second], options))
@@ -233,12 +234,4 @@ fn check_inertia(
             ),
         )),
     }
-}
-
-fn checked_step(step: f64) -> Result<f64, CaseError> {
-    if step > 0.0 && step <= 1.0 {
-        return Ok(step);
-    }
-    let allowed = "a number above 0, at most 1";
-    Err(CaseError::value("step", step, allowed))
 }

@@ -6,7 +6,7 @@ use crate::newton::{close, step_of_map};
 use crate::orbit::{NoOrbit, Orbit, OrbitRequest};
 use crate::scan::scan;
 use crate::sequence::{Sequence, Timed, symbol_text};
-use snapload::TautSet;
+use snapload::{CaseError, TautSet, Value};
 
 /// The most laps that are simulated on the way from a start to an orbit.
 const MOST_LAPS: usize = 40;
@@ -72,6 +72,12 @@ impl Orbit {
         request: &OrbitRequest,
         largest_distance: f64,
     ) -> Result<Self, NoOrbit> {
+        let search = Search {
+            family,
+            at,
+            request,
+        };
+        search.check(start)?;
         let is_far = |orbit: &Self| distance(&orbit.z, start) >= largest_distance;
         let system = family.plain(at);
         let near: TautSet = system
@@ -84,11 +90,6 @@ impl Orbit {
             .collect();
         let mut sets: Vec<TautSet> = near.subsets().collect();
         sets.reverse();
-        let search = Search {
-            family,
-            at,
-            request,
-        };
         let (mut found, mut failures) = (Vec::new(), Vec::new());
         for closed in &sets {
             let z = system.placed(*closed, *closed, start);
@@ -133,6 +134,7 @@ pub(crate) fn find_from_far_start<F: Family>(
         at: [0.0; 2],
         request,
     };
+    search.check(start).ok()?;
     search
         .by_simulation(start)
         .ok()
@@ -147,6 +149,32 @@ struct Search<'a, F: Family> {
 }
 
 impl<F: Family> Search<'_, F> {
+    /// Refuses what no lap has: no period, one that does not end, and numbers that are none.
+    fn check(&self, start: &Point) -> Result<(), NoOrbit> {
+        let refuse = |key: &str, value: Value, allowed: &str| {
+            let error = CaseError::value(key, value, allowed);
+            Err(NoOrbit(error.to_string()))
+        };
+        let (phase, period) = (
+            self.request.phase,
+            self.family.forcing_period(self.at).value,
+        );
+        if self.periods() == 0 {
+            return refuse("periods", Value::Integer(0), "1 or more");
+        }
+        if !phase.is_finite() {
+            return refuse("phase", Value::Number(phase), "a finite number of periods");
+        }
+        if !(period > 0.0 && period.is_finite()) {
+            let allowed = "a forcing of a finite period, above 0";
+            return refuse("period", Value::Number(period), allowed);
+        }
+        match start.iter().find(|number| !number.is_finite()) {
+            Some(number) => refuse("start", Value::Number(*number), "finite numbers"),
+            None => Ok(()),
+        }
+    }
+
     fn periods(&self) -> u32 {
         self.request.periods.unwrap_or(1)
     }

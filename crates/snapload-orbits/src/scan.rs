@@ -13,7 +13,8 @@ const STEPS: usize = 400;
 const MOST_SNAPS: usize = 200;
 
 /// The motion from `z` at time `t` over `length`, with the surfaces of `taut` held throughout, and
-/// every other one struck where it closes. None if there are too many snaps.
+/// every other one struck where it closes. None if there are too many snaps, or
+/// the time or the length is not finite.
 pub fn scan<F: Family>(
     family: &F,
     at: [f64; 2],
@@ -21,6 +22,9 @@ pub fn scan<F: Family>(
     (t, z): (f64, &Point),
     length: f64,
 ) -> Option<Timed> {
+    if !(t + length).is_finite() {
+        return None;
+    }
     let system = family.plain(at);
     let period = family.forcing_period(at).value;
     let mut lap = Timed {

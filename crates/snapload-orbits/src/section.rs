@@ -4,6 +4,7 @@ use crate::exponents::{Directions, exponents};
 use crate::growth::Growth;
 use crate::hybrid::{Point, distance};
 use crate::impact_map::Impacts;
+use crate::moored::period_of;
 use snapload::analysis::{Cancelled, OnProgress, Progress};
 use snapload::{CaseError, Parameters, PrescribedTaut, Simulation, State, Step, Stop, Tangent};
 
@@ -67,8 +68,6 @@ const ROUNDINGS: f64 = 4.0;
 /// A lap whose ends differ by more than this part of the distance between points fewer periods
 /// apart does not follow the motion that is approached, but comes to it.
 const FOLLOWED: f64 = 0.25;
-/// The longest period of the forcing, which is the longest time of a run (the key `t_end`).
-const LONGEST_FORCING: f64 = 1e6;
 /// The longest period that is searched for.
 pub const LONGEST_PERIOD: usize = 64;
 
@@ -76,7 +75,8 @@ impl Section {
     /// Follows the motion of a case from its start; settling and sliding do not stop it.
     ///
     /// # Errors
-    /// A [`CaseError`] if the start is not legal; [`Cancelled`] if the work is cancelled.
+    /// A [`CaseError`] if the start or an option is not legal; [`Cancelled`] if the work is
+    /// cancelled.
     pub fn of(
         parameters: &Parameters,
         options: &SectionOptions,
@@ -99,7 +99,14 @@ impl Section {
         on_progress: OnProgress,
     ) -> Result<Self, snapload::analysis::Unfinished> {
         let period = period_of(parameters)?;
-        let last = options.skip + options.keep;
+        if !options.phase.is_finite() {
+            let error = CaseError::value("phase", options.phase, "a finite number of periods");
+            return Err(error.into());
+        }
+        let Some(last) = options.skip.checked_add(options.keep) else {
+            let allowed = format!("at most {} more periods", u64::MAX - options.skip);
+            return Err(CaseError::value("keep", options.keep, allowed).into());
+        };
         let mut rules = parameters.rules();
         (rules.settled_below, rules.sliding_above) = (None, None);
         rules.t_end = t + period * last as f64;
@@ -204,10 +211,10 @@ impl Section {
     }
 
     /// The mean number of snaps in a period of the forcing, over whole laps of a motion of `period`
-    /// periods.
+    /// periods; none if there is no whole lap, or a lap has no period.
     pub fn snaps_per_period(&self, period: Option<usize>) -> Option<f64> {
         let count = self.snaps.len();
-        let over = period.map_or(count, |n| count - count % n);
+        let over = period.map_or(Some(count), |n| Some(count - count.checked_rem(n)?))?;
         let snaps: u64 = self.snaps[count - over..].iter().sum();
         (over > 0).then(|| snaps as f64 / over as f64)
     }
@@ -242,24 +249,6 @@ impl Section {
     fn laps(&self) -> usize {
         LAPS.min((self.points.len() / 2).max(1))
     }
-}
-
-/// The period of the forcing.
-///
-/// # Errors
-/// A [`CaseError`] where there is no forcing, or its period is longer than a run can be.
-pub fn period_of(parameters: &Parameters) -> Result<f64, CaseError> {
-    let period = std::f64::consts::TAU / parameters.omega.abs();
-    if period <= LONGEST_FORCING {
-        return Ok(period);
-    }
-    // Its fourth digit is rounded up, so that what is shown is allowed.
-    let least = std::f64::consts::TAU / LONGEST_FORCING * (1.0 + 5e-4);
-    let allowed = format!(
-        "a frequency of at least {least:.3e}, as sections are a period of the forcing apart, and a \
-         period is at most {LONGEST_FORCING:e}"
-    );
-    Err(CaseError::value("omega", parameters.omega, allowed))
 }
 
 /// The start of a case.

@@ -45,6 +45,9 @@ fn are_even(values: &[f64]) -> bool {
 
 impl Window {
     /// The two values of a cell.
+    ///
+    /// # Panics
+    /// If it is not below [`Window::count`].
     pub fn at(&self, cell: usize) -> [f64; 2] {
         let columns = self.values[1].len();
         [
@@ -81,7 +84,7 @@ impl Window {
         Case::new(self.parameters(at)).ok()
     }
 
-    /// Refuses keys that are not numbers of a case, and values out of their ranges.
+    /// Refuses keys that are not numbers of a case, and values out of their ranges, or none.
     ///
     /// # Errors
     /// A [`CaseError`] that names the key.
@@ -99,6 +102,9 @@ impl Window {
             return Err(CaseError::value("vary", cells, allowed));
         }
         for (key, values) in self.keys.iter().zip(&self.values) {
+            if values.is_empty() {
+                return Err(CaseError::value(key, "no value", "one value or more"));
+            }
             if !are_even(values) {
                 let allowed = "evenly spaced values, as distances are measured in cells";
                 return Err(CaseError::value(key, format!("{values:?}"), allowed));

@@ -18,5 +18,7 @@ mod held;
 mod lengths;
 mod orbits;
 mod proofs;
+mod refusals;
 mod releases;
+mod rule_of_volumes;
 mod wall;

@@ -22,6 +22,8 @@ use std::ops::Range;
 pub struct Ensemble {
     base: Parameters,
     uncertainty: Uncertainty,
+    /// Why it is not legal, if it is not.
+    illegal: Option<CaseError>,
     /// How many members.
     pub count: u32,
     /// Which members.
@@ -58,9 +60,13 @@ const DRAWS: usize = 1000;
 
 impl Ensemble {
     /// An ensemble about a case, within its uncertainties; where there are none, within
-    /// [`DEFAULT_CLOUD`].
+    /// [`DEFAULT_CLOUD`]. An uncertainty that [`Uncertainty::set`] does not accept is the error of
+    /// every member.
     pub fn about(case: &Case, uncertainty: &Uncertainty, count: u32, seed: u64) -> Self {
-        let mut uncertainty = uncertainty.clone();
+        let (mut uncertainty, illegal) = match uncertainty.checked() {
+            Ok(checked) => (checked, None),
+            Err(error) => (uncertainty.clone(), Some(error)),
+        };
         uncertainty.start = uncertainty.of_start_of(case.parameters());
         if uncertainty.start == [0.0; 6] && uncertainty.keys.is_empty() {
             uncertainty.start = [DEFAULT_CLOUD; 6];
@@ -68,6 +74,7 @@ impl Ensemble {
         Self {
             base: *case.parameters(),
             uncertainty,
+            illegal,
             count,
             seed,
         }
@@ -81,8 +88,11 @@ impl Ensemble {
     /// One member.
     ///
     /// # Errors
-    /// A [`CaseError`] if no legal case could be drawn.
+    /// A [`CaseError`] if no legal case could be drawn, or the uncertainty is not legal.
     pub fn member(&self, index: u32) -> Result<Case, CaseError> {
+        if let Some(error) = &self.illegal {
+            return Err(error.clone());
+        }
         let mut generator = ChaCha8Rng::seed_from_u64(self.seed);
         generator.set_stream(index.into());
         let mut latest = None;

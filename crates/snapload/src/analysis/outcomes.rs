@@ -17,6 +17,9 @@ pub struct ThreadResults<R> {
     places: Vec<(u32, u32)>,
 }
 
+/// A thread has memory for this many numbers at once at most; for more it grows.
+const MOST_AT_ONCE: usize = 1 << 16;
+
 impl<R> ThreadResults<R> {
     /// In the order of the numbers.
     pub fn iter(&self) -> impl ExactSizeIterator<Item = &R> + Clone {
@@ -98,7 +101,7 @@ pub fn on_all_threads_until<R: Send, E: Send>(
             next: &next,
             count,
             no_more,
-            mine: Vec::with_capacity(count.div_ceil(threads)),
+            mine: Vec::with_capacity(count.div_ceil(threads).min(MOST_AT_ONCE)),
         };
         let made = work(&mut numbers).inspect_err(|_| next.store(count, Ordering::Relaxed))?;
         assert_eq!(

@@ -99,7 +99,8 @@ impl<'a> Progress<'a> {
     }
 }
 
-/// Fractions of a part that are counted: few enough for 2^48 parts.
+/// Fractions of a part that are counted: few enough for 2^48 parts; of more, the first so many are
+/// counted.
 const FRACTIONS: u64 = 1 << 16;
 
 /// Counts the parts of some work that are finished and fractions of those under way, on any thread,
@@ -109,6 +110,8 @@ pub struct Counter<'a> {
     /// What is done, as a number of fractions.
     done: AtomicU64,
     of: u64,
+    /// The same as a number of fractions.
+    all: u64,
     /// Locked during a report, so that no thread reports less after another has reported more.
     reporting: Mutex<()>,
     /// Whether the work is to end.
@@ -123,8 +126,9 @@ impl<'a> Counter<'a> {
     pub fn new(doing: &'a str, done: u64, of: u64, on_progress: OnProgress<'a>) -> Self {
         let counter = Self {
             doing,
-            done: AtomicU64::new(done * FRACTIONS),
+            done: AtomicU64::new(done.saturating_mul(FRACTIONS)),
             of,
+            all: of.saturating_mul(FRACTIONS),
             reporting: Mutex::new(()),
             ended: AtomicBool::new(false),
             on_progress,
@@ -164,14 +168,15 @@ impl<'a> Counter<'a> {
     /// # Errors
     /// [`Cancelled`] if the work is to end.
     pub fn add(&self, more: u64) -> Result<(), Cancelled> {
-        self.advance(more * FRACTIONS)
+        self.advance(more.saturating_mul(FRACTIONS))
     }
 
     /// Counts fractions, and reports the count unless another thread is reporting: that one reports
     /// again if all was done meanwhile, so that the last report is never left out.
     fn advance(&self, fractions: u64) -> Result<(), Cancelled> {
-        let all = self.of * FRACTIONS;
-        let mut reported = self.done.fetch_add(fractions, Ordering::SeqCst) + fractions;
+        let all = self.all;
+        let mut reported = self.done.fetch_add(fractions, Ordering::SeqCst);
+        reported = reported.saturating_add(fractions);
         while let Ok(reporting) = self.reporting.try_lock() {
             reported = self.done.load(Ordering::SeqCst);
             if self.progress(reported).report(self.on_progress).is_err() {

@@ -121,10 +121,15 @@ impl<T: Real> Polynomial<T> {
     ///
     /// The constant term is not among them: where a motion has just begun to leave an equilibrium,
     /// its last terms are small against the position and yet not converged.
+    ///
+    /// Zero where the last coefficients are not finite: nothing is known of the terms then.
     #[inline(always)]
     pub(crate) fn converged_within(&self, mut step: T, order: usize, scale: T) -> T {
         let tolerance = T::EPSILON * 0.05;
         let tail = [self.0[order - 1].abs(), self.0[order].abs()];
+        if !(tail[0].is_finite() && tail[1].is_finite()) {
+            return T::ZERO;
+        }
         // A step is at most 1, so no term is larger than its coefficient.
         let inner = &self.0[1..order - 1];
         let mut ceiling = scale;

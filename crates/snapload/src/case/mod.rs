@@ -236,6 +236,11 @@ fn explain(error: StartError, p: &Parameters) -> CaseError {
         StartError::TooShort { .. } => {
             CaseError::value("r", Value::Number(p.r), error.to_string()).with_hint("raise r")
         }
+        StartError::NotAllowed {
+            key,
+            value,
+            allowed,
+        } => CaseError::value(key, Value::Number(value), allowed),
         StartError::CanNotClose { .. }
         | StartError::NotFinite
         | StartError::Restitution

@@ -54,7 +54,8 @@ impl<T: Real> Body<T> {
     }
 
     /// A rigid body with this mass matrix over (x, y, θ), in units in which the forces on it are
-    /// given. None unless the matrix is symmetric and positive definite.
+    /// given. None unless the matrix is symmetric and positive definite, and its inverse, with the
+    /// products that lead to it, can be represented: of entries about 1 they always can.
     pub fn with_mass_matrix(shape: Shape<T>, matrix: Matrix3<T>) -> Option<Self> {
         Some(Self {
             shape,
@@ -103,7 +104,8 @@ impl<T: Real> Body<T> {
         self.mass.coupling(normal, normal)
     }
 
-    /// The largest W of any cable with this moment arm, in whatever direction.
+    /// A bound on W of any cable with this moment arm, in whatever direction. For a unit mass it is
+    /// the largest W; with a mass matrix it may be several times that.
     pub fn largest_inverse_effective_mass(&self, arm: T) -> T {
         self.mass.largest_coupling(arm.squared())
     }
@@ -127,6 +129,22 @@ impl<T: Real> Body<T> {
             },
         };
         (outline, self.disc_radius())
+    }
+
+    /// The sizes of the outline, by name.
+    pub(crate) fn sizes(&self) -> impl Iterator<Item = (&'static str, T)> {
+        let sizes = match self.shape {
+            Shape::Point => [None; 2],
+            Shape::Circle { radius } => [Some(("radius", radius)), None],
+            Shape::Rectangle {
+                half_width,
+                half_height,
+            } => [
+                Some(("half_width", half_width)),
+                Some(("half_height", half_height)),
+            ],
+        };
+        sizes.into_iter().flatten()
     }
 
     /// The radius of the disc about each point of the outline.

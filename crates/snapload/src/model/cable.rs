@@ -100,6 +100,12 @@ impl<T: Real> Cable<T> {
         }
     }
 
+    /// The span at x = y = θ = 0, if the cable is taut there by construction.
+    pub(crate) fn span_taut_at_rest(&self) -> Option<Vector2<T>> {
+        let by_construction = self.rest_gap == T::ZERO && self.rest_gap_error == T::ZERO;
+        by_construction.then_some(self.rest_span)
+    }
+
     /// Anchor A \[L\].
     pub fn anchor(&self) -> Vector2<T> {
         self.fairlead - self.rest_span

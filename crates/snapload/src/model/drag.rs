@@ -14,12 +14,17 @@ const STANDSTILL: f64 = 1e-5;
 
 /// A force D = c₁ u + c₂ |u| u with the velocity u = w − v of the water relative to the body's
 /// centre, the second term being the drag of Morison, O'Brien, Johnson & Schaaf (*Petroleum
-/// Transactions AIME* 189 (1950) 149), and a moment −c_θ θ̇. All are per unit mass.
+/// Transactions AIME* 189 (1950) 149), and a moment −c_θ I θ̇.
+///
+/// D is a force, and on a body of unit mass the acceleration, too, so that c₁ and c₂ are per unit
+/// mass there. With a mass matrix M the acceleration is M⁻¹ D: where M = diag(m, m, I), c₁ is m
+/// times the rate at which a velocity decays. The moment is for unit moment of inertia in either case,
+/// I being M_θθ: where nothing else turns the body, c_θ is the rate at which its rotation decays.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Drag<T = f64> {
-    /// c₁ \[1/T\].
+    /// c₁, force per velocity: \[1/T\] for a unit mass, \[M/T\] with a mass matrix.
     pub linear: T,
-    /// c₂ \[1/L\].
+    /// c₂, force per squared velocity: \[1/L\] for a unit mass, \[M/L\] with a mass matrix.
     pub quadratic: T,
     /// c_θ, for unit moment of inertia \[1/T\].
     pub turning: T,
@@ -48,7 +53,8 @@ impl<T: Real> Drag<T> {
         velocity
     }
 
-    /// Its contribution to (ẍ, ÿ, θ̈) in water of the velocity w.
+    /// The force D and the moment over I in water of the velocity w: for a unit mass what it adds
+    /// to (ẍ, ÿ, θ̈).
     #[inline(always)]
     pub fn at(&self, water: Vector2<T>, state: &State<T>) -> [T; 3] {
         let Vector2 { x: u, y: v } = water - state.velocity();

@@ -52,13 +52,14 @@ pub struct Excitation<T = f64> {
 /// ```
 /// use snapload::{Body, Excitation, Floating, FloatingUnits, Forcing, Rules, Shape, Simulation, State, System};
 ///
-/// // A box of 238 t with its added mass, heave stiffness 804 kN/m, on one line; waves push with 190 kN.
+/// // A box of 238 t with its added mass, heave stiffness 804 kN/m, on one line; waves push with 400 kN.
+/// // Where the line comes taut again, it snaps.
 /// let units = FloatingUnits::new(10.0, 9.81, 238e3);
 /// let mass = [[1.03e5, 0.0, -2.1e4], [0.0, 2.38e5, 0.0], [-2.1e4, 0.0, 2.1e5]];
 /// let water = Floating {
 ///     stiffness: [[0.0; 3], [0.0, 8.04e5, 0.0], [0.0, 0.0, 6.5e5]],
 ///     constant: [0.0, 1.8e5, 0.0],
-///     excitation: vec![Excitation::of_amplitudes(1.26, [[0.0, -6e4], [1.9e5, 0.0], [0.0, 0.0]])],
+///     excitation: vec![Excitation::of_amplitudes(1.26, [[0.0, -6e4], [4e5, 0.0], [0.0, 0.0]])],
 ///     ..Floating::default()
 /// };
 /// let system = System {
@@ -69,12 +70,16 @@ pub struct Excitation<T = f64> {
 ///     floating: Some(units.floating(&water)),
 ///     restitution: 0.2,
 /// };
-/// let mut simulation = Simulation::new(system, Rules::until(20.0), 0.0, State::default())?;
+/// let rules = Rules { v_stick: 1e-6, ..Rules::until(20.0) };
+/// let mut simulation = Simulation::new(system, rules, 0.0, State::default())?;
+/// let mut snaps = 0;
 /// while let Some(step) = simulation.step() {
 ///     for snap in step.impacts() {
 ///         println!("{:.3} s: {:.3} m/s", snap.t * units.time_s, snap.v_n * units.speed_m_s());
+///         snaps += 1;
 ///     }
 /// }
+/// assert!(snaps > 0);
 /// # Ok::<(), snapload::StartError>(())
 /// ```
 #[derive(Clone, Debug, Default, PartialEq)]

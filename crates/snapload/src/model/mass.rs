@@ -24,7 +24,8 @@ pub(crate) enum Mass<T = f64> {
 }
 
 impl<T: Real> Mass<T> {
-    /// None unless the matrix is symmetric and positive definite.
+    /// None unless the matrix is symmetric and positive definite, or if its inverse, or a product
+    /// on the way to it, overflows or is rounded to zero.
     pub(crate) fn full(matrix: Matrix3<T>) -> Option<Self> {
         let [[a, b, c], [d, e, f], [g, h, i]] = matrix;
         let minor = a * e - b * b;
@@ -36,10 +37,10 @@ impl<T: Real> Mass<T> {
         }
         let [aa, ab, ac] = cofactors.map(|cofactor| cofactor / determinant);
         let (bb, bc) = ((a * i - c * c) / determinant, (b * c - a * f) / determinant);
-        Some(Self::Full {
-            matrix,
-            inverse: [[aa, ab, ac], [ab, bb, bc], [ac, bc, minor / determinant]],
-        })
+        let inverse = [[aa, ab, ac], [ab, bb, bc], [ac, bc, minor / determinant]];
+        let finite = inverse.iter().flatten().all(|entry| entry.is_finite());
+        let known = finite && (0..3).all(|i| inverse[i][i] > T::ZERO);
+        known.then_some(Self::Full { matrix, inverse })
     }
 
     /// The same in another arithmetic.
@@ -283,6 +284,12 @@ mod tests {
         let w = mass.coupling(&normal, &normal);
         assert!((w - dot(row(&normal), mass.moved_by(row(&normal)))).abs() < 1e-15);
         assert!(w <= mass.largest_coupling(0.09));
+        // The determinant of the first is infinite, and its inverse would be zero; that of the
+        // second is zero.
+        for size in [1e103, 1e120, 1e-110] {
+            let diagonal = [0, 1, 2].map(|i| [0, 1, 2].map(|j| if i == j { size } else { 0.0 }));
+            assert!(Mass::full(diagonal).is_none(), "{size}");
+        }
         let mut lopsided = matrix;
         lopsided[0][1] = 0.31;
         let indefinite = [[1.0, 0.0, 2.0], [0.0, 1.0, 0.0], [2.0, 0.0, 1.0]];

@@ -38,6 +38,11 @@ pub struct Rules<T = f64> {
 
 impl<T: Real> Rules<T> {
     /// Every rule off but the end of time; no cable sticks unless its normal velocity is zero.
+    ///
+    /// With `v_stick` zero a body that comes to rest by ever smaller bounces, as under e < 1 it
+    /// does wherever its weight pulls straight along a cable, bounces on until its time can no
+    /// longer increase, and the run ends there as [`Stop::Standstill`]. Set `v_stick`, for example
+    /// to 1e-6, wherever a body may come to rest on a cable and is to go on from there.
     pub fn until(t_end: T) -> Self {
         Self {
             limits: LimitBounds::none(),
@@ -96,9 +101,11 @@ listed! {
         EndTime = ["end_time", "end time", "the requested time was over"];
         /// More impacts than allowed.
         ImpactLimit = ["impact_limit", "impact limit", "there were more impacts than allowed"];
-        /// The time no longer increases, and no cable snaps: the computation can not go on.
+        /// The time no longer increases, in very many steps, or a number is no longer finite: the
+        /// computation can not go on.
         Standstill = [
-            "standstill", "standstill", "the computation stood still: its time no longer increased",
+            "standstill", "standstill",
+            "the computation could not go on: its time no longer increased, or a number overflowed",
         ];
     }
 }

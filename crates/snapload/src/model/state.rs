@@ -1,6 +1,7 @@
 //! The position and velocity of the body.
 
 use crate::arithmetic::plane::Vector2;
+use crate::arithmetic::real::Real;
 
 /// Position and velocity of the body in the thesis's axes, which are upside down: y points to the
 /// anchors at the sea floor, the net buoyancy pulls towards −y, θ turns counter-clockwise.
@@ -36,6 +37,14 @@ impl<T> State<T> {
             vy,
             vtheta,
         }
+    }
+}
+
+impl<T: Real> State<T> {
+    /// Whether all components are finite.
+    #[inline(always)]
+    pub(crate) fn is_finite(&self) -> bool {
+        self.components().into_iter().all(T::is_finite)
     }
 }
 

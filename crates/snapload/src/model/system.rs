@@ -162,6 +162,9 @@ impl<T: Real> System<T> {
     }
 
     /// The normals of the cables of a set; the others' entries are zero.
+    ///
+    /// # Panics
+    /// If the set has a cable that the system does not have.
     #[inline(always)]
     pub fn normals(&self, state: &State<T>, set: TautSet) -> [Normal<T>; MAX_CABLES] {
         let mut normals = [Normal::default(); MAX_CABLES];

@@ -145,13 +145,18 @@ impl Reached {
     }
 }
 
+/// A search that goes forward by no more than a rounding so often does not get on: its bounds are
+/// not finite, or so large that none of them tells anything. Near a zero it takes a few such steps.
+const MOST_CRAWLS: u32 = 10_000;
+
 /// The first instant in (0, horizon] after time `t` at which an event function reaches zero from
 /// below, or `None`.
 ///
 /// The error of the crossing is (rounding of f)/ḟ plus a rounding of s. Functions whose intervals
 /// of location overlap, or whose times are bit-equal, cross at one instant; the intervals include
 /// the rounding of the velocities, too, so that impacts which are simultaneous by symmetry stay so
-/// although rounding breaks the symmetry.
+/// although rounding breaks the symmetry. Where the search does not get on, it ends there, with
+/// nothing reached.
 #[inline(always)]
 pub(crate) fn first_crossing<T: Real>(
     motion: &impl HasEvents<T>,
@@ -160,13 +165,16 @@ pub(crate) fn first_crossing<T: Real>(
 ) -> Option<Crossing<T>> {
     let mut jets = Jets::new();
     let mut s = T::ZERO;
+    let mut crawls = 0;
     loop {
         jets.clear();
         motion.jets_at(s, &mut jets);
         if let Some(crossing) = located(&jets, t, s) {
             return (crossing.s <= horizon).then_some(crossing);
         }
-        if s >= horizon {
+        // A horizon that is no number ends the search, too.
+        let ahead = s < horizon;
+        if !ahead {
             return None;
         }
         let remaining = horizon - s;
@@ -174,7 +182,16 @@ pub(crate) fn first_crossing<T: Real>(
             .iter()
             .fold(remaining, |step, jet| safe_step(jet, step));
         // At least a rounding forward, so that the search terminates.
-        let next = s + step.max((s + horizon * T::EPSILON) * T::EPSILON);
+        let least = (s + horizon * T::EPSILON) * T::EPSILON;
+        let gets_on = step > least;
+        if !gets_on {
+            crawls += 1;
+            if crawls > MOST_CRAWLS {
+                let reached = Reached::default();
+                return Some(Crossing { s, reached });
+            }
+        }
+        let next = s + step.max(least);
         s = if next < horizon {
             next.detached()
         } else {

@@ -56,6 +56,10 @@ impl<T: Real> Extremes<T> {
     }
 }
 
+/// So many evaluations are made at most in one search: a bound that overflows would otherwise
+/// exclude nothing, down to every double of the stretch. A search takes some dozens.
+const MOST_EVALUATIONS: u32 = 1 << 20;
+
 /// A place with value and rate there.
 pub(crate) type Place<T> = (T, (T, T));
 
@@ -90,26 +94,42 @@ pub(crate) fn first_above_zero_before_last_rise<T: Real>(
 ) -> Option<T> {
     let least = s * INSTANT;
     let mut last = (s, f(s));
-    while last.1.0 >= T::ZERO {
+    for _ in 0..MOST_EVALUATIONS {
+        let above = last.1.0 >= T::ZERO;
+        if !above {
+            return first_above([(T::ZERO, f(T::ZERO)), last], f, bound, least);
+        }
         let back = last.1.1 / bound;
         if back >= last.0 {
             return None;
         }
         if back <= least * INSTANT {
-            let first = first_above([(T::ZERO, f(T::ZERO)), last], f, bound, least);
-            return first.or(Some(last.0));
+            break;
         }
         let place = last.0 - back;
         last = (place, f(place));
     }
-    first_above([(T::ZERO, f(T::ZERO)), last], f, bound, least)
+    let first = first_above([(T::ZERO, f(T::ZERO)), last], f, bound, least);
+    first.or(Some(last.0))
 }
 
 fn first_above<T: Real>(
-    [left, right]: [Place<T>; 2],
+    places: [Place<T>; 2],
     f: &impl Fn(T) -> (T, T),
     bound: T,
     least: T,
+) -> Option<T> {
+    let mut left = MOST_EVALUATIONS;
+    first_above_within(places, f, [bound, least], &mut left)
+}
+
+/// The same with at most so many evaluations more; where they do not suffice, the function may
+/// be above zero where they end.
+fn first_above_within<T: Real>(
+    [left, right]: [Place<T>; 2],
+    f: &impl Fn(T) -> (T, T),
+    [bound, least]: [T; 2],
+    evaluations: &mut u32,
 ) -> Option<T> {
     let width = right.0 - left.0;
     let falls = left.1.1 + bound * width <= T::ZERO;
@@ -126,9 +146,13 @@ fn first_above<T: Real>(
     if !(left.0 < middle && middle < right.0) || width <= least && (crosses || left.1.0 > T::ZERO) {
         return crosses.then_some(left.0);
     }
+    if *evaluations == 0 {
+        return Some(left.0);
+    }
+    *evaluations -= 1;
     let centre = (middle, f(middle));
-    first_above([left, centre], f, bound, least)
-        .or_else(|| first_above([centre, right], f, bound, least))
+    first_above_within([left, centre], f, [bound, least], evaluations)
+        .or_else(|| first_above_within([centre, right], f, [bound, least], evaluations))
 }
 
 /// A bound between two places: the maximum exceeds the values there by at most the effect of the
@@ -149,10 +173,19 @@ fn most_between<T: Real>([left, right]: [Place<T>; 2], up: T, bound: T) -> T {
 /// exceeded.
 pub(crate) fn highest<T: Real>(f: &impl Fn(T) -> (T, T), s: T, up: T, bound: T, record: T) -> T {
     let (first, last) = (f(T::ZERO), f(s));
-    let mut record = record.max(first.0).max(last.0);
+    let mut best = Best {
+        record: record.max(first.0).max(last.0),
+        evaluations: MOST_EVALUATIONS,
+    };
     let both = [(T::ZERO, first), (s, last)];
-    search(f, both, [up, bound], MOST_SECANTS, &mut record);
-    record
+    search(f, both, [up, bound], MOST_SECANTS, &mut best);
+    best.record
+}
+
+/// The largest value so far, and how many evaluations are left.
+struct Best<T> {
+    record: T,
+    evaluations: u32,
 }
 
 /// An interval is divided so often at most where the rate, taken as linear, passes through zero,
@@ -164,7 +197,7 @@ fn search<T: Real>(
     [left, right]: [Place<T>; 2],
     [up, bound]: [T; 2],
     secants: u32,
-    record: &mut T,
+    best: &mut Best<T>,
 ) {
     let width = right.0 - left.0;
     // No maximum inside if the rate stays negative throughout, or positive throughout.
@@ -173,7 +206,7 @@ fn search<T: Real>(
     {
         return;
     }
-    if most_between([left, right], up, bound) <= *record + RESOLUTION {
+    if most_between([left, right], up, bound) <= best.record + RESOLUTION {
         return;
     }
     // On a concave function, where the rate, taken as linear, passes through zero.
@@ -183,14 +216,15 @@ fn search<T: Real>(
     } else {
         left.0 + width * 0.5
     };
-    if !(left.0 < middle && middle < right.0) {
+    if !(left.0 < middle && middle < right.0) || best.evaluations == 0 {
         return;
     }
+    best.evaluations -= 1;
     let centre = (middle, f(middle));
-    *record = record.max(centre.1.0);
+    best.record = best.record.max(centre.1.0);
     let remaining = secants.saturating_sub(1);
-    search(f, [left, centre], [up, bound], remaining, record);
-    search(f, [centre, right], [up, bound], remaining, record);
+    search(f, [left, centre], [up, bound], remaining, best);
+    search(f, [centre, right], [up, bound], remaining, best);
 }
 
 #[cfg(test)]
@@ -223,6 +257,26 @@ mod tests {
             assert!(highest(&flat, 1.0, 0.0, 12.0, -9.0).abs() < 1e-14);
         }
         assert!(evaluations.get() < 600, "{}", evaluations.get());
+    }
+
+    /// A bound that is infinite or no number excludes nothing, and the searches end all the same,
+    /// with the best that they have seen: it is not below the ends, nor above the top.
+    #[test]
+    fn a_search_without_a_bound_ends() {
+        for bound in [f64::INFINITY, f64::NAN, 1e300] {
+            let evaluations = std::cell::Cell::new(0_u32);
+            let throw = |s: f64| {
+                evaluations.set(evaluations.get() + 1);
+                (s - 0.5 * s * s, 1.0 - s)
+            };
+            let top = highest(&throw, 3.0, bound, bound, -9.0);
+            assert!((0.0..=0.5).contains(&top), "{bound}: {top}");
+            let below = |s: f64| (throw(s).0 - 9.0, throw(s).1);
+            first_above_zero(&below, 3.0, bound);
+            let above = |s: f64| (throw(s).0 + 9.0, 1.0);
+            first_above_zero_before_last_rise(&above, 3.0, bound);
+            assert!(evaluations.get() < 5 * MOST_EVALUATIONS, "{bound}");
+        }
     }
 
     /// −½ − cos 3s passes zero at cos 3s = −½, and again in its last rise before s = 2.9; a

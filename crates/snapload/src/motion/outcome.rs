@@ -8,6 +8,8 @@ use std::ops::ControlFlow;
 /// A run summarised in a few numbers.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Outcome {
+    /// When it began \[T\].
+    pub t_start: f64,
     /// How it ended.
     pub end: End,
     /// The norms.
@@ -35,7 +37,8 @@ pub struct FirstImpact {
 }
 
 impl Outcome {
-    /// The outcome of a simulation, which is run to its end.
+    /// The outcome of a simulation, which is run to its end. Where it has made steps before, its
+    /// impacts, times and norms are those of the rest of its motion; but see [`Norms::y_max`].
     pub fn after(mut simulation: Simulation) -> Self {
         let mut outcome = Self::at_start(&simulation);
         while let Some(step) = simulation.step() {
@@ -63,6 +66,7 @@ impl Outcome {
     /// The outcome of a motion that has just begun.
     pub(crate) fn at_start(simulation: &Simulation) -> Self {
         Self {
+            t_start: simulation.time(),
             end: End::of(simulation),
             norms: Norms::default(),
             impacts: [0; MAX_CABLES],
@@ -106,7 +110,7 @@ impl Outcome {
 
     /// Time without a taut cable \[T\].
     pub fn slack(&self) -> f64 {
-        self.end.t - self.sliding - self.rocking
+        self.end.t - self.t_start - self.sliding - self.rocking
     }
 
     /// Whether it stopped at the rotation limit or the upper bound.

@@ -34,8 +34,8 @@ mod series;
 mod tensions;
 pub(super) mod within;
 
-use event_laws::SlowRow;
 pub(crate) use event_laws::zero_velocity;
+use event_laws::{SlowRow, Standing};
 pub use kernels::Steps;
 use kernels::begin;
 pub(crate) use nearness::{GapAt, SlackGap};
@@ -44,9 +44,6 @@ use within::StateAt;
 /// After this many instants of impact in a row on the same cables, the impacts count as a
 /// converging series.
 const CONVERGING: u32 = 5;
-
-/// A motion whose time does not increase in more steps than this, without a snap, stands still.
-const MOST_IDLE: u64 = 1000;
 
 /// A motion in progress.
 ///
@@ -80,8 +77,7 @@ pub struct Simulation<T: Real = f64> {
     series: Option<Box<Series<T>>>,
     extremes: Extremes<T>,
     impacts: u64,
-    /// Steps of zero length since the time last increased or a cable snapped.
-    standstill: u64,
+    standing: Standing,
     slow_row: SlowRow<T>,
     /// When the latest segment began.
     begun: T,
@@ -209,7 +205,7 @@ impl<T: Real> Simulation<T> {
             active: start.active,
             contacts: start.contacts,
             impacts: 0,
-            standstill: 0,
+            standing: Standing::default(),
             slow_row: SlowRow::ended(t),
             begun: t,
             last: LastImpacts {
@@ -308,9 +304,9 @@ impl<T: Real> Simulation<T> {
             None => {
                 let crossing = self.next_crossing();
                 active = self.active;
-                self.advance(&crossing);
+                let reached = self.advance(&crossing);
                 self.before = self.state;
-                self.event(crossing.reached)
+                self.event(reached)
             }
         };
         if result.is_none() {
@@ -388,15 +384,21 @@ impl<T: Real> Simulation<T> {
 
     /// Moves state, time and contacts to the crossing. The positions are projected onto the closed
     /// cables and the velocities along the taut ones, so that errors do not accumulate from event
-    /// to event.
+    /// to event. Returns what is reached. Where the numbers there are not finite, nothing is: the
+    /// motion ends with its latest state that is.
     #[inline(always)]
-    fn advance(&mut self, crossing: &Crossing<T>) {
+    fn advance(&mut self, crossing: &Crossing<T>) -> Reached {
         apart!(T, {
             let s = crossing.s;
             let motion = self.motion(self.active.taut);
             let reached_end =
                 crossing.reached == Reached::default() && s >= self.rules.t_end - self.t;
             let state = motion.state(s);
+            if !state.is_finite() {
+                self.stop = Some(Stop::Standstill);
+                return Reached::default();
+            }
+            let from = (self.t, self.state);
             let mut extremes = self.extremes;
             let acceleration_bounds = motion.acceleration_bounds(&self.system);
             let within = |s| dispatch_over::<T, _>(StateAt(&motion, s));
@@ -425,25 +427,17 @@ impl<T: Real> Simulation<T> {
             let closed = self.closed();
             project_position(&self.system, &mut self.state, closed);
             project_velocity(&self.system, &mut self.state, self.active.taut);
+            if !self.state.is_finite() {
+                (self.t, self.state) = from;
+                self.stop = Some(Stop::Standstill);
+                return Reached::default();
+            }
+            crossing.reached
         })
-    }
-
-    /// The cables whose gap is zero by definition, not by evaluation.
-    pub(crate) fn closed(&self) -> TautSet {
-        let known = |&cable: &usize| {
-            self.contacts[cable].gap == T::ZERO && self.contacts[cable].error == T::ZERO
-        };
-        (0..self.system.cables.len()).filter(known).collect()
     }
 
     /// Cables that rested at the start and of which only rounding told whether they were taut.
     pub(crate) fn undecided_at_start(&self) -> TautSet {
         self.undecided
-    }
-
-    /// The cables whose gap and normal velocity are zero, whether or not they have tension.
-    pub fn resting(&self) -> TautSet {
-        let still = |&cable: &usize| self.contacts[cable].resting;
-        self.closed().iter().filter(still).collect()
     }
 }

@@ -64,6 +64,15 @@ pub enum StartError {
     },
     /// A number of the start, or of what decides the run, is not finite, or a length not positive.
     NotFinite,
+    /// A number is finite, and yet one that no motion can be computed with.
+    NotAllowed {
+        /// What it is.
+        key: &'static str,
+        /// Its value.
+        value: f64,
+        /// What is allowed.
+        allowed: &'static str,
+    },
     /// The coefficient of restitution is not between 0 and 1.
     Restitution,
     /// The system has more cables than [`MAX_CABLES`].
@@ -100,6 +109,11 @@ impl fmt::Display for StartError {
                 stop.name()
             ),
             Self::NotFinite => f.write_str("finite numbers, and lengths above 0"),
+            Self::NotAllowed {
+                key,
+                value,
+                allowed,
+            } => write!(f, "{allowed}; {key} is {value}"),
             Self::Restitution => f.write_str("a coefficient of restitution from 0 to 1"),
             Self::TooManyCables => write!(f, "at most {MAX_CABLES} cables"),
         }
@@ -267,7 +281,55 @@ fn check_numbers<T: Real>(
     if !system.contact_law().is_passive() {
         return Err(StartError::Restitution);
     }
-    Ok(())
+    check_signs(system, v_stick)?;
+    check_parts(system)
+}
+
+/// Checks that no size is negative.
+fn check_signs<T: Real>(system: &System<T>, v_stick: T) -> Result<(), StartError> {
+    let body = &system.body;
+    let inertia = T::ONE / body.inverse_inertia();
+    let speed = ("v_stick", v_stick, "a speed of 0 or more");
+    let others = [speed, ("inertia", inertia, "a moment of inertia above 0")];
+    let sizes = body.sizes();
+    let sizes = sizes.map(|(key, size)| (key, size, "a size of 0 or more"));
+    let mut negative = others.into_iter().chain(sizes);
+    let negative = negative.find(|(_, value, _)| *value < T::ZERO);
+    negative.map_or(Ok(()), |(key, value, allowed)| {
+        Err(StartError::NotAllowed {
+            key,
+            value: value.to_f64(),
+            allowed,
+        })
+    })
+}
+
+/// Checks what the parts of a system promise: that a cable which is taut at rest by construction
+/// has its length there, and that the memory of the water fades.
+fn check_parts<T: Real>(system: &System<T>) -> Result<(), StartError> {
+    for tether in &system.cables {
+        if let Some(span) = tether.span_taut_at_rest() {
+            let square = tether.length().squared();
+            let part = square * T::from_decimal(PART_OF_SQUARE);
+            let tolerance = T::from_decimal(START_TOLERANCE).max(part) * LEFT_OVER;
+            if (span.dot(span) - square).abs() > tolerance {
+                return Err(StartError::NotAllowed {
+                    key: "rest_span",
+                    value: span.length().to_f64(),
+                    allowed: "a span as long as its cable, which is taut at rest",
+                });
+            }
+        }
+    }
+    let memory = system.floating.iter().flat_map(|water| &water.memory);
+    let mut growing = memory.filter(|term| term.pole[0] > T::ZERO);
+    growing.next().map_or(Ok(()), |term| {
+        Err(StartError::NotAllowed {
+            key: "pole",
+            value: term.pole[0].to_f64(),
+            allowed: "a memory that fades: poles whose real parts are not above 0",
+        })
+    })
 }
 
 /// The cables that count as closed: those whose gap is within the tolerance of zero or, if the

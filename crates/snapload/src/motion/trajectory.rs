@@ -42,9 +42,10 @@ pub struct Norms {
     pub rho2: f64,
     /// ρ3 = Σ v_n⁻.
     pub rho3: f64,
-    /// The highest y of the centre.
+    /// The highest y of the centre, over all that the simulation has moved, also before it was
+    /// recorded.
     pub y_max: f64,
-    /// The largest |θ|.
+    /// The largest |θ|, likewise.
     pub theta_max: f64,
 }
 
@@ -64,7 +65,7 @@ pub(crate) const RHO2_UNTIL: f64 = 10.0;
 
 impl Trajectory {
     /// Runs a simulation to its end, and keeps the data from which the motion at any time is
-    /// computed.
+    /// computed, from where the simulation is now.
     pub fn record(simulation: Simulation) -> Self {
         Self::record_until(simulation, |_, _| ControlFlow::Continue(())).0
     }

@@ -48,7 +48,9 @@ use crate::motion::trajectory::Trajectory;
 pub struct Uncertainty {
     /// Of each component of the start: x, y, θ, ẋ, ẏ, θ̇.
     pub start: [f64; 6],
-    /// Of parameters, by name of their key.
+    /// Of parameters, by name of their key. Each entry counts as [`Uncertainty::set`] would set it:
+    /// one of a key of the start instead of that component, and a later one of a key instead of an
+    /// earlier one.
     pub keys: Vec<(&'static str, f64)>,
     /// A result whose error, which is two standard deviations, is larger than this counts as
     /// unknown; the error is relative to a value above 1, see [`Trust::errors`].
@@ -75,6 +77,30 @@ impl Uncertainty {
         Self {
             start: [size; 6],
             ..Self::default()
+        }
+    }
+
+    /// The same with each uncertainty set by [`Uncertainty::set`], which checks it.
+    ///
+    /// # Errors
+    /// As for that, and if the tolerance is negative or no number.
+    pub(crate) fn checked(&self) -> Result<Self, CaseError> {
+        let mut checked = Self {
+            tolerance: self.tolerance,
+            ..Self::default()
+        };
+        for (key, size) in START_KEYS.into_iter().zip(self.start) {
+            checked.set(key, size)?;
+        }
+        for (key, size) in &self.keys {
+            checked.set(key, *size)?;
+        }
+        match self.tolerance >= 0.0 {
+            true => Ok(checked),
+            false => {
+                let (given, allowed) = (Value::Number(self.tolerance), "a tolerance of 0 or more");
+                Err(CaseError::value("tolerance", given, allowed))
+            }
         }
     }
 
@@ -292,8 +318,8 @@ impl Trust {
 /// ```
 ///
 /// # Errors
-/// A [`CaseError`] if a key that is in doubt can not be varied about this start, and
-/// [`Unfinished::Cancelled`].
+/// A [`CaseError`] if an uncertainty is none that [`Uncertainty::set`] accepts, or its key can not
+/// be varied about this start, and [`Unfinished::Cancelled`].
 pub fn trusted_run(
     case: &Case,
     uncertainty: &Uncertainty,

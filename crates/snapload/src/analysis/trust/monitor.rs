@@ -47,9 +47,10 @@ impl TrustMonitor {
     /// A monitor of a case with all its uncertainties.
     ///
     /// # Errors
-    /// A [`CaseError`] if a key that is in doubt has no value in this case.
+    /// A [`CaseError`] if an uncertainty is none that [`Uncertainty::set`] accepts, or its key has
+    /// no value in this case.
     pub fn of_case(case: &Case, uncertainty: &Uncertainty) -> Result<Self, CaseError> {
-        let spread = SpreadMonitor::of_case(case, uncertainty)?;
+        let spread = SpreadMonitor::of_case(case, &uncertainty.checked()?)?;
         Ok(Self::of(spread, case.start()))
     }
 

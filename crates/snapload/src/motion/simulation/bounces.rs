@@ -11,6 +11,7 @@ use crate::motion::contact::Contact;
 use crate::motion::events::Reached;
 use crate::motion::extremes::Extremes;
 use crate::motion::impact::ImpactResult;
+use crate::motion::simulation::event_laws::Standing;
 use crate::motion::simulation::{Event, Progress, Simulation, Step};
 use crate::motion::two_cables::{AfterImpact, TwoCableSystem};
 
@@ -64,7 +65,7 @@ impl<T: Real> Simulation<T> {
     /// Continues after bounces that were made in a lane.
     pub(crate) fn resume(&mut self, after_impact: &AfterImpact<T>, progress: Progress<T>) {
         if after_impact.t > self.t {
-            self.standstill = 0;
+            self.standing = Standing::default();
         }
         self.t = after_impact.t;
         self.state = after_impact.state;

@@ -13,8 +13,29 @@ use crate::motion::contact::Contact;
 use crate::motion::events::{Crossing, Reached};
 use crate::motion::impact::{ImpactResult, impact};
 use crate::motion::projection::project_velocity;
-use crate::motion::simulation::{CONVERGING, Event, LastImpacts, MOST_IDLE, Simulation};
+use crate::motion::simulation::{CONVERGING, Event, LastImpacts, Simulation};
 use crate::motion::ties::{Instant, first_clear};
+
+/// A motion whose time does not increase in more steps than this, without a snap, stands still.
+const MOST_IDLE: u32 = 1000;
+
+/// The same with so many snaps, far above what a motion has that goes on. A corner between two
+/// cables at an angle of β sends a body back after π/β snaps at most, all of them at one instant if
+/// it is hit to a rounding: this many would take cables that are parallel to 3e-5. Of more cables
+/// that hold a point mass only the outermost two make the corner. Snaps that accumulate, each e
+/// times as fast as the one before, stick before: from where their time no longer increases to a
+/// `v_stick` of 1e-30 times that speed they are fewer than this for every e up to 0.9993. Where
+/// `v_stick` is zero nothing else ends them.
+const MOST_AT_ONCE: u32 = 100_000;
+
+/// Steps since the time last increased.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Standing {
+    /// Those since a cable last snapped.
+    idle: u32,
+    /// Those with a snap.
+    snapped: u32,
+}
 
 /// Snaps in a row that were slower than `v_stick`.
 #[derive(Clone, Copy, Debug)]
@@ -52,6 +73,20 @@ pub(crate) fn zero_velocity<T: Real>(
 }
 
 impl<T: Real> Simulation<T> {
+    /// The cables whose gap is zero by definition, not by evaluation.
+    pub(crate) fn closed(&self) -> TautSet {
+        let known = |&cable: &usize| {
+            self.contacts[cable].gap == T::ZERO && self.contacts[cable].error == T::ZERO
+        };
+        (0..self.system.cables.len()).filter(known).collect()
+    }
+
+    /// The cables whose gap and normal velocity are zero, whether or not they have tension.
+    pub fn resting(&self) -> TautSet {
+        let still = |&cable: &usize| self.contacts[cable].resting;
+        self.closed().iter().filter(still).collect()
+    }
+
     /// Applies the law of the event.
     #[inline(always)]
     pub(super) fn apply_law(&mut self, event: &Event) -> Option<ImpactResult<T>> {
@@ -220,15 +255,26 @@ impl<T: Real> Simulation<T> {
         };
     }
 
-    /// Counts steps of zero length without a snap, so that every run ends. Where bounces accumulate
-    /// the time may not change from one to the next, but these are counted as impacts.
+    /// Counts steps of zero length, so that every run ends. Where bounces accumulate the time may
+    /// not change from one to the next for a while.
     pub(super) fn check_progress(&mut self, t_start: T, impacts: u64) {
-        self.standstill = if self.t > t_start || self.impacts > impacts {
-            0
-        } else {
-            self.standstill + 1
+        if self.t > t_start {
+            self.standing = Standing::default();
+            return;
+        }
+        let Standing { idle, snapped } = self.standing;
+        self.standing = match self.impacts > impacts {
+            true => Standing {
+                idle: 0,
+                snapped: snapped + 1,
+            },
+            false => Standing {
+                idle: idle + 1,
+                snapped,
+            },
         };
-        if self.stop.is_none() && self.standstill > MOST_IDLE {
+        let stands = self.standing.idle > MOST_IDLE || self.standing.snapped > MOST_AT_ONCE;
+        if self.stop.is_none() && stands {
             self.stop = Some(Stop::Standstill);
         }
     }

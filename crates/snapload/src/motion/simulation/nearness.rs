@@ -17,6 +17,9 @@ use crate::motion::taut_series::STILL;
 /// where neighbours may be taut there.
 const RISE: f64 = 1e-2;
 const SAME_RISE: f64 = 1e-12;
+/// After so many places on the way the search for it ends: with a bound that is not finite it would
+/// go on for ever.
+const MOST_PLACES: u32 = 1 << 20;
 
 /// A gap to be evaluated, by the best instructions for it.
 struct GapAndRate<'a, T: Real>(&'a SegmentMotion<'a, T>, usize, T);
@@ -138,7 +141,7 @@ impl<T: Real> SlackGap<'_, T> {
         if !self.closes() {
             return place;
         }
-        loop {
+        for _ in 0..MOST_PLACES {
             let back = place.rate / self.acceleration;
             if back >= place.s {
                 return at(T::ZERO);
@@ -149,6 +152,7 @@ impl<T: Real> SlackGap<'_, T> {
             }
             place = at(place.s - back);
         }
+        place
     }
 
     /// How long after the start of the step the gap, raised by an offset and at a rate, was first
