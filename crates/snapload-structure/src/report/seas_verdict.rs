@@ -91,7 +91,8 @@ impl Seas {
 
     /// Why records, however long, do not tell whether a line breaks in three hours: what their
     /// distribution says is never contradicted, and without one only the judged time counts.
-    /// Whether lines may snap can be known without their tensions.
+    /// Whether lines may snap can be known without their tensions. Where no line may break in more
+    /// than three hours, none may in three.
     fn too_short(&self) -> Option<TooShort> {
         let structure = &self.prepared.structure;
         if structure.judges_too_little() {
@@ -101,8 +102,11 @@ impl Seas {
             Err(_) if self.judge_enough() => None,
             Err(reason) => Some(TooShort::NoFit(reason)),
             Ok(()) => {
-                let overload = self.overload_in_three_hours();
-                overload.map(|(line, fit)| TooShort::Overload(line, fit))
+                let (line, fit) = self.overload_in_three_hours()?;
+                Some(match self.check_length() {
+                    Ok(()) => TooShort::Overload(line, fit),
+                    Err(reason) => TooShort::NoFit(reason),
+                })
             }
         }
     }
