@@ -38,6 +38,12 @@ impl Structure {
         self.judged_s() >= WHOLE * THREE_HOURS_S
     }
 
+    /// Whether a record judges so much more than three hours that its largest load is not that of
+    /// three.
+    pub(crate) fn judges_more(&self) -> bool {
+        self.has_waves() && WHOLE * self.judged_s() > THREE_HOURS_S
+    }
+
     /// Whether so many records judge enough of a sea to tell without a distribution that no line
     /// breaks in nine of ten three-hour seas. In still water all records are equal.
     pub(crate) fn judges_enough(&self, records: usize) -> bool {

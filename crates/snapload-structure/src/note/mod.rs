@@ -127,7 +127,7 @@ pub fn page(
         note: assessment,
         structure: &prepared.structure,
         verdict,
-        utilisations: assessment.outcome.utilisations(&prepared.structure),
+        utilisations: assessment.utilisations(),
         end: end_text(assessment.outcome.stop),
         plots: plots::of_run(assessment)?,
         hardness: plots::hardness(assessment),

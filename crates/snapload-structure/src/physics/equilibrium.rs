@@ -135,6 +135,12 @@ impl Equilibrium {
         }
     }
 
+    /// The tension at rest of a line as it stretches, where that is reported because inextensible
+    /// lines share the load in another way \[N\].
+    pub(crate) fn stretched_n(&self, line: usize) -> Option<f64> {
+        self.by_stiffness.as_ref().map(|_| self.tension_n[line])
+    }
+
     /// Distributes the load of a floating body that is held by more lines than necessary with the
     /// least sum of squares, as for a submerged one.
     pub(super) fn distribute_by_least_squares(&mut self, structure: &Structure, model: &Model) {

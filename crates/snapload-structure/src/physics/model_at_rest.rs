@@ -7,7 +7,7 @@ use super::equilibrium::{
 };
 use super::model::{CURRENT, Model};
 use super::rates::check_rates;
-use crate::structure::{Structure, Water};
+use crate::structure::{LineSi, Structure, Water};
 use snapload::{CaseError, Simulation, StartError, State, Stop};
 use snapload_hydro::{held_summary, periods_summary};
 
@@ -102,6 +102,28 @@ impl ModelAtRest {
         } else if differ(rigid, &by_stiffness, [1.0; 2]) {
             self.rest.elastic_tension_n = Some(by_stiffness);
         }
+    }
+
+    /// The lines whose tension at rest breaks them whatever their stiffness, by number from 1, each
+    /// with the ratio of the two: tensions that are reported for inextensible lines differ from
+    /// those of elastic ones by a part of the largest at most.
+    pub(crate) fn breaking_at_rest(&self) -> Vec<(usize, f64)> {
+        let rest = &self.rest;
+        let depends = rest.indeterminate
+            || rest.by_stiffness.is_some()
+            || rest.elastic_tension_n.is_some()
+            || rest.not_on_elastic_lines;
+        if depends || !rest.rests {
+            return Vec::new();
+        }
+        let largest_n = rest.tension_n.iter().copied().fold(0.0, f64::max);
+        let unsure_n = DIFFERENT_BY / (1.0 - DIFFERENT_BY) * largest_n;
+        let breaks = |((number, pull_n), line): ((usize, &f64), &LineSi)| {
+            let load_n = line.breaking_load_n?;
+            (pull_n - unsure_n >= load_n).then_some((number, pull_n / load_n))
+        };
+        let lines = (1..).zip(&rest.tension_n).zip(&self.structure.lines);
+        lines.filter_map(breaks).collect()
     }
 
     /// A structure with its position of rest and the model about it, at its start.

@@ -79,7 +79,7 @@ impl Assessment {
     pub fn to_json(&self, name: &str) -> Value {
         let structure = &self.prepared.structure;
         let (rest, groups) = (&self.prepared.rest, &self.prepared.model.groups);
-        let utilisations = self.outcome.utilisations(structure);
+        let utilisations = self.utilisations();
         let line = |index: usize| {
             let line = &structure.lines[index];
             let mut row = judged(&self.outcome, index);

@@ -1,13 +1,13 @@
 //! The verdict on many records of a sea, in words.
 
-use super::verdict::{OpenRules, VerdictKind, undecided_by};
+use super::verdict::{OpenRules, VerdictKind, breaking_at_rest, undecided_by};
 use crate::physics::elastic::LEAST_RESTITUTION;
 use crate::runs::gumbel::Gumbel;
 use crate::runs::outcome::Outcome;
 use crate::runs::quantile::{quantile, sorted};
 use crate::runs::seas::{Failing, Seas};
 use crate::runs::three_hours::NoDistribution;
-use crate::text_layout::{digits, paragraph, tenths};
+use crate::text_layout::{digits, paragraph, ratio, tenths};
 use askama::Template;
 use snapload::Stop;
 use snapload::analysis::Share;
@@ -44,6 +44,8 @@ struct SeasVerdictText {
     lacking: bool,
     /// The violated rules that leave the verdict open.
     open: Option<OpenRules>,
+    /// The lines that break at rest all the same, each with its ratio of tension to breaking load.
+    at_rest: Vec<(usize, f64)>,
     /// Whether the restitution is too small for elastic lines.
     too_plastic: bool,
     /// What leaves it open for three hours.
@@ -58,6 +60,10 @@ impl Seas {
     /// Whether a rule is violated on which tensions depend.
     pub fn is_open(&self) -> bool {
         undecided_by(&self.warnings).is_some()
+    }
+
+    fn breaking_at_rest(&self) -> Vec<(usize, f64)> {
+        breaking_at_rest(&self.prepared, &self.warnings)
     }
 
     /// The judged records and time, as a part of a sentence.
@@ -76,7 +82,9 @@ impl Seas {
     /// The kind of verdict.
     pub fn standing(&self) -> VerdictKind {
         let failing = self.failing();
-        if self.is_open() {
+        if !self.breaking_at_rest().is_empty() {
+            VerdictKind::Breaks
+        } else if self.is_open() {
             VerdictKind::Open
         } else if failing.count > 0 {
             VerdictKind::Breaks
@@ -91,7 +99,8 @@ impl Seas {
 
     /// Why records, however long, do not tell whether a line breaks in three hours: what their
     /// distribution says is never contradicted, and without one only the judged time counts.
-    /// Whether lines may snap can be known without their tensions.
+    /// Whether lines may snap can be known without their tensions. Where no line may break in more
+    /// than three hours, none may in three.
     fn too_short(&self) -> Option<TooShort> {
         let structure = &self.prepared.structure;
         if structure.judges_too_little() {
@@ -101,8 +110,11 @@ impl Seas {
             Err(_) if self.judge_enough() => None,
             Err(reason) => Some(TooShort::NoFit(reason)),
             Ok(()) => {
-                let overload = self.overload_in_three_hours();
-                overload.map(|(line, fit)| TooShort::Overload(line, fit))
+                let (line, fit) = self.overload_in_three_hours()?;
+                Some(match self.check_length() {
+                    Ok(()) => TooShort::Overload(line, fit),
+                    Err(reason) => TooShort::NoFit(reason),
+                })
             }
         }
     }
@@ -129,6 +141,7 @@ impl Seas {
             lacking: unknown().any(|one| one.lacks_a_load(structure)),
             as_computed: open.as_ref().map_or_else(beyond, |open| open.of_all_lines),
             open,
+            at_rest: self.breaking_at_rest(),
             too_plastic: structure.restitution < LEAST_RESTITUTION,
             too_short: self.too_short().filter(|_| standing == VerdictKind::Open),
             by_distributions: (standing == VerdictKind::Holds && structure.has_waves())

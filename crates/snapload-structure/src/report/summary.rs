@@ -92,7 +92,7 @@ impl Assessment {
             wave: prepared.model.regular_wave(),
             periods: self.periods.as_ref(),
             outcome: &self.outcome,
-            utilisations: self.outcome.utilisations(&prepared.structure),
+            utilisations: self.utilisations(),
             end: end_text(self.outcome.stop),
             rebound: self.rebound_text(),
             waves: self.waves_text(),

@@ -1,6 +1,7 @@
 //! The verdict in words.
 
 use crate::physics::elastic::LEAST_RESTITUTION;
+use crate::physics::model_at_rest::ModelAtRest;
 use crate::physics::snap::SLOWEST_M_S;
 use crate::physics::warning::Warning;
 use crate::runs::assess::Assessment;
@@ -85,6 +86,8 @@ struct VerdictText<'a> {
     slack: [bool; 2],
     /// The lines that are slack at rest and stay so in the judged time.
     unloaded: Vec<usize>,
+    /// Those that stay slack, and have tension at rest only as lines stretch.
+    stretched: Vec<usize>,
     /// The lines that would break, each with its utilisation and how.
     broken: Vec<(usize, f64, &'static str)>,
     /// The line with the largest utilisation that is known.
@@ -116,6 +119,15 @@ pub(super) struct OpenRules {
     pub(super) command: Option<&'static str>,
     /// Whether all of them apply to elastic lines, too.
     pub(super) of_all_lines: bool,
+}
+
+/// The lines whose tension at rest breaks them, by number from 1, each with the ratio of the two,
+/// where the motion on elastic lines is to decide the rest.
+pub(super) fn breaking_at_rest(prepared: &ModelAtRest, warnings: &[Warning]) -> Vec<(usize, f64)> {
+    match undecided_by(warnings) {
+        Some(open) if open.command.is_some() => prepared.breaking_at_rest(),
+        _ => Vec::new(),
+    }
 }
 
 /// The violated rules that leave a verdict open.
@@ -203,27 +215,25 @@ impl Early {
 /// The verdict: whether the lines go slack, how hard they snap, and whether one breaks;
 /// elastic lines are so many times stiffer than given.
 fn verdict(
-    structure: &Structure,
+    prepared: &ModelAtRest,
     outcome: &Outcome,
     warnings: &[Warning],
     early: Option<Early>,
     stiffer: Option<f64>,
 ) -> Verdict {
     let elastic = stiffer.is_some();
-    let lines = (1..)
-        .zip(&outcome.lines)
-        .zip(outcome.utilisations(structure));
-    let known: Vec<_> = lines
-        .filter_map(|((number, line), u)| Some((number, line, u?)))
-        .collect();
-    let worst = known.iter().max_by(|a, b| a.2.total_cmp(&b.2));
-    let broken = broken_lines(structure, outcome, elastic);
+    let structure = &prepared.structure;
+    let parts = (1..).zip(outcome.utilisations(structure));
+    let known: Vec<(usize, f64)> = parts.filter_map(|(line, u)| Some((line, u?))).collect();
+    let worst = known.iter().max_by(|a, b| a.1.total_cmp(&b.1));
+    let at_rest = breaking_at_rest(prepared, warnings);
+    let broken = broken_lines(structure, outcome, elastic, &at_rest);
     let all_known = known.len() == outcome.lines.len();
     let open = undecided_by(warnings);
     let too_little = one_run_is_too_little(structure);
     let standing = if outcome.stop.exceeds() {
         VerdictKind::Exceeds
-    } else if open.is_some() {
+    } else if open.is_some() && at_rest.is_empty() {
         VerdictKind::Open
     } else if !broken.is_empty() {
         VerdictKind::Breaks
@@ -234,16 +244,17 @@ fn verdict(
     } else {
         VerdictKind::Holds
     };
+    let (stretched, unloaded) = (1..=outcome.lines.len())
+        .filter(|line| outcome.lines[line - 1].stays_slack())
+        .partition(|line| prepared.rest.stretched_n(line - 1) > Some(0.0));
     let text = VerdictText {
         standing,
         outcome,
         end: end_text(outcome.stop),
         slack: goes_slack(outcome),
-        unloaded: (1..)
-            .zip(&outcome.lines)
-            .filter_map(|(number, line)| line.stays_slack().then_some(number))
-            .collect(),
-        worst: worst.map_or((0, 0.0), |(number, _, u)| (*number, *u)),
+        unloaded,
+        stretched,
+        worst: worst.copied().unwrap_or_default(),
         broken,
         transient_s: structure.transient_s,
         waves: structure.has_waves(),
@@ -262,6 +273,16 @@ fn verdict(
     }
 }
 
+/// The subject and the verb of a sentence about lines, by number from 1.
+fn lines_are(lines: &[usize]) -> String {
+    let numbers: Vec<String> = lines.iter().map(usize::to_string).collect();
+    match &numbers[..] {
+        [one] => format!("Line {one} is"),
+        [one, other] => format!("Lines {one} and {other} are"),
+        _ => format!("Lines {} are", numbers.join(", ")),
+    }
+}
+
 /// Whether a line goes slack in the time that is judged, and in all. One that is never taut there
 /// does not.
 fn goes_slack(outcome: &Outcome) -> [bool; 2] {
@@ -276,12 +297,17 @@ fn goes_slack(outcome: &Outcome) -> [bool; 2] {
 }
 
 /// The lines that are known to break, which they do by tensions for which linear hydrostatics hold:
-/// by number from 1, each with its utilisation and how.
+/// by number from 1, each with its utilisation and how; those that break at rest if there are any.
 fn broken_lines(
     structure: &Structure,
     outcome: &Outcome,
     elastic: bool,
+    at_rest: &[(usize, f64)],
 ) -> Vec<(usize, f64, &'static str)> {
+    if !at_rest.is_empty() {
+        let words = |(line, part): &(usize, f64)| (*line, *part, "at rest");
+        return at_rest.iter().map(words).collect();
+    }
     let breaks = |((number, line), known): ((usize, &LineOutcome), &LineSi)| {
         let reliable_n = outcome.reliable_n(line);
         let part = reliable_n? / known.breaking_load_n?;
@@ -313,7 +339,8 @@ fn how_it_breaks(line: &LineOutcome, elastic: bool) -> &'static str {
 impl ElasticComparison {
     /// Whether elastic lines go slack, and whether one breaks.
     pub fn verdict(&self) -> Verdict {
-        let (structure, outcome) = (&self.elastic_case.structure, &self.outcome);
+        let (prepared, outcome) = (&self.elastic_case, &self.outcome);
+        let structure = &prepared.structure;
         let pulls = self.elastic.pulls.iter();
         let early = pulls.filter(|pull| pull.peak_s < structure.transient_s);
         let early = early.map(|pull| Early {
@@ -331,7 +358,7 @@ impl ElasticComparison {
         });
         let early = Early::hardest(early, structure, outcome);
         verdict(
-            structure,
+            prepared,
             outcome,
             &self.warnings(),
             early,
@@ -360,7 +387,7 @@ impl Assessment {
         // Of equal loads the snap is named, as it has a speed.
         let early = Early::taut_or_snap(structure, outcome).chain(early);
         let early = Early::hardest(early, structure, outcome);
-        let alone = verdict(structure, outcome, &self.warnings, early, None);
+        let alone = verdict(&self.prepared, outcome, &self.warnings, early, None);
         self.with_other_runs(alone)
     }
 }

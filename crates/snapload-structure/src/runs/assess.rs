@@ -202,6 +202,19 @@ impl Assessment {
         self.trust.horizon.map(|horizon| horizon.t * time)
     }
 
+    /// The largest tension of each line divided by its breaking load, if that is known: of the
+    /// motion, and of rest where the lines stretch and share the load by that.
+    pub fn utilisations(&self) -> Vec<Option<f64>> {
+        let structure = &self.prepared.structure;
+        let of_motion = self.outcome.utilisations(structure).into_iter();
+        let with_rest = |(line, part): (usize, Option<f64>)| {
+            let at_rest_n = self.prepared.rest.stretched_n(line).unwrap_or(0.0);
+            let load_n = structure.lines[line].breaking_load_n?;
+            Some(part?.max(at_rest_n / load_n))
+        };
+        of_motion.enumerate().map(with_rest).collect()
+    }
+
     /// The checks by the rule of the case, and the neighbours that agree with each.
     pub fn checks(&self) -> Vec<(Check, usize)> {
         let open = self.warnings.iter().any(|warning| warning.leaves_open);

@@ -44,6 +44,8 @@ pub enum NoDistribution {
     /// The line, by number from 1, is slack at rest and does not snap in the records, but it may
     /// become taut within three hours, and then snap.
     MayBecomeTaut(usize),
+    /// A record judges more than three hours, so that its largest value is that of a longer sea.
+    TooLong,
     /// All records have the same largest value.
     AllEqual,
 }
@@ -51,7 +53,8 @@ pub enum NoDistribution {
 impl fmt::Display for NoDistribution {
     /// The end of a sentence that begins with "no distribution is given, as".
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let longer = "run longer records (run.duration)";
+        let longer = "run longer records, up to three hours (run.duration); 36 of three hours \
+                      need no distribution for a verdict (--seeds)";
         match self {
             Self::Exceeds(count, of) => write!(
                 f,
@@ -73,7 +76,9 @@ impl fmt::Display for NoDistribution {
             ),
             Self::TooFew(1) => f.write_str("one record is too few: run more (--seeds)"),
             Self::TooFew(count) => write!(f, "{count} records are too few: run more (--seeds)"),
-            Self::PartOfAWave => write!(f, "less than one period of the waves is judged: {longer}"),
+            Self::PartOfAWave => f.write_str(
+                "less than one period of the waves is judged: run longer records (run.duration)",
+            ),
             Self::NoSnaps => {
                 f.write_str("no line snaps at 1 cm/s or more in any of the records")
             },
@@ -95,6 +100,10 @@ impl fmt::Display for NoDistribution {
                 f,
                 "line {line} snaps at 1 cm/s or more in {count} of {of} records only: {longer}"
             ),
+            Self::TooLong => f.write_str(
+                "each record judges more than three hours, and its largest value is that of a longer sea: run more \
+                 records of three hours instead (run.duration, --seeds)",
+            ),
             Self::AllEqual => f.write_str("all records have the same largest value"),
         }
     }
@@ -110,6 +119,7 @@ impl Seas {
         let largest = self.largest_n().ok_or(NoDistribution::TensionsUnknown)?;
         self.check_beyond()?;
         self.check_stationary()?;
+        self.check_length()?;
         self.fit(&known(&largest))
     }
 
@@ -125,6 +135,7 @@ impl Seas {
             return Err(NoDistribution::NoSnaps);
         }
         self.check_stationary()?;
+        self.check_length()?;
         self.fit(&known(&self.speeds_m_s()))
     }
 
@@ -253,6 +264,16 @@ impl Seas {
         }
     }
 
+    /// The largest value of a record of more than three hours is not less than that of three, which
+    /// is enough for a verdict. How much less is not known, as its largest values alone do not tell
+    /// whether there is a snap in each three hours.
+    pub(crate) fn check_length(&self) -> Result<(), NoDistribution> {
+        match self.prepared.structure.judges_more() {
+            true => Err(NoDistribution::TooLong),
+            false => Ok(()),
+        }
+    }
+
     /// The part of the judged time of a record in which the motion is stationary \[s\].
     fn stationary_s(&self) -> f64 {
         let settling = self.settling.as_ref();
@@ -269,14 +290,14 @@ impl Seas {
     }
 
     /// The largest of three hours from that of a record. Of a shorter record only the stationary
-    /// part counts, which is a little on the safe side.
+    /// part counts, and of a longer one all counts as three hours, both on the safe side.
     fn fit(&self, largest: &[f64]) -> Result<Gumbel, NoDistribution> {
         let (structure, stationary_s) = (&self.prepared.structure, self.stationary_s());
         let judged_s = structure.judged_s();
         let fit = Gumbel::fit(largest).ok_or(NoDistribution::AllEqual)?;
         let counts = !structure.judges_three_hours() && 2.0 * stationary_s >= judged_s;
         let counted_s = if counts { stationary_s } else { judged_s };
-        Ok(fit.over_times(THREE_HOURS_S / counted_s))
+        Ok(fit.over_times((THREE_HOURS_S / counted_s).max(1.0)))
     }
 }
 

@@ -4,8 +4,8 @@ use crate::sea_extrapolation::damped;
 use crate::verdicts::structure;
 use snapload::analysis::no_progress;
 use snapload_structure::{
-    Assessment, Lines, ModelAtRest, NoDistribution, Seas, VerdictKind, assess, compare_elastic,
-    seas,
+    Assessment, Gumbel, Lines, ModelAtRest, NoDistribution, Seas, VerdictKind, assess,
+    compare_elastic, seas,
 };
 
 const EXAMPLE: &str = include_str!("../../../../docs/examples/cylinder.toml");
@@ -51,6 +51,36 @@ fn records_of_three_hours_do_not_hold_by_themselves() {
     four.records.truncate(1);
     assert_eq!(four.peak_in_three_hours(), Err(NoDistribution::TooFew(1)));
     assert_eq!(four.standing(), VerdictKind::Open);
+}
+
+/// The largest tension of six hours is not less than that of three. Where it may reach a line's
+/// breaking load in one of ten records of six hours, that is open, and else no line breaks in
+/// three; how much less three hours have is not said.
+#[test]
+fn records_of_six_hours_are_taken_as_no_less_than_three() {
+    let text = sea_text("hs = 1.2\n", "duration = 10860\n", 1e9);
+    let mut four = records(&text, 4, Lines::Inextensible);
+    four.prepared.structure.duration_s = 60.0 + 21_600.0;
+    assert_eq!(four.standing(), VerdictKind::Holds, "{}", four.words());
+    let largest = |of: &Seas, line: usize| -> Vec<f64> {
+        let records = of.records.iter();
+        records
+            .map(|record| record.outcome.lines[line].largest_n().unwrap())
+            .collect()
+    };
+    let may_reach_n = Gumbel::fit(&largest(&four, 0)).unwrap().at_most(0.9);
+    for (part, standing) in [(1.001, VerdictKind::Holds), (0.999, VerdictKind::Open)] {
+        four.prepared.structure.lines[0].breaking_load_n = Some(part * may_reach_n);
+        assert_eq!(four.failing().count, 0);
+        assert_eq!(four.standing(), standing, "{part}");
+    }
+    let too_long = Err(NoDistribution::TooLong);
+    assert_eq!(four.peak_in_three_hours(), too_long);
+    let words = four.words();
+    let why = "as each record judges more than three hours";
+    assert!(words.contains(why), "{words}");
+    let open = "Whether a line breaks within three hours is open, as no distribution is given.";
+    assert!(words.contains(open), "{words}");
 }
 
 /// Without a distribution, as lines snap in some records only, the judged time decides: with a

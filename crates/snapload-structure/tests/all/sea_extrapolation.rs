@@ -153,6 +153,25 @@ fn each_line_is_extrapolated_by_itself() {
     assert!(long.largest_of_lines_n()[0] > Some(420e3));
 }
 
+/// A line may snap in every record of seven times three hours and not in each three hours: of such
+/// records the fastest snap in three hours, which would be extrapolated downwards, is not given.
+#[test]
+fn longer_records_have_no_distribution_in_three_hours() {
+    let mut pair = records(structure(PAIR), 4, Lines::Inextensible);
+    assert!(pair.speed_in_three_hours().is_ok());
+    pair.prepared.structure.duration_s = 76_368.0;
+    let reason = NoDistribution::TooLong;
+    assert_eq!(pair.speed_in_three_hours(), Err(reason));
+    let words = reason.to_string();
+    assert!(
+        pair.summary("case")
+            .replace('\n', " ")
+            .contains("fastest   no distribution")
+    );
+    assert!(pair.to_json("case")["fastest_snap_in_three_hours_m_s"].is_null());
+    assert!(words.contains("more records of three hours"), "{words}");
+}
+
 /// Where a line snaps whose stiffness is not known, neither is the largest tension of its record.
 #[test]
 fn a_tension_that_is_not_known_is_not_that_of_the_other_lines() {

@@ -1,7 +1,8 @@
 //! How lines that pull together share a load.
 
-use crate::verdicts::structure;
+use crate::verdicts::{source, structure};
 use snapload::analysis::no_progress;
+use snapload_structure::note::page;
 use snapload_structure::{Assessment, assess};
 
 const EXAMPLE: &str = include_str!("../../../../docs/examples/cylinder.toml");
@@ -56,4 +57,42 @@ fn equal_lines_with_the_same_ends_share_evenly() {
         assert!((2.0 * most[0] / most[1] - 1.0).abs() < 1e-3, "{most:?}");
     }
     assert!(is_shared(&doubled("length = 6", "0.05")));
+}
+
+/// Three tethers side by side, of which the third is 0.5 mm longer: it pulls only as the others
+/// stretch, and has then, as three springs under one load, what is left of a common stretch.
+const TETHERS: &str = "[body]\nwidth = 4\ndisplaced_volume = 150\nmass = 60e3\nposition = [0, -8]\n\
+    turning_damping = 2e5\n\
+    [[line]]\nanchor = [0, -30]\nfairlead = [0, -10]\nlength = 20\nspring_rate = 4e8\n\
+    breaking_load = 2e6\n\
+    [[line]]\nanchor = [0, -30]\nfairlead = [0, -10]\nlength = 20\nspring_rate = 1e8\n\
+    breaking_load = 5e5\n\
+    [[line]]\nanchor = [0, -30]\nfairlead = [0, -10]\nlength = 20.0005\nspring_rate = 1e8\n\
+    breaking_load = 5e5\n\
+    [site]\ndepth = 30\n[wave]\nheight = 0.2\nperiod = 20\n[run]\nrestitution = 0.3\n\
+    duration = 60\ntransient = 20\n";
+
+/// Such a line is not called slack at rest, and has at least the utilisation of its tension there.
+#[test]
+fn a_line_that_pulls_only_as_others_stretch_has_its_share() {
+    let found = assess(structure(TETHERS), 0, &no_progress).expect("an assessment");
+    let buoyancy_n = (150.0 * 1025.0 - 60e3) * 9.80665;
+    let stretch_m = (buoyancy_n + 1e8 * 0.0005) / 6e8;
+    let part = 1e8 * (stretch_m - 0.0005) / 5e5;
+    assert_eq!(found.outcome.lines[2].largest_n(), Some(0.0));
+    let utilisation = found.utilisations()[2].expect("a utilisation");
+    assert!((utilisation / part - 1.0).abs() < 1e-6, "{utilisation}");
+    let json = found.to_json("case");
+    assert_eq!(json["lines"][2]["utilisation"], utilisation);
+    assert!(
+        found
+            .summary("case")
+            .contains(&format!("utilisation {part:.2}"))
+    );
+    let page = page(source("case"), &found, None).expect("a page");
+    assert!(page.contains(&format!("<td>500</td><td>{part:.2}</td>")));
+    let words = found.verdict().words;
+    let said = "Line 3 is slack as long as lines do not stretch, at rest and in the judged time.";
+    assert!(words.contains(said), "{words}");
+    assert!(!words.contains("slack at rest"), "{words}");
 }

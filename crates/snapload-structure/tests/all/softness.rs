@@ -99,3 +99,33 @@ fn a_sea_on_such_lines_is_open() {
     assert_eq!(found.standing(), VerdictKind::Open);
     assert!(found.words().contains("snapload seas --elastic decides"));
 }
+
+/// A body that pulls at one chain with 711 kN: the net buoyancy, however the chain stretches. The
+/// chain is too soft for the waves, but if it bears less than that at rest, it breaks in any waves.
+#[test]
+fn a_line_that_breaks_at_rest_breaks_in_waves() {
+    let text = |part: f64, water: &str| {
+        let buoyancy_n = (141.37 * 1025.0 - 72_452.0) * 9.80665;
+        structure(&format!(
+            "[body]\nwidth = 3\ndisplaced_volume = 141.37\nmass = 72452\nposition = [0, -4]\n\
+             linear_damping = 1e4\nturning_damping = 1e5\n\
+             [[line]]\nanchor = [0, -20]\nfairlead = [0, -5.5]\nlength = 14.5\n\
+             type = \"studless chain\"\ndiameter = 0.02\nbreaking_load = {}\n\
+             [site]\ndepth = 20\n[run]\nrestitution = 0.5\nduration = 120\n{water}",
+            buoyancy_n / part
+        ))
+    };
+    let wave = "[wave]\nheight = 0.05\nperiod = 9\n";
+    for (part, standing) in [(0.9, VerdictKind::Open), (1.88, VerdictKind::Breaks)] {
+        let found = assess(text(part, wave), 0, &no_progress).unwrap();
+        let verdict = found.verdict();
+        assert!(found.warnings.iter().any(|w| w.rule == "instant snap"));
+        assert_eq!(verdict.standing, standing, "{}", verdict.words);
+        let breaks = verdict.words.contains("line 1 (1.88, at rest)");
+        assert_eq!(breaks, standing == VerdictKind::Breaks, "{}", verdict.words);
+        let sea = text(part, "[sea]\nhs = 0.05\ntp = 9\n");
+        let found = seas(sea, 2, Lines::Inextensible, &no_progress).unwrap();
+        assert_eq!(found.standing(), standing, "{}", found.words());
+        assert_eq!(found.words().contains("line 1 (1.88)"), breaks);
+    }
+}
