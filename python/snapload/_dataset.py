@@ -25,7 +25,7 @@ COMMON_ATTRIBUTES = {
 
 
 def title_and_case(title: str, engine: _engine.Case) -> dict[str, str]:
-    """The attributes of the answer to a question about a case: its title, and all to ask it again."""
+    """The attributes of the answer to a question about a case: its title, and the case."""
     case = case_text(engine) or "# the standard case\n"
     return {"title": title, **COMMON_ATTRIBUTES, "source": f"snapload {_engine.__version__}", "case": case}
 

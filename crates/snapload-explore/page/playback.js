@@ -88,9 +88,11 @@ export class Playback {
 
   async #stepLater(way) {
     const { t } = this.state;
+    const ofCase = () => JSON.stringify(this.run.ofCase);
+    const before = ofCase();
     const stop = this.run[way](t) ?? (await this.interval.unlistedStop(way, t));
-    // Meanwhile the time cursor may have been moved by hand.
-    if (stop !== null && this.state.t === t) this.seek(stop);
+    // Meanwhile the time cursor may have been moved by hand, or another case be shown.
+    if (stop !== null && this.state.t === t && ofCase() === before) this.seek(stop);
   }
 
   /** A small step: 1/500 of the time that is shown. */

@@ -158,7 +158,9 @@ impl Condition {
                 let legs = continuation.lap(u.at).legs(&system, &u.z, &u.durations);
                 let (first, last, own) = (legs.first()?, legs.last()?, legs.get(leg)?);
                 let length = last.t + last.s - first.t;
-                let laps = ((own.t + 0.5 * own.s - contact.t) / length).round();
+                let before = if leg == 0 && events > 0 { last.s } else { 0.0 };
+                let middle = own.t + 0.5 * (own.s - before);
+                let laps = ((middle - contact.t) / length).round();
                 let t = contact.t + laps * length;
                 Some(Self::Touch(Contact { leg, t, ..*contact }))
             }

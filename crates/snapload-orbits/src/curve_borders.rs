@@ -13,8 +13,8 @@ use crate::roots::root;
 const LEAST_LOSS: f64 = 1e-4;
 
 // Why a curve ends, besides the end of a range and a cable that would be too long.
-const TOGETHER: &str = "corner: the graze comes at the instant of another event of the lap, and there \
-                        is none beyond it";
+const TOGETHER: &str = "corner: the graze comes at the instant of another event of the lap; \
+                        beyond it there is no such graze";
 const GRAZE: &str =
     "graze: another snap of the sequence has zero velocity here, and a negative one beyond it";
 const ONE_TO_ONE: &str =

@@ -34,7 +34,7 @@ pub(crate) fn check_followed(ranges: &[[f64; 2]], step: f64) -> Result<(), CaseE
     check_step(step)
 }
 
-/// Refuses the length of a step that leads nowhere, or beyond all measure.
+/// Refuses the length of a step that leads nowhere, or is too large.
 pub(crate) fn check_step(step: f64) -> Result<(), CaseError> {
     if step > 0.0 && step <= 1.0 {
         return Ok(());
@@ -62,8 +62,8 @@ const LONGEST_TIME_CHANGE: f64 = 0.3;
 /// A gap of more than this, by which a cable would have to be longer, ends a branch or a curve.
 const LARGEST_GAP: f64 = 0.02;
 pub(crate) const TOO_LONG: &str = "a cable would have to be longer by 0.02";
-pub(crate) const CORNER: &str = "corner: at a snap another cable is at its full length, too; beyond it the \
-                                 sequence is another one";
+pub(crate) const CORNER: &str = "corner: at a snap another cable is at its full length, too; \
+                                 beyond it the sequence is another one";
 pub(crate) const END_OF_RANGE: &str = "the end of the range";
 /// A direction whose part along the parameter is larger than this certainly leads
 /// beyond a border on which it begins.

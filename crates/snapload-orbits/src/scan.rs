@@ -13,8 +13,8 @@ const STEPS: usize = 400;
 const MOST_SNAPS: usize = 200;
 
 /// The motion from `z` at time `t` over `length`, with the surfaces of `taut` held throughout, and
-/// every other one struck where it closes. None if there are too many snaps, or
-/// the time or the length is not finite.
+/// every other one struck where it closes. None if there are too many snaps, or the time or the
+/// length is not finite.
 pub fn scan<F: Family>(
     family: &F,
     at: [f64; 2],

@@ -4,7 +4,7 @@ use crate::structure::{Structure, THREE_HOURS_S, Water};
 
 /// If no line breaks in so many times three hours, one breaks in three hours with a probability
 /// below a tenth, whatever the distribution, with 97.5 % confidence: 0.9^36 = 0.0225.
-const ENOUGH: f64 = 36.0;
+pub(crate) const ENOUGH: f64 = 36.0;
 
 /// A record whose judged time is so large a part of three hours counts as one of three hours.
 const WHOLE: f64 = 0.95;

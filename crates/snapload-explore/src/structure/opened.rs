@@ -98,7 +98,8 @@ impl Opened {
     pub(crate) fn checksum(&self) -> String {
         let mut bytes = format!("{}\n{}", self.name, self.entries.to_toml()).into_bytes();
         for file in self.files() {
-            // The parts can not be moved from one file to another; a missing file is one of its own.
+            // The parts can not be moved from one file to another; a missing file is one of its
+            // own.
             let content = std::fs::read(file).ok();
             let length = content.as_ref().map(Vec::len);
             bytes.extend(format!("\n{length:?}\n").into_bytes());

@@ -4,9 +4,10 @@ use crate::common::{POINT, parameters, reference};
 use snapload::Parameters;
 use snapload::analysis::no_progress;
 use snapload_orbits::{
-    Branch, BranchEvent, BranchOptions, Curve, CurveOptions, Kind, Moored, Orbit, OrbitRequest,
-    of_attractor,
+    Branch, BranchEvent, BranchOptions, Curve, CurveEnd, CurveOptions, Family, Hybrid, Kind, Lap,
+    Moored, Orbit, OrbitRequest, of_attractor,
 };
+use std::f64::consts::TAU;
 
 const STRETCHED: Parameters = Parameters {
     r: 2.053,
@@ -274,6 +275,60 @@ fn a_curve_of_grazes_ends_where_a_graze_meets_a_snap() {
             (f_o - 1.78).abs() < 0.01 && (r - 1.45).abs() < 0.01,
             "{f_o} {r}"
         );
+    }
+}
+
+/// The section may lie anywhere in the lap: the same graze leads along the same curve to the same
+/// corner, whichever events pass the section on the way, before the graze or after it.
+#[test]
+fn a_curve_of_grazes_does_not_depend_on_the_section() {
+    let case = point_mass([1.4116, 0.236185, 1.70665, 1.0, 5.42625]);
+    let keys = [Some("f_o"), Some("r")];
+    let family = Moored::case(case, keys);
+    let at = Moored::values(&case, keys);
+    let start = [-0.0041765, 0.0258545, 0.0, 0.4844652, -0.4544662, 0.0];
+    let orbit = near(&family, at, start);
+    let ranges = [[0.853325, 3.4133], [1.02, 2.8232]];
+    let system = family.plain(at);
+    let lap = Lap {
+        family: &family,
+        at,
+        sequence: &orbit.lap.sequence,
+        phase: 0.0,
+        periods: orbit.periods,
+    };
+    let legs = lap.legs(&system, &orbit.z, &orbit.lap.durations);
+    let period = TAU / case.omega;
+    let mut passed = 0;
+    let mut corners = Vec::new();
+    for part in 0..8 {
+        let phase = f64::from(part) / 8.0;
+        let t = phase * period;
+        let leg = legs.iter().rfind(|leg| leg.t <= t).unwrap();
+        let start = system.flow(leg.taut, leg.t, &leg.start, t - leg.t);
+        let request = OrbitRequest {
+            phase,
+            ..OrbitRequest::default()
+        };
+        let orbit = Orbit::find(&family, at, &start, &request).unwrap();
+        let first = branch(&family, &orbit, ranges[0], 0.02);
+        let event = first.event(Kind::Graze, None).unwrap();
+        let found = curve(&family, event, ranges, 0.02);
+        let symbols = found.points.iter().map(|p| p.orbit.lap.sequence.symbol());
+        let symbols: Vec<_> = symbols.collect();
+        passed += usize::from(symbols.windows(2).any(|two| two[0] != two[1]));
+        let meets = |end: &&CurveEnd| end.because.starts_with("corner: the graze comes");
+        let corner = found.ends.iter().find(meets);
+        corners.push(
+            corner
+                .unwrap_or_else(|| panic!("{phase}: {:?}", found.ends))
+                .at,
+        );
+    }
+    assert!(passed > 1, "{passed}");
+    for [f_o, r] in &corners {
+        let off = (f_o - corners[0][0]).abs() + (r - corners[0][1]).abs();
+        assert!(off < 1e-7, "{corners:?}");
     }
 }
 

@@ -1,6 +1,7 @@
 //! The verdict on many records of a sea, in words.
 
 use super::verdict::{OpenRules, VerdictKind, breaking_at_rest, undecided_by};
+use crate::judged_time::ENOUGH;
 use crate::physics::elastic::LEAST_RESTITUTION;
 use crate::runs::gumbel::Gumbel;
 use crate::runs::outcome::Outcome;
@@ -53,6 +54,8 @@ struct SeasVerdictText {
     /// Whether it is firm in waves, and if so, whether by distributions and not by the number of
     /// records.
     by_distributions: Option<bool>,
+    /// Whether a record judges more than three hours.
+    judges_more: bool,
     standing: VerdictKind,
 }
 
@@ -146,6 +149,7 @@ impl Seas {
             too_short: self.too_short().filter(|_| standing == VerdictKind::Open),
             by_distributions: (standing == VerdictKind::Holds && structure.has_waves())
                 .then(|| self.check_extrapolation().is_ok()),
+            judges_more: structure.judges_more(),
             standing,
         })
     }

@@ -2,6 +2,7 @@
 
 use super::outcome::{LineOutcome, Outcome};
 use super::seas::Seas;
+use crate::judged_time::ENOUGH;
 use crate::runs::gumbel::Gumbel;
 use crate::structure::{Structure, THREE_HOURS_S};
 use snapload::Stop;
@@ -53,8 +54,9 @@ pub enum NoDistribution {
 impl fmt::Display for NoDistribution {
     /// The end of a sentence that begins with "no distribution is given, as".
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let longer = "run longer records, up to three hours (run.duration); 36 of three hours \
-                      need no distribution for a verdict (--seeds)";
+        let longer = format!(
+            "run records of three hours (run.duration, --seeds), of which {ENOUGH} need no distribution for a verdict"
+        );
         match self {
             Self::Exceeds(count, of) => write!(
                 f,
@@ -101,8 +103,8 @@ impl fmt::Display for NoDistribution {
                 "line {line} snaps at 1 cm/s or more in {count} of {of} records only: {longer}"
             ),
             Self::TooLong => f.write_str(
-                "each record judges more than three hours, and its largest value is that of a longer sea: run more \
-                 records of three hours instead (run.duration, --seeds)",
+                "each record judges more than three hours, so that its largest value is that of a longer sea: \
+                 records of three hours have one (run.duration)",
             ),
             Self::AllEqual => f.write_str("all records have the same largest value"),
         }

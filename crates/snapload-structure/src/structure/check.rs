@@ -131,7 +131,8 @@ fn check_submerged(structure: &Structure) -> Result<(), CaseError> {
         if reach > line.length_m * (1.0 + SHORTER_BY) {
             let least = (reach / (1.0 + SHORTER_BY) * 1e3).ceil() / 1e3;
             let allowed = format!(
-                "at least {least:.3} m, 2 % less than the {reach:.3} m from its anchor to its fairlead"
+                "at least {least:.3} m, 2 % less than the {reach:.3} m from its anchor to its \
+                 fairlead"
             );
             return Err(CaseError::value(&path("length"), line.length_m, allowed)
                 .with_hint("make the line longer, or move the body or the anchor"));

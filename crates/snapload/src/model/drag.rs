@@ -18,8 +18,9 @@ const STANDSTILL: f64 = 1e-5;
 ///
 /// D is a force, and on a body of unit mass the acceleration, too, so that c₁ and c₂ are per unit
 /// mass there. With a mass matrix M the acceleration is M⁻¹ D: where M = diag(m, m, I), c₁ is m
-/// times the rate at which a velocity decays. The moment is for unit moment of inertia in either case,
-/// I being M_θθ: where nothing else turns the body, c_θ is the rate at which its rotation decays.
+/// times the rate at which a velocity decays. The moment is for unit moment of inertia in either
+/// case, I being M_θθ: where nothing else turns the body, c_θ is the rate at which its rotation
+/// decays.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Drag<T = f64> {
     /// c₁, force per velocity: \[1/T\] for a unit mass, \[M/T\] with a mass matrix.

@@ -52,8 +52,8 @@ pub struct Excitation<T = f64> {
 /// ```
 /// use snapload::{Body, Excitation, Floating, FloatingUnits, Forcing, Rules, Shape, Simulation, State, System};
 ///
-/// // A box of 238 t with its added mass, heave stiffness 804 kN/m, on one line; waves push with 400 kN.
-/// // Where the line comes taut again, it snaps.
+/// // A box of 238 t with its added mass, heave stiffness 804 kN/m, on one line; waves push with
+/// // 400 kN. Where the line comes taut again, it snaps.
 /// let units = FloatingUnits::new(10.0, 9.81, 238e3);
 /// let mass = [[1.03e5, 0.0, -2.1e4], [0.0, 2.38e5, 0.0], [-2.1e4, 0.0, 2.1e5]];
 /// let water = Floating {

@@ -147,7 +147,7 @@ impl Reached {
 
 /// A search that goes forward by no more than a rounding so often does not get on: its bounds are
 /// not finite, or so large that none of them tells anything. Near a zero it takes a few such steps.
-const MOST_CRAWLS: u32 = 10_000;
+const MOST_CRAWLS: u32 = 1000;
 
 /// The first instant in (0, horizon] after time `t` at which an event function reaches zero from
 /// below, or `None`.
@@ -155,8 +155,8 @@ const MOST_CRAWLS: u32 = 10_000;
 /// The error of the crossing is (rounding of f)/ḟ plus a rounding of s. Functions whose intervals
 /// of location overlap, or whose times are bit-equal, cross at one instant; the intervals include
 /// the rounding of the velocities, too, so that impacts which are simultaneous by symmetry stay so
-/// although rounding breaks the symmetry. Where the search does not get on, it ends there, with
-/// nothing reached.
+/// although rounding breaks the symmetry. Where the search does not get on, nothing is reached, a
+/// time of zero later: the motion stands still.
 #[inline(always)]
 pub(crate) fn first_crossing<T: Real>(
     motion: &impl HasEvents<T>,
@@ -187,7 +187,7 @@ pub(crate) fn first_crossing<T: Real>(
         if !gets_on {
             crawls += 1;
             if crawls > MOST_CRAWLS {
-                let reached = Reached::default();
+                let (s, reached) = (T::ZERO, Reached::default());
                 return Some(Crossing { s, reached });
             }
         }

@@ -398,7 +398,7 @@ impl<T: Real> Simulation<T> {
                 self.stop = Some(Stop::Standstill);
                 return Reached::default();
             }
-            let from = (self.t, self.state);
+            let from = (self.t, self.state, self.extremes);
             let mut extremes = self.extremes;
             let acceleration_bounds = motion.acceleration_bounds(&self.system);
             let within = |s| dispatch_over::<T, _>(StateAt(&motion, s));
@@ -428,7 +428,7 @@ impl<T: Real> Simulation<T> {
             project_position(&self.system, &mut self.state, closed);
             project_velocity(&self.system, &mut self.state, self.active.taut);
             if !self.state.is_finite() {
-                (self.t, self.state) = from;
+                (self.t, self.state, self.extremes) = from;
                 self.stop = Some(Stop::Standstill);
                 return Reached::default();
             }

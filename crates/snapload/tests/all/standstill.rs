@@ -17,8 +17,8 @@ fn at(y: f64) -> State {
 }
 
 /// A mass that falls by half a unit snaps at t = 1 with v = 1; the bounces that follow take
-/// 2 e/(1 − e) together. If no snap is slow enough to stick, it stands still then. On one cable, and on two
-/// under a force of no amplitude, where every step before is a bounce.
+/// 2 e/(1 − e) together. If no snap is slow enough to stick, it stands still then. On one cable, and
+/// on two under a force of no amplitude, where every step before is a bounce.
 #[test]
 fn snaps_that_never_stick_end_where_time_stands_still() {
     let beside = Cable::new([3.0, 0.0], [0.0, 0.0], 9.0);
@@ -87,7 +87,12 @@ fn no_step_hangs_where_coefficients_overflow() {
     assert_eq!(makes_steps("fast", fast), Some(Stop::Standstill));
     for weight in [1e10, 1e30, 1e200] {
         let pulled = begun(string(1.0, weight, 0.5), rules(5.0), swinging(1.0));
-        makes_steps(&format!("weight {weight:e}"), pulled);
+        let stop = makes_steps(&format!("weight {weight:e}"), pulled);
+        let gets_on = weight < 1e30;
+        assert!(
+            gets_on || stop == Some(Stop::Standstill),
+            "{weight}: {stop:?}"
+        );
     }
     for [linear, quadratic] in [[1e300, 0.0], [-1e300, 0.0], [0.0, 1e300], [0.0, -1e300]] {
         let mut system = string(1.0, 1.0, 0.5);
@@ -99,14 +104,19 @@ fn no_step_hangs_where_coefficients_overflow() {
         });
         for start in [swinging(1.0), State { vx: 1.0, ..at(0.0) }] {
             let dragged = begun(system.clone(), rules(5.0), start);
-            makes_steps(&format!("drag {linear:e} {quadratic:e}"), dragged);
+            let what = format!("drag {linear:e} {quadratic:e}");
+            assert_eq!(
+                makes_steps(&what, dragged),
+                Some(Stop::Standstill),
+                "{what}"
+            );
         }
     }
 }
 
 /// Many sinusoids of frequencies or sizes, or at times, at which nothing is left of their phases.
 #[test]
-fn no_step_hangs_under_sinusoids_beyond_measure() {
+fn no_step_hangs_under_sinusoids_that_are_too_large() {
     let wave = |size: f64, omega: f64| Harmonic::ellipse(size, 0.3, omega);
     let eleven = |of: &dyn Fn(f64) -> Harmonic| (1..12).map(|k| of(f64::from(k))).collect();
     for (what, t, harmonics) in [
@@ -132,6 +142,11 @@ fn no_step_hangs_under_sinusoids_beyond_measure() {
             ..Rules::until(t + 1e6)
         };
         let begun = Simulation::new(system, rules, t, State::default()).expect("a legal start");
-        makes_steps(what, begun);
+        let stop = makes_steps(what, begun);
+        let gets_on = ["size", "one size"].contains(&what);
+        assert!(
+            gets_on || stop == Some(Stop::Standstill),
+            "{what}: {stop:?}"
+        );
     }
 }
