@@ -169,7 +169,7 @@ fn longer_records_have_no_distribution_in_three_hours() {
             .contains("fastest   no distribution")
     );
     assert!(pair.to_json("case")["fastest_snap_in_three_hours_m_s"].is_null());
-    assert!(words.contains("more records of three hours"), "{words}");
+    assert!(words.contains("records of three hours have one"), "{words}");
 }
 
 /// Where a line snaps whose stiffness is not known, neither is the largest tension of its record.
