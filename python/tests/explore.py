@@ -159,6 +159,13 @@ def comes_true(page: Page, what: Callable[[], bool]) -> None:
     raise AssertionError("it did not come true in time")
 
 
+def keep_listed(snaps: dict[str, Any], keep: list[int]) -> None:
+    """Leaves only some of the snaps in the list of an answer of a structure."""
+    snaps["hardest"] = [keep.index(i) for i in snaps["hardest"]]
+    for name in ["number", "t", "line", "jolt", "speed", "peak", "utilisation"]:
+        snaps[name] = [snaps[name][i] for i in keep]
+
+
 def count(page: Page) -> int:
     return int(page.locator("#took").get_attribute("data-count") or 0)
 

@@ -7,7 +7,7 @@ from itertools import pairwise
 from typing import Any
 
 import pytest
-from explore import comes_true, exact_time
+from explore import comes_true, exact_time, keep_listed
 from playwright.sync_api import Page, expect
 
 SHORT = "run.duration=60&run.transient=10&elastic=false"
@@ -169,9 +169,7 @@ def test_a_step_leads_to_a_snap_that_is_not_listed(open_structure):
         every[:] = snaps["t"]
         # As if all others were one of too many in the interval.
         keep = sorted({0, 1, 2, 3, *snaps["hardest"]})
-        snaps["hardest"] = [keep.index(i) for i in snaps["hardest"]]
-        for name in ["number", "t", "line", "jolt", "speed", "peak", "utilisation"]:
-            snaps[name] = [snaps[name][i] for i in keep]
+        keep_listed(snaps, keep)
         route.fulfill(response=answer, json=json)
 
     page.route("**/api/structure/run", few)

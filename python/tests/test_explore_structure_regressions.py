@@ -5,7 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 from urllib.parse import urljoin
 
-from explore import CYLINDER, ROOT, comes_true, exact_time
+from explore import CYLINDER, ROOT, comes_true, exact_time, keep_listed
 from playwright.sync_api import expect
 
 SHORT = "run.duration=60&run.transient=10&elastic=false"
@@ -292,9 +292,7 @@ def test_of_many_snaps_the_page_says_which_it_does_not_have(open_structure):
         left_out["until"] = snaps["t"][3]
         left_out["before"] = sum(t <= 45 for t in snaps["t"])
         left_out["at"] = next(t for i, t in enumerate(snaps["t"]) if i not in keep)
-        snaps["hardest"] = [keep.index(i) for i in snaps["hardest"]]
-        for name in ["number", "t", "line", "jolt", "speed", "peak", "utilisation"]:
-            snaps[name] = [snaps[name][i] for i in keep]
+        keep_listed(snaps, keep)
         route.fulfill(response=answer, json=json)
 
     page.route("**/api/structure/run", without_some)

@@ -1,6 +1,7 @@
 //! Options that no search can use are refused where it begins.
 
 use crate::closed_forms::{bouncing, table};
+use crate::common::tori;
 use snapload::analysis::{Unfinished, no_progress};
 use snapload::{CaseError, Parameters, TautSet};
 use snapload_orbits::{
@@ -8,19 +9,6 @@ use snapload_orbits::{
     SectionOptions, Window, scan,
 };
 use std::f64::consts::PI;
-
-fn parameters() -> Parameters {
-    Parameters {
-        inertia: None,
-        a: 0.0,
-        r: 1.7,
-        e: 0.35,
-        f_o: 1.4,
-        nu: 0.8,
-        omega: 3.1,
-        ..Parameters::STANDARD
-    }
-}
 
 const NEAR: [f64; 6] = [-0.27, 0.38, 0.0, 0.81, -0.43, 0.0];
 
@@ -33,11 +21,11 @@ fn key(result: Result<(), Unfinished>) -> String {
 
 #[test]
 fn an_orbit_of_no_period_is_refused() {
-    let family = Moored::case(parameters(), [None; 2]);
+    let family = Moored::case(tori().0, [None; 2]);
     let still = Moored::case(
         Parameters {
             omega: 0.0,
-            ..parameters()
+            ..tori().0
         },
         [None; 2],
     );
@@ -115,7 +103,7 @@ fn a_section_of_more_periods_than_there_are_is_refused() {
         exponents: false,
         impacts: false,
     };
-    let follow = |options: SectionOptions| Section::of(&parameters(), &options, &no_progress);
+    let follow = |options: SectionOptions| Section::of(&tori().0, &options, &no_progress);
     let skip = u64::MAX;
     assert_eq!(
         key(follow(SectionOptions { skip, ..options }).map(|_| ())),
@@ -134,7 +122,7 @@ fn a_section_of_more_periods_than_there_are_is_refused() {
 #[test]
 fn a_window_without_cells_is_refused() {
     let window = Window {
-        base: parameters(),
+        base: tori().0,
         keys: ["x", "y"],
         values: [vec![0.0], vec![]],
     };
