@@ -244,10 +244,9 @@ impl ModelAtRest {
             return None;
         }
         let cable = &self.model.system.cables[line];
-        // The distance that it lacks to be taut, from the gap |d|² − r², which is free of
-        // cancellation.
+        // The distance that it lacks to be taut.
         let lacks = |at: &State| {
-            let lacks = -cable.gap(at) / (cable.span(at).length() + cable.length());
+            let lacks = -cable.stretch(at).elongation;
             (lacks > TOUCHING).then_some(lacks)
         };
         let rest = self.model.at_rest(self.rest.place_m, self.rest.theta_rad);

@@ -2,6 +2,7 @@
 
 use crate::arithmetic::lane::Lane;
 use crate::arithmetic::plane::{Rotation, Vector2};
+use crate::arithmetic::processor::{Kernel, dispatch_over};
 use crate::arithmetic::real::Real;
 use crate::model::state::State;
 
@@ -53,6 +54,38 @@ impl<L: Lane> Normal<L> {
         state.vx = state.vx - impulse * self.n.x;
         state.vy = state.vy - impulse * self.n.y;
         state.vtheta = state.vtheta - impulse * self.arm * inverse_inertia;
+    }
+}
+
+/// A cable of any length, as an elastic line sees it.
+#[derive(Clone, Copy, Debug, PartialEq, Default)]
+pub struct Stretch<T = f64> {
+    /// Its direction d/|d| and moment arm: where the gap is zero, the normal of the constraint.
+    pub normal: Normal<T>,
+    /// Elongation δ = |d| − r, negative while slack \[L\].
+    pub elongation: T,
+}
+
+/// The stretch of a cable at a state.
+struct Stretching<'a, T>(&'a Cable<T>, &'a State<T>);
+
+impl<T: Real> Kernel for Stretching<'_, T> {
+    type Output = Stretch<T>;
+    #[inline(always)]
+    fn run(self) -> Stretch<T> {
+        let Self(cable, state) = self;
+        let turn = Rotation::by(state.theta);
+        let moved = cable.moved(state, &turn);
+        let span = cable.span_moved(moved);
+        let reach = span.length();
+        let n = span.map(|component| component / reach);
+        Stretch {
+            normal: Normal {
+                n,
+                arm: cable.lever(turn.sine, turn.cosine).cross(n),
+            },
+            elongation: cable.gap_moved(moved) / (reach + cable.length),
+        }
     }
 }
 
@@ -160,6 +193,12 @@ impl<T: Real> Cable<T> {
         let turn = Rotation::by(state.theta);
         let span = self.span_moved(self.moved(state, &turn));
         self.normal_along(span, self.lever(turn.sine, turn.cosine))
+    }
+
+    /// Direction and elongation at any state; δ = (|d|² − r²)/(|d| + r), the gap over a sum, is free
+    /// of cancellation.
+    pub fn stretch(&self, state: &State<T>) -> Stretch<T> {
+        dispatch_over::<T, _>(Stretching(self, state))
     }
 }
 
@@ -272,6 +311,24 @@ mod tests {
         let g = (p[0] - 1.0).powi(2) + (p[1] - 1.3).powi(2) - 2.25;
         assert!((cable.gap(&state) - g).abs() < 2e-15);
         assert_eq!(cable.anchor(), [1.0, 1.3].into());
+    }
+
+    /// A cable from (0, 2) to a point at (1, 0) of a body turned by a quarter, of length 2: the
+    /// point is at (0, 1) from the centre.
+    #[test]
+    fn stretch_is_the_definition() {
+        let cable: Cable = Cable::new([0.0, 2.0], [1.0, 0.0], 2.0);
+        let state = State {
+            x: 3.0,
+            y: -3.0,
+            theta: std::f64::consts::FRAC_PI_2,
+            ..State::default()
+        };
+        let Stretch { normal, elongation } = cable.stretch(&state);
+        // d = (3, -4), ρ = (0, 1).
+        assert!((normal.n - Vector2::from([0.6, -0.8])).length() < 1e-15);
+        assert!((normal.arm + 0.6).abs() < 1e-15);
+        assert!((elongation - 3.0).abs() < 1e-15);
     }
 
     /// The gap of the standard breakwater 1e-9 away from rest is known to nine digits and more.

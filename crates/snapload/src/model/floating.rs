@@ -106,6 +106,27 @@ pub(crate) struct Channel<T> {
     pub(crate) residue: [Complex<T>; 3],
 }
 
+impl<T: Real> Channel<T> {
+    /// ż.
+    #[inline(always)]
+    pub(crate) fn rate(&self, state: &State<T>, [re, im]: Complex<T>) -> Complex<T> {
+        let [pole_re, pole_im] = self.pole;
+        let velocity = [state.vx, state.vy, state.vtheta][self.input];
+        [
+            pole_re * re - pole_im * im + velocity,
+            pole_re * im + pole_im * re,
+        ]
+    }
+
+    /// Adds Re r z to a force.
+    #[inline(always)]
+    pub(crate) fn add_force(&self, [re, im]: Complex<T>, force: &mut [T; 3]) {
+        for (force, [real, imaginary]) in force.iter_mut().zip(self.residue) {
+            *force += real * re - imaginary * im;
+        }
+    }
+}
+
 impl<T: Real> Excitation<T> {
     /// Re(X e^{−iΩt}), as panel codes give it: c = Re X and d = Im X.
     pub fn of_amplitudes(omega: T, amplitudes: [Complex<T>; 3]) -> Self {
@@ -196,32 +217,12 @@ impl<T: Real> Floating<T> {
         self.channels().map(|_| [T::ZERO; 2]).collect()
     }
 
-    /// ż = p z + q̇.
-    #[inline(always)]
-    pub(crate) fn memory_rates(
-        &self,
-        state: &State<T>,
-        memory: &[Complex<T>],
-        rates: &mut [Complex<T>],
-    ) {
-        let velocity = [state.vx, state.vy, state.vtheta];
-        for ((channel, z), rate) in self.channels().zip(memory).zip(rates) {
-            let ([re, im], [pole_re, pole_im]) = (*z, channel.pole);
-            *rate = [
-                pole_re * re - pole_im * im + velocity[channel.input],
-                pole_re * im + pole_im * re,
-            ];
-        }
-    }
-
     /// F_mem = Re Σ R z.
     #[inline(always)]
     pub(crate) fn memory_force(&self, memory: &[Complex<T>]) -> [T; 3] {
         let mut force = [T::ZERO; 3];
-        for (channel, [re, im]) in self.channels().zip(memory) {
-            for (force, [real, imaginary]) in force.iter_mut().zip(channel.residue) {
-                *force += real * *re - imaginary * *im;
-            }
+        for (channel, z) in self.channels().zip(memory) {
+            channel.add_force(*z, &mut force);
         }
         force
     }

@@ -114,13 +114,6 @@ impl<T: Real> System<T> {
             .map_or_else(Vec::new, Floating::at_rest)
     }
 
-    /// ż of the water's memory, in the order of [`System::memory_at_rest`].
-    pub fn memory_rates(&self, state: &State<T>, memory: &[Complex<T>], rates: &mut [Complex<T>]) {
-        if let Some(water) = &self.floating {
-            water.memory_rates(state, memory, rates);
-        }
-    }
-
     /// The force of the water's memory on the body.
     #[inline(always)]
     pub fn memory_force(&self, memory: &[Complex<T>]) -> [T; 3] {

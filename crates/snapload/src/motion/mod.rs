@@ -12,6 +12,7 @@ pub(crate) mod deviations;
 pub(crate) mod events;
 pub(crate) mod extremes;
 pub(crate) mod flight;
+pub(crate) mod free_motion;
 pub(crate) mod impact;
 pub(crate) mod least_norm;
 pub(crate) mod limits;

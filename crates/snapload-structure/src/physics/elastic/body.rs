@@ -1,14 +1,14 @@
 //! A body on elastic lines: the forces of the lines at a state, and the acceleration.
 
 use super::law::ElasticLine;
-use snapload::{State, System, TautSet, Waves};
+use snapload::{Complex, FreeMotion, State, Stretch, System, TautSet};
 use std::cell::RefCell;
 
 /// A body on elastic lines.
 pub(super) struct BodyOnElasticLines<'a> {
     pub(super) system: &'a System,
     pub(super) elastic_lines: &'a [ElasticLine],
-    waves: RefCell<Waves>,
+    free: RefCell<FreeMotion>,
 }
 
 /// The state of one line.
@@ -30,24 +30,16 @@ impl<'a> BodyOnElasticLines<'a> {
         Self {
             system,
             elastic_lines,
-            waves: RefCell::new(Waves::new(system)),
+            free: RefCell::new(FreeMotion::new(system)),
         }
     }
 
     pub(super) fn elongation(&self, line: usize, state: &State) -> Elongation {
-        let cable = &self.system.cables[line];
-        let span = cable.span(state).components();
-        let reach = span[0].hypot(span[1]);
-        let n = span.map(|component| component / reach);
-        let (sine, cosine) = state.theta.sin_cos();
-        let lever = cable.lever(sine, cosine).components();
-        let arm = lever[0] * n[1] - lever[1] * n[0];
-        // From the gap |d|² − r², which is free of cancellation.
-        let elongation = cable.gap(state) / (reach + cable.length());
-        let rate = n[0] * state.vx + n[1] * state.vy + arm * state.vtheta;
+        let Stretch { normal, elongation } = self.system.cables[line].stretch(state);
+        let rate = normal.velocity(state);
         Elongation {
-            n,
-            arm,
+            n: normal.n.components(),
+            arm: normal.arm,
             elongation,
             rate,
             force: self.elastic_lines[line].force(elongation, rate),
@@ -111,18 +103,16 @@ impl<'a> BodyOnElasticLines<'a> {
         sums[0].sqrt().max(sums[1])
     }
 
-    /// The accelerations, including the force of the water's memory.
-    pub(super) fn acceleration(
+    /// The accelerations, given the water's memory, whose rates of change are written to `rates`.
+    pub(super) fn rates(
         &self,
         t: f64,
         state: &State,
-        memory_force: [f64; 3],
+        memory: &[Complex],
+        rates: &mut [Complex],
         pulling: TautSet,
     ) -> [f64; 3] {
-        let mut waves = self.waves.borrow_mut();
-        waves.cover(t, t);
-        let around = waves.at(self.system, t);
-        let free = self.system.free_acceleration(&around, state, memory_force);
+        let free = self.free.borrow_mut().rates(t, state, memory, rates);
         pulling.iter().fold(free, |[x, y, theta], line| {
             let Elongation { n, arm, force, .. } = self.elongation(line, state);
             let pull = [force * n[0], force * n[1], force * arm];

@@ -82,18 +82,12 @@ fn memory_of<const N: usize>(y: &Components<N>) -> &[[f64; 2]] {
 
 impl<const N: usize> ODE<f64, Components<N>> for Phase<'_, N> {
     fn diff(&self, s: f64, y: &Components<N>, dydt: &mut Components<N>) {
-        let (state, system) = (state_of(y), self.body.system);
-        let remembered = match N {
-            STATE_WITHOUT_MEMORY => [0.0; 3],
-            _ => system.memory_force(memory_of(y)),
-        };
-        let [ax, ay, atheta] =
-            self.body
-                .acceleration(self.begin + s, &state, remembered, self.pulling);
-        let (motion, memory) = dydt.split_at_mut(STATE_WITHOUT_MEMORY);
+        let (state, memory) = (state_of(y), memory_of(y));
+        let (motion, rates) = dydt.split_at_mut(STATE_WITHOUT_MEMORY);
+        let rates = rates.as_chunks_mut().0;
+        let t = self.begin + s;
+        let [ax, ay, atheta] = self.body.rates(t, &state, memory, rates, self.pulling);
         motion.copy_from_slice(&[state.vx, state.vy, state.vtheta, ax, ay, atheta]);
-        let rates = memory.as_chunks_mut().0;
-        system.memory_rates(&state, memory_of(y), rates);
     }
 }
 
