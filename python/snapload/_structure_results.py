@@ -326,7 +326,7 @@ class Elastic(RepeatableResult[_engine.Elastic]):
     Attributes
     ----------
     data : dict
-        Everything that ``snapload elastic --json`` writes.
+        Everything that ``snapload elastic --json`` writes. How far the motion is known is under ``trust``.
 
     See Also
     --------

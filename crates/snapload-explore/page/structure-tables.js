@@ -66,11 +66,11 @@ export function showLines(run) {
   $("elastic-words").textContent = elastic ? elasticWords(elastic, run.assessment.warnings) : "";
 }
 
-/** The verdict of the run on elastic lines, and the warnings that the inextensible one does not have. */
-function elasticWords({ verdict, warnings }, others) {
+/** The verdict of the run on elastic lines, how far it is known, and the warnings that the inextensible one lacks. */
+function elasticWords({ verdict, trust, warnings }, others) {
   const heard = new Set(others.map(({ message }) => message));
   const own = warnings.filter(({ message }) => !heard.has(message)).map(({ message }) => sentence(message));
-  return [`On elastic lines: ${verdict.words}`, ...own].join(" ");
+  return [`On elastic lines: ${verdict.words}`, trust.words, ...own].join(" ");
 }
 
 /** Checks by the rule of the case, other restitutions and waves, and warnings. */

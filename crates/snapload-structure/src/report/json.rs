@@ -220,6 +220,7 @@ impl ElasticComparison {
                 "damping_n_s_m": damping,
                 "slack_fraction": judged.then(|| self.elastic.slack_fraction(index)),
                 "peak_n": judged.then(|| self.elastic.peaks_n[index]),
+                "peak_in_shorter_steps_n": judged.then(|| self.repeated.outcome.lines[index].largest_taut_n),
                 "rest_tension_n": self.elastic_case.rest.tension_n[index],
                 "breaking_load_n": structure.lines[index].breaking_load_n,
             })
@@ -255,6 +256,10 @@ impl ElasticComparison {
             },
             "warnings": self.warnings(),
             "end_s": self.elastic.end_s,
+            "trust": {
+                "words": self.trust_text(),
+                "horizon_s": self.repeated.horizon_s,
+            },
             "took_s": self.elastic_took_s,
             "lines": lines.collect::<Vec<_>>(),
             "pulls": self.elastic.pulls,

@@ -357,13 +357,8 @@ impl ElasticComparison {
                 .map(|load| pull.peak_n / load),
         });
         let early = Early::hardest(early, structure, outcome);
-        verdict(
-            prepared,
-            outcome,
-            &self.warnings(),
-            early,
-            Some(self.stiffer),
-        )
+        let (warnings, stiffer) = (self.warnings(), Some(self.stiffer));
+        self.with_repeated(verdict(prepared, outcome, &warnings, early, stiffer))
     }
 }
 

@@ -1,14 +1,17 @@
 //! The same case on elastic and on inextensible lines.
 
-use super::design::{Check, checks};
+use super::design::{Answer, Check, checks};
 use super::outcome::{Outcome, add_slack};
 use crate::options::{STIFFER, check};
-use crate::physics::elastic::{ElasticLine, ElasticRun, elastic_lines, run_elastic};
+use crate::physics::elastic::{
+    ElasticLine, ElasticRun, Stepping, elastic_lines, run_elastic, run_in_steps,
+};
 use crate::physics::model_at_rest::ModelAtRest;
 use crate::physics::sea_records::short_run;
 use crate::physics::snap::{Snap, snaps_of_step};
 use crate::physics::warning::Warning;
 use crate::physics::warnings::{limits_afloat, phase_warning, turning_warning, warnings};
+use crate::runs::assess::TOLERANCE;
 use snapload::analysis::{OnProgress, Unfinished};
 use snapload::{CaseError, Stop};
 use std::time::Instant;
@@ -30,8 +33,20 @@ pub struct ElasticComparison {
     pub outcome: Outcome,
     /// Time that its computation took \[s\].
     pub elastic_took_s: f64,
+    /// The same motion, integrated in shorter steps.
+    pub repeated: Repeated,
     /// The same on inextensible lines; none if the case starts beyond their reach.
     pub inextensible: Option<Inextensible>,
+}
+
+/// A motion on elastic lines integrated once more, in shorter steps. What differs is rounding and
+/// the error of the steps, which a chaotic motion makes as large as itself.
+#[derive(Clone, Debug)]
+pub struct Repeated {
+    /// Its outcome.
+    pub outcome: Outcome,
+    /// The time up to which both are within [`TOLERANCE`] of each other; none if to the end \[s\].
+    pub horizon_s: Option<f64>,
 }
 
 /// A motion on inextensible lines.
@@ -68,6 +83,7 @@ pub fn compare_elastic(
     let elastic_case = prepared.with_elastic_lines(&elastic_lines)?;
     let elastic = run_elastic(&elastic_case, &elastic_lines, every_s, on_progress)?;
     let elastic_took_s = clock.elapsed().as_secs_f64();
+    let repeated = Repeated::of(&elastic_case, &elastic_lines, &elastic, on_progress)?;
     let inextensible = match prepared.starts_within_reach() {
         true => Some(Inextensible::of(&prepared, stiffer)?),
         false => None,
@@ -80,15 +96,24 @@ pub fn compare_elastic(
         elastic_case,
         elastic,
         elastic_took_s,
+        repeated,
         inextensible,
     })
 }
 
 impl ElasticComparison {
-    /// The checks by the rule of the case, of the elastic lines.
+    /// The checks by the rule of the case, of the elastic lines; open where the motion in shorter
+    /// steps has another answer.
     pub fn checks(&self) -> Vec<Check> {
         let open = self.warnings().iter().any(|warning| warning.leaves_open);
-        checks(&self.elastic_case, &self.outcome, open)
+        let [mut all, other] =
+            [&self.outcome, &self.repeated.outcome].map(|of| checks(&self.elastic_case, of, open));
+        for (check, other) in all.iter_mut().zip(other) {
+            if check.answer != other.answer {
+                check.answer = Answer::Open;
+            }
+        }
+        all
     }
 
     /// Rules of thumb that the case violates, except those that are decided by elastic lines.
@@ -113,6 +138,29 @@ impl ElasticComparison {
             .chain(self.outcome.emergence.warning(depends))
             .filter(Warning::is_of_all_lines)
             .collect()
+    }
+}
+
+impl Repeated {
+    fn of(
+        elastic_case: &ModelAtRest,
+        elastic_lines: &[ElasticLine],
+        first: &ElasticRun,
+        on_progress: OnProgress,
+    ) -> Result<Self, Unfinished> {
+        let shorter = Stepping::SHORTER;
+        let run = run_in_steps(
+            elastic_case,
+            elastic_lines,
+            shorter,
+            f64::INFINITY,
+            on_progress,
+        )?;
+        let duration_s = elastic_case.structure.duration_s;
+        Ok(Self {
+            outcome: Outcome::of_pulls(elastic_case, &run),
+            horizon_s: first.agrees_until(&run, TOLERANCE, duration_s),
+        })
     }
 }
 

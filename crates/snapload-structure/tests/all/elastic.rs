@@ -25,7 +25,7 @@ fn prepared(text: &str, set: &[&str]) -> ModelAtRest {
     ModelAtRest::new(structure(text, set)).expect("a start")
 }
 
-fn structure(text: &str, set: &[&str]) -> Structure {
+pub(crate) fn structure(text: &str, set: &[&str]) -> Structure {
     let mut entries = snapload::Entries::parse(&STRUCTURE, "test.toml", text).expect("a case");
     for set in set {
         entries.set(set).expect("a key");
@@ -33,7 +33,7 @@ fn structure(text: &str, set: &[&str]) -> Structure {
     Structure::from_entries(&entries).expect("a structure")
 }
 
-const CYLINDER: &str = include_str!("../../../../docs/examples/cylinder.toml");
+pub(crate) const CYLINDER: &str = include_str!("../../../../docs/examples/cylinder.toml");
 
 pub(crate) fn run(prepared: &ModelAtRest, elastic_lines: &[ElasticLine]) -> ElasticRun {
     run_elastic(prepared, elastic_lines, 0.05, &no_progress).expect("a run")
@@ -99,6 +99,35 @@ fn a_spring_stops_a_body_as_its_energy_requires() {
         "{first:?} {contact}"
     );
     assert!((first.rebound_m_s.expect("it lets go") - speed).abs() < 1e-8);
+}
+
+/// Two lines that become taut half a millisecond apart, much less than a step of the slack motion,
+/// both begin to pull when they are at their length, in whatever order they are given.
+#[test]
+fn lines_that_become_taut_one_after_the_other_pull_in_turn() {
+    for lengths in [[15.0, 15.002], [15.002, 15.0]] {
+        let mut prepared = vertical(1.0, -6.0);
+        for (line, length) in lengths.into_iter().enumerate() {
+            prepared.structure.lines[line].length_m = length;
+        }
+        let prepared = ModelAtRest::new(prepared.structure).expect("a start");
+        let law = elastic_lines(&prepared, 100.0).expect("elastic lines");
+        let elastic_case = prepared.with_elastic_lines(&law).expect("a rest");
+        let motion = run(&elastic_case, &law);
+        let longer = usize::from(lengths[1] > lengths[0]);
+        let order: Vec<usize> = motion.pulls[..2].iter().map(|pull| pull.line).collect();
+        assert_eq!(order, [1 - longer, longer], "{lengths:?}");
+        // With a force F and a spring k from the first on, δ̈ = (F − k δ)/M until δ = 2 mm.
+        let (mass, rate) = (800.0, 100.0 * 3e6 / 15.0);
+        let force = prepared.structure.net_buoyancy_n();
+        let speed = (2.0 * force * 1.0 / mass).sqrt();
+        let [first_s, second_s] = [0, 1].map(|pull| motion.pulls[pull].from_s);
+        assert!((first_s - speed * mass / force).abs() < 1e-9);
+        let (omega, later) = ((rate / mass).sqrt(), second_s - first_s);
+        let (sine, cosine) = (omega * later).sin_cos();
+        let stretch = force / rate * (1.0 - cosine) + speed / omega * sine;
+        assert!((stretch - 0.002).abs() < 1e-10, "{stretch}");
+    }
 }
 
 /// Dampers that are chosen for e throw the body back at e times its speed, more exactly if the

@@ -14,6 +14,7 @@ mod elastic;
 mod elastic_comparison;
 mod elastic_peaks;
 mod elastic_strands;
+mod elastic_trust;
 mod emergence;
 mod equilibrium;
 mod firm_verdicts;

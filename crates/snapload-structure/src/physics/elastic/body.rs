@@ -80,6 +80,22 @@ impl<'a> BodyOnElasticLines<'a> {
         }
     }
 
+    /// The smooth function whose zero the change is at, near it: the elongation of a line that
+    /// becomes taut, its force where it is stretched but has contracted too quickly to pull.
+    pub(super) fn crossing(&self, line: usize, state: &State, pulls: bool) -> f64 {
+        let Elongation {
+            elongation,
+            force,
+            rate,
+            ..
+        } = self.elongation(line, state);
+        match (pulls, rate > 0.0) {
+            (true, _) => force,
+            (false, true) => -elongation,
+            (false, false) => -force,
+        }
+    }
+
     /// The largest angular frequency sqrt(k w) of a pulling line; at least 1.
     pub(super) fn quickest(&self, state: &State, pulling: TautSet) -> f64 {
         let body = &self.system.body;

@@ -3,6 +3,7 @@
 mod body;
 mod law;
 mod motion;
+mod phase;
 mod record;
 mod rest;
 
@@ -10,4 +11,5 @@ pub(crate) use law::LEAST_RESTITUTION;
 pub(super) use law::undamped;
 pub use law::{ElasticLine, damping_ratio, elastic_lines};
 pub use motion::run_elastic;
+pub(crate) use motion::{Stepping, run_in_steps};
 pub use record::{ElasticRun, Pull, Sample};

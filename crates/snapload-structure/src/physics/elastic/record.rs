@@ -76,13 +76,42 @@ pub struct ElasticRun {
     pub slack_used: Vec<Option<f64>>,
     /// Crest and trough of every wave of tension of every line after the transient \[N\].
     pub waves_n: Vec<[f64; 2]>,
+    /// (x, y, θ) at [`MARKS`] equal parts of the duration, up to its end, in the engine's units: by
+    /// these the same motion in other steps is compared.
+    marks: Vec<[f64; 3]>,
 }
+
+/// The number of instants at which two integrations of a motion are compared.
+const MARKS: u32 = 4096;
 
 impl ElasticRun {
     /// The part of the time in which a line does not pull.
     pub fn slack_fraction(&self, line: usize) -> f64 {
         let pulls = self.pulls.iter().filter(|pull| pull.line == line);
         1.0 - pulls.map(|pull| pull.to_s - pull.from_s).sum::<f64>() / self.end_s
+    }
+
+    /// The time up to which another integration of the same motion is as close to it as that, in
+    /// each of x, y and θ in the engine's units; none if it is to the end \[s\].
+    pub(crate) fn agrees_until(
+        &self,
+        other: &Self,
+        tolerance: f64,
+        duration_s: f64,
+    ) -> Option<f64> {
+        let close = |(a, b): &(&[f64; 3], &[f64; 3])| {
+            a.iter().zip(*b).all(|(a, b)| (a - b).abs() <= tolerance)
+        };
+        let both = || self.marks.iter().zip(&other.marks);
+        let alike = both().take_while(close).count();
+        let ends = [self, other].map(|run| [run.end.x, run.end.y, run.end.theta]);
+        let to_the_end = alike == both().count()
+            && self.stop == other.stop
+            && self.marks.len() == other.marks.len()
+            && close(&(&ends[0], &ends[1]));
+        // Before the first mark nothing is compared.
+        let until_s = duration_s * alike as f64 / f64::from(MARKS);
+        (!to_the_end).then(|| until_s.min(self.end_s).min(other.end_s))
     }
 }
 
@@ -98,6 +127,8 @@ pub(super) struct PullRecorder<'a> {
     kept: bool,
     transient_s: f64,
     run: ElasticRun,
+    /// The duration, in the engine's units.
+    duration: f64,
     /// The current wave of tension of each line.
     waves: Vec<WavesOfTension>,
     /// The current pull of each line, by its index among the pulls.
@@ -129,6 +160,7 @@ impl<'a> PullRecorder<'a> {
             samples: samples.peekable(),
             kept: kept.is_some(),
             transient_s: prepared.structure.transient_s,
+            duration: prepared.model.rules.t_end,
             run: ElasticRun {
                 waterline: Waterline::before(&prepared.structure),
                 peaks_n: vec![0.0; body.elastic_lines.len()],
@@ -140,6 +172,22 @@ impl<'a> PullRecorder<'a> {
             waves: WavesOfTension::of_lines(&prepared.rest),
             open: vec![None; body.elastic_lines.len()],
         })
+    }
+
+    /// The structure about its position of rest on these lines.
+    pub(super) fn prepared(&self) -> &'a ModelAtRest {
+        self.prepared
+    }
+
+    /// The next instant up to a time at which motions are compared, in the engine's units.
+    pub(super) fn next_mark(&self, until: f64) -> Option<f64> {
+        let t = self.duration * (self.run.marks.len() + 1) as f64 / f64::from(MARKS);
+        (t <= until).then_some(t)
+    }
+
+    /// Keeps the position there.
+    pub(super) fn mark(&mut self, state: &State) {
+        self.run.marks.push([state.x, state.y, state.theta]);
     }
 
     /// The next sample that is to be kept up to a time, in seconds and in the engine's units.
