@@ -86,6 +86,9 @@ def versions() -> Iterator[str]:
     log = read("CHANGELOG.md")
     if "## [Unreleased]" not in log and f"## [{here}]" not in log:
         yield f"CHANGELOG.md: it has neither a section [Unreleased] nor one for {here}"
+    dated = re.search(rf"^## \[{re.escape(here)}\] - (\d{{4}})-", log, re.MULTILINE)
+    if dated and not re.search(rf"year    = \{{{dated[1]}\}}", read("docs/cite.md")):
+        yield f"docs/cite.md: its year is not {dated[1]}, that of {here} in CHANGELOG.md"
 
 
 def crates() -> Iterator[str]:

@@ -181,6 +181,11 @@ fn errors_name_the_line_the_key_and_what_to_do() {
         above.contains("hint: write body.height or wave.height"),
         "{above}"
     );
+    let below = refusal("depth = 10", "depth = 10\nrestitution = 0.5");
+    assert!(
+        below.contains("hint: restitution is a key of [run]; write it below that line"),
+        "{below}"
+    );
     let kind = refusal("depth = 10", "depth = \"ten\"");
     assert!(
         kind.contains(
@@ -236,6 +241,8 @@ fn set_changes_one_line_or_all() {
         ("wave.hight=2", "did you mean height?"),
         ("wave.height", "TABLE.KEY=VALUE"),
         ("wave.height=", "(nothing)"),
+        ("line.restitution=0.5", "hint: write run.restitution"),
+        ("line.1.restitution=0.5", "hint: write run.restitution"),
         ("design=5", "design.pretension_factor"),
     ] {
         let error = entries.set(bad).expect_err(bad).to_string();

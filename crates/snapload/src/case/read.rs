@@ -50,7 +50,9 @@ impl Entries {
     ) -> Result<(), CaseError> {
         match value_of(value) {
             Ok(read) => {
-                self.give(table.name, index, key, read, place)?;
+                let schema = self.schema;
+                self.give(table.name, index, key, read, place)
+                    .map_err(|error| with_heading_hint(schema, key, error))?;
                 self.keep_written(digits_of(value));
                 Ok(())
             }
@@ -83,7 +85,7 @@ impl Entries {
             let written = written.and_then(|value| digits_of(value.get_ref()));
             let value = parse_value(value).map_err(|shown| refuse(table, path, key, &shown))?;
             let known = table.key(path, key);
-            known.map_err(|error| error.given(&value))?;
+            known.map_err(|error| self.with_path_hint(key, error.given(&value)))?;
             indices.try_for_each(|index| {
                 self.give(table.name, index, key, value.clone(), SET)?;
                 self.keep_written(written.clone());
@@ -91,6 +93,16 @@ impl Entries {
             })
         };
         change().map_err(|error| error.at(SET))
+    }
+
+    /// Adds to the error of a key that is not where it was written the paths by which it is.
+    fn with_path_hint(&self, key: &str, error: CaseError) -> CaseError {
+        let with_key = self.schema.with_key(key).into_iter();
+        let paths: Vec<String> = with_key.map(|of| format!("{}.{key}", of.name)).collect();
+        match paths.is_empty() {
+            true => error,
+            false => error.with_hint(format!("write {}", paths.join(" or "))),
+        }
     }
 
     /// Which key of which tables a path refers to; all tables of the name if the path has no
@@ -103,14 +115,8 @@ impl Entries {
             return Ok((table, 0..1, path));
         }
         let (name, rest) = path.split_once('.').unwrap_or((path, ""));
-        let table = self.schema.table(name).map_err(|error| {
-            let with_key = self.schema.with_key(path).into_iter();
-            let paths: Vec<String> = with_key.map(|of| format!("{}.{path}", of.name)).collect();
-            match paths.is_empty() {
-                true => error,
-                false => error.with_hint(format!("write {}", paths.join(" or "))),
-            }
-        })?;
+        let table = self.schema.table(name);
+        let table = table.map_err(|error| self.with_path_hint(path, error))?;
         if rest.is_empty() {
             let keys = table.keys.iter().map(|key| format!("{name}.{}", key.name));
             let allowed = format!("one of its keys: {}", keys.collect::<Vec<_>>().join(", "));
@@ -209,8 +215,11 @@ fn in_place_of_a_table(value: &DeValue<'_>) -> String {
     }
 }
 
-/// Adds to the error of a key above all headings the heading below which it belongs.
+/// Adds to the error of a key that is not where it was written the heading below which it belongs.
 fn with_heading_hint(schema: &Schema, key: &str, error: CaseError) -> CaseError {
+    if !matches!(error.fault, Fault::UnknownKey { .. }) {
+        return error;
+    }
     let with_key = schema.with_key(key).into_iter();
     let headers: Vec<String> = with_key.map(Table::header).collect();
     match headers.is_empty() {
