@@ -59,7 +59,8 @@ def safe_basin(case: Case, *, trust: bool = True, progress: bool = True, **windo
         the largest disc in the window without unsafe starts, and ``iim``, the smallest unsafe velocity if one of the
         keys is a velocity. They are NaN where there is no such value; ``lim`` and ``iim`` are also NaN where another
         start key is not 0, because the equilibrium is then not in the plane of the two keys, and where legal starts
-        that were not run to their end are nearer. The scale of such an attribute is in another one: ``lim_scale`` is
+        that were not run to their end are nearer. ``lim_at_least``, ``if_at_least`` and ``iim_at_least`` are the same
+        where undecided cells count as unsafe. The scale of such an attribute is in another one: ``lim_scale`` is
         ``L``, but ``L and L/T`` for a window of a position and a velocity, where a distance has no single unit.
 
     Raises
@@ -349,6 +350,7 @@ _VELOCITIES = ("vx", "vy", "vtheta")
 def _measure_attributes(data: dict[str, Any]) -> dict[str, Any]:
     """The measures as attributes of a kind that every file format of xarray can store."""
     names = ("legal", "safe", "fraction", "undecided", "cut_short", "past_horizon", "gim", "lim", "if", "iim")
+    names += ("lim_at_least", "if_at_least", "iim_at_least")
     return {name: or_nan(data[name]) for name in names} | {"interval95": np.array(data["interval95"])}
 
 

@@ -142,6 +142,15 @@ def test_one_direction_may_be_selected() -> None:
     assert selected.answer["excitation"] == whole.answer["excitation"][:1]
 
 
+def test_a_dimension_without_coordinates_is_not_one_of_zeros(tmp_path: Path) -> None:
+    """A netCDF file has numbers for such a dimension, too: zeros, which are not data."""
+    for name in ("wave_direction", "radiating_dof"):
+        with xarray.open_dataset(PONTOON) as pontoon:
+            pontoon.drop_vars(name).to_netcdf(tmp_path / "without.nc", engine="h5netcdf")
+        with pytest.raises(ValueError, match=f"{name} is missing"):
+            snapload.Hydro.from_file(tmp_path / "without.nc")
+
+
 def test_bad_datasets_are_refused() -> None:
     with xarray.open_dataset(PONTOON) as pontoon, pytest.raises(ValueError, match="positive damping"):
         snapload.Hydro.from_dataset(pontoon.assign(radiation_damping=-pontoon["radiation_damping"]))

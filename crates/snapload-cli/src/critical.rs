@@ -207,7 +207,7 @@ impl Answer {
                 if let Some(uncertain) = row.uncertain() {
                     let _ = writeln!(
                         text,
-                        "Uncertain f_o = {uncertain}: some of {} neighbours exceed, others do not, or are cut short",
+                        "Uncertain f_o = {uncertain}: not all of {} neighbours do as the run does, or some are cut short",
                         args.ensemble.unwrap_or(NEIGHBOURS)
                     );
                     if curve.is_none() {

@@ -41,7 +41,7 @@ pub(crate) struct Args {
     #[arg(long, value_name = "NUMBER", value_parser = number(TP), requires = "hs")]
     tp: Option<f64>,
     /// Peak enhancement factor of the JONSWAP spectrum; 1 gives Pierson-Moskowitz
-    #[arg(long, value_name = "NUMBER", value_parser = number(GAMMA), default_value_t = 3.3)]
+    #[arg(long, value_name = "NUMBER", value_parser = number(GAMMA), default_value_t = 3.3, requires = "hs")]
     gamma: f64,
     /// Write the results as one self-contained HTML page with plots
     #[arg(long, value_name = "PAGE.html")]

@@ -7,7 +7,7 @@ use crate::moored::{Moored, period_of};
 use crate::multipliers::Stability;
 use crate::orbit::{NoOrbit, Orbit, OrbitRequest};
 use crate::section::{LONGEST_PERIOD, Section, SectionOptions};
-use crate::summary::periods;
+use crate::summary::{doubt, periods};
 use snapload::analysis::{Counter, OnProgress, Progress, Unfinished, on_all_threads};
 use snapload::{Case, Limit, Parameters};
 
@@ -32,8 +32,9 @@ pub fn of_attractor(
     if let Some(stop) = section.stop {
         let t = section.end.1;
         return Ok(Err(NoOrbit(format!(
-            "the motion from this start stops at t = {t:.4}: {}; give a state near an orbit with \
+            "the motion from this start stops at t = {t:.4}{}: {}; give a state near an orbit with \
              --start, or search for unstable orbits with --find N",
+            doubt(section.stop_is_certain()),
             stop.reason_text()
         ))));
     }

@@ -90,8 +90,16 @@ impl Basin {
     /// The impulsive integrity measure; none where both keys are velocities, each of which has its
     /// own ([`Measures::iim`]).
     pub fn iim(&self) -> Option<f64> {
+        self.only_velocity(self.measures.iim)
+    }
+
+    /// The same where undecided cells count as unsafe.
+    pub fn iim_at_least(&self) -> Option<f64> {
+        self.only_velocity(self.measures.at_least.iim)
+    }
+
+    fn only_velocity(&self, [first, second]: [Option<f64>; 2]) -> Option<f64> {
         let both = self.window.keys.iter().all(|key| VELOCITIES.contains(key));
-        let [first, second] = self.measures.iim;
         first.or(second).filter(|_| !both)
     }
 
@@ -184,10 +192,10 @@ fn run_neighbours(
         let case = |k: usize| window.case(neighbours[k].1);
         run(numbers, case, false, &counter)
     })?;
-    let reason = |cell: &Cell| cell.end.map(|(stop, _)| stop);
     for (neighbour, (centre, _)) in made.iter().zip(&neighbours) {
         let centre = &mut cells[*centre];
-        if neighbour.end.is_some() && reason(neighbour) != reason(centre) {
+        let answer = |cell: &Cell| (cell.is_safe(), cell.is_cut_short());
+        if neighbour.end.is_some() && answer(neighbour) != answer(centre) {
             centre.decided = false;
         }
     }

@@ -124,6 +124,7 @@ impl Erosion {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::measures::Distances;
     use snapload::Parameters;
 
     /// Basins of a hundred legal cells, given the numbers of safe, of undecided, and of undecided
@@ -151,6 +152,7 @@ mod tests {
                 cut_short: 0,
                 disc_meets_unknown: false,
                 iim: [None; 2],
+                at_least: Distances::default(),
             },
         };
         let points = (0u8..).map(f64::from).zip(counts.iter().map(basin));

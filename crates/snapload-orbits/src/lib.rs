@@ -91,7 +91,7 @@ pub use hybrid::{
 };
 pub use impact_map::{ImpactPoint, Impacts, MOST_KEPT};
 pub use lap::{Lap, Leg, Linearised};
-pub use measures::Measures;
+pub use measures::{Distances, Measures};
 pub use moored::{Cables, Moored, period_of};
 pub use moored_searches::OnLap;
 pub use multipliers::{Multipliers, Stability, multipliers};

@@ -39,6 +39,19 @@ pub struct Measures {
     /// integrity measure. None for other keys, and where there is no such row, or smaller
     /// velocities were not run to their end.
     pub iim: [Option<f64>; 2],
+    /// The three distances where undecided cells count as unsafe.
+    pub at_least: Distances,
+}
+
+/// The distances of a plane of starts; none where the measure is not known either.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Distances {
+    /// [`Measures::lim`].
+    pub lim: Option<f64>,
+    /// [`Measures::integrity_factor`].
+    pub integrity_factor: Option<f64>,
+    /// [`Measures::iim`].
+    pub iim: [Option<f64>; 2],
 }
 
 pub(crate) const VELOCITIES: [&str; 3] = ["vx", "vy", "vtheta"];
@@ -77,9 +90,13 @@ impl Measures {
             integrity_factor: None,
             disc_meets_unknown: false,
             iim: [None; 2],
+            at_least: Distances::default(),
         };
         match window.are_starts() {
-            true => measures.with_distances(window, &Framed::new(window, cells)),
+            true => {
+                let framed = [false, true].map(|cautious| Framed::new(window, cells, cautious));
+                measures.with_distances(window, &framed)
+            }
             false => measures,
         }
     }
@@ -90,11 +107,16 @@ impl Measures {
         (self.legal > self.undecided).then_some(part)
     }
 
-    /// The same with distances, in a plane of starts.
-    fn with_distances(mut self, window: &Window, framed: &Framed) -> Self {
+    /// The same with distances, in a plane of starts: of the cells as they are, and where undecided
+    /// ones count as unsafe.
+    fn with_distances(mut self, window: &Window, [framed, cautious]: &[Framed; 2]) -> Self {
         let [disc, within_unsafe] = [true, false].map(|known| framed.largest_disc(known));
         self.integrity_factor = disc.filter(|radius| radius.is_finite());
         self.disc_meets_unknown = disc < within_unsafe;
+        let least = cautious
+            .largest_disc(true)
+            .filter(|radius| radius.is_finite());
+        self.at_least.integrity_factor = self.integrity_factor.and(least.or(Some(0.0)));
         if window.keys_off_equilibrium().is_empty() {
             let nearest = framed.nearest_unsafe(|[a, b]| Some(a.hypot(b)));
             let is_plane = framed.cell.iter().all(|width| *width > 0.0);
@@ -103,6 +125,12 @@ impl Measures {
                 nearest => (None, nearest.map(|(distance, _)| distance)),
             };
             self.iim = [0, 1].map(|axis| framed.nearest_along_velocity(window, axis));
+            let least = cautious.nearest_unsafe(|[a, b]| Some(a.hypot(b)));
+            self.at_least.lim = self.lim.and(least.map(|(distance, _)| distance));
+            self.at_least.iim = [0, 1].map(|axis| {
+                let least = cautious.nearest_along_velocity(window, axis);
+                self.iim[axis].and(least)
+            });
         }
         self
     }
@@ -139,7 +167,8 @@ struct Framed {
 }
 
 impl Framed {
-    fn new(window: &Window, cells: &[Cell]) -> Self {
+    /// Undecided cells count as unsafe if `cautious`.
+    fn new(window: &Window, cells: &[Cell], cautious: bool) -> Self {
         let values = window.values.each_ref().map(|values| framed(values));
         let sizes = window.values.each_ref().map(Vec::len);
         // A cell of the frame is legal if its outer edge is: what is less than a cell wide beyond
@@ -161,7 +190,7 @@ impl Framed {
             let inner = place(i, 0).zip(place(j, 1));
             let run = inner.map(|(i, j)| &cells[i * sizes[1] + j]);
             match run {
-                Some(cell) if cell.escapes() => Start::Unsafe,
+                Some(cell) if cell.escapes() || cautious && !cell.decided => Start::Unsafe,
                 Some(cell) if cell.is_safe() => Start::Safe,
                 Some(cell) if cell.is_cut_short() => Start::CutShort,
                 None if window.case([outer(0, i), outer(1, j)]).is_some() => Start::Beyond,

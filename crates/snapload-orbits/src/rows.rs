@@ -142,6 +142,9 @@ pub struct BasinRow {
     lim: Option<f64>,
     r#if: Option<f64>,
     iim: Option<f64>,
+    lim_at_least: Option<f64>,
+    if_at_least: Option<f64>,
+    iim_at_least: Option<f64>,
     cell: Widths,
 }
 
@@ -186,6 +189,9 @@ impl BasinRow {
             lim: measures.lim,
             r#if: measures.integrity_factor,
             iim: basin.iim(),
+            lim_at_least: measures.at_least.lim,
+            if_at_least: measures.at_least.integrity_factor,
+            iim_at_least: basin.iim_at_least(),
             cell: Widths([(first, height), (second, width)]),
         }
     }

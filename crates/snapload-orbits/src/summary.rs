@@ -107,7 +107,7 @@ pub fn without_points_summary(section: &Section) -> Option<String> {
 }
 
 /// What follows the time of a stop that rounding decides.
-fn doubt(certain: Option<bool>) -> &'static str {
+pub(crate) fn doubt(certain: Option<bool>) -> &'static str {
     match certain {
         Some(false) => " (not certain)",
         _ => "",
@@ -251,7 +251,8 @@ fn distances_text(basin: &Basin) -> String {
     if let Some(lim) = m.lim {
         let _ = writeln!(
             text,
-            "Nearest   unsafe start {lim:.4} from the equilibrium (LIM)"
+            "Nearest   unsafe start {lim:.4} from the equilibrium (LIM){}",
+            cautious(m.lim, m.at_least.lim)
         );
     }
     if let Some(lim) = m.lim_at_most {
@@ -268,18 +269,30 @@ fn distances_text(basin: &Basin) -> String {
         };
         let _ = writeln!(
             text,
-            "Disc      of radius {radius:.4} without unsafe starts (IF){limited}"
+            "Disc      of radius {radius:.4} without unsafe starts (IF){limited}{}",
+            cautious(m.integrity_factor, m.at_least.integrity_factor)
         );
     }
-    for (key, speed) in basin.window.keys.iter().zip(m.iim) {
-        if let Some(speed) = speed {
+    for (axis, key) in basin.window.keys.iter().enumerate() {
+        if let Some(speed) = m.iim[axis] {
             let _ = writeln!(
                 text,
-                "Velocity  {key} of {speed:.4} is the least unsafe one in the row of the equilibrium (IIM)"
+                "Velocity  {key} of {speed:.4} is the least unsafe one in the row of the equilibrium (IIM){}",
+                cautious(m.iim[axis], m.at_least.iim[axis])
             );
         }
     }
     text
+}
+
+/// A distance where undecided starts count as unsafe; nothing where it is the same.
+fn cautious(distance: Option<f64>, at_least: Option<f64>) -> String {
+    match at_least {
+        Some(least) if at_least < distance => {
+            format!("; {least:.4} if undecided ones are unsafe")
+        }
+        _ => String::new(),
+    }
 }
 
 /// What is not known of cells whose runs are cut short; nothing where there are none.

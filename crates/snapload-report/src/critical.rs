@@ -174,9 +174,24 @@ impl Probability {
                 percent(point.high, f64::ceil)
             );
         }
+        let all_or_none = points
+            .iter()
+            .filter(|point| point.count.is_some() && !point.cut_short);
+        let unseen = all_or_none.filter_map(|point| match point.part {
+            0.0 => Some(point.high),
+            1.0 => Some(1.0 - point.low),
+            _ => None,
+        });
+        let unseen = match unseen.reduce(f64::max) {
+            Some(unseen) => format!(
+                "; up to {} % of all neighbours may do otherwise than all that were run",
+                percent(unseen, f64::ceil)
+            ),
+            None => String::new(),
+        };
         let _ = writeln!(
             text,
-            "          all or none exceed at {decided} of {} f_o",
+            "          all or none exceed at {decided} of {} f_o{unseen}",
             points.len()
         );
         if cut_short > 0 {

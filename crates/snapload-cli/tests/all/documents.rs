@@ -158,7 +158,7 @@ fn the_printed_pulls_are_the_programs() {
         .stdout;
     let output = String::from_utf8(output).expect("text");
     let (head, rows) = output.split_once('\n').expect("rows");
-    let (before, _) = head.split_once("computed in").expect("a time");
+    let (before, _) = head.split_once("computed twice in").expect("a time");
     let manual = read("docs/elastic.md");
     assert!(
         manual.contains(before) && manual.contains(rows),

@@ -285,7 +285,7 @@ pub fn fit(hydro: &Hydrodynamics, options: FitOptions) -> Result<Fit, HydroError
         entries,
         warnings: Vec::new(),
     };
-    fit.warnings = warnings(hydro, &fit);
+    fit.warnings = warnings(hydro, &fit, "the value consistent with its damping");
     Ok(fit)
 }
 
@@ -340,7 +340,7 @@ pub fn given(
         memory,
         added_mass_inf,
     };
-    fit.warnings = warnings(hydro, &fit);
+    fit.warnings = warnings(hydro, &fit, "that of the given memory");
     let own = fit.entries.iter().filter(|e| e.force == e.motion);
     let worst = own.fold(0.0_f64, |worst, entry| worst.max(entry.rms));
     if worst > POOR_FIT {

@@ -7,8 +7,8 @@ use crate::error::Warning;
 use nalgebra::Matrix3;
 use std::f64::consts::PI;
 
-/// All warnings.
-pub(super) fn warnings(hydro: &Hydrodynamics, fit: &Fit) -> Vec<Warning> {
+/// All warnings; A∞ is `consistent_value`, in words.
+pub(super) fn warnings(hydro: &Hydrodynamics, fit: &Fit, consistent_value: &str) -> Vec<Warning> {
     let mut warnings = Vec::new();
     if let Some(file) = hydro.added_mass_inf {
         for (i, freedom) in FREEDOMS.iter().enumerate() {
@@ -16,8 +16,8 @@ pub(super) fn warnings(hydro: &Hydrodynamics, fit: &Fit) -> Vec<Warning> {
             let off = file[(i, i)] / own - 1.0;
             if own != 0.0 && off.abs() > 0.01 {
                 let message = format!(
-                    "the file's A(∞) of {freedom} differs by {:.1} % from the value consistent with \
-                     its damping; the latter is used",
+                    "the file's A(∞) of {freedom} differs by {:.1} % from {consistent_value}; the \
+                     latter is used",
                     100.0 * off
                 );
                 warnings.push(Warning::new("added mass at infinity", message));

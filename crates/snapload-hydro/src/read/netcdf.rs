@@ -39,7 +39,7 @@ fn variables(bytes: &[u8]) -> Result<Result<Dataset, HydroError>, Error> {
     let sets = root.datasets()?;
     let name_at: BTreeMap<u64, &str> = sets.iter().map(|set| (set.address(), set.name())).collect();
     let mut variables = Vec::new();
-    for set in &sets {
+    for set in sets.iter().filter(|set| !stands_for_a_dimension(set)) {
         let count = set
             .shape()
             .iter()
@@ -67,6 +67,15 @@ fn variables(bytes: &[u8]) -> Result<Result<Dataset, HydroError>, Error> {
         variables.push((set.name().to_owned(), variable));
     }
     Ok(Dataset::new(variables))
+}
+
+/// Whether a dataset stands for a dimension without coordinates: its numbers, zeros, are not data.
+fn stands_for_a_dimension(set: &hdf5_reader::Dataset) -> bool {
+    let name = set.attribute("NAME");
+    name.is_ok_and(|name| {
+        name.raw_data
+            .starts_with(b"This is a netCDF dimension but not a netCDF variable")
+    })
 }
 
 /// The names of the axes.

@@ -84,10 +84,16 @@ pub(super) fn lines<'a>(
     text: &'a str,
     counts: std::ops::RangeInclusive<usize>,
 ) -> impl Iterator<Item = Result<(usize, Vec<f64>), HydroError>> + 'a {
+    let refused = separated_otherwise(text).map(|(index, line)| {
+        let beginning: String = line.trim().chars().take(60).collect();
+        let found = format!("line {} is {beginning:?}", index + 1);
+        let expected = "numbers with decimal points and spaces between them are expected";
+        Err(HydroError::layout(name, found, expected))
+    });
     let lines = text.lines().enumerate();
     let lines = lines.skip_while(|(_, line)| !begins_with_two_numbers(line));
     let lines = lines.filter(|(_, line)| !line.trim().is_empty());
-    lines.map(move |(index, line)| {
+    let lines = lines.map(move |(index, line)| {
         let numbers: Option<Vec<f64>> = line.split_whitespace().map(number).collect();
         match numbers {
             Some(numbers) if counts.contains(&numbers.len()) => Ok((index + 1, numbers)),
@@ -105,7 +111,17 @@ pub(super) fn lines<'a>(
                 Err(HydroError::layout(name, found, "numbers are expected"))
             }
         }
-    })
+    });
+    refused.into_iter().chain(lines)
+}
+
+/// The first line of numbers, and its index, if commas or semicolons separate those of all lines.
+fn separated_otherwise(text: &str) -> Option<(usize, &str)> {
+    if text.lines().any(begins_with_two_numbers) {
+        return None;
+    }
+    let mut lines = text.lines().enumerate();
+    lines.find(|(_, line)| begins_with_two_numbers(&line.replace([';', ','], " ")))
 }
 
 /// Whether a line begins as all lines of numbers do, with two of them, even if they or what follows

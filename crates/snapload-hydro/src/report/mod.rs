@@ -28,6 +28,8 @@ use serde::{Deserialize, Serialize};
 /// Below this part of critical damping a peak counts as narrow; then damping other than that of
 /// waves in pitch may limit the resonance, too.
 const WEAK_DAMPING: f64 = 0.02;
+/// A natural motion with more than this part of its kinetic energy in pitch is one of pitch, too.
+const NOTABLE_PITCH: f64 = 0.25;
 /// A mass that differs from the displaced one by less than this part counts as that of the file's
 /// body.
 const SAME_MASS: f64 = 0.01;
@@ -281,6 +283,19 @@ impl Floating {
         })
     }
 
+    /// The part of pitch in the kinetic energy of a natural motion of the dry body about its centre
+    /// of gravity.
+    fn pitch_part(&self, natural: &Natural) -> f64 {
+        let [surge, heave, pitch] = natural.shape.into();
+        let turning = self.body.inertia_about_centre_kg_m2() * pitch * pitch;
+        let moving = self.body.mass_kg * (surge * surge + heave * heave);
+        if natural.freedom == 2 {
+            1.0
+        } else {
+            turning / (turning + moving)
+        }
+    }
+
     /// The warning that the body does not float upright without lines, if none are given.
     fn balance_warning(&self) -> Option<Warning> {
         let pitch = self.body.unbalanced_pitch();
@@ -323,11 +338,18 @@ impl Floating {
             warnings.push(Warning::new("stability", message));
         }
         warnings.extend(self.balance_warning());
-        let pitch = self.natural.iter().zip(&self.modes);
-        for (_, mode) in pitch.filter(|(natural, _)| natural.freedom == 2) {
-            if mode.damping_ratio < WEAK_DAMPING && self.body.damping[(2, 2)] == 0.0 {
+        for (natural, mode) in self.natural.iter().zip(&self.modes) {
+            let weak = mode.damping_ratio < WEAK_DAMPING && self.body.damping[(2, 2)] == 0.0;
+            if weak && self.pitch_part(natural) > NOTABLE_PITCH {
+                let what = match natural.freedom {
+                    2 => "pitch".to_owned(),
+                    _ => format!(
+                        "the motion of {:.2} s, in which it pitches,",
+                        natural.period_s
+                    ),
+                };
                 let message = format!(
-                    "waves damp pitch only by {:.1} % of critical, and no other damping was given: \
+                    "waves damp {what} only by {:.1} % of critical, and no other damping was given: \
                      without more damping its resonance is not reliable",
                     plain(100.0 * mode.damping_ratio, 0.1)
                 );

@@ -125,3 +125,25 @@ fn a_moment_that_is_rounding_may_be_another_after_a_full_turn() {
     let other = turned(&own, "360.0", [1.0, -3e-9]);
     assert_eq!(with_excitation(round + &other), Ok(plain));
 }
+
+/// Numbers with commas or semicolons between them are not taken for headings.
+#[test]
+fn lines_with_other_separators_are_named() {
+    let plain = wamit_files().radiation;
+    for separator in [";", ",", "; "] {
+        let rows = plain.lines().map(|line| {
+            let words: Vec<&str> = line.split_whitespace().collect();
+            words.join(separator)
+        });
+        let mut files = wamit_files();
+        files.radiation = rows.collect::<Vec<_>>().join("\n");
+        let error = from_wamit(&files, &wamit_given()).expect_err("a refusal");
+        let error = error.to_string();
+        let words = [
+            "the .1 file",
+            "line 1 is",
+            "spaces between them are expected",
+        ];
+        assert!(words.iter().all(|words| error.contains(words)), "{error}");
+    }
+}

@@ -82,6 +82,31 @@ fn a_memory_that_is_not_passive_is_not_called_so() {
     );
 }
 
+/// A given memory is used with its own A(∞), and that is what another one of the file is compared
+/// with: nothing is said of the file's damping.
+#[test]
+fn the_added_mass_of_a_given_memory_is_not_that_of_the_files_damping() {
+    let of = |memory| {
+        let request = Request {
+            memory,
+            ..Request::default()
+        };
+        Report::new("sphere", reading("sphere.nc"), &request).expect("a report")
+    };
+    let json = serde_json::to_string(&of(None).to_json()).expect("JSON");
+    let mut memory: GivenMemory = serde_json::from_str(&json).expect("a memory");
+    memory.added_mass_inf[1][1] *= 2.0;
+    let report = of(Some(memory));
+    let mut warnings = report.warnings.iter();
+    let said = warnings.find(|warning| warning.what == "added mass at infinity");
+    let words = &said.expect("a warning").message;
+    assert!(
+        words.starts_with("the file's A(∞) of heave differs by -")
+            && words.ends_with("from that of the given memory; the latter is used"),
+        "{words}"
+    );
+}
+
 /// What a memory is off the file by is said of the entry that it is said of, and of a block that
 /// fits badly the entry that fits worse than the whole.
 #[test]

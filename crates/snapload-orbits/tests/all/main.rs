@@ -21,4 +21,5 @@ mod proofs;
 mod refusals;
 mod releases;
 mod rule_of_volumes;
+mod undecided;
 mod wall;

@@ -259,6 +259,10 @@ impl ElasticComparison {
             "trust": {
                 "words": self.trust_text(),
                 "horizon_s": self.repeated.horizon_s,
+                "end_in_shorter_steps": {
+                    "t_s": self.repeated.outcome.end_s,
+                    "reason": end_text(self.repeated.outcome.stop),
+                },
             },
             "took_s": self.elastic_took_s,
             "lines": lines.collect::<Vec<_>>(),

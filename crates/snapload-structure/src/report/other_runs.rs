@@ -1,16 +1,19 @@
 //! What the runs besides that of the case add to its verdict, and how far it can be trusted, in
 //! words.
 
-use super::verdict::{Verdict, VerdictKind, undecided_by};
+use super::verdict::{Verdict, VerdictKind, end_text, undecided_by};
 use crate::physics::warning::Warning;
 use crate::runs::assess::{Assessment, TOLERANCE};
 use crate::runs::elastic_comparison::{ElasticComparison, Repeated};
 use crate::runs::outcome::Outcome;
 use crate::structure::Water;
-use crate::text_layout::{digits, kilo, paragraph};
+use crate::text_layout::{digits, kilo, paragraph, ratio};
 use askama::Template;
+use snapload::Stop;
 use snapload::analysis::{HorizonCause, Trust};
 
+/// The relative difference of two largest tensions from which on both are told.
+const NOTABLE: f64 = 0.005;
 /// With fewer neighbours, no statement about 90 % of them is made.
 const FEWEST_NEIGHBOURS: usize = 10;
 
@@ -20,7 +23,9 @@ const FEWEST_NEIGHBOURS: usize = 10;
 struct RepeatedText {
     horizon_s: Option<f64>,
     error_m: f64,
-    /// The largest tension of each line in the motion in shorter steps, if it is judged.
+    /// How and when the motion in shorter steps ends, if early.
+    other_end: Option<(&'static str, f64)>,
+    /// The largest tension of each line in that motion, if it is judged.
     peaks_n: Vec<f64>,
 }
 
@@ -74,29 +79,62 @@ fn left_open(verdict: &mut Verdict) -> &'static str {
 }
 
 impl ElasticComparison {
-    /// A verdict that no line breaks does not stand if a line breaks where the motion is integrated
-    /// in shorter steps.
+    /// A verdict that no line breaks does not stand if a line breaks or the mooring fails where the
+    /// motion is integrated in shorter steps, and any verdict says what is otherwise there.
     pub(super) fn with_repeated(&self, mut verdict: Verdict) -> Verdict {
         let structure = &self.elastic_case.structure;
-        let repeated = self.repeated.outcome.fails_as_computed(structure);
-        if let Some(fails) = failing(&verdict, &self.warnings())
-            && repeated == Some(!fails)
-        {
-            let so = left_open(&mut verdict);
-            let otherwise = otherwise_in_words(fails, true);
-            verdict.words += &format!(" Integrated in shorter steps {otherwise}{so}.");
+        let (first, other) = (&self.outcome, &self.repeated.outcome);
+        let Some(fails) = failing(&verdict, &self.warnings()) else {
+            return verdict;
+        };
+        let mut otherwise = Vec::new();
+        match (first.stop.exceeds(), other.stop.exceeds()) {
+            (true, false) => otherwise.push("the mooring does not fail".to_owned()),
+            (false, true) => {
+                let end = end_text(other.stop);
+                otherwise.push(format!(
+                    "the mooring fails: it {end} at {:.1} s",
+                    other.end_s
+                ));
+            }
+            _ => {}
+        }
+        let parts = [first, other].map(|outcome| outcome.utilisations(structure));
+        for (line, parts) in (1..).zip(parts[0].iter().zip(&parts[1])) {
+            if let (Some(first), Some(other)) = parts
+                && (*first >= 1.0) != (*other >= 1.0)
+            {
+                let holds = if *other < 1.0 { "holds" } else { "would break" };
+                otherwise.push(format!("line {line} {holds} ({})", ratio(other)));
+            }
+        }
+        if !otherwise.is_empty() {
+            let so = match !fails && other.fails_as_computed(structure) == Some(true) {
+                true => left_open(&mut verdict),
+                false => "",
+            };
+            verdict.words += &format!(" Integrated in shorter steps {}{so}.", otherwise.join(", "));
         }
         verdict
     }
 
-    /// How far the motion is known, with the numbers.
+    /// How far the motion is known, with the numbers; the largest tensions in shorter steps are
+    /// told where the motion is not known to its end, or they are others.
     pub fn trust_text(&self) -> String {
         let Repeated { outcome, horizon_s } = &self.repeated;
         let judged = outcome.lines.iter().filter(|line| line.least_n.is_some());
+        let peaks_n: Vec<f64> = judged.map(|line| line.largest_taut_n).collect();
+        let mut both = peaks_n.iter().zip(&self.elastic.peaks_n);
+        let differ = both.any(|(other, peak)| (other - peak).abs() > NOTABLE * peak);
         paragraph(&RepeatedText {
             horizon_s: *horizon_s,
             error_m: TOLERANCE * self.elastic_case.model.scales.length_m,
-            peaks_n: judged.map(|line| line.largest_taut_n).collect(),
+            other_end: (outcome.stop != Stop::EndTime)
+                .then(|| (end_text(outcome.stop), outcome.end_s)),
+            peaks_n: match horizon_s.is_some() || differ {
+                true => peaks_n,
+                false => Vec::new(),
+            },
         })
     }
 }

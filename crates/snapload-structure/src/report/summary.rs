@@ -176,6 +176,13 @@ impl Seas {
             speeds_m_s: [0.5, 0.99, 1.0].map(|part| quantile(&speeds, part).unwrap_or(0.0)),
         })
     }
+
+    /// The tension at rest of a line that carries more there, as lines stretch, than the `largest`
+    /// of the motion on inextensible lines \[N\].
+    fn stretched_beyond(&self, line: &usize, largest: &f64) -> Option<f64> {
+        let at_rest = self.prepared.rest.stretched_n(*line)?;
+        (self.lines == Lines::Inextensible && at_rest > *largest).then_some(at_rest)
+    }
 }
 
 impl ElasticComparison {

@@ -31,7 +31,7 @@ pub struct ElasticComparison {
     pub elastic: ElasticRun,
     /// Its outcome.
     pub outcome: Outcome,
-    /// Time that its computation took \[s\].
+    /// Time that its computation took, and that in shorter steps \[s\].
     pub elastic_took_s: f64,
     /// The same motion, integrated in shorter steps.
     pub repeated: Repeated,
@@ -82,8 +82,8 @@ pub fn compare_elastic(
     let clock = Instant::now();
     let elastic_case = prepared.with_elastic_lines(&elastic_lines)?;
     let elastic = run_elastic(&elastic_case, &elastic_lines, every_s, on_progress)?;
-    let elastic_took_s = clock.elapsed().as_secs_f64();
     let repeated = Repeated::of(&elastic_case, &elastic_lines, &elastic, on_progress)?;
+    let elastic_took_s = clock.elapsed().as_secs_f64();
     let inextensible = match prepared.starts_within_reach() {
         true => Some(Inextensible::of(&prepared, stiffer)?),
         false => None,

@@ -36,10 +36,11 @@ impl Stepping {
         longest: 0.25,
         doing: "elastic lines",
     };
-    /// A finer one, to be compared with it.
+    /// A finer one, to be compared with it. Its error has to be much smaller even where the forces
+    /// have a kink, as quadratic drag has in still water: then it falls as a low power of the step.
     pub(crate) const SHORTER: Self = Self {
-        tolerance: 1e-12,
-        longest: 0.2,
+        tolerance: 1e-13,
+        longest: 0.125,
         doing: "elastic lines, in shorter steps",
     };
 }

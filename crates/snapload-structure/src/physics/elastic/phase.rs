@@ -258,20 +258,27 @@ impl<M: Method<N>, const N: usize> Steps<'_, M, N> {
         }
     }
 
-    /// Keeps the states of all samples up to a time of the phase, by the dense output of the step.
+    /// Keeps what is asked for up to a time of the phase: states of samples, positions to be
+    /// compared, and the instant at which judging begins.
     fn keep_samples(&mut self, s: f64, record: &mut PullRecorder<'_>) -> Result<(), CaseError> {
         let Phase { begin, pulling, .. } = *self.phase;
         while let Some((t_s, t)) = record.next_sample(begin + s) {
-            let within = (t - begin).clamp(self.method.t_prev(), self.method.t());
-            let y = self.method.interpolate(within).map_err(integration_error)?;
-            record.keep(t_s, &state_of(&y), pulling);
+            record.keep(t_s, &self.state(t - begin)?, pulling);
         }
         while let Some(t) = record.next_mark(begin + s) {
-            let within = (t - begin).clamp(self.method.t_prev(), self.method.t());
-            let y = self.method.interpolate(within).map_err(integration_error)?;
-            record.mark(&state_of(&y));
+            record.mark(&self.state(t - begin)?);
+        }
+        if let Some(t) = record.next_beginning(begin + s) {
+            record.add(t, &self.state(t - begin)?, pulling);
         }
         Ok(())
+    }
+
+    /// The state at a time within the step.
+    fn state(&mut self, s: f64) -> Result<State, CaseError> {
+        let within = s.clamp(self.method.t_prev(), self.method.t());
+        let y = self.method.interpolate(within).map_err(integration_error)?;
+        Ok(state_of(&y))
     }
 
     /// When a change occurs, by bisection on the dense output.

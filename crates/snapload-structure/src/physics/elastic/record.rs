@@ -105,9 +105,8 @@ impl ElasticRun {
         let both = || self.marks.iter().zip(&other.marks);
         let alike = both().take_while(close).count();
         let ends = [self, other].map(|run| [run.end.x, run.end.y, run.end.theta]);
-        let to_the_end = alike == both().count()
-            && self.stop == other.stop
-            && close(&(&ends[0], &ends[1]));
+        let to_the_end =
+            alike == both().count() && self.stop == other.stop && close(&(&ends[0], &ends[1]));
         // Before the first mark nothing is compared.
         let until_s = duration_s * alike as f64 / f64::from(MARKS);
         (!to_the_end).then(|| until_s.min(self.end_s).min(other.end_s))
@@ -124,7 +123,11 @@ pub(super) struct PullRecorder<'a> {
     /// The times of the samples that are still to come, before the end \[s\].
     samples: Peekable<Box<dyn Iterator<Item = f64>>>,
     kept: bool,
+    /// When judging begins, in seconds and in the engine's units.
     transient_s: f64,
+    transient: f64,
+    /// Whether the instant at which it begins is still to be recorded.
+    to_be_judged: bool,
     run: ElasticRun,
     /// The duration, in the engine's units.
     duration: f64,
@@ -159,6 +162,8 @@ impl<'a> PullRecorder<'a> {
             samples: samples.peekable(),
             kept: kept.is_some(),
             transient_s: prepared.structure.transient_s,
+            transient: prepared.structure.transient_s / scales.time_s,
+            to_be_judged: true,
             duration: prepared.model.rules.t_end,
             run: ElasticRun {
                 waterline: Waterline::before(&prepared.structure),
@@ -182,6 +187,13 @@ impl<'a> PullRecorder<'a> {
     pub(super) fn next_mark(&self, until: f64) -> Option<f64> {
         let t = self.duration * (self.run.marks.len() + 1) as f64 / f64::from(MARKS);
         (t <= until).then_some(t)
+    }
+
+    /// The instant at which judging begins, if it is up to a time and was not asked for.
+    pub(super) fn next_beginning(&mut self, until: f64) -> Option<f64> {
+        let begins = self.to_be_judged && self.transient <= until;
+        self.to_be_judged &= !begins;
+        begins.then_some(self.transient)
     }
 
     /// Keeps the position there.
@@ -217,7 +229,11 @@ impl<'a> PullRecorder<'a> {
 
     /// Records a state along the motion.
     pub(super) fn add(&mut self, t: f64, state: &State, pulling: TautSet) {
-        let t_s = t * self.scales.time_s;
+        let t_s = match t == self.transient {
+            // As it was given, not converted back from the engine's units.
+            true => self.transient_s,
+            false => t * self.scales.time_s,
+        };
         self.run.turned_rad = self.run.turned_rad.max(state.theta.abs());
         let [x, z] = self.scales.to_si([state.x, state.y]);
         self.run.excursion_m = self
