@@ -93,7 +93,7 @@ impl ElasticComparison {
             (false, true) => {
                 let end = end_text(other.stop);
                 otherwise.push(format!(
-                    "the mooring fails: it {end} at {:.1} s",
+                    "the mooring fails: the run {end} at {:.1} s",
                     other.end_s
                 ));
             }
