@@ -9,7 +9,7 @@ use snapload::Sampling;
 use snapload::analysis::Progress;
 use snapload_hydro::digits::{digits, in_full, tenths};
 use snapload_hydro::{
-    Body, Decay, FREEDOMS, Fit, HydroError, Hydrodynamics, Swing, Warning, decay, large_motion,
+    Body, Decay, FREEDOMS, Fit, HydroError, Swing, Warning, decay, far_from_the_file, large_motion,
     rest_without_tension, swings,
 };
 use snapload_report::tables::in_digits_with_fraction;
@@ -100,15 +100,19 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
             damping_ratio: swing.damping_ratio,
         }));
     }
-    if let Some(note) = measured_from(&body, &report.reading.hydro) {
+    let hydro = &report.reading.hydro;
+    let afloat = rest_without_tension(hydro, &body, &[], 0.0);
+    let afloat: Option<[f64; 3]> = afloat.map(|(q, _)| q.into());
+    if let Some(note) = measured_from(afloat) {
         text += &labelled_row("measured", &note);
     }
     if rows.iter().any(|row| row.damping_ratio < 0.0) {
         text += &labelled_row("mixed", NEGATIVE_DAMPING_NOTE);
     }
     let [_, heave, pitch] = from;
-    let large = large_motion(&report.reading.hydro, &body, [heave, pitch], "the release");
-    let warnings: Vec<&Warning> = report.warnings.iter().chain(&large).collect();
+    let far = afloat.and_then(|q| far_from_the_file(hydro, &body, q, "floats without lines"));
+    let large = large_motion(hydro, &body, [heave, pitch], "the release");
+    let warnings: Vec<&Warning> = report.warnings.iter().chain(&far).chain(&large).collect();
     for warning in &warnings {
         text += &labelled_row("warning", &format!("{}: {}", warning.what, warning.message));
     }
@@ -165,9 +169,8 @@ const NEGATIVE_DAMPING_NOTE: &str = "a damping below zero, of one of these swing
 
 /// From where displacements are measured, if not from the position of the file: the motion is
 /// linear about the position in which the body floats without lines.
-fn measured_from(body: &Body, hydro: &Hydrodynamics) -> Option<String> {
-    let at = rest_without_tension(hydro, body, &[], 0.0).map(|(q, _)| q);
-    match at {
+fn measured_from(afloat: Option<[f64; 3]>) -> Option<String> {
+    match afloat {
         Some(q) if q[1].abs() < SMALL && q[2].abs() < SMALL => None,
         Some(q) => Some(format!(
             "from where the body floats without lines: {} m of heave and {:.2}° of pitch from the position of the \

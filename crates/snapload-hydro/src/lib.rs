@@ -27,8 +27,8 @@ pub use coefficients::{
 pub use error::{GivenSource, HydroError, Warning};
 pub use linear::{
     Body, Decay, LARGE_PITCH, Line, Mode, Natural, Peak, Response, Rest, Swing, Turn, Weight,
-    decay, decay_of_the_damping, eigenvalues, fine_responses, large_motion, natural_of_the_file,
-    natural_of_the_memory, response_of_the_file, response_of_the_memory, rest,
+    decay, decay_of_the_damping, eigenvalues, far_from_the_file, fine_responses, large_motion,
+    natural_of_the_file, natural_of_the_memory, response_of_the_file, response_of_the_memory, rest,
     rest_without_tension, significant, swings,
 };
 pub use memory::{

@@ -204,6 +204,15 @@ fn decay_reports_where_displacements_are_measured_from() {
         !upright.contains("measured") && !upright.contains("below zero"),
         "{upright}"
     );
+    // More than a tenth of the draft of 1.2 m from the file's position, or 0.05 rad of pitch, the
+    // coefficients are those of another position.
+    let far = format!("at {turned:.1}° of pitch from it; compute the file again");
+    assert!(aside.contains(&far), "{aside}");
+    let lower = (110.0 - 98.4) * 9.81 / 804.42;
+    let heavy = output(&["--mass", "110000", "--from", "0,0.3,0"]);
+    let far = format!("place of rest: the body floats without lines {lower:.3} m below");
+    assert!(heavy.contains(&far), "{heavy}");
+    assert!(!upright.contains("place of rest"), "{upright}");
 }
 
 /// A motion of more than half the draft of 1.2 m or more than 15 degrees is warned of, the highest

@@ -18,6 +18,6 @@ pub use natural::{Natural, eigenvalues, natural_of_the_file};
 pub use resonance::{Peak, fine_responses};
 pub use response::{Response, response_of_the_file, response_of_the_memory, significant};
 pub use rest::{Line, Rest, rest, rest_without_tension};
-pub use small_motion::{LARGE_PITCH, large_motion};
-pub(crate) use small_motion::{beyond_hydrostatics, draft_m};
+pub(crate) use small_motion::beyond_hydrostatics;
+pub use small_motion::{LARGE_PITCH, far_from_the_file, large_motion};
 pub use swings::{Swing, Turn, swings};

@@ -4,13 +4,17 @@
 use super::body::Body;
 use super::rest::Rest;
 use crate::coefficients::Hydrodynamics;
-use crate::digits::{digits, kilo};
+use crate::digits::{decimals, digits, kilo};
 use crate::error::Warning;
 
 /// Linear hydrostatics hold for less pitch than this \[degrees\].
 pub const LARGE_PITCH: f64 = 15.0;
 /// The largest part of the draft that a small heave may be.
 const LARGE_HEAVE: f64 = 0.5;
+/// A place of rest further from the file's than this part of the draft, or in pitch \[rad\], needs
+/// coefficients of its own.
+const FAR: f64 = 0.1;
+const FAR_PITCH: f64 = 0.05;
 
 /// ρV over the waterplane, which is the draft of a body with vertical sides \[m\].
 pub(crate) fn draft_m(hydro: &Hydrodynamics, body: &Body) -> Option<f64> {
@@ -48,6 +52,29 @@ pub fn large_motion(
         warnings.push(Warning::new("small pitch", message));
     }
     warnings
+}
+
+/// The warning about a place at which a body rests or floats, in words, that is not that of the
+/// file.
+pub fn far_from_the_file(
+    hydro: &Hydrodynamics,
+    body: &Body,
+    q: [f64; 3],
+    rests: &str,
+) -> Option<Warning> {
+    let draft_m = draft_m(hydro, body);
+    let far = draft_m.is_some_and(|draft_m| q[1].abs() > FAR * draft_m);
+    if !far && q[2].abs() <= FAR_PITCH {
+        return None;
+    }
+    let message = format!(
+        "the body {rests} {:.3} m {} its position in the file and at {}° of pitch from it; \
+         compute the file again at the place of rest",
+        q[1].abs(),
+        if q[1] < 0.0 { "below" } else { "above" },
+        decimals(&q[2].to_degrees(), 1)
+    );
+    Some(Warning::new("place of rest", message))
 }
 
 /// The warning that a body rests clear of the water, where it no longer weighs more, or that its

@@ -17,8 +17,8 @@ use crate::digits::kilo;
 use crate::error::{HydroError, Warning};
 use crate::linear::{
     Body, LARGE_PITCH, Line, Mode, Natural, Peak, Response, Rest, Weight, beyond_hydrostatics,
-    draft_m, fine_responses, natural_of_the_file, natural_of_the_memory, response_of_the_file,
-    response_of_the_memory, rest,
+    far_from_the_file, fine_responses, natural_of_the_file, natural_of_the_memory,
+    response_of_the_file, response_of_the_memory, rest,
 };
 use crate::memory::{Fit, FitOptions, TermRow, fit, given};
 use crate::read::{Format, Reading};
@@ -357,18 +357,12 @@ impl Floating {
             }
         }
         if let Some((rest, ..)) = &self.rest {
-            let draft = draft_m(&reading.hydro, &self.body);
-            let far = draft.is_some_and(|draft| rest.q[1].abs() > 0.1 * draft);
-            if rest.q[2].abs() > 0.05 || far {
-                let message = format!(
-                    "the body rests {:.3} m {} its position in the file and at {:.1}° of pitch from it; \
-                     compute the file again at the place of rest",
-                    rest.q[1].abs(),
-                    if rest.q[1] < 0.0 { "below" } else { "above" },
-                    plain(rest.q[2].to_degrees(), 0.1)
-                );
-                warnings.push(Warning::new("place of rest", message));
-            }
+            warnings.extend(far_from_the_file(
+                &reading.hydro,
+                &self.body,
+                rest.q.into(),
+                "rests",
+            ));
             warnings.extend(beyond_hydrostatics(&reading.hydro, &self.body, rest));
         }
     }

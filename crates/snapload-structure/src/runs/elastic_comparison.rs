@@ -45,7 +45,8 @@ pub struct ElasticComparison {
 pub struct Repeated {
     /// Its outcome.
     pub outcome: Outcome,
-    /// The time up to which both are within [`TOLERANCE`] of each other; none if to the end \[s\].
+    /// The time up to which both are within a thousandth of the unit of length of each other; none
+    /// if to the end \[s\].
     pub horizon_s: Option<f64>,
 }
 
