@@ -5,6 +5,9 @@ use crate::sequence::symbol_text;
 use crate::summary::periods;
 use std::fmt::Write;
 
+/// The most characters of a symbol that are printed.
+const LONGEST_SYMBOL: usize = 60;
+
 /// Basins of attraction.
 pub fn attraction_summary(found: &Attraction) -> String {
     let mut text = String::new();
@@ -19,25 +22,41 @@ pub fn attraction_summary(found: &Attraction) -> String {
             .map(|orbit| symbol_text(&orbit.lap.sequence));
         let _ = writeln!(
             text,
-            "Attractor {number}: {} cells, {}, {}",
-            attractor.cells,
+            "Attractor {number}: {}, {}, {}",
+            cells(attractor.cells),
             periods(attractor.period),
-            symbol.map_or(no_orbit.to_owned(), |symbol| format!("symbol {symbol}"))
+            symbol.map_or(no_orbit.to_owned(), |symbol| beginning(&symbol))
         );
     }
     let stopped = found.count(|outcome| matches!(outcome, CellOutcome::Stopped(..)));
-    let _ = writeln!(text, "Stopped   {stopped} cells");
+    let _ = writeln!(text, "Stopped   {}", cells(stopped));
     let open = found.count(|outcome| *outcome == CellOutcome::Aperiodic);
     if open > 0 {
         let _ = writeln!(
             text,
-            "Open      {open} cells: no period up to {LONGEST_SHOWN} was found; a longer transient may show one"
+            "Open      {}: no period up to {LONGEST_SHOWN} was found; a longer transient may show one",
+            cells(open)
         );
     }
     if let Some(undecided) = found.undecided() {
         let _ = writeln!(text, "Undecided {undecided}");
     }
     let legal = found.count(|outcome| *outcome != CellOutcome::Illegal);
-    let _ = writeln!(text, "Legal     {legal} of {} cells", found.cells.len());
+    let _ = writeln!(text, "Legal     {legal} of {}", cells(found.cells.len()));
     text
+}
+
+fn cells(count: usize) -> String {
+    match count {
+        1 => "1 cell".to_owned(),
+        _ => format!("{count} cells"),
+    }
+}
+
+/// A symbol, or the beginning of one that is longer than a line, as where snaps accumulate.
+fn beginning(symbol: &str) -> String {
+    match symbol.char_indices().nth(LONGEST_SYMBOL) {
+        None => format!("symbol {symbol}"),
+        Some((end, _)) => format!("symbol {}… (--json has all of it)", &symbol[..end]),
+    }
 }
