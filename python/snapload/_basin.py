@@ -108,7 +108,8 @@ def safe_basin(case: Case, *, trust: bool = True, progress: bool = True, **windo
     code_attributes |= {"long_name": "how the run ended, as a number", "flag_meanings": " ".join(["not_legal", *ends])}
     variables["outcome_code"] = (tuple(coords), code, code_attributes)
     measures = _measure_attributes(data) | {"cell": np.array([data["cell"][key] for key in data["keys"]])}
-    scales = {name: scale for name, (scale, _) in _distances(data["keys"]).items()}
+    distances = _distances(data["keys"]).items()
+    scales = {of: scale for name, (scale, _) in distances for of in (name, f"{name}_at_least")}
     scales["cell"] = ", ".join(units()[key] or "1" for key in data["keys"])
     title = title_and_case("A safe basin of a body on cables", engine)
     return with_own_names(xarray.Dataset(variables, coords, title | with_scales(measures, scales)))
@@ -349,8 +350,8 @@ _VELOCITIES = ("vx", "vy", "vtheta")
 
 def _measure_attributes(data: dict[str, Any]) -> dict[str, Any]:
     """The measures as attributes of a kind that every file format of xarray can store."""
-    names = ("legal", "safe", "fraction", "undecided", "cut_short", "past_horizon", "gim", "lim", "if", "iim")
-    names += ("lim_at_least", "if_at_least", "iim_at_least")
+    counts = ("legal", "safe", "fraction", "undecided", "cut_short", "past_horizon")
+    names = (*counts, "gim", "lim", "if", "iim", "lim_at_least", "if_at_least", "iim_at_least")
     return {name: or_nan(data[name]) for name in names} | {"interval95": np.array(data["interval95"])}
 
 

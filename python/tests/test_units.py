@@ -170,7 +170,7 @@ def test_attributes_with_a_dimension_are_converted():
     assert brought.attrs["theta_max"] == stopped.attrs["theta_max"] and brought.attrs["theta_max_units"] == "rad"
     window = basin(**PLANE)
     brought = SCALES.si(window)
-    for name in ("lim", "if"):
+    for name in ("lim", "if", "lim_at_least", "if_at_least"):
         assert brought.attrs[name] == window.attrs[name] * 5.0 > 0 and brought.attrs[f"{name}_units"] == "m"
     np.testing.assert_allclose(brought.attrs["cell"], [0.5, 0.5])
     assert brought.attrs["cell_units"] == "m, m" and brought.attrs["gim"] == window.attrs["gim"]
@@ -198,7 +198,7 @@ def test_a_distance_between_a_length_and_a_velocity_has_no_unit():
     with pytest.raises(ValueError, match="lim is not allowed, as its scale, L and L/T, is no single unit"):
         SCALES.si(window)
     without = window.copy()
-    for name in ("lim", "if"):
+    for name in ("lim", "if", "lim_at_least", "if_at_least"):
         del without.attrs[name], without.attrs[f"{name}_scale"]
     brought = SCALES.si(without)
     np.testing.assert_allclose(brought.attrs["cell"], [0.5, 0.75])
