@@ -170,8 +170,13 @@ def test_attributes_with_a_dimension_are_converted():
     assert brought.attrs["theta_max"] == stopped.attrs["theta_max"] and brought.attrs["theta_max_units"] == "rad"
     window = basin(**PLANE)
     brought = SCALES.si(window)
-    for name in ("lim", "if", "lim_at_least", "if_at_least"):
+    for name in ("lim", "if"):
         assert brought.attrs[name] == window.attrs[name] * 5.0 > 0 and brought.attrs[f"{name}_units"] == "m"
+    # What undecided cells leave open is known if neighbours were run.
+    assert math.isnan(window.attrs["lim_at_least"])
+    trusted = basin(trust=True, **PLANE)
+    for name in ("lim_at_least", "if_at_least"):
+        assert SCALES.si(trusted).attrs[name] == trusted.attrs[name] * 5.0 > 0, name
     np.testing.assert_allclose(brought.attrs["cell"], [0.5, 0.5])
     assert brought.attrs["cell_units"] == "m, m" and brought.attrs["gim"] == window.attrs["gim"]
     np.testing.assert_allclose(brought.t, window.t * 2.0)

@@ -78,7 +78,7 @@ impl Basin {
             };
             run_neighbours(&window, &mut cells, &share)?;
         }
-        let measures = Measures::of(&window, &cells);
+        let measures = Measures::of(&window, &cells, trust);
         Ok(Self {
             window,
             cells,

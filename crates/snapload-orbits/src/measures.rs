@@ -39,7 +39,7 @@ pub struct Measures {
     /// integrity measure. None for other keys, and where there is no such row, or smaller
     /// velocities were not run to their end.
     pub iim: [Option<f64>; 2],
-    /// The three distances where undecided cells count as unsafe.
+    /// The three distances where undecided cells count as unsafe; none if no neighbours were run.
     pub at_least: Distances,
 }
 
@@ -59,8 +59,8 @@ pub(crate) const VELOCITIES: [&str; 3] = ["vx", "vy", "vtheta"];
 const ROUNDED: f64 = 1.0 + 1e-9;
 
 impl Measures {
-    /// Of the cells of a window.
-    pub(crate) fn of(window: &Window, cells: &[Cell]) -> Self {
+    /// Of the cells of a window, whose neighbours were run or not.
+    pub(crate) fn of(window: &Window, cells: &[Cell], neighbours_run: bool) -> Self {
         let legal = cells.iter().filter(|cell| cell.end.is_some()).count();
         let safe = cells.iter().filter(|cell| cell.is_safe()).count();
         let cut_short = cells.iter().filter(|cell| cell.is_cut_short()).count();
@@ -92,11 +92,12 @@ impl Measures {
             iim: [None; 2],
             at_least: Distances::default(),
         };
-        match window.are_starts() {
-            true => {
-                let framed = [false, true].map(|cautious| Framed::new(window, cells, cautious));
-                measures.with_distances(window, &framed)
-            }
+        if !window.are_starts() {
+            return measures;
+        }
+        let measures = measures.with_distances(window, &Framed::new(window, cells, false));
+        match neighbours_run {
+            true => measures.with_least_distances(window, &Framed::new(window, cells, true)),
             false => measures,
         }
     }
@@ -107,16 +108,11 @@ impl Measures {
         (self.legal > self.undecided).then_some(part)
     }
 
-    /// The same with distances, in a plane of starts: of the cells as they are, and where undecided
-    /// ones count as unsafe.
-    fn with_distances(mut self, window: &Window, [framed, cautious]: &[Framed; 2]) -> Self {
+    /// The same with distances, in a plane of starts.
+    fn with_distances(mut self, window: &Window, framed: &Framed) -> Self {
         let [disc, within_unsafe] = [true, false].map(|known| framed.largest_disc(known));
         self.integrity_factor = disc.filter(|radius| radius.is_finite());
         self.disc_meets_unknown = disc < within_unsafe;
-        let least = cautious
-            .largest_disc(true)
-            .filter(|radius| radius.is_finite());
-        self.at_least.integrity_factor = self.integrity_factor.and(least.or(Some(0.0)));
         if window.keys_off_equilibrium().is_empty() {
             let nearest = framed.nearest_unsafe(|[a, b]| Some(a.hypot(b)));
             let is_plane = framed.cell.iter().all(|width| *width > 0.0);
@@ -125,13 +121,23 @@ impl Measures {
                 nearest => (None, nearest.map(|(distance, _)| distance)),
             };
             self.iim = [0, 1].map(|axis| framed.nearest_along_velocity(window, axis));
-            let least = cautious.nearest_unsafe(|[a, b]| Some(a.hypot(b)));
-            self.at_least.lim = self.lim.and(least.map(|(distance, _)| distance));
-            self.at_least.iim = [0, 1].map(|axis| {
-                let least = cautious.nearest_along_velocity(window, axis);
-                self.iim[axis].and(least)
-            });
         }
+        self
+    }
+
+    /// The same with the distances of cells of which undecided ones are framed as unsafe.
+    fn with_least_distances(mut self, window: &Window, cautious: &Framed) -> Self {
+        let disc = cautious
+            .largest_disc(true)
+            .filter(|radius| radius.is_finite());
+        let nearest = cautious.nearest_unsafe(|[a, b]| Some(a.hypot(b)));
+        let along = |axis: usize| cautious.nearest_along_velocity(window, axis);
+        self.at_least = Distances {
+            lim: self.lim.and(nearest.map(|(distance, _)| distance)),
+            // Where every safe cell is undecided there is no disc.
+            integrity_factor: self.integrity_factor.and(disc.or(Some(0.0))),
+            iim: [0, 1].map(|axis| self.iim[axis].and_then(|_| along(axis))),
+        };
         self
     }
 }

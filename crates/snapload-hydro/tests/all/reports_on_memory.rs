@@ -3,6 +3,15 @@
 use crate::common::reading;
 use snapload_hydro::{EntryQuality, FitOptions, GivenMemory, Report, Request};
 
+/// The report on a sphere with a memory that is given, or fitted.
+fn sphere(memory: Option<GivenMemory>) -> Report {
+    let request = Request {
+        memory,
+        ..Request::default()
+    };
+    Report::new("sphere", reading("sphere.nc"), &request).expect("a report")
+}
+
 /// Damping that a memory needs to be passive acts with its exponentials alone: the response by the
 /// file solves (−ω²(M + A) − iωB + C) ξ = X with its own numbers. With the memory it is written to
 /// a file and read again, about another point, too, on which no period depends.
@@ -52,18 +61,11 @@ fn damping_that_was_added_belongs_to_the_memory() {
 /// A memory that can feed energy into the motion is not called passive.
 #[test]
 fn a_memory_that_is_not_passive_is_not_called_so() {
-    let report = |memory| {
-        let request = Request {
-            memory,
-            ..Request::default()
-        };
-        Report::new("sphere", reading("sphere.nc"), &request).expect("a report")
-    };
-    let fitted = report(None);
+    let fitted = sphere(None);
     assert!(fitted.memory_summary().ends_with("; passive"));
     let json = serde_json::to_string(&fitted.to_json()).expect("JSON");
     let mut memory: GivenMemory = serde_json::from_str(&json).expect("a memory");
-    let same = report(Some(memory.clone())).memory_summary();
+    let same = sphere(Some(memory.clone())).memory_summary();
     assert!(
         same.starts_with("given, ") && same.ends_with("; passive"),
         "{same}"
@@ -72,10 +74,10 @@ fn a_memory_that_is_not_passive_is_not_called_so() {
         let numbers = row.residue.as_flattened_mut().as_flattened_mut();
         numbers.iter_mut().for_each(|number| *number = -*number);
     }
-    let feeds = report(Some(memory.clone())).memory_summary();
+    let feeds = sphere(Some(memory.clone())).memory_summary();
     assert!(feeds.ends_with("; not passive"), "{feeds}");
     memory.memory.clear();
-    let empty = report(Some(memory)).memory_summary();
+    let empty = sphere(Some(memory)).memory_summary();
     assert!(
         empty.starts_with("given, 0 states; differs from the file by at most 100.00 %"),
         "{empty}"
@@ -86,17 +88,10 @@ fn a_memory_that_is_not_passive_is_not_called_so() {
 /// with: nothing is said of the file's damping.
 #[test]
 fn the_added_mass_of_a_given_memory_is_not_that_of_the_files_damping() {
-    let of = |memory| {
-        let request = Request {
-            memory,
-            ..Request::default()
-        };
-        Report::new("sphere", reading("sphere.nc"), &request).expect("a report")
-    };
-    let json = serde_json::to_string(&of(None).to_json()).expect("JSON");
+    let json = serde_json::to_string(&sphere(None).to_json()).expect("JSON");
     let mut memory: GivenMemory = serde_json::from_str(&json).expect("a memory");
     memory.added_mass_inf[1][1] *= 2.0;
-    let report = of(Some(memory));
+    let report = sphere(Some(memory));
     let mut warnings = report.warnings.iter();
     let said = warnings.find(|warning| warning.what == "added mass at infinity");
     let words = &said.expect("a warning").message;

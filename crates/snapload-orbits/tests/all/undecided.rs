@@ -2,7 +2,7 @@
 
 use snapload::analysis::no_progress;
 use snapload::{Case, Parameters, Stop};
-use snapload_orbits::{Basin, Window, basin_summary};
+use snapload_orbits::{Basin, Distances, Window, basin_summary};
 
 /// Evenly spaced hundredths.
 fn hundredths(from: i32, to: i32, by: usize) -> Vec<f64> {
@@ -68,6 +68,9 @@ fn undecided_cells_may_be_the_nearest_unsafe_ones() {
     assert!((measures.at_least.integrity_factor.unwrap() - disc).abs() < 1e-9);
     assert!(disc < measures.integrity_factor.unwrap());
     let words = basin_summary(&basin);
+    // Without neighbours it is not known which are.
+    let alone = Basin::of(basin.window.clone(), false, &no_progress).unwrap();
+    assert_eq!(alone.measures.at_least, Distances::default());
     assert_eq!(
         words.matches("if undecided ones are unsafe").count(),
         2,

@@ -12,6 +12,7 @@ mod cut_short;
 mod design;
 mod elastic;
 mod elastic_comparison;
+mod elastic_instants;
 mod elastic_peaks;
 mod elastic_strands;
 mod elastic_trust;

@@ -130,21 +130,26 @@ fn a_line_that_breaks_at_rest_breaks_in_waves() {
     }
 }
 
-/// Two lines side by side of which one is 5 mm longer: inextensible, it carries nothing, and its
-/// row says what it carries at rest as both stretch, k₁ (s + 5 mm) + k₂ s = F.
-#[test]
-fn a_line_that_only_stretch_loads_is_not_said_to_be_unloaded() {
+/// A body straight above two lines side by side, with further keys of its run.
+pub(crate) fn side_by_side([first, second]: [f64; 2], further: &str) -> String {
     let line = |length: f64| {
         format!(
             "[[line]]\nanchor = [0, -20]\nfairlead = [0, -5]\nlength = {length}\nstiffness = 3e6\n"
         )
     };
-    let text = format!(
+    format!(
         "[body]\nmass = 500\nadded_mass = 300\ndisplaced_volume = 0.8\nwidth = 1\nposition = [0, -5]\n\
-         {}{}[site]\ndepth = 21\n[sea]\nhs = 0.001\ntp = 6\n[run]\nrestitution = 0.5\nduration = 60\n",
-        line(15.0),
-        line(15.005)
-    );
+         {}{}[site]\ndepth = 21\n[run]\nrestitution = 0.5\n{further}",
+        line(first),
+        line(second)
+    )
+}
+
+/// Two lines side by side of which one is 5 mm longer: inextensible, it carries nothing, and its
+/// row says what it carries at rest as both stretch, k₁ (s + 5 mm) + k₂ s = F.
+#[test]
+fn a_line_that_only_stretch_loads_is_not_said_to_be_unloaded() {
+    let text = side_by_side([15.0, 15.005], "duration = 60\n[sea]\nhs = 0.001\ntp = 6\n");
     let records = seas(structure(&text), 1, Lines::Inextensible, &no_progress).unwrap();
     let force = records.prepared.structure.net_buoyancy_n();
     let (k1, k2) = (3e6 / 15.0, 3e6 / 15.005);

@@ -1,6 +1,7 @@
 //! The reports on structures that inextensible lines do not describe, or whose values are probably
 //! mistakes.
 
+use crate::softness::side_by_side;
 use snapload::analysis::no_progress;
 use snapload_structure::note::Source;
 use snapload_structure::{
@@ -264,17 +265,7 @@ fn the_restitution_is_varied() {
 /// and k₁ s₁ + k₂ s₂ = F. With inextensible lines the shorter one would carry all of it.
 #[test]
 fn the_stretch_of_lines_shares_the_load_at_rest() {
-    let line = |length: f64| {
-        format!(
-            "[[line]]\nanchor = [0, -20]\nfairlead = [0, -5]\nlength = {length}\nstiffness = 3e6\n"
-        )
-    };
-    let text = format!(
-        "[body]\nmass = 500\nadded_mass = 300\ndisplaced_volume = 0.8\nwidth = 1\nposition = [0, -5]\n{}{}\
-         [site]\ndepth = 21\n[run]\nrestitution = 0.5\n",
-        line(15.0),
-        line(15.005)
-    );
+    let text = side_by_side([15.0, 15.005], "");
     let assessment = assess(structure(&text), 0, &no_progress).unwrap();
     let rest = &assessment.prepared.rest;
     let force = assessment.prepared.structure.net_buoyancy_n();

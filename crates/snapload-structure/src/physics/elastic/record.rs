@@ -91,8 +91,8 @@ impl ElasticRun {
         1.0 - pulls.map(|pull| pull.to_s - pull.from_s).sum::<f64>() / self.end_s
     }
 
-    /// The time up to which another integration of the same motion is as close to it as that, in
-    /// each of x, y and θ in the engine's units; none if it is to the end \[s\].
+    /// The time up to which another integration of the same motion differs by at most `tolerance`
+    /// in each of x, y and θ, in the engine's units; none if it does so to the end \[s\].
     pub(crate) fn agrees_until(
         &self,
         other: &Self,
