@@ -11,7 +11,8 @@ pub struct Measures {
     pub legal: usize,
     /// Legal cells that reach no limit up to the end of time.
     pub safe: usize,
-    /// Legal cells of which some neighbours end differently, or whose run is cut short.
+    /// Legal cells that are safe where a neighbour is not, or the other way round, and those whose
+    /// run is cut short.
     pub undecided: usize,
     /// Undecided cells that count as safe.
     pub undecided_safe: usize,
