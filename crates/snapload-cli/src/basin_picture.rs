@@ -4,7 +4,8 @@ use snapload_figures::{Cell, Colour, Dash, Layer, MOST_CLASSES, Map, Mark, Point
 use snapload_orbits::{Attraction, Basin, CellOutcome, DiagramPoint, Erosion, Window};
 use snapload_study::{Values, with_unit};
 
-/// The map of a basin: how each run ends, hatched where that is not decided.
+/// The map of a basin: how each run ends, hatched where it is not decided whether it is safe. Which
+/// of two safe ends it is may differ among neighbours without a hatch.
 pub(crate) fn basin_layers(basin: &Basin) -> Vec<Layer> {
     let ends = basin.cells.iter();
     let ends = ends.map(|cell| cell.end.map(|(stop, _)| Reached::End(stop)));
@@ -13,7 +14,7 @@ pub(crate) fn basin_layers(basin: &Basin) -> Vec<Layer> {
         &basin.window,
         ends,
         Stop::ALL.map(Reached::End).to_vec(),
-        uncertain,
+        (uncertain, "undecided whether safe"),
     )
 }
 
@@ -37,7 +38,10 @@ pub(crate) fn attraction_layers(found: &Attraction) -> Vec<Layer> {
         &found.window,
         outcomes().map(|outcome| reached(outcome).map(&in_colours)),
         classes,
-        found.cells.iter().map(|cell| !cell.decided).collect(),
+        (
+            found.cells.iter().map(|cell| !cell.decided).collect(),
+            "undecided",
+        ),
     )
 }
 
@@ -82,7 +86,7 @@ fn map(
     window: &Window,
     cells: impl Iterator<Item = Option<Reached>>,
     classes: Vec<Reached>,
-    uncertain: Vec<bool>,
+    (uncertain, uncertain_words): (Vec<bool>, &str),
 ) -> Vec<Layer> {
     let place = |reached| classes.iter().position(|class| *class == reached);
     let cell =
@@ -94,6 +98,7 @@ fn map(
         cells: cells.map(cell).collect(),
         classes: classes.iter().map(|class| class.words()).collect(),
         uncertain,
+        uncertain_words: uncertain_words.to_owned(),
         ..Map::default()
     })]
 }

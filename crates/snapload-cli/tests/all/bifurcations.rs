@@ -314,7 +314,7 @@ fn basins_erosion_and_diagrams_are_drawn() {
         ["upper bound", ",upper_bound,"],
         ["end time", ",end_time,"],
         ["no legal case", ",,,,"],
-        ["not certain", ",false,"],
+        ["undecided whether safe", ",false,"],
     ] {
         let drawn = picture.contains(&format!(">{word}<"));
         assert_eq!(drawn, table.contains(end), "{word}");
@@ -322,7 +322,7 @@ fn basins_erosion_and_diagrams_are_drawn() {
     assert!(picture.contains(">settled<") && picture.contains(">no legal case<"));
     run("basin --set max_impacts=3 --no-trust --vary x=-0.1:0.1:3 --vary y=0.3:0.5:3 --plot c.svg");
     let picture = read("c.svg");
-    assert!(picture.contains(">impact limit<") && picture.contains(">not certain<"));
+    assert!(picture.contains(">impact limit<") && picture.contains(">undecided whether safe<"));
 
     let over = "erosion --set t_end=60 --vary x=-0.4:0.4:9 --vary y=0.02:0.72:8 --over f_o=0:0.6:5";
     run(&format!("{over} --plot e.svg"));
