@@ -145,11 +145,15 @@ impl Block {
         sums.into_iter().map(part).fold(0.0, f64::max)
     }
 
-    /// The first candidate that is good enough, or else the best.
+    /// The first candidate that is good enough, or else the best. With more pairs of poles than
+    /// frequencies what lies between the frequencies is arbitrary, and hard to make passive.
     fn chosen(&self, options: FitOptions) -> Option<Candidate> {
+        let determined = PAIRS.into_iter().filter(|pairs| *pairs <= self.own);
         let numbers = match options.pairs {
             Some(pairs) => vec![pairs],
-            None => PAIRS.to_vec(),
+            None => std::iter::once(PAIRS[0])
+                .chain(determined.skip(1))
+                .collect(),
         };
         let mut best: Option<Candidate> = None;
         for pairs in numbers {

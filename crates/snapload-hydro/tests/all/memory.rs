@@ -289,6 +289,19 @@ fn the_number_of_poles_can_be_chosen() {
     assert!(fit(&hydro, FitOptions { pairs: Some(1000) }).is_err());
 }
 
+/// Of a file with few frequencies no more pairs of poles are sought than it has frequencies.
+#[test]
+fn few_frequencies_get_few_poles() {
+    let all = hydro("pontoon.nc");
+    let count = all.omega_rad_s.len();
+    let apart: Vec<usize> = (0..count).filter(|k| k % (count / 7) != 3).collect();
+    let few = all.without(&apart);
+    let left = few.omega_rad_s.len();
+    assert!((7..=8).contains(&left));
+    let fitted = fit(&few, FitOptions::default()).expect("a fit");
+    assert!(fitted.blocks.iter().all(|block| block.pairs <= left));
+}
+
 proptest! {
     #![proptest_config(ProptestConfig { cases: 10, ..ProptestConfig::default() })]
 
