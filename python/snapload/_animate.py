@@ -6,14 +6,15 @@ import json
 import math
 from functools import cached_property
 from importlib import resources
-from io import BytesIO
 from os import PathLike, fspath
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 from uuid import uuid4
 
 import numpy as np
-from matplotlib import animation, pyplot
+from matplotlib import animation
+from matplotlib.backends.backend_agg import FigureCanvasAgg
+from matplotlib.figure import Figure
 from matplotlib.patches import Polygon
 from PIL import Image
 
@@ -22,11 +23,10 @@ from ._plot import axis_label, cable_styles, curve_times
 from ._progress import progress_bar
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
+    from collections.abc import Callable, Iterator
 
     from matplotlib.artist import Artist
     from matplotlib.axes import Axes
-    from matplotlib.figure import Figure
     from numpy.typing import NDArray
 
     from ._run_base import BaseRun
@@ -39,6 +39,9 @@ _WRITERS = {".gif": "pillow", ".mp4": "ffmpeg", ".html": "html"}
 
 #: The most pictures per second of a GIF; browsers slow down those with more.
 _MAX_GIF_FPS = 50
+
+#: Pixels in an inch of a GIF or an MP4.
+_DPI = 110
 
 #: How long a snap, which has no duration, is shown [s].
 _SNAP_SHOWN_S = 0.45
@@ -138,51 +141,66 @@ class Animation:
             raise ValueError(f"{target}: there is no {writer} on this machine; install it, or write a .gif or .html")
         if writer == "pillow" and self._fps > _MAX_GIF_FPS:
             raise ValueError(f"fps = {self._fps} is not allowed; allowed: at most {_MAX_GIF_FPS} in a GIF")
-        figure, artist = self._animation()
-        try:
-            with progress_bar(f"writing {target.name}", self._count, visible=True) as report_progress:
-                artist.save(
-                    target,
-                    writer=(_GifWriter if writer == "pillow" else animation.writers[writer])(fps=self._fps),
-                    dpi=110,
-                    progress_callback=lambda *_: report_progress and report_progress(1),
-                )
-        finally:
-            pyplot.close(figure)
+        canvas, drawn, move = self._drawing()
+        with progress_bar(f"writing {target.name}", self._count, visible=True) as report_progress:
+
+            def one_more(*_: object) -> None:
+                if report_progress:
+                    report_progress(1)
+
+            if writer == "pillow":
+                _save_gif(target, _pictures(canvas, drawn, move, self._count, one_more), self._fps)
+            else:
+                film = animation.FuncAnimation(canvas.figure, move, frames=self._count, interval=1000 / self._fps)
+                film.save(target, writer=animation.writers[writer](fps=self._fps), progress_callback=one_more)
         return target
 
     def _scene(self) -> dict[str, Any]:
         return _scene_data(self._run, *self._span, self._count, self._fps)
 
-    def _animation(self) -> tuple[Figure, animation.FuncAnimation]:
-        figure, ax = pyplot.subplots(figsize=(5.0, 3.6), layout="constrained", dpi=80)
-        update = _draw_scene(ax, self._scene())
+    def _drawing(self) -> tuple[Any, list[Artist], Callable[[int], list[Artist]]]:
+        """A canvas, which Matplotlib leaves untyped, what is drawn in its axes, and what moves that to a frame."""
+        figure = Figure(figsize=(5.0, 3.6), layout="constrained", dpi=_DPI)
+        canvas: Any = FigureCanvasAgg(figure)
+        ax = figure.subplots()
+        move = _draw_scene(ax, self._scene())
         # The layout is computed once and not for every picture.
-        figure.canvas.draw()
+        canvas.draw()
         figure.set_layout_engine("none")
-        return figure, animation.FuncAnimation(figure, update, frames=self._count, interval=1000 / self._fps)
+        drawn: list[Artist] = [*ax.lines, *ax.patches, *ax.texts]
+        return canvas, sorted(drawn, key=lambda artist: artist.get_zorder()), move
 
 
-class _GifWriter(animation.AbstractMovieWriter):
+def _pictures(
+    canvas: Any,
+    drawn: list[Artist],
+    move: Callable[[int], object],
+    count: int,
+    one_more: Callable[[], object],
+) -> Iterator[Image.Image]:
+    """The pictures of an animation. The axes, which take most of the time, are drawn once."""
+    for artist in drawn:
+        artist.set_animated(True)
+    canvas.draw()
+    axes_alone = canvas.copy_from_bbox(canvas.figure.bbox)
+    for k in range(count):
+        move(k)
+        canvas.restore_region(axes_alone)
+        for artist in drawn:
+            artist.draw(canvas.renderer)
+        yield Image.fromarray(np.asarray(canvas.buffer_rgba())).convert("RGB")
+        one_more()
+
+
+def _save_gif(target: Path, pictures: Iterator[Image.Image], fps: int) -> None:
     """Writes a GIF that lasts as long as it should.
 
     A GIF counts in hundredths of a second, and Matplotlib's own writer shortens every picture to whole ones.
     """
-
-    def setup(self, fig: Figure, outfile: str | Path, dpi: float | None = None) -> None:
-        super().setup(fig, outfile, dpi=dpi)
-        self._pictures: list[Image.Image] = []
-
-    def grab_frame(self, **savefig_kwargs: Any) -> None:
-        pixels = BytesIO()
-        self.fig.savefig(pixels, **{**savefig_kwargs, "format": "rgba", "dpi": self.dpi})
-        self._pictures.append(Image.frombytes("RGBA", self.frame_size, pixels.getvalue()).convert("RGB"))
-
-    def finish(self) -> None:
-        ends = np.round(100 / self.fps * np.arange(len(self._pictures) + 1))
-        durations_ms = (10 * np.diff(ends)).astype(int).tolist()
-        first, *others = self._pictures
-        first.save(self.outfile, save_all=True, append_images=others, duration=durations_ms, loop=0)
+    first, *others = pictures
+    ends = np.round(100 / fps * np.arange(len(others) + 2))
+    durations_ms = (10 * np.diff(ends)).astype(int).tolist()
+    first.save(target, format="GIF", save_all=True, append_images=others, duration=durations_ms, loop=0)
 
 
 def _scene_data(run: BaseRun, start: float, stop: float, count: int, fps: int) -> dict[str, Any]:

@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 import snapload
 from PIL import Image
+from snapload._animate import _pictures
 
 #: How long the mark of a snap is shown [s].
 SNAP_SHOWN_S = 0.45
@@ -68,6 +69,17 @@ def test_a_gif_lasts_as_long_as_its_animation(fps, tmp_path):
             durations_ms.append(picture.info["duration"])
     assert sum(durations_ms) == 1000
     assert {round(duration * fps / 1000) for duration in durations_ms} == {1}
+
+
+def test_a_picture_of_a_gif_is_as_if_all_of_it_were_drawn():
+    moving = snapload.Case(f_o=0.31).run(members=0).animate(seconds=1, fps=10)
+    pictures = list(_pictures(*moving._drawing(), 10, lambda: None))
+    canvas, _, move = moving._drawing()
+    for k, picture in enumerate(pictures):
+        move(k)
+        canvas.draw()
+        assert (np.asarray(picture) == np.asarray(canvas.buffer_rgba())[..., :3]).all()
+    assert len({picture.tobytes() for picture in pictures}) == 10
 
 
 def test_a_gif_with_more_pictures_than_browsers_show_is_refused(tmp_path):
