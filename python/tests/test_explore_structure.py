@@ -224,6 +224,16 @@ def test_rigid_and_elastic_lines_stand_side_by_side(open_structure, assessed):
     comes_true(page, lambda: scene.evaluate("canvas => canvas.toDataURL()") != with_them)
 
 
+def test_the_motion_on_elastic_lines_has_a_horizon_of_its_own(open_structure, assessed):
+    changes = ["wave.height=2.5", "wave.period=5", "run.duration=150", "run.transient=10"]
+    horizon = assessed(*changes, verb="elastic")["trust"]["horizon_s"]
+    assert 20 < horizon < 145
+    for window, past in [([0, horizon - 10], False), ([horizon - 5, horizon + 5], True)]:
+        page = open_structure(f"{'&'.join(changes)}&window={window[0]},{window[1]}&t={window[1]}")
+        expect(page.locator("#elastic-key")).to_be_visible(timeout=30_000)
+        expect(page.locator("#elastic-past")).to_be_visible(visible=past)
+
+
 def test_a_sea_takes_the_place_of_the_wave(open_structure, command_json, tmp_path: Path):
     page = open_structure("run.duration=330&elastic=false&t=0")
     page.locator("#waters label", has_text="Sea").click()

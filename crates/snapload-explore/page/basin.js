@@ -180,7 +180,7 @@ export class SafeBasin {
     const place = `${question.x.key} = ${number(x[i], 6)}, ${question.y.key} = ${number(y[j], 6)}: `;
     if (ends[k] === null) return `${place}no legal start, as it is beyond the reach of a cable or beyond a limit`;
     if (cut[k]) return `${place}not known whether safe, as the run stopped early (${reasonText(ends[k])})`;
-    const sure = decided[k] ? "" : ", undecided: neighbours end differently";
+    const sure = decided[k] ? "" : `, undecided: some neighbours are ${escapes[k] ? "safe" : "not safe"}`;
     return `${place}${escapes[k] ? "not safe" : "safe"} (${reasonText(ends[k])})${sure}`;
   }
 
@@ -232,7 +232,7 @@ export class SafeBasin {
     const parts = [swatch(colours.safe, `safe (${safe})`), swatch(colours.escaped, `reaches a limit (${legal - safe - cut_short})`)];
     if (ends.length > legal) parts.push(swatch(colours.faint, `no legal start (${ends.length - legal})`));
     if (undecided) {
-      const why = cut_short ? "neighbours end differently, or the run stops early" : "neighbours end differently";
+      const why = `some neighbours are safe, some not${cut_short ? ", or the run stops early" : ""}`;
       parts.push(`<span><i class="swatch hatched"></i>undecided: ${why} (${undecided})</span>`);
     }
     const html = parts.join("");

@@ -15,17 +15,29 @@ const reach = (column, scale = 1) => span([column], 0).map((v) => fixed(v * scal
 function line(name, scale = 1) {
   const scaled = (column) => (scale === 1 ? column : column.map((v) => v * scale));
   return (context, frame, run, { colours }) => {
-    const draw = (motion) =>
-      drawColumn(context, frame, motion.t, scaled(motion[name]), ...rows(motion.t, [frame.x0, frame.x1]));
+    const draw = (motion, interval) =>
+      drawColumn(context, frame, motion.t, scaled(motion[name]), ...rows(motion.t, interval));
     if (run.elasticAt) {
       context.strokeStyle = colours.ghost;
-      context.setLineDash([5, 3]);
-      draw(run.elastic.motion);
-      context.setLineDash([]);
+      dashed(context, frame, run, draw);
     }
     context.strokeStyle = colours.ink;
-    draw(run.motion);
+    draw(run.motion, [frame.x0, frame.x1]);
   };
+}
+
+/** Draws the motion on elastic lines with dashes, and with dots past its own horizon of trust. */
+function dashed(context, frame, run, draw) {
+  const horizon = Math.min(Math.max(run.elasticHorizon, frame.x0), frame.x1);
+  const parts = [
+    { interval: [frame.x0, horizon], dash: [5, 3] },
+    { interval: [horizon, frame.x1], dash: [1.5, 4] },
+  ];
+  for (const { interval, dash } of parts.filter(({ interval: [from, to] }) => to > from)) {
+    context.setLineDash(dash);
+    draw(run.elastic.motion, interval);
+  }
+  context.setLineDash([]);
 }
 
 /**
@@ -75,19 +87,17 @@ function drawTensions(context, frame, run, { colours }) {
     drawColumn(context, frame, [frame.x0, frame.x1], [load, load]);
     context.setLineDash([]);
   }
-  const draw = ({ t, tensions }, i) => {
-    drawColumn(context, frame, t, tensions[i], ...rows(t, [frame.x0, frame.x1]), (k) => tensions[i][k] > 0);
+  const draw = ({ t, tensions }, i, interval) => {
+    drawColumn(context, frame, t, tensions[i], ...rows(t, interval), (k) => tensions[i][k] > 0);
   };
   run.lines.forEach((_, i) => {
     context.strokeStyle = lineColour(colours, i + 1);
     if (run.elasticAt) {
       context.lineWidth = 1;
-      context.setLineDash([4, 3]);
-      draw(run.elastic.motion, i);
-      context.setLineDash([]);
+      dashed(context, frame, run, (motion, interval) => draw(motion, i, interval));
     }
     context.lineWidth = 1.8;
-    draw(run.motion, i);
+    draw(run.motion, i, [frame.x0, frame.x1]);
   });
   const { t, peak, line: lines } = run.snaps;
   context.lineWidth = 1.3;

@@ -105,6 +105,11 @@ export class StructureRun {
     this.elasticAt = answer && answer.motion.t.length ? new StructureMotion(answer.motion) : null;
   }
 
+  /** Up to when the motion on elastic lines is known [s]. */
+  get elasticHorizon() {
+    return this.elastic?.elastic.trust.horizon_s ?? Infinity;
+  }
+
   /** The run on elastic lines at a time; null if there is none, or it has ended before. */
   elasticMoment(t) {
     return this.elasticAt && t <= this.elastic.elastic.end.t_s ? this.elasticAt.at(t) : null;

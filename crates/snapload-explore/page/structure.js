@@ -338,6 +338,7 @@ class Page {
     $("elastic").checked = elastic;
     this.waves.follow();
     $("elastic-key").hidden = !this.run?.elasticAt;
+    $("elastic-past").hidden = !((this.run?.elasticHorizon ?? Infinity) < this.run?.window[1]);
     for (const group of document.querySelectorAll(".group[data-water]")) {
       /** @type {HTMLElement} */ (group).hidden = /** @type {HTMLElement} */ (group).dataset.water !== waterNow;
     }
