@@ -347,7 +347,9 @@ class Structure:
         with progress_bar("seas", seeds, progress) as report_progress:
             return Seas(self._engine.seas(seeds, elastic, report_progress))
 
-    def elastic(self, stiffer: float = 1.0, every: float = 0.01, progress: bool = True) -> Elastic:
+    def elastic(
+        self, stiffer: float = 1.0, every: float = 0.01, neighbours: int = 10, progress: bool = True
+    ) -> Elastic:
         """Run the structure with elastic lines and with inextensible lines.
 
         Parameters
@@ -356,6 +358,9 @@ class Structure:
             Factor by which the stiffness of all lines is multiplied.
         every : float, optional
             Time step at which states are stored [s].
+        neighbours : int, optional
+            Number of neighbours of the motion with elastic lines, 1e-6 of the wave height away, that show how far it
+            can be trusted. Each takes as long as the motion itself.
         progress : bool, optional
             Whether to show a progress bar.
 
@@ -374,9 +379,10 @@ class Structure:
         >>> snapload.Structure.example().replace({"run.duration": 5}).elastic()
         <Elastic: 3 pulls>
         """
-        stiffer, every = number("stiffer", stiffer), number("every", every)
-        with progress_bar("elastic", 100, progress) as report_progress:
-            return Elastic(self, (stiffer, every), self._engine.elastic(stiffer, every, report_progress))
+        options = number("stiffer", stiffer), number("every", every), whole_number("neighbours", neighbours)
+        # The motion is integrated twice.
+        with progress_bar("elastic", 2 + options[2], progress) as report_progress:
+            return Elastic(self, options, self._engine.elastic(*options, report_progress))
 
     def __eq__(self, other: object) -> bool:
         return isinstance(other, Structure) and self._engine == other._engine

@@ -48,7 +48,6 @@ COLUMNS: dict[str, dict[str, type]] = {
     },
     "checks": _CHECK | {"answer_in_words": str, "neighbours_agreeing": int, "words": str},
     "checks of seas": _CHECK | {"median": float, "of": int, "passing": int},
-    "checks of elastic lines": _CHECK,
 }
 
 

@@ -341,8 +341,7 @@ class Elastic(RepeatableResult[_engine.Elastic]):
     """
 
     def _repeat(self) -> _engine.Elastic:
-        stiffer, every = self._options
-        return self._structure._engine.elastic(stiffer, every, None)
+        return self._structure._engine.elastic(*self._options, None)
 
     @property
     def standing(self) -> str:
@@ -391,7 +390,7 @@ class Elastic(RepeatableResult[_engine.Elastic]):
         >>> structure.elastic().checks["answer"].values.tolist()
         ['fails', 'fails']
         """
-        return rows_dataset(self.data["checks"], "check", COLUMNS["checks of elastic lines"])
+        return rows_dataset(self.data["checks"], "check", COLUMNS["checks"])
 
     @property
     def lines(self) -> xarray.Dataset:

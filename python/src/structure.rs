@@ -174,15 +174,16 @@ impl Structure {
         py: Python<'_>,
         stiffer: f64,
         every_s: f64,
+        neighbours: u32,
         progress: Option<&Bound<'_, PyAny>>,
     ) -> PyResult<Elastic> {
         let structure = self.structure.clone();
         let every_s = checked_every(structure.duration_s, every_s).map_err(error_of_case)?;
         let found = interruptible(py, progress, move |shared| {
             let prepared = ModelAtRest::for_elastic_lines(structure)?;
-            compare_elastic(prepared, stiffer, every_s, &|progress| {
-                shared.report(progress)
-            })
+            let report = |progress: snapload::analysis::Progress| shared.report(progress);
+            compare_elastic(prepared, stiffer, every_s, &report)?
+                .with_neighbours(neighbours, &report)
         })?;
         Ok(Elastic {
             name: self.name.clone(),

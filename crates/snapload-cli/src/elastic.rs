@@ -2,14 +2,15 @@
 use crate::bar::Bar;
 use crate::failure::Failure;
 use crate::json::JsonArgs;
-use crate::option_values::number;
+use crate::option_values::{number, whole_number};
 use crate::outputs::Outputs;
 use crate::structure_input::{ReadStructure, StructureArgs};
 use snapload::CaseError;
 use snapload::analysis::{Progress, Unfinished};
 use snapload_report::tables::in_digits_with_fraction;
 use snapload_structure::{
-    EVERY, ElasticComparison, ModelAtRest, STIFFER, checked_every, compare_elastic,
+    DEFAULT_ELASTIC_NEIGHBOURS, EVERY, ElasticComparison, ModelAtRest, NEIGHBOURS, STIFFER,
+    checked_every, compare_elastic,
 };
 use std::io;
 use std::path::PathBuf;
@@ -25,6 +26,10 @@ pub(crate) struct Args {
     /// Factor by which the stiffness of all lines is multiplied
     #[arg(long, value_name = "TIMES", default_value_t = 1.0, value_parser = number(STIFFER))]
     stiffer: f64,
+    /// Number of neighbours of the motion on elastic lines, 1e-6 of the wave height away, that
+    /// show how far it can be trusted; each takes as long as the motion itself
+    #[arg(long, value_name = "NUMBER", default_value_t = DEFAULT_ELASTIC_NEIGHBOURS, value_parser = whole_number::<u32>(NEIGHBOURS))]
+    neighbours: u32,
     /// Write the motion as CSV: time, position, rotation and the tension of each line
     #[arg(long, value_name = "FILE.csv")]
     out: Option<PathBuf>,
@@ -51,6 +56,7 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
     let comparison = ModelAtRest::for_elastic_lines(structure)
         .map_err(Unfinished::from)
         .and_then(|prepared| compare_elastic(prepared, args.stiffer, every_s, &on_progress))
+        .and_then(|alone| alone.with_neighbours(args.neighbours, &on_progress))
         .map_err(|error| Failure::from(error).with_prefix(&name))?;
     drop(bar);
     if let Some(out) = out {

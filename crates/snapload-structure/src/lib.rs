@@ -39,10 +39,12 @@ pub use physics::wave::LinearWave;
 pub use report::{Verdict, VerdictKind, end_text};
 pub use runs::assess::{Assessment, DEFAULT_NEIGHBOURS, assess};
 pub use runs::design::{Answer, Check, Criterion, RecordsCheck};
-pub use runs::elastic_comparison::{ElasticComparison, Inextensible, Repeated, compare_elastic};
-pub use runs::further::NEIGHBOUR;
+pub use runs::elastic_comparison::{
+    DEFAULT_ELASTIC_NEIGHBOURS, ElasticComparison, Inextensible, Repeated, compare_elastic,
+};
 pub use runs::gumbel::{Estimate, Gumbel, reduced_variate};
 pub use runs::motion::MotionSi;
+pub use runs::neighbours::NEIGHBOUR;
 pub use runs::outcome::{LineOutcome, Outcome};
 pub use runs::quantile::quantile;
 pub use runs::seas::{Failing, Lines, SeaOutcome, Seas, seas};

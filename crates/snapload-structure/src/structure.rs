@@ -396,13 +396,9 @@ impl Structure {
         (!parts.is_empty()).then(|| parts.join("; "))
     }
 
-    /// Whether there are waves; those of no height are still water.
+    /// Whether there are waves.
     pub(crate) fn has_waves(&self) -> bool {
-        match self.water {
-            Water::Still => false,
-            Water::Wave(wave) => wave.height_m > 0.0,
-            Water::Sea(sea) => sea.significant_height_m > 0.0,
-        }
+        self.water.has_waves()
     }
 
     /// The direction of the waves: the value of their key.

@@ -349,8 +349,8 @@ pub fn given(
     let worst = own.fold(0.0_f64, |worst, entry| worst.max(entry.rms));
     if worst > POOR_FIT {
         let message = format!(
-            "the given memory differs from the file by {:.1} %: it belongs to another file, or was fitted \
-             without irregular frequencies of this one",
+            "the given memory differs from the file by {:.1} %: it is a poor fit of it, was fitted without \
+             irregular frequencies of it, or belongs to another file",
             100.0 * worst
         );
         fit.warnings.push(Warning::new("fit", message));

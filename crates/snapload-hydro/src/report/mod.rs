@@ -12,7 +12,7 @@ pub use page::page;
 use summary::plain;
 pub use summary::{held_summary, periods_summary};
 
-use crate::coefficients::transport;
+use crate::coefficients::{Hydrodynamics, transport};
 use crate::digits::kilo;
 use crate::error::{HydroError, Warning};
 use crate::linear::{
@@ -207,6 +207,20 @@ fn inertia_mismatch_warning(reading: &Reading, body: &Body, request: &Request) -
     Some(Warning::new("moment of inertia", message))
 }
 
+/// Refuses anchors below the floor.
+fn check_anchors(hydro: &Hydrodynamics, lines: &[Line]) -> Result<(), HydroError> {
+    let depth = hydro.water.depth_m;
+    let mut numbered = (1..).zip(lines);
+    match numbered.find(|(_, line)| line.anchor_m[1] < -depth) {
+        None => Ok(()),
+        Some((number, line)) => {
+            let what = format!("z of the anchor of line {number}");
+            let allowed = format!("an anchor is on the floor or above it, z >= {}", -depth);
+            Err(HydroError::value(what, line.anchor_m[1], allowed))
+        }
+    }
+}
+
 impl Floating {
     fn new(
         reading: &Reading,
@@ -237,6 +251,7 @@ impl Floating {
         let rest = match request.lines.is_empty() {
             true => None,
             false => {
+                check_anchors(hydro, &request.lines)?;
                 let place = rest(hydro, &body, &request.lines)?;
                 let (natural, modes) = place.natural(hydro, &body, memory, inf)?;
                 Some((place, natural, modes))

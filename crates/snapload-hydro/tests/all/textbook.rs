@@ -229,3 +229,33 @@ fn a_box_clear_of_the_water_weighs_no_more_than_its_weight() {
     );
     assert_eq!(warning(-10.0, -1.2, 8.8), None);
 }
+
+/// Lines end on the floor or above it.
+#[test]
+fn anchors_below_the_floor_are_refused() {
+    let report = |anchor: f64| {
+        let line = |x: f64| Line {
+            anchor_m: [x, anchor],
+            fairlead_m: [x, -1.2],
+            length_m: -1.4 - anchor,
+        };
+        let request = Request {
+            weight: Weight {
+                mass_kg: Some(8e4),
+                inertia_kg_m2: Some(1.33e5),
+                ..Weight::default()
+            },
+            lines: vec![line(2.0), line(-2.0)],
+            ..Request::default()
+        };
+        let reading = box_of(2.0, 1.2).reading(water(10.0)).expect("a body");
+        Report::new("box", reading, &request).map(|_| ())
+    };
+    let refused = report(-10.5).expect_err("a refusal").to_string();
+    let words = "z of the anchor of line 1 = -10.5";
+    assert!(
+        refused.contains(words) && refused.contains("z >= -10"),
+        "{refused}"
+    );
+    assert!(!report(-10.0).is_err_and(|error| error.to_string().contains("anchor")));
+}

@@ -128,8 +128,10 @@ impl Tables {
     /// relative to it.
     fn split_place(&self, front: &Entries, case: &mut Entries) -> Result<(), CaseError> {
         let put_m: Option<[f64; 2]> = value_of(case, "body", "position");
-        let start_m: Option<[f64; 2]> = value_of(front, "run", "start");
-        let (Some(put_m), Some(_), true) = (put_m, start_m, self.starts_where_put) else {
+        // `write` puts a body without a start where it is at rest. Others put it where it starts.
+        let by_others = given(front).next().is_none();
+        let starts = by_others || value_of::<[f64; 2]>(front, "run", "start").is_some();
+        let (Some(put_m), true) = (put_m, starts && self.starts_where_put) else {
             return Ok(());
         };
         let place = case.place("body.position").unwrap_or_default().to_owned();

@@ -90,6 +90,43 @@ pub fn read(name: &str, text: &str) -> Result<Reading, CaseError> {
     Ok(Reading { entries, notes })
 }
 
+/// Options, in small letters, that have no part in what snapload computes: steps, the contact of
+/// lines with the floor, the search for a start, output.
+const COMPUTATION: [&str; 32] = [
+    "dtm",
+    "dt",
+    "tscheme",
+    "kbot",
+    "kb",
+    "cbot",
+    "cb",
+    "dtic",
+    "icdt",
+    "cdscaleic",
+    "icdfac",
+    "threshic",
+    "icthresh",
+    "icgendynamic",
+    "dtwave",
+    "unifycurrentgrid",
+    "writeunits",
+    "writelog",
+    "frictioncoefficient",
+    "fricdamp",
+    "statdynfricscale",
+    "mu_kt",
+    "mu_ka",
+    "mc",
+    "cv",
+    "dtout",
+    "disableoutput",
+    "disableouttime",
+    "outswitch",
+    "inertialf",
+    "inertialf_rampt",
+    "writevtk",
+];
+
 /// Refuses a file without one of the sections that describe lines.
 fn refuse_incomplete(name: &str, sections: &Sections<'_>) -> Result<(), CaseError> {
     for (section, header) in [
@@ -165,7 +202,7 @@ impl Reader {
             .give(table, index, key, value, &row.origin)
     }
 
-    /// Depth, density and gravity; the other options concern MoorDyn's computation.
+    /// Depth, density and gravity; the options of [`COMPUTATION`] concern MoorDyn alone.
     fn options(&mut self, sections: &Sections<'_>) -> Result<(), CaseError> {
         let mut defaults = vec![("gravity", GRAVITY), ("water_density", WATER_DENSITY)];
         for row in sections.rows(Section::Options) {
@@ -176,22 +213,24 @@ impl Reader {
                 "wtrdpth" | "depth" | "waterdepth" => "depth",
                 "rho" | "rhow" | "wtrdnsty" | "wtrdens" => "water_density",
                 "g" | "gravity" => "gravity",
-                left_out @ ("wavekin" | "currents" | "seafloorfile" | "waterkin") => {
+                "tmaxic" | "ictmax" => {
+                    self.tables.starts_where_put = number(word) == Some(0.0);
+                    continue;
+                }
+                computation if COMPUTATION.contains(&computation) => continue,
+                left_out => {
                     if number(word) != Some(0.0) {
                         let instead = match left_out {
                             "currents" => "give a current as site.current",
                             "seafloorfile" => "the floor is flat",
-                            _ => "give waves as [wave] or [sea]",
+                            "wavekin" | "waterkin" => "give waves as [wave] or [sea]",
+                            "icfile" => "give a start as run.start",
+                            _ => "it is not known here",
                         };
                         self.note(format!("{option} = {word} was left out: {instead}."));
                     }
                     continue;
                 }
-                "tmaxic" => {
-                    self.tables.starts_where_put = number(word) == Some(0.0);
-                    continue;
-                }
-                _ => continue,
             };
             let value =
                 number(word).ok_or_else(|| row.refuse(option, word, "a number before it", ""))?;

@@ -31,6 +31,8 @@ struct File<'a> {
     uneven_added_mass: bool,
     /// Whether the added mass has parts besides a Ca.
     own_added_mass: bool,
+    /// The loads of which its tables have nothing.
+    alone: String,
     /// Diameter, mass per length, stiffness and damping of each line.
     types: Vec<[f64; 4]>,
     step_s: f64,
@@ -86,6 +88,7 @@ pub fn write(name: &str, structure: &Structure, segments: u32) -> Result<String,
         },
         uneven_added_mass: !same,
         own_added_mass: !same || structure.body.added_mass.pitch_kg_m2 > 0.0,
+        alone: loads_without_a_table(structure).join(", "),
         name: title(name),
         project: project(structure),
         structure,
@@ -97,6 +100,20 @@ pub fn write(name: &str, structure: &Structure, segments: u32) -> Result<String,
         types,
     };
     Ok(file.to_string() + "\n")
+}
+
+/// The loads that a file for MoorDyn has in its front matter only.
+fn loads_without_a_table(structure: &Structure) -> Vec<&'static str> {
+    let (body, site) = (&structure.body, &structure.site);
+    let loads = [
+        ("waves", structure.has_waves()),
+        ("body.constant_force", body.constant_force_n != [0.0, 0.0]),
+        ("site.current", site.current_m_s != 0.0),
+        ("body.linear_damping", body.linear_damping_n_s_m != 0.0),
+        ("body.turning_damping", body.turning_damping_n_m_s != 0.0),
+    ];
+    let acting = loads.into_iter().filter(|(_, acts)| *acts);
+    acting.map(|(name, _)| name).collect()
 }
 
 /// One type for each line.

@@ -9,6 +9,9 @@ const PROPORTION: f64 = 100.0;
 /// The largest plausible ratio of a line's length to the distance of its ends with the body at the
 /// case's position.
 const LONGEST_RATIO: f64 = 3.0;
+/// The largest plausible length of a line within the body's outline, as a part of its smaller size:
+/// a fairlead may stand for one at the surface, up to one at the centre.
+const LONGEST_WITHIN: f64 = 0.55;
 /// The least plausible mass over displaced volume: air alone has 1.2, and every body that floats has
 /// less than 1.3 if its mass is in tonnes \[kg/m³\].
 const LEAST_DENSITY: f64 = 2.0;
@@ -18,7 +21,7 @@ const LEAST_DENSITY: f64 = 2.0;
 const GYRATION: [f64; 2] = [0.05, 5.0];
 
 /// The warnings of a structure.
-pub(super) fn implausible(structure: &Structure) -> [Option<Warning>; 5] {
+pub(super) fn implausible(structure: &Structure) -> [Option<Warning>; 6] {
     let body = &structure.body;
     let (length, size) = (body.length_m(), body.width_m.max(body.height_m));
     let odd = !(size / PROPORTION..=size * PROPORTION).contains(&length);
@@ -28,13 +31,55 @@ pub(super) fn implausible(structure: &Structure) -> [Option<Warning>; 5] {
     let outside = listed(outside.map(|(_, number)| number.to_string()).collect());
     let long = numbered().filter_map(|(line, number)| Some((number, too_long(line)?)));
     let long = listed(long.map(|(n, by)| format!("line {n} {by}")).collect());
+    let most_m = LONGEST_WITHIN * body.width_m.min(body.height_m);
+    let through = numbered().filter(|(line, _)| length_within_m(body, line) > most_m);
+    let through = listed(through.map(|(_, number)| number.to_string()).collect());
     [
         warning_if(odd, "proportions", [length, size], ""),
         density(body),
         gyration(structure),
         warning_if(!outside.is_empty(), "fairleads", [0.0; 2], &outside),
         warning_if(!long.is_empty(), "long lines", [0.0; 2], &long),
+        warning_if(!through.is_empty(), "lines in the body", [0.0; 2], &through),
     ]
+}
+
+/// The length of a straight line within the body's outline, with the body at the case's position
+/// \[m\].
+fn length_within_m(body: &BodySi, line: &LineSi) -> f64 {
+    let from = [0, 1].map(|k| line.fairlead_m[k] - body.position_m[k]);
+    let along = [0, 1].map(|k| line.anchor_m[k] - line.fairlead_m[k]);
+    let length = along[0].hypot(along[1]);
+    // The parts t of the line, from 0 at the fairlead to 1 at the anchor, that are within.
+    let [first, last] = match body.outline {
+        Outline::Circle => {
+            // |from + t along|² = (width/2)², t = middle ± half.
+            let middle = -(from[0] * along[0] + from[1] * along[1]) / (length * length);
+            let apart = (from[0] * along[1] - from[1] * along[0]) / length;
+            let half = ((0.5 * body.width_m).powi(2) - apart * apart)
+                .max(0.0)
+                .sqrt()
+                / length;
+            [middle - half, middle + half]
+        }
+        Outline::Rectangle => {
+            let sides = [body.width_m, body.height_m].map(|size| 0.5 * size);
+            let mut part = [0.0, 1.0];
+            for k in 0..2 {
+                let mut ends = [-sides[k], sides[k]].map(|side| (side - from[k]) / along[k]);
+                if along[k] == 0.0 {
+                    let inside = from[k].abs() < sides[k];
+                    ends = if inside { [0.0, 1.0] } else { [1.0, 0.0] };
+                } else if ends[0] > ends[1] {
+                    ends.swap(0, 1);
+                }
+                part = [f64::max(part[0], ends[0]), f64::min(part[1], ends[1])];
+            }
+            part
+        }
+    };
+    let part = last.clamp(0.0, 1.0) - first.clamp(0.0, 1.0);
+    length * part.max(0.0)
 }
 
 /// By how much a line is longer than the distance of its ends, in words, if that is too much.

@@ -8,7 +8,7 @@ use super::equilibrium::{
 use super::model::{CURRENT, Model};
 use super::rates::check_rates;
 use crate::structure::{LineSi, Structure, Water};
-use snapload::{CaseError, Simulation, StartError, State, Stop};
+use snapload::{CaseError, Simulation, StartError, State, Stop, System};
 use snapload_hydro::{held_summary, periods_summary};
 
 /// A body turned by less than this at rest is upright: the resulting errors of its gaps are only
@@ -177,6 +177,19 @@ impl ModelAtRest {
     }
 
     fn simulation(&self, height: f64) -> Result<Simulation, StartError> {
+        let system = self.system_in(height);
+        Simulation::new(system, self.model.rules, 0.0, self.start)
+    }
+
+    /// The same in waves multiplied by `height`.
+    pub(crate) fn in_waves_times(&self, height: f64) -> Self {
+        let mut other = self.clone();
+        other.model.system = self.system_in(height);
+        other
+    }
+
+    /// Its equations in waves multiplied by `height`.
+    fn system_in(&self, height: f64) -> System {
         let mut system = self.model.system.clone();
         let water = system.drag.iter_mut().flat_map(|drag| &mut drag.water);
         let water = water.filter(|water| water.omega != CURRENT);
@@ -192,7 +205,7 @@ impl ModelAtRest {
             wave.cosine = wave.cosine.map(|force| force * height);
             wave.sine = wave.sine.map(|force| force * height);
         }
-        Simulation::new(system, self.model.rules, 0.0, self.start)
+        system
     }
 
     /// Facts about a floating body besides its motion, each a label and its text; empty for a

@@ -7,6 +7,7 @@ use crate::physics::model_at_rest::ModelAtRest;
 use crate::physics::snap::Snap;
 use crate::physics::waterline::Waterline;
 use crate::runs::assess::Assessment;
+use crate::runs::design::Check;
 use crate::runs::elastic_comparison::ElasticComparison;
 use crate::runs::gumbel::Gumbel;
 use crate::runs::outcome::Outcome;
@@ -74,6 +75,18 @@ fn judged(outcome: &Outcome, line: usize) -> Value {
     row
 }
 
+/// Checks, each with the number of neighbours that have the same answer.
+fn check_rows(checks: Vec<(Check, usize)>) -> Vec<Value> {
+    let row = |(check, agreeing): (Check, usize)| {
+        let mut row = json!(check);
+        row["words"] = json!(check.criterion.words());
+        row["answer_in_words"] = json!(check.answer.words());
+        row["neighbours_agreeing"] = json!(agreeing);
+        row
+    };
+    checks.into_iter().map(row).collect()
+}
+
 impl Assessment {
     /// All results; `name` is that of the case.
     pub fn to_json(&self, name: &str) -> Value {
@@ -95,13 +108,6 @@ impl Assessment {
             row["safety_factor"] = json!(utilisations[index].map(f64::recip));
             row
         };
-        let checks = self.checks().into_iter().map(|(check, agreeing)| {
-            let mut row = json!(check);
-            row["words"] = json!(check.criterion.words());
-            row["answer_in_words"] = json!(check.answer.words());
-            row["neighbours_agreeing"] = json!(agreeing);
-            row
-        });
         let group = |index: usize| groups.wave.map(|wave| wave[index]);
         json!({
             "case": name,
@@ -114,7 +120,7 @@ impl Assessment {
             },
             "by_restitution": self.by_restitution(),
             "by_wave": self.by_wave(),
-            "checks": checks.collect::<Vec<_>>(),
+            "checks": check_rows(self.checks()),
             "warnings": self.warnings,
             "rest": position_of_rest(rest),
             "body": body(structure),
@@ -259,6 +265,8 @@ impl ElasticComparison {
             "trust": {
                 "words": self.trust_text(),
                 "horizon_s": self.repeated.horizon_s,
+                "neighbours": self.neighbours.len(),
+                "peak_tension_quantiles_n": self.spread(),
                 "end_in_shorter_steps": {
                     "t_s": self.repeated.outcome.end_s,
                     "reason": end_text(self.repeated.outcome.stop),
@@ -268,7 +276,8 @@ impl ElasticComparison {
             "lines": lines.collect::<Vec<_>>(),
             "pulls": self.elastic.pulls,
             "inextensible": inextensible,
-            "checks": self.checks(),
+            "checks": check_rows(self.checks()),
+            "neighbour_peaks_n": self.neighbours.iter().map(Outcome::largest_n).collect::<Vec<_>>(),
         })
     }
 }

@@ -6,7 +6,7 @@ use crate::physics::warning::Warning;
 use crate::runs::assess::{Assessment, TOLERANCE};
 use crate::runs::elastic_comparison::{ElasticComparison, Repeated};
 use crate::runs::outcome::Outcome;
-use crate::structure::Water;
+use crate::structure::{Structure, Water};
 use crate::text_layout::{digits, kilo, paragraph, ratio};
 use askama::Template;
 use snapload::Stop;
@@ -27,6 +27,7 @@ struct RepeatedText {
     other_end: Option<(&'static str, f64)>,
     /// The largest tension of each line in that motion, if it is judged.
     peaks_n: Vec<f64>,
+    neighbours: Neighbours,
 }
 
 #[derive(Template)]
@@ -36,15 +37,43 @@ struct TrustText<'a> {
     horizon_s: Option<f64>,
     /// The error up to which the run is certain.
     error_m: f64,
-    /// The quantiles of the neighbours' largest tensions, as they are shown.
-    spread_kn: Option<[String; 3]>,
-    /// Whether no line snaps in any of the neighbours.
-    snapless: bool,
-    /// Whether the neighbours' peaks differ by more than rounding.
-    scattered: bool,
+    neighbours: Neighbours,
+}
+
+/// The neighbours of a run, for its row of trust.
+struct Neighbours {
     count: usize,
+    /// Those that turn over or touch the floor.
     failing: usize,
+    /// The quantiles of their largest tension, as they are shown; of inextensible lines, of that in
+    /// a snap.
+    spread_kn: Option<[String; 3]>,
+    elastic: bool,
+    /// Whether no line snaps in any of them, so that inextensible lines have no such tension.
+    snapless: bool,
+    /// Whether their peaks differ by more than rounding.
+    scattered: bool,
     irregular: bool,
+}
+
+impl Neighbours {
+    fn new(
+        all: &[Outcome],
+        spread: Option<[f64; 3]>,
+        structure: &Structure,
+        elastic: bool,
+    ) -> Self {
+        let no_snap = all.iter().all(|n| n.peak_n().is_none());
+        Self {
+            count: all.len(),
+            failing: all.iter().filter(|n| n.stop.exceeds()).count(),
+            elastic,
+            spread_kn: spread.map(|spread| spread.map(|newtons| kilo(&newtons, 0))),
+            snapless: !elastic && spread.is_some() && no_snap,
+            scattered: spread.is_some_and(|[low, _, high]| high > 1.02 * low),
+            irregular: matches!(structure.water, Water::Sea(_)),
+        }
+    }
 }
 
 /// The opposite of a run's answer: of neighbours as a fact, of other cases as what would be.
@@ -78,10 +107,30 @@ fn left_open(verdict: &mut Verdict) -> &'static str {
     }
 }
 
+/// Adds how many neighbours fail where the run does not, or the other way round.
+fn with_neighbours(
+    verdict: &mut Verdict,
+    fails: bool,
+    neighbours: &[Outcome],
+    structure: &Structure,
+) {
+    let otherwise = |outcome: &&Outcome| outcome.fails_as_computed(structure) == Some(!fails);
+    let differing = neighbours.iter().filter(otherwise).count();
+    if differing > 0 {
+        let so = left_open(verdict);
+        verdict.words += &format!(
+            " In {differing} of {} neighbours {}{so}.",
+            neighbours.len(),
+            otherwise_in_words(fails, true)
+        );
+    }
+}
+
 impl ElasticComparison {
     /// A verdict that no line breaks does not stand if a line breaks or the mooring fails where the
-    /// motion is integrated in shorter steps, and any verdict says what is otherwise there.
-    pub(super) fn with_repeated(&self, mut verdict: Verdict) -> Verdict {
+    /// motion is integrated in shorter steps, or in a neighbour, nor where the motion is not known to
+    /// its end and no neighbours were run; any verdict says what is otherwise there.
+    pub(super) fn with_other_runs(&self, mut verdict: Verdict) -> Verdict {
         let structure = &self.elastic_case.structure;
         let (first, other) = (&self.outcome, &self.repeated.outcome);
         let Some(fails) = failing(&verdict, &self.warnings()) else {
@@ -115,6 +164,15 @@ impl ElasticComparison {
             };
             verdict.words += &format!(" Integrated in shorter steps {}{so}.", otherwise.join(", "));
         }
+        with_neighbours(&mut verdict, fails, &self.neighbours, structure);
+        if let Some(until_s) = self.known_in_part_s()
+            && verdict.standing == VerdictKind::Holds
+        {
+            let so = left_open(&mut verdict);
+            verdict.words += &format!(
+                " The motion is known only up to {until_s:.1} s, and no neighbours of it were run{so}."
+            );
+        }
         verdict
     }
 
@@ -135,6 +193,12 @@ impl ElasticComparison {
                 true => peaks_n,
                 false => Vec::new(),
             },
+            neighbours: Neighbours::new(
+                &self.neighbours,
+                self.spread(),
+                &self.elastic_case.structure,
+                true,
+            ),
         })
     }
 }
@@ -148,16 +212,8 @@ impl Assessment {
             return verdict;
         };
         let structure = &self.prepared.structure;
+        with_neighbours(&mut verdict, fails, &self.neighbours, structure);
         let otherwise = |outcome: &Outcome| outcome.fails_as_computed(structure) == Some(!fails);
-        let differing = self.neighbours.iter().filter(|n| otherwise(n)).count();
-        if differing > 0 {
-            let so = left_open(&mut verdict);
-            verdict.words += &format!(
-                " In {differing} of {} neighbours {}{so}.",
-                self.neighbours.len(),
-                otherwise_in_words(fails, true)
-            );
-        }
         let waves = self.waves.iter().filter(|(_, outcome)| otherwise(outcome));
         let waves = waves.map(|(wave, _)| format!("{} m and {} s", wave.height_m, wave.period_s));
         let waves: Vec<String> = waves.collect();
@@ -185,17 +241,16 @@ impl Assessment {
 
     /// How far the run can be trusted, with the numbers.
     pub fn trust_text(&self) -> String {
-        let spread = self.spread();
         paragraph(&TrustText {
-            scattered: spread.is_some_and(|[low, _, high]| high > 1.02 * low),
             trust: &self.trust,
-            snapless: spread.is_some() && self.neighbours.iter().all(|n| n.peak_n().is_none()),
             horizon_s: self.horizon_s(),
             error_m: TOLERANCE * self.prepared.model.scales.length_m,
-            spread_kn: spread.map(|spread| spread.map(|newtons| kilo(&newtons, 0))),
-            count: self.neighbours.len(),
-            failing: self.neighbours.iter().filter(|n| n.stop.exceeds()).count(),
-            irregular: matches!(self.prepared.structure.water, Water::Sea(_)),
+            neighbours: Neighbours::new(
+                &self.neighbours,
+                self.spread(),
+                &self.prepared.structure,
+                false,
+            ),
         })
     }
 }

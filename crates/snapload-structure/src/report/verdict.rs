@@ -358,7 +358,7 @@ impl ElasticComparison {
         });
         let early = Early::hardest(early, structure, outcome);
         let (warnings, stiffer) = (self.warnings(), Some(self.stiffer));
-        self.with_repeated(verdict(prepared, outcome, &warnings, early, stiffer))
+        self.with_other_runs(verdict(prepared, outcome, &warnings, early, stiffer))
     }
 }
 

@@ -2,8 +2,8 @@
 
 use super::design::{Check, checks};
 use super::further::{FurtherOutcomes, FurtherRuns};
+use super::neighbours::{spread, with_agreeing};
 use super::outcome::{Outcome, OutcomeCounter};
-use super::quantile::{quantile, sorted};
 use crate::options::{NEIGHBOURS, check};
 use crate::physics::model_at_rest::ModelAtRest;
 use crate::physics::periods::NaturalPeriods;
@@ -220,13 +220,7 @@ impl Assessment {
         let open = self.warnings.iter().any(|warning| warning.leaves_open);
         let of = |outcome: &Outcome| checks(&self.prepared, outcome, open);
         let neighbours: Vec<Vec<Check>> = self.neighbours.iter().map(of).collect();
-        let own = of(&self.outcome).into_iter().enumerate();
-        let with_count = |(index, check): (usize, Check)| {
-            let same = |other: &&Vec<Check>| other[index].answer == check.answer;
-            let count = neighbours.iter().filter(same).count();
-            (check, count)
-        };
-        own.map(with_count).collect()
+        with_agreeing(of(&self.outcome), &neighbours)
     }
 
     /// The judged snaps: those that count, after the transient.
@@ -254,16 +248,8 @@ impl Assessment {
     /// 5 %, 50 % and 95 % quantiles of the neighbours' largest tension in a snap; none if there is
     /// none, or one of them ended before the judged time \[N\].
     pub fn spread(&self) -> Option<[f64; 3]> {
-        let unjudged = self.neighbours.iter().any(Outcome::is_unjudged);
-        if unjudged || !self.prepared.structure.tensions_known() {
-            return None;
-        }
-        let peaks = self
-            .neighbours
-            .iter()
-            .map(|outcome| outcome.peak_n().unwrap_or(0.0));
-        let peaks = sorted(peaks);
-        let [low, middle, high] = [0.05, 0.5, 0.95].map(|part| quantile(&peaks, part));
-        Some([low?, middle?, high?])
+        let known = self.prepared.structure.tensions_known();
+        let peak_n = |outcome: &Outcome| outcome.peak_n().unwrap_or(0.0);
+        spread(&self.neighbours, peak_n).filter(|_| known)
     }
 }

@@ -1,8 +1,9 @@
 //! The same case on elastic and on inextensible lines.
 
 use super::design::{Answer, Check, checks};
+use super::neighbours::{count_of_neighbours, height_of_neighbour, spread, with_agreeing};
 use super::outcome::{Outcome, add_slack};
-use crate::options::{STIFFER, check};
+use crate::options::{NEIGHBOURS, STIFFER, check};
 use crate::physics::elastic::{
     ElasticLine, ElasticRun, Stepping, elastic_lines, run_elastic, run_in_steps,
 };
@@ -12,9 +13,17 @@ use crate::physics::snap::{Snap, snaps_of_step};
 use crate::physics::warning::Warning;
 use crate::physics::warnings::{limits_afloat, phase_warning, turning_warning, warnings};
 use crate::runs::assess::TOLERANCE;
-use snapload::analysis::{OnProgress, Unfinished};
+use snapload::analysis::{Counter, OnProgress, Unfinished, in_parallel};
 use snapload::{CaseError, Stop};
 use std::time::Instant;
+
+/// The number of neighbours of a motion on elastic lines unless given: few, as each takes as long as
+/// the motion itself.
+pub const DEFAULT_ELASTIC_NEIGHBOURS: u32 = 10;
+
+/// What progress calls the runs, and how often the motion itself is integrated.
+const DOING: &str = "elastic lines";
+const INTEGRATIONS: u64 = 2;
 
 /// The same case on both models of a line.
 #[derive(Clone, Debug)]
@@ -35,6 +44,8 @@ pub struct ElasticComparison {
     pub elastic_took_s: f64,
     /// The same motion, integrated in shorter steps.
     pub repeated: Repeated,
+    /// Neighbours of it; none unless [`Self::with_neighbours`] runs them.
+    pub neighbours: Vec<Outcome>,
     /// The same on inextensible lines; none if the case starts beyond their reach.
     pub inextensible: Option<Inextensible>,
 }
@@ -82,8 +93,18 @@ pub fn compare_elastic(
     let elastic_lines = elastic_lines(&prepared, stiffer)?;
     let clock = Instant::now();
     let elastic_case = prepared.with_elastic_lines(&elastic_lines)?;
-    let elastic = run_elastic(&elastic_case, &elastic_lines, every_s, on_progress)?;
-    let repeated = Repeated::of(&elastic_case, &elastic_lines, &elastic, on_progress)?;
+    let steps = [
+        (Stepping::USUAL, every_s),
+        (Stepping::SHORTER, f64::INFINITY),
+    ];
+    let counter = Counter::new(DOING, 0, INTEGRATIONS, on_progress);
+    let runs = in_parallel(steps.len(), |index| {
+        let (stepping, every_s) = steps[index];
+        counter
+            .part(|within| run_in_steps(&elastic_case, &elastic_lines, stepping, every_s, within))
+    })?;
+    let [elastic, shorter] = <[ElasticRun; 2]>::try_from(runs).expect("one run for each stepping");
+    let repeated = Repeated::of(&elastic_case, &elastic, &shorter);
     let elastic_took_s = clock.elapsed().as_secs_f64();
     let inextensible = match prepared.starts_within_reach() {
         true => Some(Inextensible::of(&prepared, stiffer)?),
@@ -98,23 +119,69 @@ pub fn compare_elastic(
         elastic,
         elastic_took_s,
         repeated,
+        neighbours: Vec::new(),
         inextensible,
     })
 }
 
 impl ElasticComparison {
-    /// The checks by the rule of the case, of the elastic lines; open where the motion in shorter
-    /// steps has another answer.
-    pub fn checks(&self) -> Vec<Check> {
+    /// The same with neighbours of the motion on elastic lines.
+    ///
+    /// # Errors
+    /// A [`CaseError`] if more than [`NEIGHBOURS`] are requested, or the integrator gives up, and
+    /// [`Unfinished::Cancelled`].
+    pub fn with_neighbours(
+        mut self,
+        neighbours: u32,
+        on_progress: OnProgress,
+    ) -> Result<Self, Unfinished> {
+        check(&NEIGHBOURS, i64::from(neighbours))?;
+        let (case, lines) = (&self.elastic_case, &self.elastic_lines);
+        let count = count_of_neighbours(&case.structure, neighbours);
+        let counter = Counter::new(
+            DOING,
+            INTEGRATIONS,
+            INTEGRATIONS + count as u64,
+            on_progress,
+        );
+        self.neighbours = in_parallel(count, |index| {
+            counter.part(|within| {
+                let other = case.in_waves_times(height_of_neighbour(index));
+                let run = run_elastic(&other, lines, f64::INFINITY, within)?;
+                Ok::<_, Unfinished>(Outcome::of_pulls(&other, &run))
+            })
+        })?;
+        Ok(self)
+    }
+
+    /// 5 %, 50 % and 95 % quantiles of the neighbours' largest tension; none if there are none, or
+    /// one of them ended before the judged time \[N\].
+    pub fn spread(&self) -> Option<[f64; 3]> {
+        spread(&self.neighbours, Outcome::largest_n)
+    }
+
+    /// The checks by the rule of the case, of the elastic lines, and the neighbours that agree with
+    /// each. One is open where the motion in shorter steps has another answer, or where the motion
+    /// passes it but is not known to its end, and no neighbours were run.
+    pub fn checks(&self) -> Vec<(Check, usize)> {
         let open = self.warnings().iter().any(|warning| warning.leaves_open);
-        let [mut all, other] =
-            [&self.outcome, &self.repeated.outcome].map(|of| checks(&self.elastic_case, of, open));
-        for (check, other) in all.iter_mut().zip(other) {
-            if check.answer != other.answer {
+        let of = |outcome: &Outcome| checks(&self.elastic_case, outcome, open);
+        let neighbours: Vec<Vec<Check>> = self.neighbours.iter().map(of).collect();
+        let mut all = with_agreeing(of(&self.outcome), &neighbours);
+        let half_known = self.known_in_part_s().is_some();
+        for ((check, _), other) in all.iter_mut().zip(of(&self.repeated.outcome)) {
+            if check.answer != other.answer || half_known && check.answer == Answer::Passes {
                 check.answer = Answer::Open;
             }
         }
         all
+    }
+
+    /// Up to when the motion is known, if that is not to its end, and no neighbours show which
+    /// other motions there are after that \[s\].
+    pub(crate) fn known_in_part_s(&self) -> Option<f64> {
+        let alone = self.neighbours.is_empty();
+        self.repeated.horizon_s.filter(|_| alone)
     }
 
     /// Rules of thumb that the case violates, except those that are decided by elastic lines.
@@ -143,25 +210,13 @@ impl ElasticComparison {
 }
 
 impl Repeated {
-    fn of(
-        elastic_case: &ModelAtRest,
-        elastic_lines: &[ElasticLine],
-        first: &ElasticRun,
-        on_progress: OnProgress,
-    ) -> Result<Self, Unfinished> {
-        let shorter = Stepping::SHORTER;
-        let run = run_in_steps(
-            elastic_case,
-            elastic_lines,
-            shorter,
-            f64::INFINITY,
-            on_progress,
-        )?;
+    /// Of the motion in shorter steps, compared with that in the usual ones.
+    fn of(elastic_case: &ModelAtRest, usual: &ElasticRun, shorter: &ElasticRun) -> Self {
         let duration_s = elastic_case.structure.duration_s;
-        Ok(Self {
-            outcome: Outcome::of_pulls(elastic_case, &run),
-            horizon_s: first.agrees_until(&run, TOLERANCE, duration_s),
-        })
+        Self {
+            outcome: Outcome::of_pulls(elastic_case, shorter),
+            horizon_s: usual.agrees_until(shorter, TOLERANCE, duration_s),
+        }
     }
 }
 

@@ -1,16 +1,12 @@
 //! The runs besides that of the case: with less and with more restitution, in slightly other waves,
-//! and neighbours, which differ as little as rounding does.
+//! and neighbours.
 
+use super::neighbours::{count_of_neighbours, height_of_neighbour};
 use super::outcome::Outcome;
 use crate::physics::model_at_rest::ModelAtRest;
-use crate::physics::sea::uniform;
 use crate::structure::{Structure, Water, Wave};
-use rand_chacha::ChaCha8Rng;
-use rand_chacha::rand_core::SeedableRng;
 use snapload::analysis::{OnProgress, Unfinished};
 
-/// The distance of neighbours from the run, as a part of the waves' height.
-pub const NEIGHBOUR: f64 = 1e-6;
 /// By this the restitution is varied, as it is rarely known more accurately.
 const RESTITUTION: f64 = 0.2;
 /// By this part height and period of a regular wave are varied, as neither is known more
@@ -23,7 +19,6 @@ pub(super) struct FurtherRuns<'a> {
     restitutions: Vec<f64>,
     /// Each with the case in it.
     waves: Vec<(Wave, ModelAtRest)>,
-    /// Zero in still water, where there are no waves to vary.
     neighbours: usize,
 }
 
@@ -39,7 +34,6 @@ pub(super) struct FurtherOutcomes {
 
 impl<'a> FurtherRuns<'a> {
     pub(super) fn new(prepared: &'a ModelAtRest, neighbours: u32) -> Self {
-        let waves = prepared.structure.has_waves();
         // The file of a floating body may end between the period of the case and another.
         let within = |wave: Wave| Some((wave, prepared.in_water(Water::Wave(wave)).ok()?));
         Self {
@@ -49,7 +43,7 @@ impl<'a> FurtherRuns<'a> {
                 .into_iter()
                 .filter_map(within)
                 .collect(),
-            neighbours: if waves { neighbours as usize } else { 0 },
+            neighbours: count_of_neighbours(&prepared.structure, neighbours),
         }
     }
 
@@ -67,8 +61,7 @@ impl<'a> FurtherRuns<'a> {
             return Outcome::of(other, 1.0, on_progress);
         }
         let index = index - self.waves.len();
-        let height = 1.0 + NEIGHBOUR * perturbation(index as u32);
-        Outcome::of(self.prepared, height, on_progress)
+        Outcome::of(self.prepared, height_of_neighbour(index), on_progress)
     }
 
     /// Sorts the outcomes of all these runs by what differs.
@@ -116,11 +109,4 @@ fn waves_about(structure: &Structure) -> Vec<Wave> {
 /// A height or a period in four digits, so that the run is that of the wave that a row shows.
 fn shown(value: f64) -> f64 {
     format!("{value:.3e}").parse().unwrap_or(value)
-}
-
-/// A number, uniform in [−1, 1), for each neighbour.
-fn perturbation(index: u32) -> f64 {
-    let mut generator = ChaCha8Rng::seed_from_u64(1);
-    generator.set_stream(u64::from(index));
-    2.0 * uniform(&mut generator) - 1.0
 }

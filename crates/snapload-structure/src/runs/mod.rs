@@ -8,6 +8,7 @@ pub(crate) mod elastic_outcome;
 pub(crate) mod further;
 pub(crate) mod gumbel;
 pub(crate) mod motion;
+pub(crate) mod neighbours;
 pub(crate) mod outcome;
 pub(crate) mod quantile;
 pub(crate) mod scan;

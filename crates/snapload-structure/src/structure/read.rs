@@ -20,13 +20,22 @@ const TRANSIENT: f64 = 10.0;
 const STILL_S: f64 = 60.0;
 
 impl Water {
+    /// Whether there are waves; those of no height are still water.
+    pub(crate) fn has_waves(self) -> bool {
+        match self {
+            Self::Still => false,
+            Self::Wave(wave) => wave.height_m > 0.0,
+            Self::Sea(sea) => sea.significant_height_m > 0.0,
+        }
+    }
+
     /// The transient unless one is given: some periods of the waves, at most half of the duration
     /// \[s\].
     pub(crate) fn usual_transient_s(self, duration_s: f64) -> f64 {
         let transient_s = match self {
-            Self::Still => 0.0,
-            Self::Wave(wave) => TRANSIENT * wave.period_s,
-            Self::Sea(sea) => TRANSIENT * sea.peak_period_s,
+            Self::Wave(wave) if self.has_waves() => TRANSIENT * wave.period_s,
+            Self::Sea(sea) if self.has_waves() => TRANSIENT * sea.peak_period_s,
+            _ => 0.0,
         };
         transient_s.min(duration_s / 2.0)
     }

@@ -279,7 +279,8 @@ fn elastic_lines_and_records_are_checked_by_the_same_rule() {
     let comparison = comparison.expect("an answer");
     let checks = comparison.checks();
     assert_eq!(checks.len(), 4);
-    for check in &checks {
+    for (check, agreeing) in &checks {
+        assert_eq!(*agreeing, 0, "no neighbours are run");
         let line = check.line.expect("a line") - 1;
         let (rest, peak) = (
             comparison.elastic_case.rest.tension_n[line],

@@ -3,7 +3,7 @@
 use super::elastic::{CYLINDER, structure};
 use snapload::analysis::no_progress;
 use snapload_structure::{
-    Answer, ElasticComparison, ModelAtRest, VerdictKind, compare_elastic, elastic_lines,
+    Answer, ElasticComparison, ModelAtRest, Outcome, VerdictKind, compare_elastic, elastic_lines,
     run_elastic,
 };
 
@@ -95,8 +95,12 @@ fn a_verdict_says_where_rounding_decides() {
             .chain(design.iter().map(String::as_str))
             .collect();
         let comparison = compared(&checked);
-        assert_eq!(comparison.checks()[line].answer, Answer::Open);
-        assert_eq!(comparison.checks()[1 - line].answer, Answer::Passes);
+        let among = comparison
+            .clone()
+            .with_neighbours(1, &no_progress)
+            .expect("runs");
+        assert_eq!(among.checks()[line].0.answer, Answer::Open);
+        assert_eq!(among.checks()[1 - line].0.answer, Answer::Passes);
         let verdict = comparison.verdict();
         let breaks = peaks_n[0] > between_n;
         let (standing, holds, so) = match breaks {
@@ -112,4 +116,139 @@ fn a_verdict_says_where_rounding_decides() {
             verdict.words
         );
     }
+}
+
+/// Neighbours are runs in waves that differ by a millionth of their height at most: where the motion
+/// is regular their largest tensions differ from its own by no more than that times the derivative
+/// by the height, which is found from a wave that is a thousandth higher.
+#[test]
+fn neighbours_of_a_regular_motion_are_near_it() {
+    let set: Vec<&str> = REGULAR.into_iter().chain(["run.duration=100"]).collect();
+    let found = compared(&set)
+        .with_neighbours(6, &no_progress)
+        .expect("runs");
+    let higher: Vec<&str> = set.iter().copied().chain(["wave.height=1.001"]).collect();
+    let (peak_n, higher_n) = (
+        found.outcome.largest_n(),
+        compared(&higher).outcome.largest_n(),
+    );
+    let by_height = 1e3 * (higher_n - peak_n).abs();
+    let apart: Vec<f64> = found
+        .neighbours
+        .iter()
+        .map(|n| (n.largest_n() - peak_n).abs())
+        .collect();
+    assert!(
+        apart.iter().all(|apart| *apart < 1.2e-6 * by_height),
+        "{apart:?} {by_height}"
+    );
+    assert!(
+        apart.iter().any(|apart| *apart > 1e-7 * by_height),
+        "{apart:?} {by_height}"
+    );
+    let words = found.trust_text();
+    assert!(
+        words.contains("For 6 neighbours in waves that differ by at most 1e-6"),
+        "{words}"
+    );
+    // In still water there are no waves to vary.
+    let still = compared(&["wave.height=0", "run.start=[0.3, -4.2]", "run.duration=20"]);
+    let still = still.with_neighbours(6, &no_progress).expect("runs");
+    assert!(still.neighbours.is_empty() && still.spread().is_none());
+    assert!(!still.trust_text().contains("neighbour"));
+}
+
+/// A line that holds in both integrations of a motion that is not known to its end does not hold for
+/// sure, and passes no check: neighbours would show it breaking.
+#[test]
+fn what_is_known_in_part_does_not_hold() {
+    let base = CHAOTIC.into_iter().chain(["run.duration=300"]);
+    let design = ["pretension", "environment", "strength"];
+    let design = design.map(|name| format!("design.{name}_factor=1"));
+    let more = ["line.breaking_load=1e9"].into_iter();
+    let set: Vec<&str> = base
+        .chain(more)
+        .chain(design.iter().map(String::as_str))
+        .collect();
+    let alone = compared(&set);
+    let until_s = alone.repeated.horizon_s.expect("a horizon");
+    let verdict = alone.verdict();
+    assert_eq!(verdict.standing, VerdictKind::Open, "{}", verdict.words);
+    let words = format!("The motion is known only up to {until_s:.1} s, and no neighbours");
+    assert!(verdict.words.contains(&words), "{}", verdict.words);
+    assert!(
+        alone
+            .checks()
+            .iter()
+            .all(|(check, _)| check.answer == Answer::Open)
+    );
+    // None of its neighbours comes near that load.
+    let among = alone.with_neighbours(10, &no_progress).expect("runs");
+    assert_eq!(
+        among.verdict().standing,
+        VerdictKind::Holds,
+        "{}",
+        among.verdict().words
+    );
+    assert!(
+        among
+            .checks()
+            .iter()
+            .all(|(check, n)| check.answer == Answer::Passes && *n == 10)
+    );
+}
+
+/// Where a chaotic motion and its neighbours disagree on whether a line breaks, verdict and check
+/// say of how many: for a breaking load between their largest tensions.
+#[test]
+fn a_verdict_counts_the_neighbours_that_differ() {
+    let base: Vec<&str> = CHAOTIC.into_iter().chain(["run.duration=300"]).collect();
+    let found = compared(&base)
+        .with_neighbours(11, &no_progress)
+        .expect("runs");
+    let of_line = |outcome: &Outcome| outcome.lines[0].largest_taut_n;
+    let mut peaks_n: Vec<f64> = found.neighbours.iter().map(of_line).collect();
+    peaks_n.sort_by(f64::total_cmp);
+    assert!(peaks_n[10] > 1.02 * peaks_n[0], "{peaks_n:?}");
+    let load_n = 0.5 * (peaks_n[5] + peaks_n[6]);
+    let loads = [
+        format!("line.1.breaking_load={load_n}"),
+        "line.2.breaking_load=1e9".to_owned(),
+    ];
+    let design = ["pretension", "environment", "strength"];
+    let design = design.map(|name| format!("design.{name}_factor=1"));
+    let more = loads.iter().chain(&design).map(String::as_str);
+    let set: Vec<&str> = base.into_iter().chain(more).collect();
+    let found = compared(&set)
+        .with_neighbours(11, &no_progress)
+        .expect("runs");
+    let breaks = of_line(&found.outcome) >= load_n;
+    let breaking = peaks_n.iter().filter(|peak| **peak >= load_n).count();
+    assert_eq!(breaking, 5);
+    let (differing, what) = match breaks {
+        true => (6, "no line breaks and the mooring holds"),
+        false => (5, "a line would break or the mooring fail"),
+    };
+    let verdict = found.verdict();
+    let words = format!(" In {differing} of 11 neighbours {what}");
+    assert!(verdict.words.contains(&words), "{}", verdict.words);
+    let expected = if breaks {
+        VerdictKind::Breaks
+    } else {
+        VerdictKind::Open
+    };
+    assert_eq!(verdict.standing, expected);
+    assert_eq!(found.checks()[0].1, 11 - differing);
+    assert_eq!(found.checks()[1].1, 11);
+    let summary = found.summary("case");
+    let summary = summary.split_whitespace().collect::<Vec<_>>().join(" ");
+    assert!(summary.contains(&format!(
+        "{} of 11 neighbours as this motion",
+        11 - differing
+    )));
+    assert!(
+        found
+            .trust_text()
+            .contains("Only the distribution of the peaks is meaningful")
+    );
 }

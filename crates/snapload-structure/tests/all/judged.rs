@@ -375,7 +375,7 @@ fn slack_before_anything_is_judged_is_reported_as_such() {
         comparison
             .checks()
             .iter()
-            .all(|check| check.answer == Answer::Passes)
+            .all(|(check, _)| check.answer == Answer::Passes)
     );
     let words = flat(&comparison.verdict().words);
     assert!(

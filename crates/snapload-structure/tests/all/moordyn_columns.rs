@@ -189,3 +189,64 @@ fn lines_of_several_segments_need_no_damper() {
     let (back, _) = read(&moordyn::write("case", &case, 20).unwrap());
     assert_eq!(back.restitution, 0.0);
 }
+
+/// With `TmaxIC` 0, under either of its names, the motion begins where a file puts the body, also in
+/// a file that `write` has not made. Without it the body begins at rest.
+#[test]
+fn a_motion_begins_where_the_file_puts_the_body() {
+    let let_go = written(&["run.start=[0.3, -4.2]", "wave.height=0"]);
+    let of_others: Vec<&str> = let_go
+        .lines()
+        .filter(|line| !line.starts_with("snapload:"))
+        .collect();
+    let file = of_others.join("\n");
+    assert!(file.contains("TmaxIC"), "{file}");
+    for name in ["TmaxIC", "ICTmax"] {
+        let entries = moordyn::read("lines.txt", &with(&file, "TmaxIC", name))
+            .unwrap()
+            .entries;
+        let start = entries.table("run", 0).given("start").expect("a start");
+        assert_eq!(start.to_string(), "[0.3, -4.2]");
+    }
+    let at_rest = with(&file, "0  TmaxIC", "60  TmaxIC");
+    let entries = moordyn::read("lines.txt", &at_rest).unwrap().entries;
+    assert!(entries.table("run", 0).given("start").is_none());
+}
+
+/// Options that concern MoorDyn's computation are left out in silence, and all others with a note.
+#[test]
+fn options_that_are_left_out_are_named() {
+    let file = written(&[]);
+    let option = file
+        .lines()
+        .find(|line| line.contains("WtrDpth"))
+        .expect("an option");
+    let among = |more: &str| read(&with(&file, option, &format!("{option}\n{more}"))).1;
+    for known in ["0.001  dtM", "rk4  tScheme", "1.0  CV", "3e6  kBot"] {
+        assert_eq!(among(known), read(&file).1, "{known}");
+    }
+    for (more, note) in [
+        ("2  Wings", "Wings = 2 was left out: it is not known here."),
+        (
+            "start.txt  ICfile",
+            "ICfile = start.txt was left out: give a start as run.start.",
+        ),
+        (
+            "1  Currents",
+            "Currents = 1 was left out: give a current as site.current.",
+        ),
+    ] {
+        let notes = among(more);
+        assert!(notes.contains(note), "{notes}");
+    }
+}
+
+/// The file names the loads that it has for snapload alone.
+#[test]
+fn loads_that_only_snapload_computes_are_named() {
+    let calm = written(&["wave.height=0", "body.linear_damping=0"]);
+    assert!(!calm.contains("computes without"), "{calm}");
+    let loaded = written(&["body.constant_force=[1e3, 0]", "site.current=0.5"]);
+    let words = "MoorDyn computes without waves, body.constant_force, site.current: for snapload";
+    assert!(loaded.contains(words), "{loaded}");
+}

@@ -134,3 +134,16 @@ fn the_waves_force_does_not_pass_by_little_of_a_sea() {
     let wave = assess(structure(&wave), 0, &no_progress).unwrap();
     assert_eq!(of_force(&[wave.checks()[0].0.clone()]), Answer::Passes);
 }
+
+/// Waves of no height are still water, of which everything is judged.
+#[test]
+fn waves_of_no_height_have_no_transient() {
+    for text in [
+        EXAMPLE.replace("height = 2\n", "height = 0\n"),
+        SEA.replace("hs = 1.2", "hs = 0"),
+    ] {
+        let flat = structure(&text.replace("[run]", "[run]\nstart = [0.3, -4.2]\nduration = 60"));
+        assert!(!flat.water.eq(&snapload_structure::Water::Still));
+        assert_eq!(flat.transient_s, 0.0);
+    }
+}

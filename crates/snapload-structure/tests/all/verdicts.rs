@@ -121,11 +121,13 @@ fn too_few_records_are_not_too_few_snaps() {
 
 #[test]
 fn implausible_values_cause_warnings() {
-    assert!(
-        !rules(EXAMPLE)
-            .iter()
-            .any(|rule| ["proportions", "fairleads", "long lines"].contains(rule))
-    );
+    let geometric = [
+        "proportions",
+        "fairleads",
+        "long lines",
+        "lines in the body",
+    ];
+    assert!(!rules(EXAMPLE).iter().any(|rule| geometric.contains(rule)));
     // A decimal point in the wrong place: a body of 3 mm, which is then twenty thousand kilometres
     // long.
     let thin = EXAMPLE.replace("width = 3 ", "width = 0.003 ");
@@ -136,6 +138,10 @@ fn implausible_values_cause_warnings() {
     );
     let long = EXAMPLE.replacen("length = 6", "length = 60", 1);
     assert!(rules(&long).contains(&"long lines"));
+    // From the fairlead's other end of the diameter the line crosses the body.
+    let across = EXAMPLE.replacen("[1.061, -4.561]", "[-1.061, -2.439]", 1);
+    let across = across.replacen("length = 6", "length = 9", 1);
+    assert!(rules(&across).contains(&"lines in the body"));
 }
 
 #[test]

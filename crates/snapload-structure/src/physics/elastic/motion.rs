@@ -25,8 +25,6 @@ pub(crate) struct Stepping {
     /// Steps are no longer than this part of 1/ω, ω = sqrt(k w) of the stiffest pulling line, so
     /// that what is looked for in a step, and in how many places, does not depend on the stiffness.
     longest: f64,
-    /// What progress calls the work.
-    doing: &'static str,
 }
 
 impl Stepping {
@@ -34,14 +32,12 @@ impl Stepping {
     pub(crate) const USUAL: Self = Self {
         tolerance: 1e-11,
         longest: 0.25,
-        doing: "elastic lines",
     };
     /// A finer one, to be compared with it. Its error has to be much smaller even where the forces
     /// have a kink, as quadratic drag has in still water: then it falls as a low power of the step.
     pub(crate) const SHORTER: Self = Self {
         tolerance: 1e-13,
         longest: 0.125,
-        doing: "elastic lines, in shorter steps",
     };
 }
 
@@ -123,7 +119,7 @@ fn run<const N: usize>(
     let (rules, system) = (&prepared.model.rules, &prepared.model.system);
     let mut stop = exceeded(system, rules, &state).find_map(Change::stop);
     while t < rules.t_end && stop.is_none() {
-        Progress::new(stepping.doing, t, rules.t_end).report(on_progress)?;
+        Progress::new("elastic lines", t, rules.t_end).report(on_progress)?;
         let longest_step = stepping.longest / body.quickest(&state, pulling);
         let until = rules
             .t_end
