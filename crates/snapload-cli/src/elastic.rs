@@ -7,10 +7,10 @@ use crate::outputs::Outputs;
 use crate::structure_input::{ReadStructure, StructureArgs};
 use snapload::CaseError;
 use snapload::analysis::{Progress, Unfinished};
-use snapload_report::tables::in_digits_with_fraction;
 use snapload_structure::{
     EVERY, ElasticComparison, ModelAtRest, STIFFER, checked_every, compare_elastic,
 };
+use snapload_study::in_digits_with_fraction;
 use std::io;
 use std::path::PathBuf;
 
