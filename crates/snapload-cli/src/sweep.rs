@@ -94,7 +94,10 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
             swept.map_err(|error| with_resume_hint(error, rows))?;
         }
     }
-    let csv = files.write_csv()?;
+    let csv = files.write_csv().map_err(|error| match error {
+        Failure::Failed(message) => rows_are_kept(&message),
+        other => other,
+    })?;
     let picture = args.picture.draw(&files.parquet)?;
     let whole = args.shard.is_none();
     Summary::of(&files.parquet, rows, [csv, picture])?
@@ -120,10 +123,7 @@ fn with_resume_hint(error: StudyError, rows: u64) -> Failure {
             "{done} of {rows} rows are saved; to continue:\n  {}",
             resume_command()
         )),
-        StudyError::Failed(message) => Failure::Failed(format!(
-            "{message}\nhint: the saved rows are kept; once this is corrected, continue with\n  {}",
-            resume_command()
-        )),
+        StudyError::Failed(message) => rows_are_kept(&message),
         StudyError::Damaged { .. } => Failure::Failed(format!(
             "{error}\nhint: rows were repeatedly read back other than they were written; use an --out on another disk, \
              or compute them again here with\n  {}",
@@ -131,6 +131,13 @@ fn with_resume_hint(error: StudyError, rows: u64) -> Failure {
         )),
         other => other.into(),
     }
+}
+
+fn rows_are_kept(message: &str) -> Failure {
+    Failure::Failed(format!(
+        "{message}\nhint: the saved rows are kept; once this is corrected, continue with\n  {}",
+        resume_command()
+    ))
 }
 
 /// The command that was given, with --resume.

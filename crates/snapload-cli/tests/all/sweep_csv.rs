@@ -88,6 +88,43 @@ fn a_study_is_resumed_up_to_its_csv() {
     assert_eq!(bytes(d.path(), "a.csv"), b"mine\n");
 }
 
+/// A disk that has room for the Parquet file, but not for the CSV, which takes more.
+#[test]
+#[cfg(target_os = "linux")]
+fn a_full_disk_keeps_the_rows() {
+    let d = directory();
+    let many = [
+        "--set",
+        "t_end=0.1",
+        "--no-trust",
+        "--vary",
+        "f_o=0.1:0.6:4000",
+    ];
+    sweep(d.path(), &many, "whole.csv").success();
+    let size = bytes(d.path(), "whole.parquet").len();
+    assert!(bytes(d.path(), "whole.csv").len() > 2 * size);
+    let script = format!(
+        "trap '' XFSZ; ulimit -f {}; exec {} sweep {} --out full.csv",
+        size / 512 + 64,
+        assert_cmd::cargo::cargo_bin!("snapload").display(),
+        many.join(" ")
+    );
+    let mut shell = std::process::Command::new("sh");
+    let run = shell.args(["-c", &script]).current_dir(d.path()).output();
+    let done = run.unwrap();
+    let stderr = String::from_utf8(done.stderr).unwrap();
+    assert_eq!(done.status.code(), Some(1), "{stderr}");
+    let told = stderr.contains("can not write full.csv: File too large");
+    assert!(
+        told && stderr.contains("--out full.csv --resume"),
+        "{stderr}"
+    );
+    let whole = ["full.parquet", "whole.csv", "whole.parquet"];
+    assert_eq!(listing(d.path()), whole);
+    sweep(d.path(), &[&many[..], &["--resume"]].concat(), "full.csv").success();
+    assert!(bytes(d.path(), "full.csv") == bytes(d.path(), "whole.csv"));
+}
+
 #[test]
 fn parts_and_complete_files_become_csv() {
     let d = directory();
