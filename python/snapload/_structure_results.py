@@ -341,7 +341,8 @@ class Elastic(RepeatableResult[_engine.Elastic]):
     """
 
     def _repeat(self) -> _engine.Elastic:
-        return self._structure._engine.elastic(*self._options, None)
+        stiffer, every, neighbours = self._options
+        return self._structure._engine.elastic(stiffer, every, neighbours, None)
 
     @property
     def standing(self) -> str:

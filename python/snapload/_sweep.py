@@ -202,7 +202,7 @@ def open_study(path: str | PathLike[str], *, chunks: Any = None) -> xarray.Datas
 
     identity = _engine.identity(existing_file(fspath(path)))
     if identity is None:
-        raise ValueError(f"{fspath(path)}: not a file of snapload sweep")
+        raise ValueError(f"{fspath(path)}: not a Parquet file of snapload sweep")
     return dataset(fspath(path), *identity, chunks)
 
 

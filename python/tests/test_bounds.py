@@ -168,7 +168,7 @@ def test_a_file_that_is_no_study_is_refused(tmp_path: Path):
         path.write_bytes(contents)
         with pytest.raises(ValueError) as error:
             snapload.open_study(path)
-        assert str(error.value) == f"{path}: not a file of snapload sweep"
+        assert str(error.value) == f"{path}: not a Parquet file of snapload sweep"
 
 
 @pytest.mark.parametrize("value", ["no", 1, None])

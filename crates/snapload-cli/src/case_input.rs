@@ -152,7 +152,8 @@ fn hint_for_no_file(name: &str) -> String {
     }
 }
 
-/// The text of a file of at most `largest` bytes; otherwise the error `too_large`.
+/// The text of a file of at most `largest` bytes, without the mark of its encoding with which some
+/// programs begin it; for a larger file the error `too_large`.
 pub(crate) fn read_up_to(path: &Path, largest: u64, too_large: &str) -> Result<String, Failure> {
     let shown = path.display();
     let bad = |what: &str| Failure::BadInput(format!("{shown}: {what}"));
@@ -170,12 +171,18 @@ pub(crate) fn read_up_to(path: &Path, largest: u64, too_large: &str) -> Result<S
                  names it in the case of a structure",
             ))
         }
-        Ok(_) => String::from_utf8(bytes).map_err(|error| {
-            let at = error.utf8_error().valid_up_to();
-            bad(&format!(
-                "not a text file in UTF-8 (byte {at}); save it as UTF-8"
-            ))
-        }),
+        Ok(_) => match String::from_utf8(bytes) {
+            Ok(text) => Ok(match text.strip_prefix('\u{feff}') {
+                Some(rest) => rest.to_owned(),
+                None => text,
+            }),
+            Err(error) => {
+                let at = error.utf8_error().valid_up_to();
+                Err(bad(&format!(
+                    "not a text file in UTF-8 (byte {at}); save it as UTF-8"
+                )))
+            }
+        },
         Err(error) if error.kind() == ErrorKind::NotFound => {
             let hint = hint_for_no_file(&shown.to_string());
             Err(bad(&format!("there is no such file{hint}")))

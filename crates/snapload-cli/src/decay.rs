@@ -12,8 +12,8 @@ use snapload_hydro::{
     Body, Decay, FREEDOMS, Fit, HydroError, Swing, Warning, decay, far_from_the_file, large_motion,
     rest_without_tension, swings,
 };
-use snapload_report::tables::in_digits_with_fraction;
 use snapload_structure::labelled_row;
+use snapload_study::in_digits_with_fraction;
 use std::f64::consts::FRAC_PI_2;
 use std::fmt::Write as _;
 use std::path::PathBuf;

@@ -7,11 +7,11 @@ use crate::outputs::Outputs;
 use crate::structure_input::{ReadStructure, StructureArgs};
 use snapload::CaseError;
 use snapload::analysis::{Progress, Unfinished};
-use snapload_report::tables::in_digits_with_fraction;
 use snapload_structure::{
     DEFAULT_ELASTIC_NEIGHBOURS, EVERY, ElasticComparison, ModelAtRest, NEIGHBOURS, STIFFER,
     checked_every, compare_elastic,
 };
+use snapload_study::in_digits_with_fraction;
 use std::io;
 use std::path::PathBuf;
 

@@ -52,6 +52,7 @@ mod section;
 mod standard_output;
 #[cfg(feature = "structure")]
 mod structure_input;
+mod study_csv;
 mod study_input;
 mod study_picture;
 mod study_summary;

@@ -2,11 +2,10 @@
 use crate::failure::{Failure, print};
 use crate::json::{Json, JsonArgs, folder_for, refuse_directory};
 use crate::pending_outputs::{PendingOutputs, TargetFolder, is_same};
-use crate::table::write_csv;
 use serde::Serialize;
 use snapload::Parameters;
 use snapload_report::CaseEcho;
-use snapload_study::{Values, write_table};
+use snapload_study::{Values, write_csv, write_table};
 use std::io;
 use std::path::{Path, PathBuf};
 

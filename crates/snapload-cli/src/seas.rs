@@ -5,9 +5,9 @@ use crate::json::JsonArgs;
 use crate::option_values::whole_number;
 use crate::outputs::Outputs;
 use crate::structure_input::{ReadStructure, StructureArgs};
-use snapload_report::tables::in_digits_with_fraction;
 use snapload_structure::note::{self, Source};
 use snapload_structure::{Lines, SEEDS, SeaOutcome, Seas, end_text, seas};
+use snapload_study::in_digits_with_fraction;
 use std::io;
 use std::path::PathBuf;
 

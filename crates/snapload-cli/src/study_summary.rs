@@ -9,18 +9,23 @@ pub(crate) struct Summary<'a> {
     file: &'a Path,
     rows: u64,
     tally: StudyEnds,
-    picture: Option<PathBuf>,
+    /// The files that were made from it.
+    others: Vec<PathBuf>,
     plan: Option<&'a Plan>,
 }
 
 impl<'a> Summary<'a> {
-    /// Reads the file.
-    pub(crate) fn of(file: &'a Path, rows: u64, picture: Option<PathBuf>) -> Result<Self, Failure> {
+    /// Reads the file, from which others may have been made.
+    pub(crate) fn of(
+        file: &'a Path,
+        rows: u64,
+        others: [Option<PathBuf>; 2],
+    ) -> Result<Self, Failure> {
         Ok(Self {
             file,
             rows,
             tally: ends(file)?,
-            picture,
+            others: others.into_iter().flatten().collect(),
             plan: None,
         })
     }
@@ -80,9 +85,9 @@ impl<'a> Summary<'a> {
                 tally.errors
             );
         }
-        let files = [Some(self.file), self.picture.as_deref()];
-        for (label, path) in ["Written", ""].iter().zip(files.into_iter().flatten()) {
-            let _ = writeln!(text, "{label:<9} {}", path.display());
+        let _ = writeln!(text, "Written   {}", self.file.display());
+        for path in &self.others {
+            let _ = writeln!(text, "{:<9} {}", "", path.display());
         }
         text
     }
@@ -115,6 +120,14 @@ fn varied(plan: &Plan) -> String {
             let keys: Vec<&str> = ranges.iter().map(RandomRange::key).collect();
             format!("{} (random points, seed {seed})", keys.join(", "))
         }
-        Plan::List(list) => format!("{} (columns of {})", list.keys().join(", "), list.name()),
+        Plan::List(list) => {
+            let keys = list.keys().join(", ");
+            let empty = match list.empty_lines_at_end() {
+                0 => String::new(),
+                1 => "; the empty line at its end is no row".to_owned(),
+                n => format!("; the {n} empty lines at its end are no rows"),
+            };
+            format!("{keys} (columns of {}{empty})", list.name())
+        }
     }
 }

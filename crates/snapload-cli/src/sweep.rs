@@ -1,8 +1,9 @@
-//! `snapload sweep`: a study, a row a case, in one Parquet file.
+//! `snapload sweep`: a study, a row a case, in one Parquet file, and as CSV.
 use crate::bar::Bar;
 use crate::failure::Failure;
 use crate::interrupt::{self, Graceful, print_error_line};
 use crate::option_values::whole_number;
+use crate::study_csv::RowFiles;
 use crate::study_input::StudyArgs;
 use crate::study_picture::PictureArgs;
 use crate::study_summary::Summary;
@@ -27,8 +28,8 @@ Examples:
       a line plot over the restitution, for your own case
   snapload sweep --vary f_o=0.1:0.6 --vary x=-0.05:0.05 --random 100000 --seed 1 --out box.parquet
       Sobol points in a box
-  snapload sweep --list cases.csv --out cases.parquet
-      the cases of a table with one column per key
+  snapload sweep --list cases.csv --out results.csv
+      the cases of a table with one column per key; the rows as results.csv and results.parquet
   snapload sweep study.toml --shard 3/8 --out part-3.parquet
       the third of eight parts, for one of eight machines; snapload merge joins them";
 
@@ -38,8 +39,9 @@ Examples:
 pub(crate) struct Args {
     #[command(flatten)]
     study: StudyArgs,
-    /// The file to write; its parts are kept in FILE.parquet.parts until it is complete
-    #[arg(long, value_name = "FILE.parquet")]
+    /// The file to write; its parts are kept in FILE.parquet.parts until it is complete. For a
+    /// name that ends in .csv the rows are written as CSV, too, beside FILE.parquet
+    #[arg(long, value_name = "FILE.parquet|FILE.csv")]
     out: PathBuf,
     /// Continue where an earlier run of this command stopped; also allowed for a first run
     #[arg(long)]
@@ -60,14 +62,16 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
     let shard = args.shard.as_deref().map(Shard::parse).transpose();
     let shard = shard.map_err(|error| Failure::from(error).with_prefix("--shard"))?;
     let identity = Identity::new(&study, shard);
+    let files = RowFiles::named(&args.out);
+    files.check(args.resume)?;
     args.picture.check(&identity.study, args.resume)?;
     args.threads.map(start_threads).transpose()?;
     let rows = identity.rows.end - identity.rows.start;
-    match Store::open(&args.out, identity, args.resume)? {
+    match Store::open(&files.parquet, identity, args.resume)? {
         Opened::Complete => {}
         Opened::Work(store) => {
             if store.damaged() > 0 {
-                let (rows, out) = (store.damaged(), args.out.display());
+                let (rows, out) = (store.damaged(), files.parquet.display());
                 print_error_line(&format!(
                     "{rows} rows in {out}.parts were damaged, and are computed again"
                 ));
@@ -90,9 +94,13 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
             swept.map_err(|error| with_resume_hint(error, rows))?;
         }
     }
-    let picture = args.picture.draw(&args.out)?;
+    let csv = files.write_csv().map_err(|error| match error {
+        Failure::Failed(message) => rows_are_kept(&message),
+        other => other,
+    })?;
+    let picture = args.picture.draw(&files.parquet)?;
     let whole = args.shard.is_none();
-    Summary::of(&args.out, rows, picture)?
+    Summary::of(&files.parquet, rows, [csv, picture])?
         .with(study.plan())
         .print(whole)
 }
@@ -115,10 +123,7 @@ fn with_resume_hint(error: StudyError, rows: u64) -> Failure {
             "{done} of {rows} rows are saved; to continue:\n  {}",
             resume_command()
         )),
-        StudyError::Failed(message) => Failure::Failed(format!(
-            "{message}\nhint: the saved rows are kept; once this is corrected, continue with\n  {}",
-            resume_command()
-        )),
+        StudyError::Failed(message) => rows_are_kept(&message),
         StudyError::Damaged { .. } => Failure::Failed(format!(
             "{error}\nhint: rows were repeatedly read back other than they were written; use an --out on another disk, \
              or compute them again here with\n  {}",
@@ -126,6 +131,13 @@ fn with_resume_hint(error: StudyError, rows: u64) -> Failure {
         )),
         other => other.into(),
     }
+}
+
+fn rows_are_kept(message: &str) -> Failure {
+    Failure::Failed(format!(
+        "{message}\nhint: the saved rows are kept; once this is corrected, continue with\n  {}",
+        resume_command()
+    ))
 }
 
 /// The command that was given, with --resume.

@@ -1,35 +1,6 @@
-//! Tables: their columns, as CSV, and the values of a key from `KEY=first:last:n`.
+//! Tables: their columns, and the values of a key from `KEY=first:last:n`.
 use crate::failure::Failure;
-use snapload_report::tables::in_digits_with_fraction;
 use snapload_study::{Axis, Values};
-use std::io::{self, Write};
-
-/// Writes a table as CSV.
-pub(crate) fn write_csv(columns: &[(&'static str, Values)], out: &mut dyn Write) -> io::Result<()> {
-    let mut csv = csv::Writer::from_writer(out);
-    csv.write_record(columns.iter().map(|(name, _)| *name))?;
-    let cells: Vec<Vec<String>> = columns.iter().map(|(_, values)| texts(values)).collect();
-    for row in 0..cells.first().map_or(0, Vec::len) {
-        csv.write_record(cells.iter().map(|column| &column[row]))?;
-    }
-    csv.flush()
-}
-
-fn texts(values: &Values) -> Vec<String> {
-    fn all<T: ToString>(list: &[Option<T>]) -> Vec<String> {
-        let text = |value: &Option<T>| value.as_ref().map(T::to_string).unwrap_or_default();
-        list.iter().map(text).collect()
-    }
-    match values {
-        Values::Numbers(list) => {
-            let text = |value: &Option<f64>| value.map(in_digits_with_fraction).unwrap_or_default();
-            list.iter().map(text).collect()
-        }
-        Values::Counts(list) => all(list),
-        Values::Flags(list) => all(list),
-        Values::Words(list) => all(list),
-    }
-}
 
 /// A column of numbers.
 pub(crate) fn numbers(values: impl IntoIterator<Item = f64>) -> Values {

@@ -67,12 +67,6 @@ pub fn in_digits(number: f64) -> String {
     }
 }
 
-/// The same with a fraction also where the number is whole, for a column of CSV: a reader that
-/// judges its type by the first rows would otherwise take it for one of whole numbers.
-pub fn in_digits_with_fraction(number: f64) -> String {
-    format!("{number:?}")
-}
-
 /// A value of a table: a number with or without a fraction, a flag, a word or nothing.
 #[derive(Serialize)]
 #[serde(untagged)]
@@ -150,7 +144,8 @@ fn write<R: Serialize>(
 
 #[cfg(test)]
 mod tests {
-    use super::{in_digits, in_digits_with_fraction};
+    use super::in_digits;
+    use snapload_study::in_digits_with_fraction;
 
     #[test]
     fn numbers_have_no_row_of_zeros_and_are_read_back() {

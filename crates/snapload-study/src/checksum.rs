@@ -47,7 +47,9 @@ pub(crate) fn damage(path: &Path) -> Option<String> {
 /// The same for bytes or an open file.
 pub(crate) fn damage_of(mut file: impl Read + Seek) -> io::Result<Option<&'static str>> {
     let Some(stored) = StoredChecksum::find(&mut file)? else {
-        return Ok(Some("it is damaged, or not a file of snapload sweep"));
+        return Ok(Some(
+            "it is damaged, or not a Parquet file of snapload sweep",
+        ));
     };
     let intact = stored.computed(&mut file)?.as_bytes() == stored.there;
     Ok((!intact).then_some("it is damaged: its checksum is not that of its bytes"))

@@ -9,6 +9,7 @@
 //! before its rows are copied into another one.
 
 mod checksum;
+mod csv_table;
 mod error;
 mod grid;
 mod lines;
@@ -29,6 +30,7 @@ mod table;
 mod table_file;
 mod threads;
 
+pub use csv_table::{in_digits_with_fraction, write_csv, write_study_csv};
 pub use error::{Occupied, StudyError, no_random_range, without_number};
 pub use grid::Grid;
 pub use list::List;

@@ -1,11 +1,13 @@
-//! Checks of the lines of a CSV file while it is read.
+//! The lines of a CSV file: checks while it is read, and where its records begin.
 //!
 //! A reader of CSV accepts records of any length, and a quote that is not closed includes the lines
 //! that follow, up to the end of the file. No key has a value of two lines, so both are errors;
 //! they are reported here, with their line, before much is read.
 
+use std::collections::VecDeque;
 use std::fs::File;
 use std::io::{self, BufRead, BufReader, Read};
+use std::ops::ControlFlow;
 use std::path::Path;
 
 /// The longest record, which is many times what all keys need.
@@ -129,26 +131,111 @@ impl Read for CheckedFile {
     }
 }
 
-/// The line in which a record begins, from 1; the first record has the number 0.
-pub(crate) fn line_of(path: &Path, record: u64) -> io::Result<Option<u64>> {
+/// Where a record of a file begins.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct RecordStart {
+    /// Its number; that of the header is 0.
+    pub(crate) number: u64,
+    /// Its line, from 1.
+    line: u64,
+    /// Its first byte.
+    pub(crate) byte: u64,
+}
+
+/// Passes the start of each record, until `visit` breaks, and returns the number of empty lines
+/// that no record follows.
+///
+/// A line without any byte is no record, except for `empty_cells`: in a list of one column such a
+/// line is how other programs write an empty cell, unless it precedes the header, or no other line
+/// follows.
+pub(crate) fn records(
+    path: &Path,
+    empty_cells: bool,
+    mut visit: impl FnMut(RecordStart) -> ControlFlow<()>,
+) -> io::Result<u64> {
     let mut bytes = BufReader::new(File::open(path)?);
-    let (mut lines, mut before) = (LineChecker::new(), 0);
+    let (mut lines, mut place, mut number) = (LineChecker::new(), 0, 0);
+    let mut empty: Vec<(u64, u64)> = Vec::new();
     loop {
         let some = bytes.fill_buf()?;
-        if some.is_empty() {
-            return Ok(None);
-        }
         let length = some.len();
-        for byte in some {
-            let (state, line) = (lines.state, lines.line);
+        for (byte, place) in some.iter().zip(place..) {
+            let (before, line, returned) = (lines.state, lines.line, lines.returned);
             lines.read_byte(*byte);
-            if state == RecordState::Record && lines.state != RecordState::Record {
-                if before == record {
-                    return Ok(Some(line));
+            if before != RecordState::Record {
+                continue;
+            }
+            if lines.state != RecordState::Record {
+                for (line, byte) in empty.drain(..).chain([(line, place)]) {
+                    let start = RecordStart { number, line, byte };
+                    if visit(start).is_break() {
+                        return Ok(0);
+                    }
+                    number += 1;
                 }
-                before += 1;
+            } else if empty_cells && number > 0 && (*byte == b'\r' || *byte == b'\n' && !returned) {
+                empty.push((line, place));
             }
         }
+        lines.check(length == 0)?;
+        if length == 0 {
+            return Ok(empty.len() as u64);
+        }
+        place += length as u64;
         bytes.consume(length);
+    }
+}
+
+/// The line in which a record begins, from 1; the first record has the number 0.
+pub(crate) fn line_of(path: &Path, empty_cells: bool, record: u64) -> io::Result<Option<u64>> {
+    let mut found = None;
+    records(path, empty_cells, |start| {
+        found = (start.number == record).then_some(start.line);
+        match found {
+            Some(_) => ControlFlow::Break(()),
+            None => ControlFlow::Continue(()),
+        }
+    })?;
+    Ok(found)
+}
+
+/// The records of a list of one column, in which an empty line is passed on as the quotes of an
+/// empty cell: a reader of CSV skips lines without any byte.
+pub(crate) struct EmptyCells<R> {
+    file: R,
+    /// Whether the next byte begins a line, and whether a carriage return came before.
+    begins: bool,
+    returned: bool,
+    ready: VecDeque<u8>,
+}
+
+impl<R> EmptyCells<R> {
+    /// From the begin of a line on.
+    pub(crate) fn new(file: R) -> Self {
+        let ready = VecDeque::new();
+        Self {
+            file,
+            begins: true,
+            returned: false,
+            ready,
+        }
+    }
+}
+
+impl<R: Read> Read for EmptyCells<R> {
+    fn read(&mut self, buffer: &mut [u8]) -> io::Result<usize> {
+        if self.ready.is_empty() {
+            let mut some = [0; 1 << 12];
+            let length = self.file.read(&mut some)?;
+            for byte in &some[..length] {
+                let new_line = matches!(byte, b'\r' | b'\n');
+                if new_line && self.begins && !(*byte == b'\n' && self.returned) {
+                    self.ready.extend(b"\"\"");
+                }
+                self.ready.push_back(*byte);
+                (self.begins, self.returned) = (new_line, *byte == b'\r');
+            }
+        }
+        self.ready.read(buffer)
     }
 }

@@ -2,17 +2,17 @@
 
 use crate::StudyError;
 use crate::checksum::Sum;
-use crate::lines::{CheckedFile, line_of};
-use crate::parquet_file::{Reader as ParquetReader, Values};
-use csv::{ByteRecord, Position, Reader, ReaderBuilder, Trim};
+use crate::lines::{CheckedFile, EmptyCells, line_of, records};
+use crate::parquet_file::{Reader as ParquetReader, Values, is_parquet};
+use csv::{ByteRecord, Reader, ReaderBuilder, Trim};
 use parquet::basic::ConvertedType;
 use parquet::schema::types::Type;
 use snapload::{CaseError, Value, key_named};
 use std::error::Error;
 use std::fmt::Display;
 use std::fs::File;
-use std::io::Read;
-use std::ops::Range;
+use std::io::{Read, Seek, SeekFrom};
+use std::ops::{ControlFlow, Range};
 use std::path::{Path, PathBuf};
 
 /// The interval between rows of a CSV file whose positions are stored.
@@ -39,12 +39,24 @@ pub struct List {
 
 #[derive(Debug)]
 enum Format {
-    Csv { marks: Vec<Position> },
+    Csv(Csv),
     Parquet,
 }
 
+/// The rows of a CSV file.
+#[derive(Debug)]
+struct Csv {
+    /// The first bytes of every 1024th row.
+    marks: Vec<u64>,
+    /// Whether it has one column, in which an empty line is a row with an empty cell.
+    empty_cells: bool,
+    /// The number of empty lines after the last row.
+    empty_at_end: u64,
+}
+
 impl List {
-    /// Opens a list; a name that ends in `.parquet` is a Parquet file, any other a CSV file.
+    /// Opens a list. A file that begins as one of Parquet does, or whose name ends in `.parquet`,
+    /// is a Parquet file, any other a CSV file.
     ///
     /// # Errors
     /// [`StudyError::Input`] if there is no such file, if it is of another kind, holds no case, or
@@ -66,9 +78,10 @@ impl List {
                 &"a list must be a file, which can be read more than once",
             ));
         }
-        let parquet = path
+        let named_so = path
             .extension()
             .is_some_and(|ending| ending.eq_ignore_ascii_case("parquet"));
+        let parquet = named_so || is_parquet(path).map_err(|error| input(&error))?;
         let (names, count, format) = if parquet {
             let file = File::open(path).map_err(|error| input(&error))?;
             let reader = ParquetReader::open(file)
@@ -84,8 +97,8 @@ impl List {
             let names = named_columns(called, &reader)?;
             (names, count.unsigned_abs(), Format::Parquet)
         } else {
-            let (names, marks, count) = index(path).map_err(|error| input(&error))?;
-            (names, count, Format::Csv { marks })
+            let (names, count, csv) = index(path).map_err(|error| input(&error))?;
+            (names, count, Format::Csv(csv))
         };
         let keys = keys(called, &names)?;
         let sha256 = digest(path).map_err(|error| input(&error))?;
@@ -119,10 +132,18 @@ impl List {
 
     /// The line of the file in which a row begins; none if it has no lines.
     pub fn line(&self, row: u64) -> Option<u64> {
-        match self.format {
+        match &self.format {
             // The first line contains the keys.
-            Format::Csv { .. } => line_of(&self.path, row + 1).ok()?,
+            Format::Csv(csv) => line_of(&self.path, csv.empty_cells, row + 1).ok()?,
             Format::Parquet => None,
+        }
+    }
+
+    /// The number of empty lines at the end of a CSV file of one column, which are no rows.
+    pub fn empty_lines_at_end(&self) -> u64 {
+        match &self.format {
+            Format::Csv(csv) => csv.empty_at_end,
+            Format::Parquet => 0,
         }
     }
 
@@ -139,7 +160,7 @@ impl List {
     /// The rows of a range.
     pub(crate) fn read(&self, range: Range<u64>) -> Result<Vec<ListRow>, StudyError> {
         let rows = match &self.format {
-            Format::Csv { marks } => self.read_csv(marks, &range),
+            Format::Csv(csv) => self.read_csv(csv, &range),
             Format::Parquet => self.read_parquet(&range),
         };
         let rows = rows.map_err(|error| StudyError::read(&self.called, error))?;
@@ -152,15 +173,17 @@ impl List {
         ))
     }
 
-    fn read_csv(&self, marks: &[Position], range: &Range<u64>) -> Result<Vec<ListRow>, Unreadable> {
+    fn read_csv(&self, csv: &Csv, range: &Range<u64>) -> Result<Vec<ListRow>, Unreadable> {
         let mark = range.start / MARK_EVERY;
-        let mut reader = as_csv(File::open(&self.path)?);
-        let position = marks
-            .get(mark as usize)
-            .cloned()
-            .unwrap_or_else(Position::new);
-        reader.seek(position)?;
-        reader
+        let mut file = File::open(&self.path)?;
+        // With no mark, which only an empty range has, nothing is read.
+        let byte = csv.marks.get(mark as usize).copied().unwrap_or_default();
+        file.seek(SeekFrom::Start(byte))?;
+        let rows: Box<dyn Read> = match csv.empty_cells {
+            true => Box::new(EmptyCells::new(file)),
+            false => Box::new(file),
+        };
+        as_csv(rows, false)
             .into_byte_records()
             .skip((range.start - mark * MARK_EVERY) as usize)
             .take((range.end - range.start) as usize)
@@ -220,29 +243,37 @@ fn digest(path: &Path) -> std::io::Result<String> {
     Ok(sum.digits())
 }
 
-fn as_csv<R: Read>(file: R) -> Reader<R> {
+fn as_csv<R: Read>(file: R, headers: bool) -> Reader<R> {
     let mut builder = ReaderBuilder::new();
-    builder.flexible(true).trim(Trim::All).from_reader(file)
+    let builder = builder.has_headers(headers).flexible(true);
+    builder.trim(Trim::All).from_reader(file)
 }
 
-/// The names of the columns, the position of every 1024th row, and the number of rows.
-fn index(path: &Path) -> csv::Result<(Vec<String>, Vec<Position>, u64)> {
-    let mut reader = as_csv(CheckedFile::open(path)?);
+/// The names of the columns, the number of rows, and where they are.
+fn index(path: &Path) -> Result<(Vec<String>, u64, Csv), Unreadable> {
+    let mut reader = as_csv(CheckedFile::open(path)?, true);
     let names = reader.byte_headers()?.iter();
     let names = names.map(|name| String::from_utf8_lossy(name).into_owned());
-    let names = names.collect();
-    let (mut marks, mut count) = (Vec::new(), 0_u64);
-    let mut record = ByteRecord::new();
-    loop {
-        let position = reader.position().clone();
-        if !reader.read_byte_record(&mut record)? {
-            return Ok((names, marks, count));
-        }
-        if count.is_multiple_of(MARK_EVERY) {
-            marks.push(position);
-        }
-        count += 1;
+    let names: Vec<String> = names.collect();
+    if names.iter().any(|name| name.contains('\0')) {
+        // Every second byte of such a text in UTF-16 is a zero.
+        return Err("not a text file in UTF-8; save it as CSV in UTF-8".into());
     }
+    let empty_cells = names.len() == 1;
+    let (mut marks, mut count) = (Vec::new(), 0);
+    let empty_at_end = records(path, empty_cells, |start| {
+        if start.number % MARK_EVERY == 1 {
+            marks.push(start.byte);
+        }
+        count = start.number;
+        ControlFlow::Continue(())
+    })?;
+    let csv = Csv {
+        marks,
+        empty_cells,
+        empty_at_end,
+    };
+    Ok((names, count, csv))
 }
 
 /// The names of the columns of a Parquet file, if each is of a type that a key could have.
@@ -282,9 +313,13 @@ fn keys(called: &str, names: &[String]) -> Result<Vec<&'static str>, StudyError>
     let mut keys = Vec::new();
     for name in names {
         let key = key_named(name).map_err(|error| {
-            let hint = match name.contains(';') {
-                true => "the columns of a CSV file are separated by commas",
-                false => "a list has one column per key, named in the first line of a CSV file, and no others",
+            let hint = if name.contains(';') {
+                "the columns of a CSV file are separated by commas"
+            } else if name.is_empty() {
+                "a column without a name holds the names or numbers of rows; write the file without it, in R with \
+                 row.names=FALSE, in pandas with index=False"
+            } else {
+                "a list has one column per key, named in the first line of a CSV file, and no others"
             };
             wrong(format!("{error}\nhint: {hint}"))
         })?;

@@ -336,17 +336,23 @@ fn describe(identity: &Identity) -> String {
     )
 }
 
-/// Checks that the name of a file of rows ends in `.parquet` or has no ending.
+/// Checks that the name of a file of rows ends in `.parquet` or has no ending, and is not `-`, which
+/// elsewhere is the standard output.
 ///
 /// # Errors
 /// [`StudyError::Input`] if it has another ending.
 pub fn check_name(file: &Path) -> Result<(), StudyError> {
     match file.extension() {
         Some(ending) if !ending.eq_ignore_ascii_case("parquet") => Err(StudyError::Input(format!(
-            "can not write {}: rows are written as Parquet; choose a name that ends in .parquet\nhint: \
-             for another format read that file, such as with pandas.read_parquet(...).to_csv(...)",
+            "can not write {}: rows are written as Parquet; choose a name that ends in .parquet\nhint: the commands \
+             snapload sweep and snapload merge write CSV beside it, if --out ends in .csv",
             file.display()
         ))),
+        None if file.as_os_str() == "-" => Err(StudyError::Input(
+            "can not write rows to the standard output, as they are kept in a file until all are there; choose a \
+             name that ends in .parquet"
+                .to_owned(),
+        )),
         _ => Ok(()),
     }
 }

@@ -18,7 +18,7 @@ pub struct Study {
 #[derive(Clone, Debug, PartialEq)]
 pub struct NoCase {
     /// The values of all keys in the order of the schema: those given, and the defaults of the
-    /// others.
+    /// others; none for the columns of a row that can not be read.
     pub keys: Vec<Option<Value>>,
     /// Why it can not be run.
     pub error: CaseError,
@@ -160,20 +160,49 @@ impl StudyCases<'_> {
     pub fn case(&self, k: usize) -> Result<Case, Box<NoCase>> {
         let varied = self.varied(k);
         let made = match &varied {
-            Ok(varied) => Case::from_entries(self.study.base.iter().chain(varied).cloned()),
+            Ok(varied) => Case::from_entries(self.study.base.iter().chain(varied).cloned())
+                .map_err(|error| with_hint_for_missing(error, &self.study.plan, varied)),
             Err(error) => Err(error.clone()),
         };
         made.map_err(|error| {
+            let unread = match (&self.study.plan, &varied) {
+                (Plan::List(list), Err(_)) => list.keys(),
+                _ => &[],
+            };
             let varied = varied.unwrap_or_default();
             let given = [&self.study.base[..], &varied].concat();
-            Box::new(NoCase::of(&given, error))
+            Box::new(NoCase::of(&given, unread, error))
         })
     }
 }
 
+/// Adds what stands for a missing value to the error of a row that has another sign for it.
+fn with_hint_for_missing(
+    error: CaseError,
+    plan: &Plan,
+    varied: &[(&'static str, Value)],
+) -> CaseError {
+    let is_sign = |value: &Value| match value {
+        Value::Number(number) => number.is_nan(),
+        Value::Text(text) => {
+            let signs = ["NA", "<NA>", "N/A", "null", "None", "missing"];
+            signs.iter().any(|sign| text.eq_ignore_ascii_case(sign))
+        }
+        _ => false,
+    };
+    let listed = matches!(plan, Plan::List(_));
+    let given = varied.iter().find(|(key, _)| *key == error.key);
+    match given.is_some_and(|(_, value)| listed && is_sign(value)) {
+        true => error.with_hint("leave the cell empty for the value of the base case"),
+        false => error,
+    }
+}
+
 impl NoCase {
-    fn of(given: &[(&'static str, Value)], error: CaseError) -> Self {
+    /// `unread` are the keys of a row that can not be read, whose values are not known.
+    fn of(given: &[(&'static str, Value)], unread: &[&str], error: CaseError) -> Self {
         let value = |key: &Key| match given.iter().rfind(|(name, _)| *name == key.name) {
+            _ if unread.contains(&key.name) => None,
             Some((_, value)) => Some(value.clone()),
             // Values that are derived from wrong ones are left out.
             None if key.name == "inertia" => None,

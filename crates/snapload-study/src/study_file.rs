@@ -199,7 +199,7 @@ fn identity_of_part(path: &Path) -> Result<Identity, StudyError> {
         )));
     }
     identity_of(path).ok_or_else(|| {
-        let words = format!("{shown}: not a file of snapload sweep");
+        let words = format!("{shown}: not a Parquet file of snapload sweep");
         StudyError::Input(words)
     })
 }
@@ -383,17 +383,21 @@ pub fn read_rows(
 }
 
 /// Some columns of a file of rows.
-struct Columns<'a> {
+pub(crate) struct Columns<'a> {
     path: &'a Path,
     reader: Reader,
     places: Vec<usize>,
 }
 
 impl<'a> Columns<'a> {
+    /// The names of all columns of a study's file.
+    pub(crate) fn names() -> Vec<&'static str> {
+        fields().iter().map(|field| field.name).collect()
+    }
+
     /// All columns of a study's file.
-    fn all(path: &'a Path) -> Result<Self, StudyError> {
-        let names: Vec<&str> = fields().iter().map(|field| field.name).collect();
-        Self::named(path, &names)
+    pub(crate) fn all(path: &'a Path) -> Result<Self, StudyError> {
+        Self::named(path, &Self::names())
     }
 
     fn named(path: &'a Path, names: &[&str]) -> Result<Self, StudyError> {
@@ -417,7 +421,7 @@ impl<'a> Columns<'a> {
     }
 
     /// All of their values, group by group.
-    fn each(&self, mut visit: impl FnMut(Vec<Values>)) -> Result<(), StudyError> {
+    pub(crate) fn each(&self, mut visit: impl FnMut(Vec<Values>)) -> Result<(), StudyError> {
         for (group, rows) in self.reader.groups().enumerate() {
             visit(self.read(group, 0..rows)?);
         }

@@ -68,7 +68,10 @@ fn hydro_answers_in_a_few_lines_a_page_and_json() {
     assert!(all["quality"]["least_eigenvalue"].as_f64().unwrap() > -2e-9);
     assert_eq!(all["sea"].as_array().unwrap().len(), 2);
 
-    // The memory that was written is read back, and gives the same answers.
+    // The memory that was written is read back, also after a program that begins texts with a mark,
+    // and gives the same answers.
+    let memory = fs::read_to_string(room.path().join("all.json")).unwrap();
+    fs::write(room.path().join("all.json"), format!("\u{feff}{memory}")).unwrap();
     snapload(room.path())
         .args([
             "hydro",

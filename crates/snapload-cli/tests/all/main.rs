@@ -16,6 +16,7 @@ mod physics;
 mod report;
 mod structure;
 mod sweep;
+mod sweep_csv;
 mod sweep_errors;
 mod system;
 mod trust;

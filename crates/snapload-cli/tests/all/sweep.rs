@@ -227,7 +227,7 @@ fn threads_and_parts_change_no_byte() {
     fs::write(d.path().join("text"), "text").unwrap();
     merge(&["text"], "x")
         .code(2)
-        .stderr(contains("not a file of snapload sweep"));
+        .stderr(contains("not a Parquet file of snapload sweep"));
     assert!(!listing(d.path()).contains(&"x".to_owned()));
 }
 

@@ -1,7 +1,7 @@
 //! How `snapload sweep` handles damage, mistakes, and files that exist already.
 #![cfg(unix)]
 
-use crate::common::{directory, snapload};
+use crate::common::{directory, listing, snapload};
 use crate::sweep::{LONG, SHORT, begin, bytes, chunks, sweep};
 use predicates::prelude::PredicateBooleanExt;
 use predicates::str::contains;
@@ -153,15 +153,24 @@ fn an_existing_file_is_not_overwritten() {
 fn a_name_keeps_its_promise() {
     let d = directory();
     let expected = || {
-        contains("can not write x.csv: rows are written as Parquet")
+        contains("can not write x.xlsx: rows are written as Parquet")
             .and(contains("choose a name that ends in .parquet"))
     };
-    sweep(d.path(), &SHORT, "x.csv").code(2).stderr(expected());
+    sweep(d.path(), &SHORT, "x.xlsx").code(2).stderr(expected());
     snapload(d.path())
-        .args(["merge", "a.parquet", "--out", "x.csv"])
+        .args(["merge", "a.parquet", "--out", "x.xlsx"])
         .assert()
         .code(2)
         .stderr(expected());
+    // Elsewhere this is the standard output, which a file would silently not be.
+    let expected = || contains("can not write rows to the standard output");
+    sweep(d.path(), &SHORT, "-").code(2).stderr(expected());
+    snapload(d.path())
+        .args(["merge", "a.parquet", "--out", "-"])
+        .assert()
+        .code(2)
+        .stderr(expected());
+    assert!(listing(d.path()).is_empty());
 }
 
 #[test]
@@ -190,6 +199,14 @@ fn the_summary_lists_what_varies() {
         .success()
         .stdout(contains(
             "Cases     4\nVaried    f_o (random points, seed 0)\n",
+        ));
+    // An empty line is the empty cell of a list of one column, or what an editor leaves.
+    fs::write(d.path().join("one.csv"), "f_o\n0.1\n\n0.2\n\n\n").unwrap();
+    let listed = ["--set", "t_end=0.1", "--no-trust", "--list", "one.csv"];
+    sweep(d.path(), &listed, "e.parquet")
+        .success()
+        .stdout(contains(
+            "Cases     3\nVaried    f_o (columns of one.csv; the 2 empty lines at its end are no rows)\n",
         ));
 }
 

@@ -307,7 +307,8 @@ fn read_memory(fields: Fields<'_>, file: Option<&Path>) -> Result<Option<GivenMe
     };
     let text = std::fs::read_to_string(file)
         .map_err(|error| refuse(format!("a file that can be read; {error}")))?;
-    let memory = serde_json::from_str(&text).map_err(|error| {
+    let text = text.strip_prefix('\u{feff}').unwrap_or(&text);
+    let memory = serde_json::from_str(text).map_err(|error| {
         refuse(format!(
             "a memory as snapload hydro --json writes it; {error}"
         ))

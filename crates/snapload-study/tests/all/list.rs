@@ -141,6 +141,71 @@ fn rows_know_their_lines() {
     assert_eq!(lines.collect::<Vec<_>>(), [Some(2), Some(4), Some(6), None]);
 }
 
+/// R writes an empty cell of its only column as an empty line; which row a value belongs to is the
+/// number of its line. Quotes and empty lines at the end are those of R and of editors.
+#[test]
+fn an_empty_line_of_one_column_is_an_empty_cell() {
+    let given = |f_o: f64| Ok(vec![("f_o", Value::Number(f_o))]);
+    for (text, lines) in [
+        ("\"f_o\"\n\n0.3\n\n\n0.5\n", [2, 3, 4, 5, 6]),
+        ("\u{feff}f_o\r\n\r\n0.3\r\n\r\n\"\"\r\n0.5", [2, 3, 4, 5, 6]),
+        ("\n\nf_o\n  \n.3\n\n\n\"0.5\"\n\n\n", [4, 5, 6, 7, 8]),
+    ] {
+        let list = List::open(csv(text).path()).unwrap();
+        assert_eq!(list.count(), 5, "{text:?}");
+        let file = csv(text);
+        let list = List::open(file.path()).unwrap();
+        assert_eq!(
+            (0..5).filter_map(|row| list.line(row)).collect::<Vec<_>>(),
+            lines
+        );
+        let end = list.empty_lines_at_end();
+        assert_eq!(end, if text.starts_with('\n') { 2 } else { 0 }, "{text:?}");
+        let rows = read(list, 0..5);
+        let empty = || Ok(Vec::new());
+        assert_eq!(rows, [empty(), given(0.3), empty(), empty(), given(0.5)]);
+    }
+    // From any row on: every third line is empty.
+    let line = |k: u32| match k % 3 {
+        0 => String::new(),
+        _ => format!("0.{k:04}"),
+    };
+    let lines: Vec<String> = (1..=5000).map(line).collect();
+    let file = csv(&format!("f_o\r\n{}\r\n", lines.join("\r\n")));
+    for range in [0..3, 1022..1030, 2047..2050, 4998..5000] {
+        let rows = read(List::open(file.path()).unwrap(), range.clone());
+        for (row, k) in rows.into_iter().zip(range) {
+            let expected = match lines[k as usize].parse() {
+                Ok(f_o) => given(f_o),
+                Err(_) => Ok(Vec::new()),
+            };
+            assert_eq!(row, expected, "{k}");
+        }
+    }
+}
+
+/// What other programs write instead of a list in CSV is named, or read as what it is.
+#[test]
+fn files_of_other_kinds_are_known_by_their_contents() {
+    let utf_16 = |order: fn(u16) -> [u8; 2]| {
+        let units = "\u{feff}f_o,e\n0.5,0.5\n".encode_utf16();
+        units.flat_map(order).collect::<Vec<u8>>()
+    };
+    for bytes in [utf_16(u16::to_le_bytes), utf_16(u16::to_be_bytes)] {
+        let file = csv("");
+        fs::write(file.path(), bytes).unwrap();
+        let error = List::open(file.path()).unwrap_err().to_string();
+        assert!(
+            error.contains("not a text file in UTF-8; save it as"),
+            "{error}"
+        );
+    }
+    let file = csv("");
+    fs::copy(counts(&[7], Compression::SNAPPY).path(), file.path()).unwrap();
+    let rows = read(List::open(file.path()).unwrap(), 0..1);
+    assert_eq!(rows, [Ok(vec![("max_impacts", Value::Integer(7))])]);
+}
+
 /// A file with a column of whole numbers without a sign, in some compression.
 fn counts(values: &[u64], codec: Compression) -> tempfile::NamedTempFile {
     let columns = "message schema { required int64 max_impacts (INTEGER(64,false)); }";
@@ -226,9 +291,44 @@ fn bad_rows_are_errors_of_their_own_and_empty_cells_nothing() {
     assert_eq!(rows[1], Ok(vec![("f_o", Value::Number(f64::NEG_INFINITY))]));
 }
 
+/// The base case has a value for each key, and that is not the value of a row that is not read.
+#[test]
+fn a_row_that_can_not_be_read_has_no_values() {
+    let file = csv("f_o,e\n0.55\n0.6,0.8,0.8\n2e3,0.8\n");
+    let plan = Plan::List(List::open(file.path()).unwrap());
+    let base = ["f_o", "r"].map(|key| (key.to_owned(), 1.25.into()));
+    let study = Study::new(base, plan, false).unwrap();
+    let cases = study.cases(0..3).unwrap();
+    let values = |row| {
+        let keys = cases.case(row).unwrap_err().keys;
+        ["f_o", "e", "r"].map(|name| {
+            let place = snapload::KEYS.iter().position(|key| key.name == name);
+            keys[place.unwrap()].as_ref().and_then(Value::number)
+        })
+    };
+    assert_eq!(values(0), [None, None, Some(1.25)]);
+    assert_eq!(values(1), [None, None, Some(1.25)]);
+    assert_eq!(values(2), [Some(2e3), Some(0.8), Some(1.25)]);
+}
+
+#[test]
+fn a_sign_for_a_missing_value_is_refused_with_what_to_write() {
+    let file = csv("f_o\nNaN\nNA\nmissing\n0.5x\n2e3\n");
+    let study = Study::new([], Plan::List(List::open(file.path()).unwrap()), false).unwrap();
+    let cases = study.cases(0..5).unwrap();
+    let errors: Vec<String> = (0..5)
+        .map(|k| cases.case(k).unwrap_err().error.to_string())
+        .collect();
+    let hinted = errors
+        .iter()
+        .map(|error| error.contains("leave the cell empty"));
+    assert_eq!(hinted.collect::<Vec<_>>(), [true, true, true, false, false]);
+}
+
 #[test]
 fn a_list_with_other_columns_is_refused() {
     for (text, expected) in [
+        ("\"\",\"f_o\"\n\"1\",0.3\n", "in R with row.names=FALSE"),
         ("f_o,omgea\n1,2\n", "did you mean omega?"),
         ("f_o,f_o\n1,2\n", "two columns are named f_o"),
         ("f_o;e\n1;2\n", "are separated by commas"),

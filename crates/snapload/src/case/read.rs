@@ -150,13 +150,28 @@ impl Entries {
     }
 }
 
-/// A value as it stands on a command line, where a word needs no quotes; else what it is instead.
+/// A value as it stands on a command line, where a word needs no quotes, and a number needs no digit
+/// on one side of its point; else what it is instead.
 pub fn parse_value(text: &str) -> Result<Value, Cow<'static, str>> {
     match DeValue::parse(text) {
         _ if text.is_empty() => Err("(nothing)".into()),
         Ok(value) => value_of(value.get_ref()),
-        Err(_) => Ok(Value::Text(text.to_owned())),
+        Err(_) => Ok(match open_decimal(text) {
+            Some(number) => Value::Number(number),
+            None => Value::Text(text.to_owned()),
+        }),
     }
+}
+
+/// The number of a decimal that has digits on one side of its point only, such as `.5` or `5.`,
+/// which other programs write and TOML does not have.
+fn open_decimal(text: &str) -> Option<f64> {
+    let is_digit = |byte: Option<&u8>| byte.is_some_and(u8::is_ascii_digit);
+    let (whole, fraction) = text.split_once('.')?;
+    let sides = (whole.as_bytes().last(), fraction.as_bytes().first());
+    let open = is_digit(sides.0) != is_digit(sides.1);
+    let number = text.parse().ok();
+    number.filter(|number: &f64| open && number.is_finite())
 }
 
 /// The names of the tables in a file, `[name]` or `[[name]]`; none if it is no TOML.
@@ -337,6 +352,23 @@ fn malformed(schema: &Schema, name: &str, text: &str, error: &toml::de::Error) -
 #[cfg(test)]
 mod tests {
     use super::{Value, parse_value};
+
+    /// The numbers are those of Rust's own parser; TOML has neither form.
+    #[test]
+    fn a_point_needs_digits_on_one_side_only() {
+        for (text, number) in [
+            (".5", 0.5),
+            ("5.", 5.0),
+            ("-.25", -0.25),
+            ("+5.e-1", 0.5),
+            (".1e2", 10.0),
+        ] {
+            assert_eq!(parse_value(text), Ok(Value::Number(number)), "{text}");
+        }
+        for text in [".", "-.", "a.5", ".5x", "1e400.", "5..", "1.2.", "05"] {
+            assert_eq!(parse_value(text), Ok(Value::from(text)), "{text}");
+        }
+    }
 
     /// The parser of TOML is the judge: a text is read as it was, whatever characters it has.
     #[test]
