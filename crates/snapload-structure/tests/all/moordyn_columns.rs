@@ -246,7 +246,11 @@ fn options_that_are_left_out_are_named() {
 fn loads_that_only_snapload_computes_are_named() {
     let calm = written(&["wave.height=0", "body.linear_damping=0"]);
     assert!(!calm.contains("computes without"), "{calm}");
-    let loaded = ["body.constant_force=[1e3, 0]", "body.drag_area=60", "site.current=0.5"];
+    let loaded = [
+        "body.constant_force=[1e3, 0]",
+        "body.drag_area=60",
+        "site.current=0.5",
+    ];
     let loaded = written(&loaded);
     let words = "MoorDyn computes without waves, body.constant_force, site.current: for snapload";
     assert!(loaded.contains(words), "{loaded}");
