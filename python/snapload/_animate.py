@@ -152,7 +152,8 @@ class Animation:
                 _save_gif(target, _pictures(canvas, drawn, move, self._count, one_more), self._fps)
             else:
                 film = animation.FuncAnimation(canvas.figure, move, frames=self._count, interval=1000 / self._fps)
-                film.save(target, writer=animation.writers[writer](fps=self._fps), progress_callback=one_more)
+                movie_writer = animation.writers[writer](fps=self._fps)
+                film.save(target, writer=movie_writer, dpi=_DPI, progress_callback=one_more)
         return target
 
     def _scene(self) -> dict[str, Any]:

@@ -39,7 +39,11 @@ pub fn attraction_summary(found: &Attraction) -> String {
         );
     }
     if let Some(undecided) = found.undecided() {
-        let _ = writeln!(text, "Undecided {undecided}");
+        let _ = writeln!(
+            text,
+            "Undecided {} (neighbours end in another way)",
+            cells(undecided)
+        );
     }
     let legal = found.count(|outcome| *outcome != CellOutcome::Illegal);
     let _ = writeln!(text, "Legal     {legal} of {}", cells(found.cells.len()));

@@ -348,6 +348,10 @@ pub fn check_name(file: &Path) -> Result<(), StudyError> {
              snapload sweep and snapload merge write CSV beside it, if --out ends in .csv",
             file.display()
         ))),
+        None if is_ending(file) => Err(StudyError::Input(format!(
+            "can not write {}: this is an ending without a name before it",
+            file.display()
+        ))),
         None if file.as_os_str() == "-" => Err(StudyError::Input(
             "can not write rows to the standard output, as they are kept in a file until all are there; choose a \
              name that ends in .parquet"
@@ -355,6 +359,14 @@ pub fn check_name(file: &Path) -> Result<(), StudyError> {
         )),
         _ => Ok(()),
     }
+}
+
+/// Whether the name of a file is nothing but an ending of a study's files.
+fn is_ending(file: &Path) -> bool {
+    let name = file.file_name().unwrap_or_default();
+    [".csv", ".parquet"]
+        .iter()
+        .any(|ending| name.eq_ignore_ascii_case(ending))
 }
 
 /// The folder in a file's path, whether it exists or not: `.` if there is none.

@@ -30,7 +30,6 @@ struct Answer {
     /// As by `snapload elastic --json`, without its lists of pulls and snaps.
     elastic: JsonValue,
     motion: Columns,
-    shell: String,
 }
 
 /// The answer, as JSON.
@@ -62,7 +61,6 @@ pub(crate) fn answer(
             &comparison.elastic_case.model.scales,
             request.window,
         ),
-        shell: case.command("elastic"),
     };
     serde_json::to_vec(&answer).map_err(Refusal::failed)
 }

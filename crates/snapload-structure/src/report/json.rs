@@ -75,7 +75,7 @@ fn judged(outcome: &Outcome, line: usize) -> Value {
     row
 }
 
-/// Checks, each with the number of neighbours that have the same answer.
+/// Checks, each with the number of neighbours that have the answer of the run itself.
 fn check_rows(checks: Vec<(Check, usize)>) -> Vec<Value> {
     let row = |(check, agreeing): (Check, usize)| {
         let mut row = json!(check);
@@ -277,7 +277,7 @@ impl ElasticComparison {
             "pulls": self.elastic.pulls,
             "inextensible": inextensible,
             "checks": check_rows(self.checks()),
-            "neighbour_peaks_n": self.neighbours.iter().map(Outcome::largest_n).collect::<Vec<_>>(),
+            "neighbour_peaks_n": self.neighbours.iter().map(Outcome::known_largest_n).collect::<Vec<_>>(),
         })
     }
 }

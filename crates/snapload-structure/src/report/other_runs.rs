@@ -5,6 +5,7 @@ use super::verdict::{Verdict, VerdictKind, end_text, undecided_by};
 use crate::physics::warning::Warning;
 use crate::runs::assess::{Assessment, TOLERANCE};
 use crate::runs::elastic_comparison::{ElasticComparison, Repeated};
+use crate::runs::neighbours::FEWEST_NEIGHBOURS;
 use crate::runs::outcome::Outcome;
 use crate::structure::{Structure, Water};
 use crate::text_layout::{digits, kilo, paragraph, ratio};
@@ -14,9 +15,6 @@ use snapload::analysis::{HorizonCause, Trust};
 
 /// The relative difference of two largest tensions from which on both are told.
 const NOTABLE: f64 = 0.005;
-/// With fewer neighbours, no statement about 90 % of them is made.
-const FEWEST_NEIGHBOURS: usize = 10;
-
 /// How far a motion on elastic lines is known.
 #[derive(Template)]
 #[template(path = "repeated.txt")]
@@ -118,18 +116,19 @@ fn with_neighbours(
     let differing = neighbours.iter().filter(otherwise).count();
     if differing > 0 {
         let so = left_open(verdict);
-        verdict.words += &format!(
-            " In {differing} of {} neighbours {}{so}.",
-            neighbours.len(),
-            otherwise_in_words(fails, true)
-        );
+        let of = match neighbours.len() {
+            1 => "the one neighbour".to_owned(),
+            count => format!("{differing} of {count} neighbours"),
+        };
+        let answer = otherwise_in_words(fails, true);
+        verdict.words += &format!(" In {of} {answer}{so}.");
     }
 }
 
 impl ElasticComparison {
     /// A verdict that no line breaks does not stand if a line breaks or the mooring fails where the
     /// motion is integrated in shorter steps, or in a neighbour, nor where the motion is not known to
-    /// its end and no neighbours were run; any verdict says what is otherwise there.
+    /// its end and few neighbours were run; any verdict says what is otherwise there.
     pub(super) fn with_other_runs(&self, mut verdict: Verdict) -> Verdict {
         let structure = &self.elastic_case.structure;
         let (first, other) = (&self.outcome, &self.repeated.outcome);
@@ -170,7 +169,8 @@ impl ElasticComparison {
         {
             let so = left_open(&mut verdict);
             verdict.words += &format!(
-                " The motion is known only up to {until_s:.1} s, and no neighbours of it were run{so}."
+                " The motion is known only up to {until_s:.1} s, and fewer than \
+                 {FEWEST_NEIGHBOURS} neighbours were run{so}."
             );
         }
         verdict

@@ -10,7 +10,7 @@ use crate::physics::snap::{SLOWEST_M_S, Snap};
 use crate::physics::warning::Warning;
 use crate::physics::wave::LinearWave;
 use crate::runs::assess::Assessment;
-use crate::runs::design::Check;
+use crate::runs::design::{Answer, Check};
 use crate::runs::elastic_comparison::{ElasticComparison, Inextensible};
 use crate::runs::outcome::Outcome;
 use crate::runs::quantile::{quantile, slack_part};
@@ -77,6 +77,17 @@ struct ElasticText<'a> {
     /// The hardest of them by the complete estimate, the line's own mass included \[N\].
     hardest_n: Option<f64>,
     all: usize,
+}
+
+/// In how many neighbours a check has the answer of the run, unless in all.
+fn agreeing_text(check: &Check, agreeing: &usize, neighbours: &usize) -> String {
+    match check.answer {
+        _ if agreeing == neighbours => String::new(),
+        Answer::Open => {
+            format!("; {agreeing} of {neighbours} neighbours have the answer of this run")
+        }
+        _ => format!(", in {agreeing} of {neighbours} neighbours"),
+    }
 }
 
 impl Assessment {

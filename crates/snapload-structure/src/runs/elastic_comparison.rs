@@ -1,7 +1,9 @@
 //! The same case on elastic and on inextensible lines.
 
 use super::design::{Answer, Check, checks};
-use super::neighbours::{count_of_neighbours, height_of_neighbour, spread, with_agreeing};
+use super::neighbours::{
+    FEWEST_NEIGHBOURS, count_of_neighbours, height_of_neighbour, spread, with_agreeing,
+};
 use super::outcome::{Outcome, add_slack};
 use crate::options::{NEIGHBOURS, STIFFER, check};
 use crate::physics::elastic::{
@@ -160,28 +162,34 @@ impl ElasticComparison {
         spread(&self.neighbours, Outcome::largest_n)
     }
 
-    /// The checks by the rule of the case, of the elastic lines, and the neighbours that agree with
-    /// each. One is open where the motion in shorter steps has another answer, or where the motion
-    /// passes it but is not known to its end, and no neighbours were run.
+    /// The checks by the rule of the case, of the elastic lines, and the neighbours that have the
+    /// answer of the motion. One is open where the motion in shorter steps has another answer, or
+    /// where the motion passes it but a neighbour does not, or it is not known to its end and few
+    /// neighbours were run.
     pub fn checks(&self) -> Vec<(Check, usize)> {
         let open = self.warnings().iter().any(|warning| warning.leaves_open);
         let of = |outcome: &Outcome| checks(&self.elastic_case, outcome, open);
         let neighbours: Vec<Vec<Check>> = self.neighbours.iter().map(of).collect();
-        let mut all = with_agreeing(of(&self.outcome), &neighbours);
+        let own = of(&self.outcome);
+        let shorter = of(&self.repeated.outcome).into_iter();
+        let differs: Vec<bool> = (own.iter().zip(shorter))
+            .map(|(own, other)| own.answer != other.answer)
+            .collect();
+        let mut all = with_agreeing(own, &neighbours);
         let half_known = self.known_in_part_s().is_some();
-        for ((check, _), other) in all.iter_mut().zip(of(&self.repeated.outcome)) {
-            if check.answer != other.answer || half_known && check.answer == Answer::Passes {
+        for ((check, _), differs) in all.iter_mut().zip(differs) {
+            if differs || half_known && check.answer == Answer::Passes {
                 check.answer = Answer::Open;
             }
         }
         all
     }
 
-    /// Up to when the motion is known, if that is not to its end, and no neighbours show which
+    /// Up to when the motion is known, if that is not to its end, and too few neighbours show which
     /// other motions there are after that \[s\].
     pub(crate) fn known_in_part_s(&self) -> Option<f64> {
-        let alone = self.neighbours.is_empty();
-        self.repeated.horizon_s.filter(|_| alone)
+        let few = self.neighbours.len() < FEWEST_NEIGHBOURS;
+        self.repeated.horizon_s.filter(|_| few)
     }
 
     /// Rules of thumb that the case violates, except those that are decided by elastic lines.

@@ -1,7 +1,7 @@
 //! Neighbours of a run, which differ from it as little as rounding does: in the height of the
 //! waves, all of whose components they multiply by one number near 1.
 
-use super::design::Check;
+use super::design::{Answer, Check};
 use super::outcome::Outcome;
 use super::quantile::{quantile, sorted};
 use crate::physics::sea::uniform;
@@ -11,6 +11,10 @@ use rand_chacha::rand_core::SeedableRng;
 
 /// The distance of neighbours from the run, as a part of the waves' height.
 pub const NEIGHBOUR: f64 = 1e-6;
+
+/// With fewer neighbours, no statement about 90 % of them is made, and what they have in common is
+/// not known of others.
+pub(crate) const FEWEST_NEIGHBOURS: usize = 10;
 
 /// As many neighbours as wanted; none in still water, where there are no waves to vary.
 pub(super) fn count_of_neighbours(structure: &Structure, wanted: u32) -> usize {
@@ -38,11 +42,15 @@ pub(super) fn spread(neighbours: &[Outcome], number: impl Fn(&Outcome) -> f64) -
     Some([low?, middle?, high?])
 }
 
-/// Each check with the number of neighbours that have the same answer.
+/// Each check of a run with the number of neighbours that have its answer. One that the run passes
+/// and a neighbour does not is open, as the verdict is then.
 pub(super) fn with_agreeing(own: Vec<Check>, neighbours: &[Vec<Check>]) -> Vec<(Check, usize)> {
-    let with_count = |(index, check): (usize, Check)| {
+    let with_count = |(index, mut check): (usize, Check)| {
         let same = |other: &&Vec<Check>| other[index].answer == check.answer;
         let count = neighbours.iter().filter(same).count();
+        if check.answer == Answer::Passes && count < neighbours.len() {
+            check.answer = Answer::Open;
+        }
         (check, count)
     };
     own.into_iter().enumerate().map(with_count).collect()

@@ -1,6 +1,7 @@
 //! How far a motion on elastic lines is known.
 
 use super::elastic::{CYLINDER, structure};
+use serde_json::json;
 use snapload::analysis::no_progress;
 use snapload_structure::{
     Answer, ElasticComparison, ModelAtRest, Outcome, VerdictKind, compare_elastic, elastic_lines,
@@ -175,11 +176,20 @@ fn what_is_known_in_part_does_not_hold() {
     let until_s = alone.repeated.horizon_s.expect("a horizon");
     let verdict = alone.verdict();
     assert_eq!(verdict.standing, VerdictKind::Open, "{}", verdict.words);
-    let words = format!("The motion is known only up to {until_s:.1} s, and no neighbours");
+    let words = format!("The motion is known only up to {until_s:.1} s, and fewer than 10");
     assert!(verdict.words.contains(&words), "{}", verdict.words);
     assert!(
         alone
             .checks()
+            .iter()
+            .all(|(check, _)| check.answer == Answer::Open)
+    );
+    // What nine have in common is not known of others.
+    let mut nine = among.clone();
+    nine.neighbours.truncate(9);
+    assert_eq!(nine.verdict().standing, VerdictKind::Open);
+    assert!(
+        nine.checks()
             .iter()
             .all(|(check, _)| check.answer == Answer::Open)
     );
@@ -225,17 +235,45 @@ fn a_verdict_counts_the_neighbours_that_differ() {
         VerdictKind::Open
     };
     assert_eq!(verdict.standing, expected);
-    assert_eq!(found.checks()[0].1, 11 - differing);
+    let (check, agreeing) = found.checks()[0].clone();
+    assert_eq!(agreeing, 11 - differing);
     assert_eq!(found.checks()[1].1, 11);
+    let (answer, words) = match breaks {
+        true => (
+            Answer::Fails,
+            format!("fails, in {agreeing} of 11 neighbours"),
+        ),
+        false => (
+            Answer::Open,
+            format!("; {agreeing} of 11 neighbours have the answer of this run"),
+        ),
+    };
+    assert_eq!(check.answer, answer);
     let summary = found.summary("case");
     let summary = summary.split_whitespace().collect::<Vec<_>>().join(" ");
-    assert!(summary.contains(&format!(
-        "{} of 11 neighbours as this motion",
-        11 - differing
-    )));
+    assert!(summary.contains(&words), "{summary}");
     assert!(
         found
             .trust_text()
             .contains("Only the distribution of the peaks is meaningful")
+    );
+}
+
+/// Neighbours that end before anything is judged have no largest tension.
+#[test]
+fn neighbours_that_are_not_judged_have_no_peak() {
+    let turning = ["wave.height=3.1", "wave.period=5"];
+    let found = compared(&turning)
+        .with_neighbours(2, &no_progress)
+        .expect("runs");
+    assert!(found.neighbours.iter().all(Outcome::is_unjudged));
+    assert_eq!(
+        found.to_json("case")["neighbour_peaks_n"],
+        json!([null, null])
+    );
+    assert!(
+        found.trust_text().contains("Of 2 neighbours"),
+        "{}",
+        found.trust_text()
     );
 }

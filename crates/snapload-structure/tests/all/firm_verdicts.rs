@@ -4,7 +4,7 @@ use crate::sea_extrapolation::damped;
 use crate::verdicts::structure;
 use snapload::analysis::no_progress;
 use snapload_structure::{
-    Assessment, Gumbel, Lines, ModelAtRest, NoDistribution, Seas, VerdictKind, assess,
+    Answer, Assessment, Gumbel, Lines, ModelAtRest, NoDistribution, Seas, VerdictKind, assess,
     compare_elastic, seas,
 };
 
@@ -150,14 +150,26 @@ fn still_water_holds_by_one_record() {
 /// One record of a sea is open anyway; a regular wave is so by its neighbours alone.
 #[test]
 fn neighbours_open_what_a_run_holds() {
-    let calm = EXAMPLE.replace("height = 2\n", "height = 0.5\n");
+    let design =
+        "[design]\npretension_factor = 1\nenvironment_factor = 1\nstrength_factor = 1\n[run]";
+    let calm = EXAMPLE
+        .replace("height = 2\n", "height = 0.5\n")
+        .replace("[run]", design);
     let mut calm = assess(structure(&calm), 12, &no_progress).unwrap();
     assert_eq!(calm.verdict().standing, VerdictKind::Holds);
+    assert!(
+        calm.checks()
+            .iter()
+            .all(|(check, n)| check.answer == Answer::Passes && *n == 12)
+    );
     calm.neighbours[0].lines[0].peak_n = Some(1e9);
     let verdict = calm.verdict();
     assert_eq!(verdict.standing, VerdictKind::Open);
     let sentence = "In 1 of 12 neighbours a line would break or the mooring fail, so the verdict";
     assert!(verdict.words.contains(sentence), "{}", verdict.words);
+    let (check, agreeing) = calm.checks()[0].clone();
+    assert_eq!((check.answer, agreeing), (Answer::Open, 11));
+    assert_eq!(calm.checks()[1].0.answer, Answer::Passes);
 }
 
 /// N sinusoids of sqrt(2 m0/N) reach sqrt(2 N m0) at most, which for N = 10 is 4.5 standard
