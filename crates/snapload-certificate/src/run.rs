@@ -241,7 +241,7 @@ impl<'a> Run<'a> {
             _ => None,
         };
         (self.set, self.t, self.slack) = next;
-        self.zeros = vec![(cable, Zero::Opening)];
+        self.zeros = vec![(cable, Zero::after_snap(&self.fine.e))];
         self.closing = None;
         let proved = ProvedImpact {
             cable,

@@ -1,5 +1,5 @@
-//! Cables that are nearly touched: a hit and a miss are decided, an exact touch is not. Starts at
-//! the end of a cable.
+//! Cables that are nearly touched: a hit and a miss are decided, an exact touch is not. Snaps after
+//! which a cable has no velocity, and starts at the end of a cable.
 use crate::common::{case_of, proof};
 use serde_json::{Value, json};
 use snapload::{Case, Entries, Parameters, Stop, Trajectory};
@@ -89,6 +89,30 @@ fn statement(proof: &Certification) -> (Vec<Value>, Vec<f64>) {
         certificate["impacts"].as_array().expect("lines").clone(),
         state,
     )
+}
+
+/// A point on a cable of the length 5/4, h = 3/4, reaches D = (−1.2, −0.35) of cable 1 at t = 1/10
+/// with the velocity (−0.2, −1.1), v_n = 0.192 + 0.308 = 1/2. With e = 0 the velocity (0.28, −0.96)
+/// remains, of magnitude 1. With f_o = 2 the cable carries no tension: 1 + D·f = 1 − 2.4 + 0.35 is
+/// below zero. It opens with no velocity, and the point is on a parabola again: 0.01 later at
+/// (−0.2 + 0.0028 + 0.0001, 0.4 − 0.0096 − 0.00005), with the velocity (0.28 + 0.02, −0.96 − 0.01).
+#[test]
+fn without_restitution_a_cable_leaves_by_its_acceleration() {
+    for e in ["0", "0.0", "-0e5"] {
+        let case = case_of(&format!(
+            "body=point r=1.25 e={e} f_o=2 omega=0 x=-0.17 y=0.505 vx=-0.4 vy=-1 t_end=0.11"
+        ));
+        for taut in [false, true] {
+            let proof = certify(&case, taut, &mut |_| ControlFlow::Continue(()));
+            let proof = proof.expect("not cancelled").expect("a legal start");
+            assert_eq!(proof.end, Ended::Proved(Reason::Stop(Stop::EndTime)));
+            let (lines, state) = statement(&proof);
+            let (t, v_n) = ("0.1000000000000000000000000", "5.0000000000000000e-1");
+            assert_eq!(lines, [json!([1, t, v_n])]);
+            assert_eq!(state, [-0.1971, 0.39035, 0.0, 0.3, -0.97, 0.0]);
+            assert!(matches!(check(&proof.text()), Verdict::Proved { .. }));
+        }
+    }
 }
 
 /// With a = 1/10 and r = 3/2, h = 6/5. At (−0.3, 0.3) cable 1 has D = (−1.2, −0.9), of length 3/2,
