@@ -1,7 +1,7 @@
 //! The case that a theorem is about: its values are decimals, each an exact rational number.
 
 use crate::arithmetic::decimal::Decimal;
-use snapload::{Limit, Parameters};
+use snapload::{Limit, Parameters, Value};
 
 /// The keys that hold a number, in the order in which a certificate has them.
 pub const NUMBERS: [&str; 15] = [
@@ -29,7 +29,7 @@ impl ExactCase {
     /// A case from its decimals, in the order of [`NUMBERS`].
     ///
     /// # Errors
-    /// What the model does not allow, in words.
+    /// What a case or the model does not allow, in words.
     pub fn new(
         numbers: [Decimal; NUMBERS.len()],
         inertia: Option<Decimal>,
@@ -117,7 +117,31 @@ impl ExactCase {
         &self.numbers[7..13]
     }
 
+    /// The kind of body, as the key `body` names it.
+    pub(crate) fn body(&self) -> &'static str {
+        if self.is_point { "point" } else { "rigid" }
+    }
+
+    /// That the doubles next to the decimals are a legal case, as a run has them.
+    fn check_as_doubles(&self) -> Result<(), String> {
+        let nearest = |decimal: &Decimal| Value::Number(decimal.text().parse().unwrap_or(f64::NAN));
+        let numbers = NUMBERS.into_iter().zip(self.numbers.iter().map(nearest));
+        let count = i64::try_from(self.max_impacts).unwrap_or(i64::MAX);
+        let others = [
+            ("max_impacts", Value::Integer(count)),
+            ("body", Value::Text(self.body().to_owned())),
+        ];
+        let inertia = self.inertia.as_ref().map(nearest);
+        let inertia = inertia.map(|inertia| ("inertia", inertia));
+        let entries = numbers.chain(others).chain(inertia);
+        let legal = Parameters::from_entries(entries);
+        legal.map(drop).map_err(|error| error.to_string())
+    }
+
+    /// That the case is legal, and its decimals within what the model allows, also by less than a
+    /// rounding.
     fn check(&self) -> Result<(), String> {
+        self.check_as_doubles()?;
         let number = |key| self.number(key);
         let one = Decimal::integer(1);
         let not_negative = |d: &Decimal| d.is_positive() || d.is_zero();
@@ -130,8 +154,6 @@ impl ExactCase {
                 not_negative(&number("a")) && not_negative(&number("b")),
                 "a, b >= 0",
             ),
-            (number("v_stick").is_positive(), "v_stick > 0"),
-            (number("t_end").is_positive(), "t_end > 0"),
             (
                 number("r")
                     .minus(&one.minus(&number("a")).abs())
@@ -144,24 +166,32 @@ impl ExactCase {
                 return Err(format!("the case violates {what}"));
             }
         }
-        if self.is_point {
-            let still = ["a", "b", "theta", "vtheta"];
-            let nothing = self.inertia.is_none() && still.iter().all(|key| number(key).is_zero());
-            return if nothing {
-                Ok(())
-            } else {
-                Err("a point mass has no size, rotation or inertia".to_owned())
-            };
+        let still = ["a", "b", "theta", "vtheta"];
+        if self.is_point && !still.iter().all(|key| number(key).is_zero()) {
+            return Err("a point mass has no size and no rotation".to_owned());
         }
-        let heavy = match &self.inertia {
-            Some(inertia) => inertia.is_positive(),
-            None => !(number("a").is_zero() && number("b").is_zero()),
-        };
-        if heavy {
-            Ok(())
+        Ok(())
+    }
+
+    /// Whether a cable's gap is exactly zero at the start, which is decided for θ = 0 alone.
+    ///
+    /// There D = (d, y − h) with d = x ∓ (1 − a), h > 0 and h² = r² − (1 − a)², so that the gap is
+    /// q − 2 y h with q = d² + y² − (1 − a)². It is zero where q has the sign of y and q² is
+    /// 4 y² h², all of which are decimals.
+    pub(crate) fn starts_closed(&self, cable: usize) -> bool {
+        let [x, y, theta, r, a] = ["x", "y", "theta", "r", "a"].map(|key| self.number(key));
+        let square = |d: &Decimal| d.times(d);
+        let width = Decimal::integer(1).minus(&a);
+        let d = if cable == 0 {
+            x.minus(&width)
         } else {
-            Err("a rigid body needs an inertia above 0".to_owned())
-        }
+            x.plus(&width)
+        };
+        let q = square(&d).plus(&square(&y)).minus(&square(&width));
+        let h_squared = square(&r).minus(&square(&width));
+        let rise = Decimal::integer(4).times(&square(&y)).times(&h_squared);
+        let one_sign = q.is_zero() || q.times(&y).is_positive();
+        theta.is_zero() && one_sign && square(&q) == rise
     }
 
     /// The moment of inertia times three, exactly; none for a point mass. A circle is a thin ring,

@@ -159,7 +159,7 @@ impl CaseText {
             stop_when_settled: case.stop_when_settled,
             stop_when_sliding: case.stop_when_sliding,
             max_impacts: case.max_impacts,
-            body: if case.is_point { "point" } else { "rigid" }.to_owned(),
+            body: case.body().to_owned(),
         }
     }
 

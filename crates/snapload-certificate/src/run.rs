@@ -11,7 +11,7 @@ use crate::model::{FIRST_TOP, Force, Model, State};
 use crate::proved::{ProvedEnd, ProvedImpact, Reason};
 use crate::slack::flight::Flight;
 use crate::slack::impact::{Impact, Matrix};
-use crate::slack::search::{Crossing, Zero, Zeros, first_crossing, name};
+use crate::slack::search::{Crossing, Zero, Zeros, name};
 use crate::slack::set::Set;
 use crate::taut::free::Free;
 use crate::taut::law::Law;
@@ -36,8 +36,10 @@ pub(crate) struct Run<'a> {
     set: Set<6>,
     /// The flight begins at some time within T ± this.
     slack: Radius,
-    /// The cables that are closed where it begins.
+    /// The cables that are closed where it begins, and leave.
     zeros: Zeros,
+    /// The cable that is closed at the start and closes, so that it snaps at once.
+    closing: Option<usize>,
     pub(crate) impacts: u64,
     pub(crate) slow_row: SlowRow,
 }
@@ -87,11 +89,7 @@ impl<'a> Run<'a> {
         let flight = self.flight(self.coarse);
         let last = self.last()?;
         let limit = number_above(&last.0);
-        let found = {
-            let from = (Ball::within(self.slack), Ball::bound(self.slack));
-            first_crossing(&flight, &from, &self.zeros, &limit)?
-        };
-        let Some(crossing) = found else {
+        let Some(crossing) = self.first_crossing(&flight, &limit)? else {
             return self.end_at(&last).map(Box::new).map(Next::End);
         };
         let root = self.root(&flight, &crossing)?;
@@ -243,7 +241,8 @@ impl<'a> Run<'a> {
             _ => None,
         };
         (self.set, self.t, self.slack) = next;
-        self.zeros = vec![(cable, Zero::Opening)];
+        self.zeros = vec![(cable, Zero::after_snap(&self.fine.e))];
+        self.closing = None;
         let proved = ProvedImpact {
             cable,
             t: t.clone(),

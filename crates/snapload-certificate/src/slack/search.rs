@@ -57,6 +57,22 @@ pub(crate) enum Zero {
     Released,
 }
 
+impl Zero {
+    /// How a cable leaves that has snapped and carries no tension.
+    ///
+    /// At the instant of the snap its gap is zero, as that is what defines the instant, and the law
+    /// of impact makes its normal velocity −e v_n. With e = 0 that is zero, too. Of both only
+    /// enclosures can be computed, which hold zero; that they are zero is known by the law, for
+    /// each state at its own instant.
+    pub(crate) fn after_snap(e: &Ball) -> Self {
+        if e.is_zero() {
+            Self::LeavingByAcceleration
+        } else {
+            Self::Opening
+        }
+    }
+}
+
 /// Values that are zero at the instant at which the motion begins.
 pub(crate) type Zeros = Vec<(usize, Zero)>;
 

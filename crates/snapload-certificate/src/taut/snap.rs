@@ -184,14 +184,8 @@ impl<'a> Pair<'a> {
         }
     }
 
-    /// How the struck cable leaves where it does not stick: with the normal velocity −e v, or, if e
-    /// = 0, by its acceleration.
     fn struck_leaves(&self) -> Zero {
-        if self.model.e.is_zero() {
-            Zero::LeavingByAcceleration
-        } else {
-            Zero::Opening
-        }
+        Zero::after_snap(&self.model.e)
     }
 
     /// Which of the two cables, struck and taut, carry tension at the velocity `halted`: 0 ≤ T ⟂

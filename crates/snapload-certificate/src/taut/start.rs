@@ -54,11 +54,13 @@ pub(crate) fn start_motion<const N: usize>(
     let model = equations.model;
     let lost = || ProofFailure::undecided("the beginning of a motion");
     let (whole, when) = hull_of(instants);
-    // T has one limb less than the model's numbers, so that T + H is exact, too.
+    // T + 1 has one limb less than the model's numbers, so that T + H is exact, too, also next to
+    // t = 0, where T alone would have as many digits below them.
     let last = Radius::power_of_two(64 - 64 * model.limbs as i64);
     let before = &when.centre() - &Ball::bound(when.radius().plus(last)).twice();
-    let before = before.centre().with_limbs(model.limbs - 1).centre();
-    let t = before.with_limbs(model.limbs);
+    let one = Ball::integer(1).with_limbs(model.limbs);
+    let shifted = (&before + &one).with_limbs(model.limbs - 1).centre();
+    let t = (shifted.with_limbs(model.limbs) - one).centre();
     if !t.is_below(&when) {
         return Err(lost());
     }

@@ -171,6 +171,51 @@ fn altered_cases_are_refused() {
     }
 }
 
+/// Ranges of keys are those of a case; a number beyond one by less than a rounding is beyond it
+/// where the model is not defined there.
+#[test]
+fn cases_that_are_not_legal_are_no_certificates() {
+    let true_one = certificate();
+    let with = |key: &str, value: Value| {
+        let mut altered = true_one.clone();
+        altered["case"][key] = value;
+        check(&altered.to_string())
+    };
+    for (key, value) in [
+        ("max_impacts", json!(10_000_001)),
+        ("max_impacts", json!(0)),
+        ("max_impacts", json!(u64::MAX)),
+        ("t_end", json!("2e6")),
+        ("t_end", json!("0")),
+        ("omega", json!("1001")),
+        ("vx", json!("1e300")),
+        ("v_stick", json!("0.0101")),
+        ("inertia", json!("1e-14")),
+        // 1e-6 (a² + b²) is the least with a = 0.1 and b = 0.
+        ("inertia", json!("9.9e-9")),
+        ("e", json!("1.00000000000000000001")),
+        ("e", json!("-1e-30")),
+        ("b", json!("-1e-400")),
+        ("r", json!("0.9")),
+        ("body", json!("point")),
+    ] {
+        let verdict = with(key, value.clone());
+        assert!(
+            matches!(verdict, Verdict::Malformed(_)),
+            "{key} = {value}: {verdict:?}"
+        );
+    }
+    for (key, value) in [("max_impacts", json!(10_000_000)), ("t_end", json!("1e6"))] {
+        let verdict = with(key, value.clone());
+        assert!(
+            matches!(verdict, Verdict::Proved { .. }),
+            "{key} = {value}: {verdict:?}"
+        );
+    }
+    let beyond = "the start is beyond the rotation limit".to_owned();
+    assert_eq!(with("theta", json!("2")), Verdict::Refused(beyond));
+}
+
 #[test]
 fn other_shapes_are_no_certificates() {
     let true_one = certificate();

@@ -100,6 +100,11 @@ fn taut_runs_are_those_of_the_simulator() {
         "x=0 y=0 theta=0 vx=0 vy=0.3 vtheta=0 f_o=0 t_end=0.5",
         // A cable that does not rebound, and alternating snaps of both that come to rest together.
         "r=1.2 e=0 a=0.3 b=0.2 f_o=0.6 nu=0 omega=3 x=0 y=0.15 theta=0.1 vx=0 vy=0 vtheta=0.3 v_stick=1e-3 t_end=1.2",
+        // Snaps after which a cable that does not rebound carries no tension.
+        "e=0 a=0.035710579 b=1.4237125 r=2.9720002 inertia=62.637087 f_o=1.7484259 nu=1 omega=7.0263136e-06 v_stick=0.01 x=-0.33727225 y=0.28457049 vx=-0.92461726 t_end=1.3",
+        // A cable that snaps and sticks at the start.
+        "body=point r=1.25 e=0 f_o=0.2 x=-0.2 y=0.4 vx=-0.5 t_end=1",
+        "r=0.34 a=0.7 b=0.05 inertia=0.5 e=0 f_o=0.7 x=0.0264 y=0.0648 vx=0.4527 vy=0.7494 vtheta=0.973 t_end=0.06",
         // A snap that pulls on the taut cable, which stays so.
         "r=2 e=0.5 a=0.5 b=0.2 f_o=0.8 nu=0 omega=1.5 x=0 y=0.1 theta=0.1 vx=0 vy=0 vtheta=0 v_stick=1e-3 t_end=2.5",
         // Snaps that unload the taut cable, until both come to rest together after alternating
