@@ -47,7 +47,7 @@ def test_a_safe_basin_is_that_of_the_command_and_a_cell_a_start(open_page, comma
     expect(legend).to_contain_text(f"reaches a limit ({expected['legal'] - expected['safe']})")
     expect(legend).to_contain_text(f"no legal start ({21 * 18 - expected['legal']})")
     assert expected["undecided"] > 0
-    expect(legend).to_contain_text(f"undecided: neighbours end differently ({expected['undecided']})")
+    expect(legend).to_contain_text(f"undecided: some neighbours are safe, some not ({expected['undecided']})")
     low, high = expected["interval95"]
     expect(page.locator("#basin-message")).to_contain_text(f"{expected['fraction']:.4f} ({low:.4f} to {high:.4f})")
     # What is not certain, not safe and no start differs from cell to cell; the words are those of the run.

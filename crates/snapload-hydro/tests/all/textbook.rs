@@ -2,8 +2,8 @@
 
 use nalgebra::Complex;
 use snapload_hydro::{
-    Body, Line, Report, Request, SectionBody, Shape, Water, Weight, natural_of_the_file,
-    wave_number,
+    Body, HydroError, Line, Report, Request, SectionBody, Shape, Water, Weight,
+    natural_of_the_file, wave_number,
 };
 use std::f64::consts::PI;
 
@@ -195,6 +195,21 @@ fn a_larger_twin_has_the_same_force_to_the_bit() {
     }
 }
 
+/// The report on a box of 80 t, 4 m wide and 1.2 m deep in the water, on two lines.
+fn box_on(lines: [Line; 2]) -> Result<Report, HydroError> {
+    let request = Request {
+        weight: Weight {
+            mass_kg: Some(8e4),
+            inertia_kg_m2: Some(1.33e5),
+            ..Weight::default()
+        },
+        lines: lines.to_vec(),
+        ..Request::default()
+    };
+    let reading = box_of(2.0, 1.2).reading(water(10.0)).expect("a body");
+    Report::new("box", reading, &request)
+}
+
 /// On lines that hold a box of 80 t above its draft of 1.2 m, clear of the water, it weighs 784.8
 /// kN and no more, whatever C33 z is; on lines that hold it below its position the height of its
 /// sides is not known, and named. Where it floats at its position nothing is told.
@@ -206,17 +221,7 @@ fn a_box_clear_of_the_water_weighs_no_more_than_its_weight() {
             fairlead_m: [x, fairlead],
             length_m: length,
         };
-        let request = Request {
-            weight: Weight {
-                mass_kg: Some(8e4),
-                inertia_kg_m2: Some(1.33e5),
-                ..Weight::default()
-            },
-            lines: vec![line(2.0), line(-2.0)],
-            ..Request::default()
-        };
-        let reading = box_of(2.0, 1.2).reading(water(10.0)).expect("a body");
-        let report = Report::new("box", reading, &request).expect("a report");
+        let report = box_on([line(2.0), line(-2.0)]).expect("a report");
         let found = report.warnings.iter().find(|w| w.what == "hydrostatics");
         found.map(|warning| warning.message.clone())
     };
@@ -239,17 +244,7 @@ fn anchors_below_the_floor_are_refused() {
             fairlead_m: [x, -1.2],
             length_m: -1.4 - anchor,
         };
-        let request = Request {
-            weight: Weight {
-                mass_kg: Some(8e4),
-                inertia_kg_m2: Some(1.33e5),
-                ..Weight::default()
-            },
-            lines: vec![line(2.0), line(-2.0)],
-            ..Request::default()
-        };
-        let reading = box_of(2.0, 1.2).reading(water(10.0)).expect("a body");
-        Report::new("box", reading, &request).map(|_| ())
+        box_on([line(2.0), line(-2.0)]).map(|_| ())
     };
     let refused = report(-10.5).expect_err("a refusal").to_string();
     let words = "z of the anchor of line 1 = -10.5";

@@ -245,7 +245,7 @@ fn a_verdict_counts_the_neighbours_that_differ() {
         ),
         false => (
             Answer::Open,
-            format!("; {agreeing} of 11 neighbours have the answer of this run"),
+            format!("open; {agreeing} of 11 neighbours have the answer of this run"),
         ),
     };
     assert_eq!(check.answer, answer);
