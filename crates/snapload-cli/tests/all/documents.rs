@@ -1,5 +1,6 @@
 //! The documents agree with the source and with the program's output.
 
+use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 
 fn root() -> PathBuf {
@@ -195,4 +196,70 @@ fn the_printed_records_are_the_programs() {
         read("docs/structures.md").contains(&format!("$ snapload {command}\n{output}")),
         "docs/structures.md prints something else than\n{output}"
     );
+}
+
+/// The keys of an answer, at any depth.
+fn keys_of(answer: &serde_json::Value, keys: &mut BTreeSet<String>) {
+    match answer {
+        serde_json::Value::Object(entries) => {
+            for (key, value) in entries {
+                keys.insert(key.clone());
+                keys_of(value, keys);
+            }
+        }
+        serde_json::Value::Array(values) => values.iter().for_each(|value| keys_of(value, keys)),
+        _ => {}
+    }
+}
+
+/// The manual describes each key of the answers about structures and floating bodies.
+#[test]
+fn every_key_of_the_json_is_described() {
+    let manual = read("docs/json.md");
+    let cylinder = "docs/examples/cylinder.toml";
+    let short = ["--set", "run.duration=60"];
+    let design = ["--set", "design.least_share=0.1"];
+    let lines = ["--line", "6,-10,2,-1.2,9.6", "--line=-6,-10,-2,-1.2,9.6"];
+    let sea = ["docs/examples/cylinder-sea.toml", "--seeds", "10"];
+    let afloat = ["assess", "docs/examples/pontoon.toml", "--neighbours", "0"];
+    let pontoon = "docs/examples/pontoon-10m.nc";
+    let commands: [Vec<&str>; 6] = [
+        [
+            &["assess", cylinder, "--neighbours", "2"][..],
+            &short,
+            &design,
+        ]
+        .concat(),
+        [&afloat[..], &short].concat(),
+        [&["elastic", cylinder][..], &short, &design].concat(),
+        [
+            &["seas"][..],
+            &sea,
+            &["--set", "run.duration=1200"],
+            &design,
+        ]
+        .concat(),
+        [
+            &[
+                "hydro", pontoon, "--hs", "1", "--tp", "6", "--mass", "80000",
+            ][..],
+            &lines,
+        ]
+        .concat(),
+        vec!["decay", pontoon],
+    ];
+    for command in commands {
+        let mut program = assert_cmd::Command::new(assert_cmd::cargo::cargo_bin!("snapload"));
+        let done = program
+            .current_dir(root())
+            .args(&command)
+            .args(["--json", "-"]);
+        let answer = serde_json::from_slice(&done.output().expect("a run").stdout).expect("JSON");
+        let mut keys = BTreeSet::new();
+        keys_of(&answer, &mut keys);
+        assert!(keys.len() > 8, "{command:?}");
+        for key in keys {
+            assert!(manual.contains(&format!("`{key}`")), "{command:?}: {key}");
+        }
+    }
 }
