@@ -39,6 +39,15 @@ pub(crate) fn sweep(directory: &Path, args: &[&str], out: &str) -> assert_cmd::a
         .assert()
 }
 
+pub(crate) fn merge(directory: &Path, parts: &[&str], out: &str) -> assert_cmd::assert::Assert {
+    let mut command = snapload(directory);
+    command
+        .arg("merge")
+        .args(parts)
+        .args(["--out", out])
+        .assert()
+}
+
 pub(crate) fn bytes(directory: &Path, name: &str) -> Vec<u8> {
     fs::read(directory.join(name)).unwrap()
 }
@@ -195,14 +204,7 @@ fn threads_and_parts_change_no_byte() {
         "t_end = 1\ntrust = true\n\n[vary]\nf_o = \"0.1:0.5:5\"\ne = [0.5, 0.9]\n"
     );
     assert_eq!((identity.cases, identity.rows), (10, 0..10));
-    let merge = |parts: &[&str], out: &str| {
-        let mut command = snapload(d.path());
-        command
-            .arg("merge")
-            .args(parts)
-            .args(["--out", out])
-            .assert()
-    };
+    let merge = |parts: &[&str], out: &str| merge(d.path(), parts, out);
     let parts = ["part-3.parquet", "part-1.parquet", "part-2.parquet"];
     merge(&parts, "joined.parquet").success();
     assert!(bytes(d.path(), "one.parquet") == bytes(d.path(), "joined.parquet"));

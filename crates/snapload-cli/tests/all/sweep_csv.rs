@@ -1,8 +1,8 @@
 //! The rows of a study as CSV: the same values as those of the Parquet file beside it.
 #![cfg(unix)]
 
-use crate::common::{directory, listing, snapload};
-use crate::sweep::{SHORT, bytes, sweep};
+use crate::common::{directory, listing};
+use crate::sweep::{SHORT, bytes, merge, sweep};
 use predicates::str::contains;
 use snapload_study::{Values, columns_of_files, read_rows};
 use std::fs;
@@ -133,14 +133,7 @@ fn parts_and_complete_files_become_csv() {
         let out = format!("part-{}.parquet", &part[..1]);
         sweep(d.path(), &[&SHORT[..], &["--shard", part]].concat(), &out).success();
     }
-    let merge = |parts: &[&str], out: &str| {
-        let mut command = snapload(d.path());
-        command
-            .arg("merge")
-            .args(parts)
-            .args(["--out", out])
-            .assert()
-    };
+    let merge = |parts: &[&str], out: &str| merge(d.path(), parts, out);
     merge(&["part-2.parquet", "part-1.parquet"], "two.csv").success();
     for ending in ["csv", "parquet"] {
         let [one, two] = ["one", "two"].map(|name| bytes(d.path(), &format!("{name}.{ending}")));

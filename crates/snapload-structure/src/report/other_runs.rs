@@ -12,9 +12,13 @@ use crate::text_layout::{digits, kilo, paragraph, ratio};
 use askama::Template;
 use snapload::Stop;
 use snapload::analysis::{HorizonCause, Trust};
+use std::slice;
 
 /// The relative difference of two largest tensions from which on both are told.
 const NOTABLE: f64 = 0.005;
+/// The relative difference of neighbours' largest tensions from which on rounding decides them.
+const SCATTERED: f64 = 0.02;
+
 /// How far a motion on elastic lines is known.
 #[derive(Template)]
 #[template(path = "repeated.txt")]
@@ -68,7 +72,7 @@ impl Neighbours {
             elastic,
             spread_kn: spread.map(|spread| spread.map(|newtons| kilo(&newtons, 0))),
             snapless: !elastic && spread.is_some() && no_snap,
-            scattered: spread.is_some_and(|[low, _, high]| high > 1.02 * low),
+            scattered: spread.is_some_and(|[low, _, high]| high > (1.0 + SCATTERED) * low),
             irregular: matches!(structure.water, Water::Sea(_)),
         }
     }
@@ -105,11 +109,12 @@ fn left_open(verdict: &mut Verdict) -> &'static str {
     }
 }
 
-/// Adds how many neighbours fail where the run does not, or the other way round.
+/// Adds how many neighbours fail where the run does not, or the other way round; and where none
+/// does, the largest ratio of tension to breaking load in them, if that of the run is lower.
 fn with_neighbours(
     verdict: &mut Verdict,
     fails: bool,
-    neighbours: &[Outcome],
+    [run, neighbours]: [&[Outcome]; 2],
     structure: &Structure,
 ) {
     let otherwise = |outcome: &&Outcome| outcome.fails_as_computed(structure) == Some(!fails);
@@ -122,6 +127,15 @@ fn with_neighbours(
         };
         let answer = otherwise_in_words(fails, true);
         verdict.words += &format!(" In {of} {answer}{so}.");
+        return;
+    }
+    let largest = |outcomes: &[Outcome]| {
+        let all = outcomes.iter().flat_map(|n| n.utilisations(structure));
+        all.flatten().fold(0.0, f64::max)
+    };
+    let [own, theirs] = [largest(run), largest(neighbours)];
+    if verdict.standing == VerdictKind::Holds && theirs > (1.0 + SCATTERED) * own {
+        verdict.words += &format!(" In neighbours the ratio is up to {}.", ratio(&theirs));
     }
 }
 
@@ -163,15 +177,18 @@ impl ElasticComparison {
             };
             verdict.words += &format!(" Integrated in shorter steps {}{so}.", otherwise.join(", "));
         }
-        with_neighbours(&mut verdict, fails, &self.neighbours, structure);
+        let runs = [slice::from_ref(&self.outcome), &self.neighbours];
+        with_neighbours(&mut verdict, fails, runs, structure);
         if let Some(until_s) = self.known_in_part_s()
             && verdict.standing == VerdictKind::Holds
         {
             let so = left_open(&mut verdict);
-            verdict.words += &format!(
-                " The motion is known only up to {until_s:.1} s, and fewer than \
-                 {FEWEST_NEIGHBOURS} neighbours were run{so}."
-            );
+            let neighbours = match structure.has_waves() {
+                true => format!("fewer than {FEWEST_NEIGHBOURS} neighbours were run"),
+                false => "in still water there are no neighbours to run".to_owned(),
+            };
+            verdict.words +=
+                &format!(" The motion is known only up to {until_s:.1} s, and {neighbours}{so}.");
         }
         verdict
     }
@@ -212,7 +229,8 @@ impl Assessment {
             return verdict;
         };
         let structure = &self.prepared.structure;
-        with_neighbours(&mut verdict, fails, &self.neighbours, structure);
+        let runs = [slice::from_ref(&self.outcome), &self.neighbours];
+        with_neighbours(&mut verdict, fails, runs, structure);
         let otherwise = |outcome: &Outcome| outcome.fails_as_computed(structure) == Some(!fails);
         let waves = self.waves.iter().filter(|(_, outcome)| otherwise(outcome));
         let waves = waves.map(|(wave, _)| format!("{} m and {} s", wave.height_m, wave.period_s));

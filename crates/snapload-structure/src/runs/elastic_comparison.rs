@@ -19,9 +19,9 @@ use snapload::analysis::{Counter, OnProgress, Unfinished, in_parallel};
 use snapload::{CaseError, Stop};
 use std::time::Instant;
 
-/// The number of neighbours of a motion on elastic lines unless given: few, as each takes as long as
-/// the motion itself.
-pub const DEFAULT_ELASTIC_NEIGHBOURS: u32 = 10;
+/// The number of neighbours of a motion on elastic lines unless given: no more than are needed, as
+/// each takes as long as the motion itself.
+pub const DEFAULT_ELASTIC_NEIGHBOURS: u32 = FEWEST_NEIGHBOURS as u32;
 
 /// What progress calls the runs, and how often the motion itself is integrated.
 const DOING: &str = "elastic lines";

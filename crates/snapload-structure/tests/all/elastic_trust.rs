@@ -259,6 +259,40 @@ fn a_verdict_counts_the_neighbours_that_differ() {
     );
 }
 
+/// Neighbours that hold by less than the run are told of: the breaking load is a hundredth above the
+/// largest tension of all.
+#[test]
+fn a_verdict_names_the_neighbour_that_comes_nearest() {
+    let found = chaotic();
+    let of_line = |outcome: &Outcome| outcome.lines[0].largest_taut_n;
+    let theirs = found.neighbours.iter().map(of_line).fold(0.0, f64::max);
+    assert!(theirs > 1.03 * of_line(&found.outcome));
+    let verdict = breaking_at(found, 0, 1.01 * theirs).verdict();
+    assert_eq!(verdict.standing, VerdictKind::Holds);
+    let words = "In neighbours the ratio is up to 0.99.";
+    assert!(verdict.words.contains(words), "{}", verdict.words);
+}
+
+/// In still water no neighbours can be run, and the verdict does not ask for them.
+#[test]
+fn still_water_has_no_neighbours() {
+    let thrown = [
+        "wave.height=0",
+        "run.restitution=1",
+        "run.start=[0.3, -4.2]",
+    ];
+    let more = ["run.duration=100", "line.breaking_load=1e9"];
+    let set: Vec<&str> = thrown.into_iter().chain(more).collect();
+    let found = compared(&set)
+        .with_neighbours(10, &no_progress)
+        .expect("runs");
+    assert!(found.repeated.horizon_s.is_some());
+    let verdict = found.verdict();
+    assert_eq!(verdict.standing, VerdictKind::Open);
+    let words = "and in still water there are no neighbours to run, so the verdict is open.";
+    assert!(verdict.words.contains(words), "{}", verdict.words);
+}
+
 /// Neighbours that end before anything is judged have no largest tension.
 #[test]
 fn neighbours_that_are_not_judged_have_no_peak() {
